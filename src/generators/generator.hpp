@@ -34,9 +34,10 @@ struct Plan {
 class Sequence {
   public:
     using Fill = std::function<void(std::uint64_t first, std::span<double> rows)>;
+    using Found = std::function<std::vector<std::pair<std::string, std::string>>()>;
 
-    Sequence(Fill fill, bool random_access)
-        : fill_(std::move(fill)), random_access_(random_access) {}
+    Sequence(Fill fill, bool random_access, Found found = {})
+        : fill_(std::move(fill)), random_access_(random_access), found_(std::move(found)) {}
 
     /// Writes points first, first + 1, ... until `rows` (a multiple of the dimension) is full;
     /// coordinates in [0, 1). With random_access() several threads may call it at once.
@@ -45,9 +46,15 @@ class Sequence {
     /// False for a sequential engine: going on is cheap, any other step costs a walk to it.
     [[nodiscard]] bool random_access() const { return random_access_; }
 
+    /// What a search found, by name: a lattice's vector, and how good it is.
+    [[nodiscard]] std::vector<std::pair<std::string, std::string>> found() const {
+        return found_ ? found_() : std::vector<std::pair<std::string, std::string>>();
+    }
+
   private:
     Fill fill_;
     bool random_access_;
+    Found found_;
 };
 
 inline std::unique_ptr<Sequence> sequence_of(Sequence::Fill fill, bool random_access = true) {

@@ -101,6 +101,7 @@ std::optional<bool> take_value(std::string_view key, const Json& value, Provenan
     if (key == "shard") return take(value, to.shard);
     if (key == "command") return take(value, to.command);
     if (key == "inputs") return take(value, to.inputs);
+    if (key == "found") return take(value, to.found);
     if (key == "dtype") return take_dtype(value, to.single);
     if (key == "efficiency") return take_efficiency(value, to.efficiency);
     if (key == "precision") return take_precision(value, to.precision);
@@ -136,6 +137,7 @@ Json to_json(const Provenance& provenance) {
     if (provenance.precision) meta["precision"] = *provenance.precision;
     if (provenance.single) meta["dtype"] = "f32";
     for (const auto& [file, bytes] : provenance.inputs) meta["inputs"][file] = bytes;
+    for (const auto& [name, text] : provenance.found) meta["found"][name] = typed(text);
     for (const auto& [unit, version] : provenance.stream_versions)
         meta["stream_versions"][unit] = version;
     meta["command"] = provenance.command;

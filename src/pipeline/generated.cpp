@@ -76,19 +76,27 @@ bool in_batches(const NextRows& next, std::size_t batch, std::size_t width, cons
     return true;
 }
 
+namespace {
+
+/// All points of a plan.
+PointSet points_of(Sequence& sequence, const Plan& plan, std::uint64_t start,
+                   const RunContext& run) {
+    const std::size_t d = plan.dimension;
+    run.need_memory(8 * static_cast<double>(plan.count) * static_cast<double>(d), "the point set");
+    PointSet points(Rows::unwritten(plan.count * d), d);
+    walk_to(sequence, start, d, run);
+    fill_rows(sequence, start, WarpChain({}, d), {}, points.flat(), run);
+    return points;
+}
+
+}  // namespace
+
 PointSet make_points(const Generator& generator, const Request& request, const Values& options,
                      const RunContext& run) {
     const Plan plan = plan_for(generator, request, options);
     if (!generator.traits.sequence) return generator.set(plan, options, run);
     const RunContext steady = run.rising();
-    const auto sequence = generator.sequence(plan, options, steady);
-    const std::size_t d = plan.dimension;
-    steady.need_memory(8 * static_cast<double>(plan.count) * static_cast<double>(d),
-                       "the point set");
-    PointSet points(Rows::unwritten(plan.count * d), d);
-    walk_to(*sequence, request.start, d, steady);
-    fill_rows(*sequence, request.start, WarpChain({}, d), {}, points.flat(), steady);
-    return points;
+    return points_of(*generator.sequence(plan, options, steady), plan, request.start, steady);
 }
 
 GeneratedSets::GeneratedSets(SetsToMake asked, const RunContext& run)
@@ -152,9 +160,12 @@ NextRows GeneratedSets::stream(std::uint64_t set, const RunContext& run, std::ui
 }
 
 PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
-    Request request = asked_.request;
-    request.seed += set;
-    PointSet points = make_points(generator_, request, asked_.options, run);
+    const RunContext steady = run.rising();
+    Plan plan = plan_;
+    plan.seed += set;
+    PointSet points = generator_.traits.sequence
+                          ? points_of(*sequence(set, steady), plan, asked_.request.start, steady)
+                          : generator_.set(plan, asked_.options, run);
     auto worked_out = std::move(points.provenance.options);
     auto side_files = std::move(points.side_files);
     double efficiency = 1;
@@ -169,6 +180,10 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
     if (!worked_out.empty()) points.provenance.options = std::move(worked_out);
     points.side_files = std::move(side_files);
     return points;
+}
+
+void GeneratedSets::prepare(const RunContext& run) const {
+    if (!uses_seed(generator_, asked_.options)) sequence_ = sequence(0, run);
 }
 
 Provenance GeneratedSets::provenance(std::uint64_t set, std::uint64_t count) const {
@@ -187,6 +202,7 @@ Provenance GeneratedSets::provenance(std::uint64_t set, std::uint64_t count) con
                     .independent = generator_.traits.independent};
     if (asked_.request.bounds) meta.bounds = format_box(*asked_.request.bounds);
     meta.inputs = inputs_;
+    if (sequence_) meta.found = sequence_->found();
     if (generator_.stream_version > 1)
         meta.stream_versions.emplace_back(generator_.name, generator_.stream_version);
     const auto& later = chain_->stream_versions();

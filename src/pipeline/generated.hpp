@@ -69,6 +69,10 @@ class GeneratedSets {
     /// All points of a set.
     [[nodiscard]] PointSet made(std::uint64_t set, const RunContext& run) const;
 
+    /// Makes the sequence beforehand, if all sets have the same, so that their provenance tells
+    /// what a search found.
+    void prepare(const RunContext& run) const;
+
     /// Where a set of so many points comes from.
     [[nodiscard]] Provenance provenance(std::uint64_t set, std::uint64_t count) const;
 

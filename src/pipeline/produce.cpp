@@ -287,18 +287,20 @@ class Producer {
     void stream() {
         const auto [first, last] = part(sets_.plan().count);
         const std::uint64_t count = last - first;
+        const RunContext run = run_.rising();
+        sets_.prepare(run);
         write_files(
             {.sets = job_.sets,
              .domain = sets_.domain(),
              .chain = &sets_.chain(),
              .source = [&, first = first, last = last](
                            std::size_t set,
-                           const RunContext& run) { return sets_.stream(set, run, first, last); },
+                           const RunContext& part) { return sets_.stream(set, part, first, last); },
              .provenance = [&](std::size_t set) { return signed_by(sets_.provenance(set, count)); },
              .first_seed = sets_.plan().seed,
              .counts = Counts::equal(job_.sets, count),
              .starts = true},
-            target_, run_);
+            target_, run);
     }
 
     /// Whether the file's front says nothing of sets that are not made yet.

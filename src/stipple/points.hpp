@@ -84,6 +84,8 @@ struct Provenance {
     bool single = false;                ///< the numbers were cut to float32 in writing
     /// Files that it was made from, each with the fingerprint of its bytes.
     std::vector<std::pair<std::string, std::string>> inputs = {};
+    /// What the generator's search found, such as a lattice's vector, by name.
+    std::vector<std::pair<std::string, std::string>> found = {};
     /// Units with rules of a later version than the first, each with it.
     std::vector<std::pair<std::string, std::uint64_t>> stream_versions = {};
     /// What no such value can be, of one that was read; empty: nothing.

@@ -288,15 +288,9 @@ std::vector<std::uint64_t> powers_modulo(std::uint64_t a, std::size_t count, std
 }
 
 std::uint64_t korobov_multiplier(std::uint64_t n, std::span<const double> weights,
-                                 const RunContext& run) {
-    const std::uint64_t most = korobov_work / (n * weights.size());
-    if (most < 8)
-        fail(ErrorKind::usage,
-             "--rule: korobov's search takes at most {} coordinates of points; {} points of "
-             "dimension {} are more. Give its --multiplier",
-             korobov_work / 8, n, weights.size());
-    const std::uint64_t range = std::max<std::uint64_t>(n / 2, 1);
-    const std::uint64_t tries = std::min(most, range);
+                                 std::uint64_t tries, const RunContext& run) {
+    const std::uint64_t range = korobov_range(n);
+    tries = std::min(tries, range);
     std::uint64_t best = 1;
     double least = std::numeric_limits<double>::infinity();
     for (std::uint64_t t = 0; t < tries; ++t) {

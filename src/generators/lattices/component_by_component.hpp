@@ -37,11 +37,12 @@ std::vector<std::uint64_t> component_by_component(std::uint64_t n, std::span<con
                                                   const RunContext& run);
 
 /// The multiplier a, prime to n and at most n / 2, of the Korobov lattice z_k = a^k with the least
-/// e^2, among all or, beyond korobov_work / (n d) of them, that many spread over the range.
-/// @throws Error(usage) where not even a few can be tried.
+/// e^2, among all or, where there are more than `tries`, that many spread over the range.
 std::uint64_t korobov_multiplier(std::uint64_t n, std::span<const double> weights,
-                                 const RunContext& run);
-inline constexpr std::uint64_t korobov_work = std::uint64_t{1} << 29;
+                                 std::uint64_t tries, const RunContext& run);
+
+/// Multipliers up to n / 2, of which those are tried that are prime to n.
+constexpr std::uint64_t korobov_range(std::uint64_t n) { return n < 4 ? 1 : n / 2; }
 
 /// (1, a, a^2, ...) modulo n.
 std::vector<std::uint64_t> powers_modulo(std::uint64_t a, std::size_t count, std::uint64_t n);

@@ -22,6 +22,11 @@
 //         D. Nuyens, R. Cools, Math. Comp. 75 (2006) 903-920, doi:10.1090/S0025-5718-06-01785-6;
 //         korobov: N. M. Korobov, Dokl. Akad. Nauk SSSR 124 (1959) 1207-1210.
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -50,7 +55,13 @@ constexpr Param<std::int64_t> multiplier{.name = "multiplier",
                                          .optional = true,
                                          .help =
                                              "Multiplier a of the rule korobov, z_k = a^k; "
-                                             "without it, the best of those there is time for"};
+                                             "without it, the best of those that --effort tries"};
+constexpr Param<double> effort{
+    .name = "effort",
+    .fallback = 1,
+    .low = 1e-3,
+    .high = 1e9,
+    .help = "Multipliers that the rule korobov tries: this times those of about a second"};
 constexpr Param<Numbers> vector{{.name = "vector",
                                  .help = "Generating vector, such as 1,182667,469891; gives the "
                                          "dimension, or more numbers than that"}};
@@ -78,21 +89,17 @@ double multiple(std::uint64_t i, std::uint64_t z, std::uint64_t n) {
     return static_cast<double>(static_cast<std::uint64_t>(Wide{i} * z % n));
 }
 
-/// Points i z / n modulo 1.
-std::unique_ptr<Sequence> multiples(std::uint64_t n, const std::vector<std::uint64_t>& z) {
-    const std::size_t d = z.size();
-    const std::size_t points = (some_numbers + d - 1) / d;  // made at once
-    std::vector<double> back;  // n - (points z mod n), for each number of these
-    for (std::size_t m = 0; m < points * d; ++m)
-        back.push_back(static_cast<double>(n) - multiple(points, z[m % d], n));
-    return sequence_of([=](std::uint64_t first, std::span<double> rows) {
-        std::vector<double> residues;
-        for (std::size_t m = 0; m < back.size(); ++m)
-            residues.push_back(multiple(first + m / d, z[m % d], n));
-        for (std::size_t at = 0; at < rows.size(); at += back.size())
-            advance(back.data(), static_cast<double>(n), std::min(back.size(), rows.size() - at),
-                    residues.data(), rows.data() + at);
-    });
+/// Whether the rule korobov has a multiplier to search.
+bool searches_multiplier(const std::string& chosen, const Values& options) {
+    return chosen == "korobov" && !options.given(multiplier);
+}
+
+/// Multipliers that are tried, at least one.
+std::uint64_t tries_of(const Plan& plan, const Values& options) {
+    constexpr double coordinates_a_second = 0x1p29;
+    const double size = static_cast<double>(plan.count) * static_cast<double>(plan.dimension);
+    const double tries = std::min(options[effort] * coordinates_a_second / size, 0x1p53);
+    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(tries));
 }
 
 /// The rule that the options mean together.
@@ -103,12 +110,14 @@ std::string rule_of(const Values& options) {
 }
 
 void refuse_contradictions(const Values& options, const std::string& chosen) {
-    const bool searches = chosen == "cbc" || (chosen == "korobov" && !options.given(multiplier));
+    const bool searches = chosen == "cbc" || searches_multiplier(chosen, options);
     const auto only_for = [&](std::string_view name, bool given, bool fits, std::string_view what) {
         if (given && !fits)
             fail(ErrorKind::usage, "--{}: is of {}; the rule here is {}", name, what, chosen);
     };
     only_for("multiplier", options.given(multiplier), chosen == "korobov", "the rule korobov");
+    only_for("effort", options.given(effort), searches_multiplier(chosen, options),
+             "korobov's search for a multiplier");
     only_for("vector", options.given(vector), chosen == "vector", "the rule vector");
     only_for("vector-file", options.given(vector_file), chosen == "vector", "the rule vector");
     check_weights(options, searches, "the searches cbc and korobov", chosen);
@@ -138,7 +147,7 @@ Plan plan(const Request& request, const Values& options) {
             fail(ErrorKind::usage, "--dimension: {} is outside [1, 2], what fibonacci can make",
                  plan.dimension);
     }
-    const bool searches = chosen == "cbc" || (chosen == "korobov" && !options.given(multiplier));
+    const bool searches = chosen == "cbc" || searches_multiplier(chosen, options);
     if (searches && plan.count > largest_searched_lattice)
         fail_with_hint(ErrorKind::usage, "give a vector, or korobov's multiplier",
                        "--count: {} is outside [1, {}], where a vector can be searched", plan.count,
@@ -190,12 +199,62 @@ std::vector<std::uint64_t> vector_of(const Plan& plan, const Values& options,
         return powers_modulo(static_cast<std::uint64_t>(options[multiplier]), d, plan.count);
     const std::vector<double> weight = weights_of(options, d);
     if (chosen == "korobov")
-        return powers_modulo(korobov_multiplier(plan.count, weight, run), d, plan.count);
+        return powers_modulo(korobov_multiplier(plan.count, weight, tries_of(plan, options), run),
+                             d, plan.count);
     return component_by_component(plan.count, weight, run);
 }
 
+/// Points i z / n modulo 1.
+Sequence::Fill multiples(std::uint64_t n, const std::vector<std::uint64_t>& z) {
+    const std::size_t d = z.size();
+    const std::size_t points = (some_numbers + d - 1) / d;  // made at once
+    std::vector<double> back;  // n - (points z mod n), for each number of these
+    for (std::size_t m = 0; m < points * d; ++m)
+        back.push_back(static_cast<double>(n) - multiple(points, z[m % d], n));
+    return [=](std::uint64_t first, std::span<double> rows) {
+        std::vector<double> residues;
+        for (std::size_t m = 0; m < back.size(); ++m)
+            residues.push_back(multiple(first + m / d, z[m % d], n));
+        for (std::size_t at = 0; at < rows.size(); at += back.size())
+            advance(back.data(), static_cast<double>(n), std::min(back.size(), rows.size() - at),
+                    residues.data(), rows.data() + at);
+    };
+}
+
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext& run) {
-    return multiples(plan.count, vector_of(plan, options, run));
+    const auto z = vector_of(plan, options, run);
+    const std::string chosen = rule_of(options);
+    Sequence::Found found;
+    if (chosen == "cbc" || searches_multiplier(chosen, options))
+        found = [n = plan.count, z, weight = weights_of(options, plan.dimension)] {
+            return std::vector{
+                std::pair{std::string("vector"), fmt::format("{}", fmt::join(z, ","))},
+                std::pair{std::string("squared_error"),
+                          format_number(squared_lattice_error(n, z, weight))}};
+        };
+    return std::make_unique<Sequence>(multiples(plan.count, z), true, std::move(found));
+}
+
+std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
+                               const Values& options) {
+    const std::string chosen = rule_of(options);
+    if (chosen == "vector") {
+        std::uint64_t divisor = plan.count;
+        for (const std::uint64_t z : given_vector(options, plan.dimension))
+            divisor = std::gcd(divisor, z);
+        if (divisor == 1) return {};
+        return {
+            fmt::format("rank1-lattice: {0} divides the number of points and all of the vector: "
+                        "every point comes {0} times",
+                        divisor)};
+    }
+    const std::uint64_t tries = tries_of(plan, options);
+    const std::uint64_t range = korobov_range(plan.count);
+    if (!searches_multiplier(chosen, options) || tries >= range) return {};
+    const double all = static_cast<double>(range) / static_cast<double>(tries);
+    return {fmt::format(
+        "rank1-lattice: {} of the multipliers up to {} are tried; --effort {:.0f} tries all", tries,
+        range, std::ceil(options[effort] * all))};
 }
 
 }  // namespace
@@ -207,10 +266,12 @@ Generator unit() {
                 "component by component, or given",
             .source = "Nuyens & Cools 2006, doi:10.1090/S0025-5718-06-01785-6; Sloan & Joe 1994",
             .traits = {.prefix = false, .seeded = false},
-            .options = Schema(rule, multiplier, vector, vector_file, product_weights, weight_decay),
+            .options = Schema(rule, multiplier, effort, vector, vector_file, product_weights,
+                              weight_decay),
             .aliases = {"lattice", "rank-1-lattice"},
             .plan = plan,
-            .sequence = make};
+            .sequence = make,
+            .notes = notes};
 }
 
 }  // namespace stipple::generators::rank1_lattice

@@ -202,7 +202,7 @@ TEST(KorobovSearch, FindsTheBestOfAllWhereThereIsTime) {
         for (std::uint64_t a = 1; a <= n; ++a)
             if (std::gcd(a, n) == 1)
                 least = std::min(least, by_definition(n, {1, a, a * a}, weights));
-        const std::uint64_t a = korobov_multiplier(n, weights, {});
+        const std::uint64_t a = korobov_multiplier(n, weights, n, {});
         EXPECT_NEAR(by_definition(n, powers_modulo(a, 3, n), weights), least,
                     1e-11 * std::abs(least))
             << n;
@@ -212,7 +212,7 @@ TEST(KorobovSearch, FindsTheBestOfAllWhereThereIsTime) {
 TEST(KorobovSearch, IsMuchBetterThanTheMiddleOfAllAlsoWhereItTriesFew) {
     const std::uint64_t n = 1 << 19;
     const auto weights = decaying(40, 2);
-    const std::uint64_t a = korobov_multiplier(n, weights, {});  // 25 of 131072
+    const std::uint64_t a = korobov_multiplier(n, weights, 25, {});  // of 131072
     const auto error = [&](std::uint64_t b) {
         return squared_lattice_error(n, powers_modulo(b, 40, n), weights);
     };
@@ -291,9 +291,44 @@ TEST(Rank1Lattice, RefusesWhatItCannotMake) {
               "usage: --weights and --decay: either gives the weights; leave one out");
     EXPECT_EQ(error(8, 2, {{"rule", "vector"}}),
               "usage: --rule: vector needs its vector, by one of --vector and --vector-file");
-    EXPECT_EQ(error(1 << 24, 9, {{"rule", "korobov"}}),
-              "usage: --rule: korobov's search takes at most 67108864 coordinates of points; "
-              "16777216 points of dimension 9 are more. Give its --multiplier");
+    EXPECT_EQ(error(8, 2, {{"rule", "korobov"}, {"multiplier", "3"}, {"effort", "2"}}),
+              "usage: --effort: is of korobov's search for a multiplier; the rule here is korobov");
+}
+
+// 32 multipliers of 16384 that are prime to n, and 64, among which are better ones.
+TEST(Rank1Lattice, SaysWhatASearchFoundAndWhatItLeftOut) {
+    const auto found = [](const Settings& settings, std::vector<std::string>& notes) {
+        RunContext run;
+        run.warn = [&](const std::string& note) { notes.push_back(note); };
+        return generate("rank1-lattice", points(1 << 15, 250), settings, run).provenance.found;
+    };
+    std::vector<std::string> few, more;
+    const auto first = found({{"rule", "korobov"}, {"effort", "0.5"}}, few);
+    const auto second = found({{"rule", "korobov"}}, more);
+    EXPECT_EQ(few, std::vector<std::string>{"rank1-lattice: 32 of the multipliers up to 16384 are "
+                                            "tried; --effort 256 tries all"});
+    EXPECT_EQ(more, std::vector<std::string>{"rank1-lattice: 65 of the multipliers up to 16384 are "
+                                             "tried; --effort 253 tries all"});
+    ASSERT_EQ(first.size(), 2U);
+    EXPECT_EQ(first[0].first, "vector");
+    EXPECT_EQ(first[1].first, "squared_error");
+    EXPECT_LT(std::stod(second[1].second), std::stod(first[1].second));
+    const PointSet small = generate("rank1-lattice", points(101, 3));
+    const std::string vector = small.provenance.found.at(0).second;
+    const PointSet again = generate("rank1-lattice", points(101, 3), {{"vector", vector}});
+    EXPECT_TRUE(again.provenance.found.empty()) << "given, not found";
+    EXPECT_TRUE(std::ranges::equal(again.flat(), small.flat()));
+}
+
+TEST(Rank1Lattice, SaysWherePointsCoincide) {
+    std::vector<std::string> notes;
+    RunContext run;
+    run.warn = [&](const std::string& note) { notes.push_back(note); };
+    generate("rank1-lattice", points(100, 2), {{"vector", "1,2"}}, run);
+    EXPECT_TRUE(notes.empty());
+    generate("rank1-lattice", points(100, 2), {{"vector", "0,12"}}, run);
+    EXPECT_EQ(notes, std::vector<std::string>{"rank1-lattice: 4 divides the number of points and "
+                                              "all of the vector: every point comes 4 times"});
 }
 
 TEST(Rank1Lattice, ASearchCanBeStoppedShowsItsProgressAndKeepsToItsMemory) {
