@@ -85,20 +85,27 @@ std::unique_ptr<Sequence> owen_sequence(const BinaryMatrices& matrices, std::uin
 bool binary_uses_seed(const Values& options) { return options[binary_scramble] != "none"; }
 
 std::vector<std::string> binary_notes(const Request& request, const Plan& plan, const Values&) {
+    return net_notes(2, request, plan);
+}
+
+std::vector<std::string> net_notes(std::uint64_t base, const Request& request, const Plan& plan) {
     const std::uint64_t start = request.start;
-    if (std::has_single_bit(plan.count)) {
-        const std::uint64_t before = start / plan.count * plan.count;
+    std::uint64_t power = 1;  // the largest of the base that is not above the count
+    while (plan.count / power >= base) power *= base;
+    const std::uint64_t below = plan.count / power * power;
+    if (below == plan.count) {
+        const std::uint64_t before = start / power * power;
         if (start == before) return {};
         return {
-            fmt::format("{0} points from index {1} on do not form a net; start at a multiple "
-                        "of {0}: {2} or {3}",
-                        plan.count, start, before, before + plan.count)};
+            fmt::format("{} points from index {} on do not form a net; start at a multiple of {}: "
+                        "{} or {}",
+                        plan.count, start, power, before, before + power)};
     }
     // What starts elsewhere is a piece of a set that is made in several runs.
     if (start > 0) return {};
-    const std::uint64_t below = std::bit_floor(plan.count);
-    return {fmt::format("{} points do not form a net; take a power of two: {} or {}", plan.count,
-                        below, 2 * below)};
+    return {fmt::format("{} points do not form a net; take a {}power of {}: {} or {}", plan.count,
+                        base == 2 ? "" : "multiple of a ", base == 2 ? "two" : std::to_string(base),
+                        below, below + power)};
 }
 
 }  // namespace stipple

@@ -45,4 +45,7 @@ bool binary_uses_seed(const Values& options);
 /// For Generator::notes: a sentence where the request misses the nets that the sequence is made of.
 std::vector<std::string> binary_notes(const Request& request, const Plan& plan, const Values&);
 
+/// The same in another base, where a few nets together are as good as one.
+std::vector<std::string> net_notes(std::uint64_t base, const Request& request, const Plan& plan);
+
 }  // namespace stipple

@@ -96,6 +96,10 @@ std::unique_ptr<Sequence> make(const Plan& decided, const Values& options, const
     return net_sequence(file.base, std::move(file.matrices), decided, options);
 }
 
+std::vector<std::string> notes(const Request& request, const Plan& decided, const Values& options) {
+    return net_notes(read(options).base, request, decided);
+}
+
 }  // namespace
 
 Generator unit() {
@@ -108,7 +112,8 @@ Generator unit() {
             .options = Schema(matrices_option, layout, base_option, interlacing, binary_scramble),
             .plan = plan,
             .sequence = make,
-            .uses_seed = binary_uses_seed};
+            .uses_seed = binary_uses_seed,
+            .notes = notes};
 }
 
 }  // namespace stipple::generators::digital_net

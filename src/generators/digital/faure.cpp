@@ -69,6 +69,10 @@ std::unique_ptr<Sequence> make(const Plan& decided, const Values& options, const
     return net_sequence(base, std::move(matrices), decided, options);
 }
 
+std::vector<std::string> notes(const Request& request, const Plan& decided, const Values& options) {
+    return net_notes(base_for(decided.dimension, options), request, decided);
+}
+
 }  // namespace
 
 Generator unit() {
@@ -79,7 +83,8 @@ Generator unit() {
             .options = Schema(base_option, binary_scramble),
             .plan = plan,
             .sequence = make,
-            .uses_seed = binary_uses_seed};
+            .uses_seed = binary_uses_seed,
+            .notes = notes};
 }
 
 }  // namespace stipple::generators::faure

@@ -141,8 +141,7 @@ std::unique_ptr<Sequence> make(const Plan& decided, const Values& options, const
 }
 
 std::vector<std::string> notes(const Request& request, const Plan& decided, const Values& options) {
-    if (options[base_option] != 2) return {};
-    return binary_notes(request, decided, options);
+    return net_notes(static_cast<std::uint64_t>(options[base_option]), request, decided);
 }
 
 }  // namespace

@@ -11,29 +11,37 @@
 // Cost    O(n d): an addition of two words a coordinate.
 // Promise all arithmetic is in whole numbers of 127 bits, modulo 1: a coordinate is the first 53
 //         bits of frac(offset + i alpha_k), at any index. A given alpha is the double that it reads
-//         as. Those of R_d are within d 2^-126, so that a point i is within i d 2^-126 + 2^-53.
+//         as. Those of R_d are within d 2^-126, so that a point i is within i d 2^-126 + 2^-53;
+//         square roots of primes within 2^-100.
 // Beware  R_d is a conjecture beyond d = 1; no bound of its discrepancy is known. M. Roberts adds
 //         the offset 0.5 and begins with i = 1.
 // Source  M. Roberts, "The unreasonable effectiveness of quasirandom sequences" (2018),
 //         extremelearning.com.au; for any alpha: L. Kuipers, H. Niederreiter, Uniform Distribution
 //         of Sequences, Wiley 1974.
 
+#include <fmt/format.h>
+
 #include <bit>
 #include <cmath>
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
+#include "core/text.hpp"
 #include "generators/generator.hpp"
 #include "math/arithmetic/bits.hpp"
 #include "math/arithmetic/ratio.hpp"
+#include "math/combinatorics/primes.hpp"
+#include "math/densities/expression.hpp"
 
 namespace stipple::generators::kronecker {
 namespace {
 
-constexpr Param<Numbers> alpha{{.name = "alpha",
-                                .help =
-                                    "What every next point adds, a number a coordinate; "
-                                    "without it, powers of the generalised golden ratio (R_d)"}};
+constexpr Param<Text> alpha{
+    {.name = "alpha",
+     .fallback = "golden",
+     .help = "What every next point adds: golden, powers of the generalised golden ratio (R_d); "
+             "square-roots or richtmyer, those of the primes; or a number a coordinate, which may "
+             "be a formula: 'sqrt(2),pi'"}};
 constexpr Param<double> offset{.name = "offset",
                                .fallback = 0,
                                .low = 0,
@@ -97,22 +105,77 @@ Wide fraction(double x) {
     return x < 0 ? -bits : bits;
 }
 
+/// The fraction of a whole number's square root: a double, and what it lacks.
+Wide fraction_of_root(std::uint64_t p) {
+    const auto square = static_cast<double>(p);
+    const double root = std::sqrt(square);
+    return fraction(root) + fraction(-std::fma(root, root, -square) / (2 * root));
+}
+
+/// Formulas between commas that stand in no parentheses. @throws Error(usage)
+std::vector<double> numbers_of(std::string_view text) {
+    std::vector<double> numbers;
+    int open = 0;
+    for (std::size_t begin = 0, i = 0; i <= text.size(); ++i) {
+        if (i < text.size()) open += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
+        if (i < text.size() && (text[i] != ',' || open > 0)) continue;
+        const std::string_view part = text.substr(begin, i - begin);
+        const auto plain = parse_number(part);
+        numbers.push_back(plain ? *plain : Expression(alpha.name, part, 0).at({}));
+        if (!std::isfinite(numbers.back()))
+            fail(ErrorKind::usage, "--alpha: '{}' is no finite number", part);
+        begin = i + 1;
+    }
+    return numbers;
+}
+
+bool is_preset(const std::string& text) {
+    return text == "golden" || text == "square-roots" || text == "richtmyer";
+}
+
+/// What each coordinate adds, in 127 bits.
+std::vector<Wide> steps_of(const std::string& text, std::size_t dimension) {
+    std::vector<Wide> steps;
+    if (text == "golden") {
+        const Wide g = golden(dimension);
+        for (Wide next = g; steps.size() < dimension; next = times(next, g))
+            steps.push_back(next >> 1);
+    } else if (is_preset(text)) {
+        for (std::uint64_t p = 2; steps.size() < dimension; p = next_prime(p + 1))
+            steps.push_back(fraction_of_root(p));
+    } else {
+        for (const double number : numbers_of(text)) steps.push_back(fraction(number));
+    }
+    return steps;
+}
+
 Plan plan(const Request& request, const Values& options) {
-    const std::size_t given = options[alpha].size();
-    const Plan plan = default_plan(request, 1024, options.given(alpha) ? given : 2);
-    if (options.given(alpha) && given < plan.dimension)
+    const std::string text = options[alpha];
+    const std::size_t given = is_preset(text) ? 0 : numbers_of(text).size();
+    const Plan plan = default_plan(request, 1024, given > 0 ? given : 2);
+    if (given > 0 && given < plan.dimension)
         fail(ErrorKind::usage, "--alpha: {} numbers are too few; dimension {} needs as many", given,
              plan.dimension);
     return plan;
 }
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
-    std::vector<Wide> steps;
-    const std::vector<double> given = options[alpha];
-    const Wide g = options.given(alpha) ? 0 : golden(plan.dimension);
-    for (Wide next = g; steps.size() < plan.dimension; next = times(next, g))
-        steps.push_back(options.given(alpha) ? fraction(given[steps.size()]) : next >> 1);
+    std::vector<Wide> steps = steps_of(options[alpha], plan.dimension);
+    steps.resize(plan.dimension);
     return multiples(steps, fraction(options[offset]));
+}
+
+/// Steps that are whole numbers over a power of 2 come back to the first point.
+std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
+                               const Values& options) {
+    Wide bits = 0;
+    const std::vector<Wide> steps = steps_of(options[alpha], plan.dimension);
+    for (std::size_t k = 0; k < plan.dimension; ++k) bits |= steps[k] << 1;
+    std::uint64_t period = 1;
+    for (; bits != 0 && period < plan.count; bits <<= 1) period *= 2;
+    if (period >= plan.count) return {};
+    return {fmt::format("the points repeat after {}, since all of --alpha are multiples of 1/{}",
+                        period, period)};
 }
 
 }  // namespace
@@ -126,7 +189,8 @@ Generator unit() {
         .options = Schema(alpha, offset),
         .aliases = {"additive-recurrence", "r2", "rd", "weyl"},
         .plan = plan,
-        .sequence = make};
+        .sequence = make,
+        .notes = notes};
 }
 
 }  // namespace stipple::generators::kronecker

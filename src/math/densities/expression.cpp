@@ -204,9 +204,8 @@ std::string names_of(std::size_t dimension) {
 std::string expectation(const mu::ParserError& error, std::size_t dimension) {
     switch (error.GetCode()) {
         case mu::ecUNASSIGNABLE_TOKEN:
-            return fmt::format(
-                "expected a number, an operator, {}, pi, e or a function such as exp",
-                names_of(dimension));
+            return fmt::format("expected a number, an operator, {}pi, e or a function such as exp",
+                               dimension > 0 ? names_of(dimension) + ", " : "");
         case mu::ecTOO_MANY_PARAMS:
             return "expected fewer arguments";
         case mu::ecTOO_FEW_PARAMS:
@@ -340,7 +339,7 @@ double Expression::at(std::span<const double> point) const {
 void Expression::evaluate(std::span<const double> points, std::span<double> values) const {
     auto& [variables, parser] = machines_->of_threads.local();
     for (std::size_t i = 0; i < values.size(); ++i) {
-        std::copy_n(&points[i * dimension_], dimension_, variables.begin());
+        std::copy_n(points.data() + i * dimension_, dimension_, variables.begin());
         values[i] = parser.Eval();
     }
 }

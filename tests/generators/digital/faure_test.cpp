@@ -179,4 +179,21 @@ TEST(Faure, RefusesBasesThatAreNoPrimesOrTooSmall) {
               "usage: --base: 1 is outside [2, 65521]");
 }
 
+// In base 3; two nets of 9 points are as good as one each.
+TEST(Faure, SaysWhereARequestMissesTheNets) {
+    const auto said = [](std::uint64_t count, std::uint64_t start) {
+        std::string sentence;
+        RunContext run;
+        run.warn = [&](const std::string& text) { sentence += text; };
+        make("faure", points(count, 3, start), {}, run);
+        return sentence;
+    };
+    EXPECT_EQ(said(10, 0), "10 points do not form a net; take a multiple of a power of 3: 9 or 18");
+    EXPECT_EQ(said(18, 0), "");
+    EXPECT_EQ(said(2, 1), "");
+    EXPECT_EQ(said(18, 9), "");
+    EXPECT_EQ(said(9, 1),
+              "9 points from index 1 on do not form a net; start at a multiple of 9: 0 or 9");
+}
+
 }  // namespace stipple::testing::faure_test

@@ -78,6 +78,51 @@ TEST(Kronecker, GivenVectorsAreTheDoublesTheyReadAs) {
         }
 }
 
+TEST(Kronecker, SquareRootsOfPrimesAreThoseOfAHundredBits) {
+    const std::uint64_t first = std::uint64_t{1} << 31;
+    const PointSet set = make("kronecker", points(3, 1000, first), {{"alpha", "square-roots"}});
+    for (const auto& [k, p] : {std::pair{0, 2}, {1, 3}, {2, 5}, {99, 541}, {999, 7919}}) {
+        const Whole root = sqrt(Whole(p) << 400);
+        for (std::size_t i = 0; i < 3; ++i)
+            EXPECT_EQ(set[i][static_cast<std::size_t>(k)],
+                      first_bits(Fraction(root * Whole(first + i), Whole(1) << 200)))
+                << p;
+    }
+}
+
+TEST(Kronecker, TakesFormulas) {
+    const PointSet set = make("kronecker", points(100, 2), {{"alpha", "sqrt(2),pow(2, 1/2)"}});
+    for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(set[i][0], set[i][1]);
+    EXPECT_EQ(set[1][0], std::sqrt(2.0) - 1);
+    const auto error = [](const char* text) {
+        return error_of([&] { make("kronecker", points(4, 1), {{"alpha", text}}); });
+    };
+    EXPECT_EQ(error("1/0"), "usage: --alpha: '1/0' is no finite number");
+    EXPECT_TRUE(error("sqrt(2").starts_with("usage: --alpha: 'sqrt(2'")) << error("sqrt(2");
+    EXPECT_TRUE(error("x").starts_with("usage: --alpha: 'x'")) << error("x");
+    EXPECT_TRUE(error("0.5,").starts_with("usage: --alpha: ''")) << error("0.5,");
+    EXPECT_TRUE(error("roots").starts_with("usage: --alpha: 'roots'"));
+    EXPECT_EQ(make("kronecker", points(9, 3), {{"alpha", "richtmyer"}}),
+              make("kronecker", points(9, 3), {{"alpha", "square-roots"}}));
+}
+
+TEST(Kronecker, SaysWherePointsRepeat) {
+    const auto notes = [](std::uint64_t n, const char* alpha) {
+        std::vector<std::string> said;
+        RunContext run;
+        run.warn = [&](const std::string& note) { said.push_back(note); };
+        generate("kronecker", {.count = n}, {{"alpha", alpha}}, run);
+        return said;
+    };
+    EXPECT_EQ(notes(9, "0.125,0.5"),
+              std::vector<std::string>{
+                  "the points repeat after 8, since all of --alpha are multiples of 1/8"});
+    EXPECT_TRUE(notes(8, "0.125,0.5").empty());
+    EXPECT_EQ(notes(2, "1,-2").size(), 1U);
+    EXPECT_TRUE(notes(1 << 20, "0.1,0.5").empty());
+    EXPECT_TRUE(notes(1 << 20, "golden").empty());
+}
+
 // Three distances (V. T. Sos 1958, with others): multiples of a number modulo 1 leave gaps of at
 // most three lengths, the largest of which is the sum of the others.
 TEST(Kronecker, OneDimensionLeavesAtMostThreeGaps) {
