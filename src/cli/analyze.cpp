@@ -227,7 +227,7 @@ class Analysis {
 
     /// What --generate names.
     GeneratedSets asked_sets() {
-        arguments_.refuse({"bounds", "rescale", "domain", "column", "from", "dtype"},
+        arguments_.refuse({"bounds", "rescale", "domain", "column", "from", "dtype", "input-dtype"},
                           "is of points from files, not of --generate");
         if (!arguments_.inputs.empty())
             fail(ErrorKind::usage, "--generate takes no INPUT; '{}' is given",

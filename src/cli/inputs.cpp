@@ -30,8 +30,9 @@ Reading reading_of(const std::string& path, const Arguments& arguments) {
     ReadOptions options{.source = path};
     std::string from = arguments.get("from").value_or("");
     options.single = from == "f32";
-    if (const auto type = arguments.get("dtype"); type && arguments.verb != Verb::convert)
-        options.single = *type == "f32";
+    auto type = arguments.get("input-dtype");
+    if (!type && arguments.verb != Verb::convert) type = arguments.get("dtype");
+    if (type) options.single = *type == "f32";
     if (from == "f32" || from == "f64") from = "bin";
     if (const auto d = arguments.integer("dimension")) options.dimension = *d;
     if (const auto columns = arguments.get("column"))

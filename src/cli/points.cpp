@@ -105,7 +105,8 @@ Target target_of(const Arguments& arguments) {
     target.format = &format_of(target);
     target.header = !arguments.has("no-header");
     target.meta = arguments.has("meta");
-    const auto type = arguments.get("dtype");
+    auto type = arguments.get("output-dtype");
+    if (!type) type = arguments.get("dtype");
     target.single = type ? *type == "f32" : target.path.ends_with(".f32");
     if (const auto digits = arguments.integer("precision"))
         target.precision = static_cast<int>(*digits);

@@ -153,7 +153,7 @@ class Reporter {
     /// How the file is named to 'stipple analyze'.
     [[nodiscard]] std::string words_of_file(const std::string& input) const {
         std::string words = shell_word(input);
-        for (const char* name : {"from", "dimension", "column", "dtype", "domain"})
+        for (const char* name : {"from", "dimension", "column", "input-dtype", "dtype", "domain"})
             if (const auto text = arguments_.get(name)) words += typed_option(name, *text, false);
         return words;
     }

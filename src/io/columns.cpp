@@ -23,6 +23,11 @@ std::size_t find_column(const std::string& wanted, const std::vector<std::string
                    names.size());
 }
 
+/// As R and pandas write them.
+bool has_row_names(const std::vector<std::string>& names, const ReadOptions& options) {
+    return names[0].empty() && !options.all_columns;
+}
+
 void pick(Columns& columns, const std::vector<std::string>& names, const ReadOptions& options,
           const std::string& place) {
     for (const std::string& wanted : options.columns) {
@@ -52,7 +57,8 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
     if (!options.columns.empty()) {
         pick(columns, names, options, place);
     } else {
-        for (std::size_t c = 0; c < width; ++c)
+        const std::size_t first = has_row_names(names, options) ? 1 : 0;
+        for (std::size_t c = first; c < width; ++c)
             if (c == strength || (measures_points(names[c]) && !options.all_columns))
                 columns.role[c] = Columns::checked;
             else if (columns.role[c] != Columns::set_number)

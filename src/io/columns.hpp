@@ -30,8 +30,9 @@ struct Columns {
 };
 
 /// Decides what the columns are. Without names they are called x, y, ... (see coordinate_names).
-/// Columns called pdf or weight are coordinates only when picked, or all are; a first column `set` tells the
-/// set. `place` begins the messages ("p.csv:3").
+/// Columns called pdf or weight are coordinates only when picked, or all are; so is a first one
+/// whose name is empty, which holds row names. A first column `set` tells the set. `place` begins
+/// the messages ("p.csv:3").
 /// @throws Error(usage) for a column that is not there; Error(input) for a wrong dimension.
 Columns choose_columns(std::vector<std::string> names, std::size_t width,
                        const ReadOptions& options, const std::string& place);

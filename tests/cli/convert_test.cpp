@@ -22,6 +22,37 @@ TEST(Convert, AWayRoundAllFormatsLosesNothing) {
     EXPECT_EQ(box.read("g.csv"), box.read("a.csv"));
 }
 
+TEST(Convert, SaysThatItLeavesRowNamesOut) {
+    const Sandbox box;
+    box.write("r.csv", "\"\",\"x\",\"y\"\n\"1\",0.5,0.25\n\"2\",0.125,0\n");
+    for (const char* from :
+         {"stipple convert r.csv -f csv", "cat r.csv | stipple convert -f csv"}) {
+        const Outcome outcome = box.shell(from);
+        EXPECT_EQ(good(outcome), "x,y\n0.5,0.25\n0.125,0\n");
+        EXPECT_THAT(outcome.err, HasSubstr("the first column has no name: it holds row names"));
+    }
+}
+
+TEST(Convert, NumberTypesOfInputAndOutputAreToldApart) {
+    const Sandbox box;
+    good(box.run({"generate", "halton", "-n", "8", "--output-dtype", "f32", "-o", "a.bin"}));
+    good(box.run({"convert", "a.bin", "-d", "2", "--input-dtype", "f32", "-o", "b.bin"}));
+    EXPECT_EQ(box.read("a.bin").size(), 64U);
+    EXPECT_EQ(box.read("b.bin").size(), 128U);
+    good(box.run({"convert", "b.bin", "-d", "2", "--output-dtype", "f32", "-o", "c.bin"}));
+    good(box.run({"warp", "disk", "a.bin", "-d", "2", "--input-dtype", "f32", "-o", "d.bin"}));
+    good(box.run({"warp", "disk", "a.bin", "-d", "2", "--dtype", "f32", "-o", "e.bin"}));
+    EXPECT_EQ(box.read("c.bin"), box.read("a.bin"));
+    EXPECT_EQ(box.read("d.bin").size(), 128U);
+    EXPECT_EQ(box.read("e.bin").size(), 64U);
+    const auto means = [&](const char* file, const char* type) {
+        return good(box.run({"analyze", "moments", file, "-d", "2", "--input-dtype", type,
+                             "-f", "csv"}));
+    };
+    EXPECT_EQ(means("a.bin", "f32").substr(0, 60), means("b.bin", "f64").substr(0, 60));
+    expect_refusal(box.run({"generate", "halton", "--input-dtype", "f32"}), 2, "--input-dtype");
+}
+
 TEST(Convert, SetsSurvive) {
     const Sandbox box;
     good(box.run({"generate", "random", "-n", "5", "-m", "3", "-o", "a.csv"}));

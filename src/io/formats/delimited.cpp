@@ -395,7 +395,16 @@ struct TableHead {
     Dialect dialect;
     Columns columns;
     bool names = false;          ///< the first line is a header
+    bool row_names = false;      ///< the first column, which has no name
     const char* body = nullptr;  ///< where rows begin
+
+    void tell_row_names(const std::string& source, const RunContext& run) const {
+        if (row_names)
+            run.notify(
+                fmt::format("{}: the first column has no name: it holds row names, and is "
+                            "left out; --column picks columns by number",
+                            shown(source)));
+    }
 };
 
 TableHead read_head(const SourceText& text, const ReadOptions& options) {
@@ -407,6 +416,8 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
     if (is_header(fields))
         for (const Field& field : fields) names.emplace_back(field.text);
     head.names = !names.empty();
+    head.row_names =
+        head.names && names[0].empty() && options.columns.empty() && !options.all_columns;
     head.dialect.model_line = text.line_of(head.top.first);
     head.columns = choose_columns(names, fields.size(), options,
                                   fmt::format("{}:{}", text.source(), head.dialect.model_line));
@@ -577,6 +588,7 @@ std::vector<PointSet> read_delimited(std::string_view bytes, const ReadOptions& 
                                      const RunContext& run) {
     const SourceText text(bytes, options.source);
     const TableHead head = read_head(text, options);
+    head.tell_row_names(options.source, run);
     const Columns& columns = head.columns;
     Rows rows = read_rows(text, head.body, columns, head.dialect, run);
     if (rows.numbers.empty())
@@ -601,6 +613,7 @@ std::unique_ptr<PointStream> stream_delimited(std::unique_ptr<Feed>& feed,
     }
     const bool cut_off = std::find(head->body, front.end(), front.newline()) == front.end();
     if (cut_off) return nullptr;
+    head->tell_row_names(options.source, run);
     return std::make_unique<DelimitedStream>(std::move(feed), *head, front, options, run);
 }
 

@@ -64,6 +64,17 @@ TEST(Csv, ReadsWhatSpreadsheetsWrite) {
 }
 
 // As printed by numpy.savetxt(f, a) and numpy.savetxt(f, a, delimiter=',', header='x,y').
+// write.csv of R and to_csv of pandas.
+TEST(Csv, LeavesRowNamesOut) {
+    for (const char* text :
+         {"\"\",\"x\",\"y\"\n\"1\",0,0.5\n\"2\",0.25,1e-07\n",
+          "\"\",\"x\",\"y\"\n\"a row\",0,0.5\n\"b, too\",0.25,1e-07\n",
+          ",x,y\n0,0,0.5\n1,0.25,1e-07\n", ",x,y,pdf\n0,0,0.5,2\n1,0.25,1e-07,3\n"})
+        EXPECT_EQ(csv(text), std::vector{two}) << text;
+    EXPECT_EQ(csv(",x,y\n7,0,0.5\n", {.columns = {"1", "x"}}), std::vector{points_of({{7, 0}})});
+    EXPECT_EQ(csv(",x\n7,0\n", {.all_columns = true}), std::vector{points_of({{7, 0}})});
+}
+
 TEST(Csv, ReadsWhatNumPyWrites) {
     const PointSet expected = points_of({{0, 0.5}, {0.1, 1.0 / 3}, {0.999, -2e-300}});
     EXPECT_EQ(csv("0.000000000000000000e+00 5.000000000000000000e-01\n"
