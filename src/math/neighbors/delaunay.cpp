@@ -126,7 +126,10 @@ struct Turn {
 };
 
 /// Points in the order in which they are inserted.
-std::vector<Turn> turns_of(std::span<const double> rows) {
+std::vector<Turn> turns_of(std::span<const double> rows, const RunContext& run) {
+    auto check_at_times = [&run, steps = std::uint64_t{0}]() mutable {
+        if (++steps % 0x10000 == 0) run.check_stop();
+    };
     std::array<double, 2> low = {rows[0], rows[1]};
     double size = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) low[i % 2] = std::min(low[i % 2], rows[i]);
@@ -136,13 +139,17 @@ std::vector<Turn> turns_of(std::span<const double> rows) {
     };
     std::vector<Turn> turns(rows.size() / 2);
     for (std::size_t i = 0; i < turns.size(); ++i) {
+        check_at_times();
         // Bits of a multiple of the golden ratio stand for a random number.
         const std::uint64_t random = (i + 1) * 0x9e3779b97f4a7c15U;
         turns[i] = {64U - static_cast<std::uint32_t>(std::countl_zero(random)),
                     hilbert_key(cell(rows[2 * i], low[0]), cell(rows[2 * i + 1], low[1])),
                     static_cast<std::uint32_t>(i)};
     }
-    std::ranges::sort(turns);
+    std::ranges::sort(turns, [&](const Turn& a, const Turn& b) {
+        check_at_times();
+        return a < b;
+    });
     return turns;
 }
 
@@ -164,8 +171,8 @@ int side_of_line(const double* a, const double* b, const double* c) {
 Delaunay::Delaunay(std::span<const double> rows, const RunContext& run) {
     start(rows);
     std::uint64_t done = 0;
-    for (const Turn& turn : turns_of(rows)) {
-        if (done % 1024 == 0) run.tick(done, rows.size() / 2);
+    for (const Turn& turn : turns_of(rows, run)) {
+        if (done % 64 == 0) run.tick(done, rows.size() / 2);
         ++done;
         insert(turn.point + outer);
     }
