@@ -180,7 +180,7 @@ void expect_keeps_points(const Mapping& map, bool biased, std::size_t count) {
 TEST_P(EveryWarp, KeepsItsPointsWhateverItsOptions) {
     const Settings needed = needed_options(unit.name);
     HostileOptions hostile(3);
-    for (int trial = 0; trial < 400 && !HasFailure(); ++trial) {
+    for (int trial = 0; trial < 150 && !HasFailure(); ++trial) {
         Settings settings = needed;
         for (auto& [name, text] : hostile.settings(unit.options))
             if (std::ranges::find(needed, name, &Settings::value_type::first) == needed.end())
@@ -189,7 +189,7 @@ TEST_P(EveryWarp, KeepsItsPointsWhateverItsOptions) {
         std::unique_ptr<Mapping> map;
         if (!error_of([&] { map = unit.make(spec.values(unit.options), 2, {}); }).empty()) continue;
         SCOPED_TRACE(format_spec(unit.name, spec.values(unit.options), unit.options));
-        expect_keeps_points(*map, unit.traits.biased, trial < 50 ? 500 : 60);
+        expect_keeps_points(*map, unit.traits.biased, trial < 20 ? 500 : 60);
     }
 }
 

@@ -403,7 +403,7 @@ struct TableHead {
             run.notify(
                 fmt::format("{}: the first column has no name: it holds row names, and is "
                             "left out; --column picks columns by number",
-                            shown(source)));
+                            source_name(source)));
     }
 };
 

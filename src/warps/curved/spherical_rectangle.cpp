@@ -54,7 +54,7 @@ constexpr Param<Numbers> corner{
 constexpr Param<Points> edges{
     {.name = "edges",
      .fallback = "1,0,0 0,1,0",
-     .help = "Edges ex ey from the corner, at a right angle; xi0 runs along ex, xi1 along ey"}};
+     .help = "Edges ex ey from the corner, at a right angle; xi1 runs along ex, xi2 along ey"}};
 
 constexpr Param<Numbers> origin{
     {.name = "origin", .fallback = "0,0,0", .help = "Point o that looks at the rectangle: x,y,z"}};

@@ -38,7 +38,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr Param<Points> vertices{
     {.name = "vertices",
      .fallback = "1,0,0 0,1,0 0,0,1",
-     .help = "Three directions a b c, of any length; xi0 = 0 is the edge ab, xi1 = 0 is b"}};
+     .help = "Three directions a b c, of any length; xi1 = 0 is the edge ab, xi2 = 0 is b"}};
 
 /// The map for the corners in this order.
 class Arvo {

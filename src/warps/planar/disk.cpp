@@ -43,7 +43,7 @@ constexpr Param<Choice> method{
     .choices = "polar|concentric|rejection|naive",
     .help =
         "polar: rings and sectors; concentric: squares become circles, keeps neighbours; "
-        "rejection: drops the points of the square that are outside; naive: r = R xi0, BIASED "
+        "rejection: drops the points of the square that are outside; naive: r = R xi1, BIASED "
         "towards the centre, kept to show the bias"};
 
 constexpr auto radius = length_option("radius", 1, "Radius of the disk, above 0");
