@@ -67,19 +67,12 @@ void refuse_without_points(const std::string& name, std::string_view front) {
         if (is_it) fail_with_hint(ErrorKind::input, hint, "{}: {}", name, what);
 }
 
-/// A pipe's bytes in a file of no name, which goes when it is closed.
-std::shared_ptr<std::FILE> spooled(const std::string& pipe, const RunContext& run) {
-    const std::string bytes = io::read_bytes(pipe, run);
-    const auto close = [](std::FILE* open) {
-        if (open != nullptr) std::fclose(open);
-    };
-    std::shared_ptr<std::FILE> file(std::tmpfile(), close);
-    if (file == nullptr || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size() ||
-        std::fflush(file.get()) != 0)
-        fail(ErrorKind::io, "{}: no room for its bytes in the folder of temporary files",
-             io::source_name(pipe));
-    std::rewind(file.get());
-    return file;
+/// A pipe's bytes, on disk.
+std::shared_ptr<Spool> spooled(const std::string& pipe, const RunContext& run) {
+    auto spool = std::make_shared<Spool>();
+    spool->write(io::read_bytes(pipe, run));
+    spool->rewind();
+    return spool;
 }
 
 /// A picture by `stipple plot`, with the provenance of its set. False: no such
@@ -140,7 +133,7 @@ Original read_original(const std::string& input, const RunContext& run) {
     Original original{.name = io::source_name(input), .path = input};
     if (pipe) {
         original.spool = spooled(input, run);
-        original.path = fmt::format("/dev/fd/{}", fileno(original.spool.get()));
+        original.path = original.spool->path();
     }
     const io::Feed feed(original.path, run);
     refuse_without_points(original.name, feed.front());

@@ -3,20 +3,20 @@
 // A file of points or a picture that `reproduce` makes again, with the provenance that it carries.
 #pragma once
 
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "core/bytes/spool.hpp"
 #include "io/point_stream.hpp"
 
 namespace stipple::cli {
 
 /// A file whose provenance is known.
 struct Original {
-    std::string name;                       ///< for messages
-    std::string path;                       ///< where it can be opened more than once
-    std::shared_ptr<std::FILE> spool = {};  ///< that it is, where it came from a pipe
+    std::string name;                   ///< for messages
+    std::string path;                   ///< where it can be opened more than once
+    std::shared_ptr<Spool> spool = {};  ///< that it is, where it came from a pipe
     Provenance meta = {};
     const Format* format = nullptr;         ///< where its name and bytes leave it open
     std::optional<std::size_t> width = {};  ///< numbers of a point, where the bytes leave it open

@@ -53,6 +53,20 @@ std::string part_name(const std::filesystem::path& target) {
     return fmt::format("{}/.stipple-{}-{}.part", folder_of(target), ::getpid(), number++);
 }
 
+void put_text(Spool& spool, const std::string& text) {
+    const std::size_t size = text.size();
+    spool.write({reinterpret_cast<const char*>(&size), sizeof size});
+    spool.write(text);
+}
+
+/// False: there are no more.
+bool take_text(Spool& spool, std::string& text) {
+    std::size_t size = 0;
+    if (spool.read({reinterpret_cast<char*>(&size), sizeof size}) == 0) return false;
+    text.resize(size);
+    return spool.read(text) == size;
+}
+
 /// The name by which the system reaches an open file that has none.
 std::string name_of_descriptor(int descriptor) {
     return fmt::format("/proc/self/fd/{}", descriptor);
@@ -199,25 +213,56 @@ void Output::commit() {
     temporary_.clear();
 }
 
+void Outputs::set_aside() {
+    if (files_.empty()) return;
+    files_.back().finish();
+    const auto [name, target] = files_.back().released();
+    if (name.empty()) return;
+    files_.pop_back();
+    if (!names_) names_ = std::make_unique<Spool>();
+    put_text(*names_, name);
+    put_text(*names_, target);
+}
+
+Outputs::~Outputs() try {
+    if (!names_) return;
+    names_->rewind();
+    std::string target;
+    for (std::string name; take_text(*names_, name); take_text(*names_, target))
+        ::unlink(name.c_str());
+} catch (const Error&) {
+    return;  // their names cannot be read: they stay
+}
+
 void Outputs::commit() {
-    std::vector<std::string> there;
-    for (Output& file : files_) {
+    std::uint64_t count = 0;
+    std::vector<std::string> some;  // of the files in place
+    const auto place = [&](const std::string& path, const auto& put) {
         try {
-            file.commit();
+            put();
         } catch (const Error& e) {
-            if (there.empty()) throw;
-            const std::size_t some = std::min<std::size_t>(there.size(), 10);
+            if (count == 0) throw;
             const std::string more =
-                some < there.size() ? fmt::format(" and {} others", there.size() - some) : "";
-            there.resize(some);
-            throw Error(
-                e.kind(),
-                fmt::format("{}; in place already: {}{}", e.what(), join(there, ", "), more),
-                e.hint());
+                some.size() < count ? fmt::format(" and {} others", count - some.size()) : "";
+            throw Error(e.kind(),
+                        fmt::format("{}; in place already: {}{}", e.what(), join(some, ", "), more),
+                        e.hint());
         }
-        there.push_back(file.path());
-    }
+        if (++count <= 10) some.push_back(path);
+    };
+    set_aside();
+    for (Output& file : files_) place(file.path(), [&] { file.commit(); });
     files_.clear();
+    if (!names_) return;
+    names_->rewind();
+    std::string target;
+    for (std::string name; take_text(*names_, name);) {
+        take_text(*names_, target);
+        place(target, [&] {
+            if (::rename(name.c_str(), target.c_str()) != 0) refuse_file(target, errno);
+        });
+    }
+    names_.reset();
 }
 
 }  // namespace stipple::io

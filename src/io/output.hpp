@@ -5,10 +5,13 @@
 
 #include <functional>
 #include <list>
+#include <memory>
 #include <stop_token>
 #include <string>
 #include <string_view>
 #include <utility>
+
+#include "core/bytes/spool.hpp"
 
 namespace stipple::io {
 
@@ -45,6 +48,12 @@ class Output {
 
     [[nodiscard]] const std::string& path() const { return path_; }
 
+    /// The name until commit() and that of the target, for whoever renames or removes the file from
+    /// now on; empty where it has no such name.
+    [[nodiscard]] std::pair<std::string, std::string> released() {
+        return {std::exchange(temporary_, {}), target_};
+    }
+
   private:
     void open_in_place();
     void open_beside();
@@ -62,13 +71,21 @@ class Output {
     bool broken_ = false;  ///< the pipe has no reader
 };
 
-/// The files of one command, which appear together or not at all.
+/// The files of one command, which appear together or not at all. Their names do not take memory,
+/// however many there are.
 class Outputs {
   public:
-    /// One more, made as an Output is, when the one before is written; the reference stays valid.
+    Outputs() = default;
+    Outputs(const Outputs&) = delete;
+    Outputs& operator=(const Outputs&) = delete;
+    /// Removes what was not committed.
+    ~Outputs();
+
+    /// One more, made as an Output is, when the one before is written; the reference is valid until
+    /// the next.
     template <class... Arguments>
     Output& add(Arguments&&... arguments) {
-        if (!files_.empty()) files_.back().finish();
+        set_aside();
         return files_.emplace_back(std::forward<Arguments>(arguments)...);
     }
 
@@ -76,7 +93,10 @@ class Outputs {
     void commit();
 
   private:
-    std::list<Output> files_;
+    void set_aside();
+
+    std::list<Output> files_;  ///< those that are open, or were never beside a target, and the last
+    std::unique_ptr<Spool> names_;  ///< the others: the names they have, and are to have
 };
 
 }  // namespace stipple::io

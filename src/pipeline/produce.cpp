@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "core/bytes/spool.hpp"
 #include "core/error.hpp"
 #include "core/machine/int128.hpp"
 #include "core/parallel.hpp"
@@ -21,32 +22,65 @@
 namespace stipple {
 namespace {
 
-/// @throws Error(limit) when sets that are held together, of so many numbers, do not fit.
-void need_memory_for(std::uint64_t sets, std::uint64_t numbers, const RunContext& run) {
-    if (sets > 1)
-        run.need_memory(8 * static_cast<double>(sets) * static_cast<double>(numbers),
-                        fmt::format("what {} sets hold together", sets));
-}
-
-/// What a file of several sets tells of them: the first one's provenance, less the options that
-/// are not the same for all, such as a radius that was worked out for each.
-Provenance common_provenance(const std::vector<PointSet>& sets) {
-    Provenance common = sets.front().provenance;
+/// What a file of several sets tells of them: their provenance, less the options that are not the
+/// same for all, such as a radius that was worked out for each.
+void keep_common(Provenance& common, const Provenance& other) {
     std::erase_if(common.options, [&](const auto& option) {
-        return std::ranges::any_of(sets, [&](const PointSet& set) {
-            const auto& options = set.provenance.options;
-            return std::ranges::find(options, option) == options.end();
-        });
+        return std::ranges::find(other.options, option) == other.options.end();
     });
-    return common;
 }
 
-/// Writes sets as they are; `chain` is what gave them, for their density.
+void write_side_files(const PointSet& set, const Target& target, io::Outputs& outputs,
+                      const RunContext& run) {
+    for (const SideFile& file : set.side_files)
+        if (!target.take) outputs.add(file.path, run.stop).write(file.bytes);
+}
+
+/// Makes the sets of a job, each once and in order.
+using MakeSet = std::function<PointSet(std::size_t set)>;
+
+/// Sets that are written when all of them are made, for what comes before the first tells of all.
+/// Meanwhile they are on disk.
+class WaitingSets {
+  public:
+    void add(const PointSet& set) {
+        if (counts_.size() == 0) common_ = set.provenance;
+        keep_common(common_, set.provenance);
+        counts_.push_back(set.count());
+        const auto bytes = std::as_bytes(set.flat());
+        spool_.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    }
+
+    void write(SetsToWrite job, const Target& target, io::Outputs& outputs, const RunContext& run) {
+        spool_.rewind();
+        const std::size_t d = job.dimension();
+        job.source = [&](std::size_t set, const RunContext&) -> NextRows {
+            return [this, d, left = counts_[set]](std::span<double> rows) mutable {
+                const auto some =
+                    static_cast<std::size_t>(std::min<std::uint64_t>(left, rows.size() / d));
+                const auto bytes = std::as_writable_bytes(rows.first(some * d));
+                spool_.read({reinterpret_cast<char*>(bytes.data()), bytes.size()});
+                left -= some;
+                return some;
+            };
+        };
+        job.provenance = [&](std::size_t) { return common_; };
+        job.counts = counts_;
+        write_files(job, target, outputs, run);
+    }
+
+  private:
+    Spool spool_;
+    Counts counts_;
+    Provenance common_;
+};
+
+/// Writes sets as they are, and their side files; `chain` is what gave them, for their density.
 void write_images(const std::vector<PointSet>& images, const WarpChain& chain,
                   std::size_t first_set, std::optional<std::uint64_t> first_seed,
                   const Target& target, io::Outputs& outputs, const RunContext& run) {
     const bool together = !file_per_set(target.path);
-    const Provenance common = common_provenance(images);
+    Provenance common = images.front().provenance;
     SetsToWrite job{
         .sets = images.size(),
         .first_set = first_set,
@@ -59,19 +93,59 @@ void write_images(const std::vector<PointSet>& images, const WarpChain& chain,
             [&](std::size_t set) {
                 return bounding_box(images[set].flat(), images[set].domain->bounding_box());
             },
-        .side_files = [&](std::size_t set) -> const std::vector<SideFile>& {
-            return images[set].side_files;
-        },
         .counts = {}};
-    for (const PointSet& set : images) job.counts.push_back(set.count());
+    for (const PointSet& set : images) {
+        job.counts.push_back(set.count());
+        keep_common(common, set.provenance);
+        write_side_files(set, target, outputs, run);
+    }
     write_files(job, target, outputs, run);
 }
 
-/// The same of all sets of a command.
-void write_all(const std::vector<PointSet>& images, const WarpChain& chain, const Target& target,
-               const RunContext& run, std::optional<std::uint64_t> first_seed = {}) {
+/// Makes and writes sets, in the memory of one.
+/// @param chain what gave them, for their density @param first_seed of the first one's name, those
+/// of the next go up; none: as their provenance says
+void write_made(std::size_t sets, const MakeSet& make, const WarpChain& chain,
+                std::optional<std::uint64_t> first_seed, const Target& target,
+                const RunContext& run) {
     io::Outputs outputs;
-    write_images(images, chain, 0, first_seed, target, outputs, run);
+    std::vector<PointSet> held{make(0)};
+    SetsToWrite job{.sets = sets, .domain = held[0].domain, .chain = &chain};
+    const FormatTraits& traits = format_of(target).traits;
+    if (sets == 1 || file_per_set(target.path)) {
+        for (std::size_t set = 0; set < sets; ++set) {
+            if (set > 0) held[0] = make(set);
+            const auto seed = first_seed ? std::optional(*first_seed + set) : std::nullopt;
+            write_images(held, chain, set, seed, target, outputs, part_of_run(run, set, sets));
+        }
+    } else if (traits.counts_first || traits.equal_sets || target.meta || target.take ||
+               !held[0].side_files.empty()) {
+        WaitingSets waiting;
+        for (std::size_t set = 0; set < sets; ++set) {
+            if (set > 0) held[0] = make(set);
+            write_side_files(held[0], target, outputs, run);
+            waiting.add(held[0]);
+        }
+        held.clear();
+        waiting.write(std::move(job), target, outputs, run);
+    } else {
+        job.provenance = [&](std::size_t) { return held[0].provenance; };
+        job.source = [&](std::size_t set, const RunContext&) {
+            if (set > 0) held[0] = make(set);
+            return rows_of(held[0]);
+        };
+        job.counts = Counts::equal(sets, 0);
+        job.expected = held[0].count();
+        write_files(job, target, outputs, run);
+    }
+    outputs.commit();
+}
+
+/// Writes sets that are there, and nothing else.
+void write_all(const std::vector<PointSet>& sets, const WarpChain& chain, const Target& target,
+               const RunContext& run) {
+    io::Outputs outputs;
+    write_images(sets, chain, 0, {}, target, outputs, run);
     outputs.commit();
 }
 
@@ -224,24 +298,9 @@ class Producer {
 
     void go() {
         if (sets_.streamed()) return stream();
-        if (begins_without_later_sets()) return write_one_by_one();
-        const std::size_t batch = file_per_set(target_.path) ? 1 : job_.sets;
-        const WarpChain& chain = sets_.chain();
-        if (!chain.drops())
-            need_memory_for(batch, sets_.plan().count / job_.shard.of * chain.dimension_out(),
-                            run_);
-        io::Outputs outputs;
-        for (std::size_t first = 0; first < job_.sets; first += batch) {
-            std::vector<PointSet> images;
-            for (std::size_t set = first; set < first + batch; ++set) {
-                images.push_back(made(set));
-                // Only now is it known how many points fit, or have images.
-                if (set == first) need_memory_for(batch, images[0].flat().size(), run_);
-            }
-            write_images(images, chain, first, {}, target_, outputs,
-                         part_of_run(run_, first, job_.sets));
-        }
-        outputs.commit();
+        write_made(
+            job_.sets, [this](std::size_t set) { return made(set); }, sets_.chain(), {}, target_,
+            run_);
     }
 
   private:
@@ -301,33 +360,6 @@ class Producer {
              .counts = Counts::equal(job_.sets, count),
              .starts = true},
             target_, run);
-    }
-
-    /// Whether the file's front says nothing of sets that are not made yet.
-    [[nodiscard]] bool begins_without_later_sets() const {
-        const FormatTraits& traits = format_of(target_).traits;
-        const auto is_given = [this](const std::string& option) {
-            return job_.options.find(option).given;
-        };
-        return !traits.counts_first && !traits.equal_sets && !target_.meta && !target_.take &&
-               !file_per_set(target_.path) && std::ranges::none_of(generator_.writes, is_given);
-    }
-
-    void write_one_by_one() {
-        PointSet held;
-        const auto make = [&](std::size_t set, const RunContext&) {
-            held = made(set);
-            return rows_of(held);
-        };
-        write_files({.sets = job_.sets,
-                     .domain = sets_.domain(),
-                     .chain = &sets_.chain(),
-                     .source = make,
-                     .provenance = [&](std::size_t set) { return sets_.provenance(set, 0); },
-                     .first_seed = sets_.plan().seed,
-                     .counts = Counts::equal(job_.sets, 0),
-                     .expected = std::max<std::uint64_t>(sets_.plan().count, 1)},
-                    target_, run_);
     }
 
     /// One set, made, warped and cut in memory.
@@ -435,19 +467,15 @@ void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, st
     if (replications * sets.size() - 1 > ~seed)
         fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed", seed,
              replications * sets.size());
-    std::uint64_t numbers = 0;
-    for (const PointSet& set : sets) numbers += set.flat().size();
-    need_memory_for(sets.size() * replications, numbers / sets.size(), run);
-    std::vector<PointSet> images;
-    for (const PointSet& set : sets)
-        for (std::uint64_t r = 0; r < replications; ++r) {
-            Spec spec = scramble;
-            spec.settings.emplace_back(scramble_seed.name, std::to_string(seed + images.size()));
-            const Warping scrambling(spec, false, set.domain, {}, run, {.count = set.count()});
-            images.push_back(warped(set, scrambling, run));
-        }
-    const WarpChain nothing({}, images.front().dimension());
-    write_all(images, nothing, target, run, seed);
+    const auto scrambled = [&](std::size_t set) {
+        const PointSet& points = sets[set / replications];
+        Spec spec = scramble;
+        spec.settings.emplace_back(scramble_seed.name, std::to_string(seed + set));
+        const Warping scrambling(spec, false, points.domain, {}, run, {.count = points.count()});
+        return warped(points, scrambling, run);
+    };
+    const WarpChain nothing({}, sets.front().dimension());
+    write_made(sets.size() * replications, scrambled, nothing, seed, target, run);
 }
 
 }  // namespace stipple

@@ -149,19 +149,14 @@ void check_seeds(const SetsToWrite& job, const Target& target) {
     }
 }
 
-/// The points and what comes with them. Who closes the pipe has seen enough of the points, but did
-/// not say so of the other files.
+/// The points and their provenance. Who closes the pipe has seen enough of the points, but did not
+/// say so of the other file.
 bool write_file(const SetsToWrite& job, std::size_t first, std::size_t last,
                 const std::string& path, const Target& target, io::Outputs& outputs,
                 const RunContext& run) {
     const Layout layout = layout_of(job, first, last, target);
-    const auto put = [&](const std::string& name, const std::string& bytes) {
-        outputs.add(name, run.stop).write(bytes);
-    };
-    for (std::size_t set = first; set < last && job.side_files; ++set)
-        for (const SideFile& file : job.side_files(set)) put(file.path, file.bytes);
     if (const auto meta = meta_beside(layout, path, target, run); !meta.empty())
-        put(io::meta_path(path), meta);
+        outputs.add(io::meta_path(path), run.stop).write(meta);
     return write_points(job, layout, first, last, path, target, outputs, run);
 }
 
@@ -220,7 +215,6 @@ void write_files(const SetsToWrite& job, const Target& asked, io::Outputs& outpu
     check_seeds(job, target);
     for (std::size_t set = 0; set < job.sets; ++set) {
         const auto path = path_of_set(target.path, job.first_set + set, seed_of_set(job, set));
-        if (set % 1024 == 0) run.need_memory(0, "the list of files");
         if (!write_file(job, set, set + 1, path, target, outputs, run)) return;
     }
 }

@@ -50,13 +50,12 @@ struct SetsToWrite {
     std::size_t first_set = 0;         ///< number of the first one among all
     DomainPtr domain;                  ///< what the points are on; the box of a picture of them
     const WarpChain* chain = nullptr;  ///< what gave the rows, for columns of their density
-    std::function<NextRows(std::size_t set, const RunContext&)> source;  ///< gives the rows, warped
-    std::function<Provenance(std::size_t set)> provenance;
+    /// Gives the rows, warped; called for each set once and in order.
+    std::function<NextRows(std::size_t set, const RunContext&)> source = {};
+    std::function<Provenance(std::size_t set)> provenance = {};
     std::optional<std::uint64_t> first_seed = {};  ///< of {seed} in names; else the provenance says
     std::function<Box(std::size_t set)> extent = {};  ///< a larger box, for a picture of the set
-    /// Files that come with the set, under their final names; empty: none.
-    std::function<const std::vector<SideFile>&(std::size_t set)> side_files = {};
-    Counts counts;               ///< of points; 0: known only in the end
+    Counts counts = {};                               ///< of points; 0: known only in the end
     std::uint64_t expected = 0;  ///< about so many, where that is known only in the end
     bool starts = false;         ///< a set's first point can be left out by --start
 

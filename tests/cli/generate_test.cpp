@@ -379,15 +379,58 @@ TEST(Generate, GoesOnWithTheThreadsThatStart) {
 TEST(Generate, StreamsInLittleMemory) {
     if (sanitized()) GTEST_SKIP() << "sanitizers need memory of their own";
     const Sandbox box;
-    const Outcome outcome = box.shell(
-        "python3 -c 'import resource, subprocess, sys\n"
-        "p = subprocess.run([\"stipple\", \"generate\", \"random\", \"-n\", \"2e7\", \"-f\", "
-        "\"bin\"],"
-        " stdout=subprocess.DEVNULL)\n"
-        "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)\n"
-        "sys.exit(p.returncode)'");
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_LT(std::stol(outcome.out), 60'000) << "KiB";
+    for (const char* words : {"random -n 2e7 -f bin", "lloyd --iterations 0 -n 400 -m 9000 -f npy",
+                              "lloyd --iterations 0 -n 400 -m 9000 -f json",
+                              "lloyd --iterations 0 -n 400 -m 9000 -f csv --meta"}) {
+        const Outcome outcome =
+            box.shell(std::string("python3 -c 'import resource, subprocess, sys\n"
+                                  "p = subprocess.run([\"stipple\", \"generate\", *sys.argv[1:]],"
+                                  " stdout=subprocess.DEVNULL)\n"
+                                  "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)\n"
+                                  "sys.exit(p.returncode)' ") +
+                      words);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_LT(std::stol(outcome.out), 60'000) << "KiB: " << words;
+    }
+}
+
+// What is written before the first set tells of all of them.
+TEST(Generate, SetsOfOneFileAreThoseOfAFileEach) {
+    const Sandbox box;
+    const std::string generate = "stipple generate poisson-disk --radius 0.1 --seed 3 -m 4 ";
+    const auto sets = json::parse(good(box.shell(generate + "-f json")));
+    good(box.shell(generate + "-o 's{set}.json'"));
+    ASSERT_EQ(sets["sets"].size(), 4U);
+    for (std::size_t set = 0; set < 4; ++set) {
+        const auto alone = json::parse(box.read("s" + std::to_string(set) + ".json"));
+        EXPECT_EQ(sets["sets"][set], alone["points"]) << set;
+        EXPECT_EQ(sets["count"][set], alone["count"]) << set;
+    }
+    const std::string scrambled = "stipple generate halton -n 3000 | stipple warp owen -m 2 -f ";
+    const auto both = json::parse(good(box.shell(scrambled + "json")))["sets"];
+    EXPECT_EQ(both.dump(),
+              json::parse(good(box.shell(scrambled + "json | stipple convert -f npy | "
+                                                     "stipple convert -f json")))["sets"]
+                  .dump());
+    EXPECT_NE(both[0], both[1]);
+    const Outcome full =
+        box.shell("ulimit -f 20; stipple generate lloyd --iterations 0 -n 2500 -m 2 -f npy | cat");
+    expect_refusal(full, 4, "a temporary file in ");
+}
+
+// More files than may be open wait under names of their own.
+TEST(Generate, ManyFilesAppearTogether) {
+    const Sandbox box;
+    const std::string lines = "ulimit -n 90; stipple generate random -n 1 -m 200 -o ";
+    good(box.shell(lines + "'x{set}.csv'"));
+    EXPECT_EQ(box.files().size(), 200U);
+    for (const int set : {0, 100, 199})
+        EXPECT_EQ(box.read("x" + std::to_string(set) + ".csv"),
+                  good(box.shell("stipple generate random -n 1 -s " + std::to_string(set + 1))));
+    good(box.shell("rm x*; mkdir y150.csv"));
+    const Outcome failed = box.shell(lines + "'y{set}.csv'");
+    EXPECT_EQ(failed.code, 4) << failed.err;
+    EXPECT_EQ(box.files(), std::vector<std::string>{"y150.csv"});
 }
 
 TEST(Generate, TakesTheOtherNamesOfAUnit) {

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "core/bytes/spool.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+
+#include "core/bytes/file_bytes.hpp"
+#include "core/text.hpp"
+
+namespace stipple {
+
+Spool::Spool() {
+    std::error_code none;
+    folder_ = std::filesystem::temp_directory_path(none).string();
+    if (none) folder_ = "/tmp";
+    std::string name = folder_ + "/stipple-XXXXXX";
+    const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);
+    if (descriptor < 0) refuse();
+    ::unlink(name.c_str());
+    file_.reset(::fdopen(descriptor, "w+"));
+}
+
+void Spool::write(std::string_view bytes) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) refuse();
+}
+
+void Spool::rewind() {
+    if (std::fflush(file_.get()) != 0) refuse();
+    std::rewind(file_.get());
+}
+
+std::size_t Spool::read(std::span<char> bytes) {
+    const std::size_t got = std::fread(bytes.data(), 1, bytes.size(), file_.get());
+    if (std::ferror(file_.get()) != 0) refuse();
+    return got;
+}
+
+std::string Spool::path() const { return fmt::format("/dev/fd/{}", ::fileno(file_.get())); }
+
+void Spool::refuse() const { refuse_file("a temporary file in " + folder_, errno); }
+
+}  // namespace stipple
