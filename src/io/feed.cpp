@@ -17,14 +17,6 @@
 namespace stipple::io {
 namespace {
 
-/// A descriptor that is closed in the end.
-struct Closing {
-    int descriptor;
-    ~Closing() {
-        if (descriptor > STDERR_FILENO) ::close(descriptor);
-    }
-};
-
 /// Waits until bytes (or their end) are there.
 void wait_for_bytes(int descriptor, const RunContext& run) {
     constexpr int patience = 50;  // milliseconds between two looks at the stop token
@@ -36,20 +28,6 @@ void wait_for_bytes(int descriptor, const RunContext& run) {
     }
 }
 
-/// Opens a file for reading, or takes standard input for "-". @throws Error(io)
-int open_to_read(const std::string& path, struct stat& status) {
-    // Without O_NONBLOCK, opening a named pipe would wait where nobody can stop it.
-    const int descriptor =
-        path == "-" ? STDIN_FILENO
-                    : ::open(FileRules::readable(path).c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    if (descriptor < 0 || ::fstat(descriptor, &status) != 0) refuse_file(source_name(path), errno);
-    if (S_ISDIR(status.st_mode)) {
-        const Closing file{descriptor};
-        refuse_file(source_name(path), EISDIR);
-    }
-    return descriptor;
-}
-
 std::int64_t change_time(const struct stat& status) {
     return std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec;
 }
@@ -58,31 +36,33 @@ std::int64_t change_time(const struct stat& status) {
 
 Feed::Feed(const std::string& path, RunContext run)
     : name_(source_name(path)), run_(std::move(run)) {
+    // Without O_NONBLOCK, opening a named pipe would wait where nobody can stop it.
+    file_.descriptor =
+        path == "-" ? STDIN_FILENO
+                    : ::open(FileRules::readable(path).c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     struct stat status {};
-    descriptor_ = open_to_read(path, status);
+    if (file_.descriptor < 0 || ::fstat(file_.descriptor, &status) != 0) refuse_file(name_, errno);
+    if (S_ISDIR(status.st_mode)) refuse_file(name_, EISDIR);
 #ifdef F_SETPIPE_SZ
     // Large enough for a writer's whole block, so that both sides work at the same time.
-    if (S_ISFIFO(status.st_mode)) ::fcntl(descriptor_, F_SETPIPE_SZ, 1 << 20);
+    if (S_ISFIFO(status.st_mode)) ::fcntl(file_.descriptor, F_SETPIPE_SZ, 1 << 20);
 #endif
     if (S_ISREG(status.st_mode)) size_ = static_cast<std::size_t>(status.st_size);
     changed_at_ = change_time(status);
     held_.resize(front_size);
-    try {
-        held_.resize(fetch(held_));
-        front_ = held_;
-    } catch (...) {
-        const Closing file{descriptor_};
-        throw;
-    }
+    held_.resize(fetch(held_));
+    front_ = held_;
 }
 
-Feed::~Feed() { const Closing file{descriptor_}; }
+Feed::File::~File() {
+    if (descriptor > STDERR_FILENO) ::close(descriptor);
+}
 
 std::size_t Feed::fetch(std::span<char> bytes) {
     std::size_t done = 0;
-    while (descriptor_ >= 0 && done < bytes.size()) {
-        wait_for_bytes(descriptor_, run_);
-        const auto got = ::read(descriptor_, bytes.data() + done, bytes.size() - done);
+    while (file_.descriptor >= 0 && done < bytes.size()) {
+        wait_for_bytes(file_.descriptor, run_);
+        const auto got = ::read(file_.descriptor, bytes.data() + done, bytes.size() - done);
         if (got == 0) {
             check_unchanged();
             break;
@@ -97,7 +77,7 @@ std::size_t Feed::fetch(std::span<char> bytes) {
 
 void Feed::check_unchanged() const {
     struct stat status {};
-    if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) return;
+    if (::fstat(file_.descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return;
     if (static_cast<std::size_t>(status.st_size) != size_ || change_time(status) != changed_at_)
         fail(ErrorKind::io, "{}: the file changed while it was read", name_);
 }
@@ -111,13 +91,13 @@ std::size_t Feed::read(std::span<char> bytes) {
 
 std::optional<std::uint64_t> Feed::skip(std::uint64_t count) {
     struct stat status {};
-    if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+    if (::fstat(file_.descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
     const auto ahead = std::min<std::uint64_t>(count, front_.size() - taken_);
-    const auto at = ::lseek(descriptor_, 0, SEEK_CUR);
+    const auto at = ::lseek(file_.descriptor, 0, SEEK_CUR);
     if (at < 0) return std::nullopt;
     const auto left = static_cast<std::uint64_t>(std::max<off_t>(0, status.st_size - at));
     const auto behind = std::min(count - ahead, left);
-    if (behind > 0 && ::lseek(descriptor_, static_cast<off_t>(behind), SEEK_CUR) < 0)
+    if (behind > 0 && ::lseek(file_.descriptor, static_cast<off_t>(behind), SEEK_CUR) < 0)
         return std::nullopt;
     taken_ += static_cast<std::size_t>(ahead);
     return ahead + behind;

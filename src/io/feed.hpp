@@ -25,16 +25,13 @@ class Feed {
     Feed(const std::string& path, RunContext run);
     /// Bytes that are there already, and stay.
     explicit Feed(std::string_view bytes) : front_(bytes) {}
-    Feed(const Feed&) = delete;
-    Feed& operator=(const Feed&) = delete;
-    ~Feed();
 
     /// The first front_size bytes, or all where there are fewer, or where they are there already.
     [[nodiscard]] std::string_view front() const { return front_; }
 
     /// Whether the front is all there is.
     [[nodiscard]] bool ends_in_front() const {
-        return descriptor_ < 0 || front_.size() < front_size;
+        return file_.descriptor < 0 || front_.size() < front_size;
     }
 
     /// Takes the next bytes, from the front on; fewer than asked for only at the end.
@@ -49,12 +46,22 @@ class Feed {
     std::string read_all();
 
   private:
+    /// Closes what it opened.
+    struct File {
+        File() = default;
+        File(const File&) = delete;
+        File& operator=(const File&) = delete;
+        ~File();
+
+        int descriptor = -1;
+    };
+
     std::size_t fetch(std::span<char> bytes);
     void check_unchanged() const;
 
     std::string name_ = {};
     RunContext run_ = {};
-    int descriptor_ = -1;
+    File file_ = {};
     std::size_t size_ = 0;         ///< of a file, as it was when it was opened
     std::int64_t changed_at_ = 0;  ///< as then; nanoseconds
     std::string held_;

@@ -81,12 +81,11 @@ class MpiRanks : public Ranks {
         if (!heard_ && error.kind() == ErrorKind::cancelled) return error;  // as all others are
         failed_ = true;
         if (heard_) return *heard_;
-        const std::string text = fmt::format("rank {} on {}: {}", rank_, host_, error.what());
+        const Error told(error.kind(), fmt::format("rank {} on {}: {}", rank_, host_, error.what()),
+                         error.hint());
         for (int other = 0; other < size_; ++other)
-            if (other != rank_)
-                send(other, Packer().put(error.kind()).put_all(text).put_all(error.hint()).take(),
-                     failure_tag);
-        return rank_ == 0 ? error : Error(error.kind(), text, error.hint());
+            if (other != rank_) send(other, packed(told), failure_tag);
+        return rank_ == 0 ? error : told;
     }
 
     std::optional<Message> poll() override {
@@ -215,11 +214,7 @@ class MpiRanks : public Ranks {
         MPI_Status status;
         MPI_Iprobe(MPI_ANY_SOURCE, failure_tag, MPI_COMM_WORLD, &arrived, &status);
         if (arrived == 0 || heard_) return;
-        const Message message = received(status);
-        Unpacker from(message.bytes);
-        const auto kind = from.take<ErrorKind>();
-        const std::string what = from.take_text();
-        heard_.emplace(kind, what, from.take_text());
+        heard_.emplace(unpacked_error(received(status).bytes));
     }
 
     void throw_heard() const {

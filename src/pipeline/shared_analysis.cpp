@@ -14,26 +14,6 @@
 namespace stipple {
 namespace {
 
-/// What went wrong on a rank.
-struct Trouble {
-    ErrorKind kind = ErrorKind::io;
-    std::string what, hint, host;
-
-    [[nodiscard]] bool is_that_of(const Trouble& other) const {
-        return kind == other.kind && what == other.what && hint == other.hint;
-    }
-};
-
-std::optional<Trouble> trouble_of(const std::function<void()>& work, const std::string& host) {
-    try {
-        work();
-    } catch (const std::exception&) {
-        const Error error = caught_error();
-        return Trouble{error.kind(), error.what(), error.hint(), host};
-    }
-    return std::nullopt;
-}
-
 /// The points [first, last) of a set.
 struct Stretch {
     std::uint64_t first = 0;
@@ -152,33 +132,25 @@ void merge(SharedAccumulator* measure, Ranks& ranks, const RunContext& run) {
 }  // namespace
 
 void agreed(Peers& peers, const std::function<void()>& work) {
-    const auto mine = trouble_of(work, peers.host());
     Packer packer;
-    if (mine) packer.put(mine->kind).put_all(mine->what).put_all(mine->hint).put_all(mine->host);
-    std::optional<Trouble> first;
-    int rank = 0;
-    bool same = true;
-    const auto said = peers.exchange(packer.take());
-    for (std::size_t i = 0; i < said.size(); ++i) {
-        if (said[i].empty()) {
-            same = false;
-            continue;
-        }
-        Unpacker from(said[i]);
-        Trouble here;
-        here.kind = from.take<ErrorKind>();
-        here.what = from.take_text();
-        here.hint = from.take_text();
-        here.host = from.take_text();
-        same = same && (!first || here.is_that_of(*first));
-        if (first) continue;
-        first = std::move(here);
-        rank = static_cast<int>(i);
+    try {
+        work();
+    } catch (const std::exception&) {
+        packer.put_all(packed(caught_error())).put_all(peers.host());
     }
-    if (!first) return;
+    const auto said = peers.exchange(packer.take());
+    const auto first = std::ranges::find_if(said, [](const auto& of) { return !of.empty(); });
+    if (first == said.end()) return;
     peers.end_together();
-    const std::string who = same ? "" : fmt::format("rank {} on {}: ", rank, first->host);
-    throw Error(first->kind, who + first->what, first->hint);
+    Unpacker from(*first);
+    const std::string trouble = from.take_text();
+    const bool same = std::ranges::all_of(said, [&](const std::string& of) {
+        return !of.empty() && Unpacker(of).take_text() == trouble;
+    });
+    const std::string who =
+        same ? "" : fmt::format("rank {} on {}: ", first - said.begin(), from.take_text());
+    const Error error = unpacked_error(trouble);
+    throw Error(error.kind(), who + error.what(), error.hint());
 }
 
 SharedSet shared_in_files(const std::vector<std::string>& paths, const io::Opener& open,

@@ -12,6 +12,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "stipple/error.hpp"
+
 namespace stipple {
 
 class Packer {
@@ -78,5 +80,16 @@ class Unpacker {
 
     std::string_view bytes_;
 };
+
+inline std::string packed(const Error& error) {
+    return Packer().put(error.kind()).put_all(error.what()).put_all(error.hint()).take();
+}
+
+inline Error unpacked_error(std::string_view bytes) {
+    Unpacker from(bytes);
+    const auto kind = from.take<ErrorKind>();
+    const std::string what = from.take_text();
+    return {kind, what, from.take_text()};
+}
 
 }  // namespace stipple

@@ -18,8 +18,6 @@
 //         the lines in V are this program's).
 #pragma once
 
-#include <array>
-
 #include "analyzers/discrepancy/branch_and_bound.hpp"
 
 namespace stipple::discrepancy::extreme {
@@ -45,57 +43,8 @@ struct Line {
 /// All points, undecided.
 Line whole_line(const BoxGrid& grid);
 
-/// Points that are looked at together when a line is pruned.
-inline constexpr std::size_t longest_stretch = 32;
-
-/// Bounds cells; keeps its buffers.
-class CellBounder {
-  public:
-    using Points = Line;
-
-    /// Keeps references to both.
-    CellBounder(const BoxGrid& grid, WorstBox& worst);
-
-    /// Shrinks and bounds the cell, given the line of a larger one; offers its box if it is a
-    /// single one. False if it holds none worse than the worst box, or nothing is left to split.
-    bool tighten(Cell& cell, const Line& from, Line& mine);
-
-    /// Halves a cell on the axis where that promises most; takes the half with the larger boxes
-    /// away. A half may have no boxes.
-    Cell split(Cell& cell) const;
-
-    /// Comparisons of coordinates until now.
-    [[nodiscard]] std::uint64_t work() const { return work_; }
-
-  private:
-    /// Decided points of a line next to each other.
-    struct Stretch {
-        std::size_t first;
-        std::size_t last;
-    };
-
-    void refine(const Cell& cell, const Line& from, Line& to);
-    [[nodiscard]] double bound(const Line& line) const;
-    bool check_exactly(const Cell& cell, const Line& line, double bound);
-    [[nodiscard]] double worst_inside(const Stretch& stretch, const Line& line) const;
-    [[nodiscard]] bool may_prune(const Stretch& stretch, const Line& line) const;
-    void find_useful(const Stretch& stretch, const Line& line);
-    void prune(Line& line);
-
-    const BoxGrid& grid_;
-    WorstBox& worst_;
-    double scale_;
-    double weight_;
-    double rounding_;
-    std::uint64_t work_ = 0;
-
-    // What is known of the cell at hand.
-    Side side_ = Side::open;
-    std::vector<RankSet> outer_;  ///< on every axis but the first, inside for some box
-    std::vector<RankSet> inner_;  ///< and inside for all
-    double largest_ = 0;          ///< section of the cell's boxes, times the scale
-    double smallest_ = 0;
-    std::array<bool, longest_stretch> useful_{};  ///< of the points of a stretch
-};
+/// Explores a task from the line of all points.
+void explore(const BoxGrid& grid, const Line& line, Task& task, const SearchLimits& limits,
+             const RunContext& run);
 
 }  // namespace stipple::discrepancy::extreme

@@ -24,10 +24,7 @@ class FreeBoxes final : public Problem {
         return cells;
     }
 
-    void explore(Task& task) const override {
-        CellBounder bounder(grid_, task.worst);
-        Explorer(bounder, line_, task, limits_, run_).explore();
-    }
+    void explore(Task& task) const override { extreme::explore(grid_, line_, task, limits_, run_); }
 
   private:
     const BoxGrid& grid_;

@@ -34,10 +34,7 @@ class AnchoredBoxes final : public Problem {
     }
 
     void explore(Task& task) const override {
-        if (task.cell.side == Side::open)
-            explore_side<Side::open>(task);
-        else
-            explore_side<Side::closed>(task);
+        star::explore(grid_, logs_, points_, task, limits_, run_);
     }
 
     [[nodiscard]] bool by_stages(const Known& known) const override {
@@ -68,12 +65,6 @@ class AnchoredBoxes final : public Problem {
     }
 
   private:
-    template <Side side>
-    void explore_side(Task& task) const {
-        CellBounder<side> bounder(grid_, logs_, task.worst, run_);
-        Explorer(bounder, points_, task, limits_, run_).explore();
-    }
-
     /// An upper bound for about an eighth of the work or time that is left.
     void cover(Known& known, std::uint64_t work) {
         covered_ = true;
