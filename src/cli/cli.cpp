@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/cli.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <exception>
 #include <map>

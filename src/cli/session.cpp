@@ -8,10 +8,8 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <ctime>
 #include <fstream>
-#include <limits>
 #include <utility>
 
 #include "core/bytes/file_bytes.hpp"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 
 #include "core/bytes/file_bytes.hpp"
 #include "core/bytes/npy_header.hpp"

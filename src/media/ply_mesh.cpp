@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <string_view>
 
 #include "core/bytes/raw_numbers.hpp"

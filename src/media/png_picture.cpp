@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <boost/crc.hpp>
 #include <csetjmp>
 #include <cstdint>

@@ -3,7 +3,6 @@
 
 #include <charconv>
 #include <limits>
-#include <optional>
 #include <string_view>
 
 #include "core/bytes/file_bytes.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "plot/distance_chart.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -4,7 +4,6 @@
 // every analyzer; and the page that shows sets side by side.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "study/study_summary.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/text.hpp"

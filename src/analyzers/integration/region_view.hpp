@@ -6,7 +6,6 @@
 
 #include <optional>
 #include <span>
-#include <string_view>
 
 #include "core/domain.hpp"
 #include "math/geometry/vector3.hpp"

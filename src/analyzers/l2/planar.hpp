@@ -31,7 +31,6 @@
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cstddef>
-#include <cstdint>
 
 #include "analyzers/l2/kinds.hpp"
 #include "core/point_set.hpp"

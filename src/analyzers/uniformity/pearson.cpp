@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "analyzers/uniformity/cell_grid.hpp"
 #include "core/error.hpp"

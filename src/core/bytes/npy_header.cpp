@@ -2,7 +2,6 @@
 #include "core/bytes/npy_header.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include "core/error.hpp"
 #include "core/text.hpp"

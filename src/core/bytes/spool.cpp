@@ -5,11 +5,10 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <filesystem>
 
 #include "core/bytes/file_bytes.hpp"
-#include "core/text.hpp"
+#include "core/error.hpp"
 
 namespace stipple {
 

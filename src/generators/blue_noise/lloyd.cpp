@@ -20,8 +20,6 @@
 //         doi:10.1137/S0036144599352836. Stippling: A. Secord, NPAR (2002) 37-43,
 //         doi:10.1145/508530.508537 (rho itself, not squared).
 
-#include <algorithm>
-
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
 #include "generators/blue_noise/planar_start.hpp"

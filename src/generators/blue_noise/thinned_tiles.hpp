@@ -20,7 +20,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "generators/generator.hpp"

@@ -22,7 +22,6 @@
 #include "math/neighbors/void_and_cluster.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "core/error.hpp"

@@ -25,7 +25,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "core/error.hpp"
 #include "generators/generator.hpp"

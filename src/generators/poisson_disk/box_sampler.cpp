@@ -10,7 +10,6 @@
 // Cost    O(n) time; see maximal_disks.hpp. The samplers of plane and space are 2.6 and 4.6 times
 //         as fast, and have their place beside this one for that.
 
-#include <cmath>
 #include <type_traits>
 
 #include "generators/box_space.hpp"

@@ -9,9 +9,7 @@
 // Shape   D directions, m_k cells along each, fewer than 2^32 in all.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>

@@ -3,7 +3,6 @@
 // How many darts of a round fall on a piece of a box: a Poisson number, drawn once for the piece.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

@@ -18,7 +18,6 @@
 // Cost    45 ns a number on one core; memory for the points beside the file's bytes.
 // Source  T. Bray, RFC 8259, 2017.
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"

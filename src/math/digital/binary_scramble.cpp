@@ -2,7 +2,6 @@
 #include "math/digital/binary_scramble.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/machine/wide.hpp"
 #include "math/digital/scramble_stream.hpp"

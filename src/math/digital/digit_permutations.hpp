@@ -19,7 +19,6 @@
 //          A. B. Owen, "A randomized Halton algorithm in R", arXiv:1706.02808 (2017).
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>

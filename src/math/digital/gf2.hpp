@@ -8,7 +8,6 @@
 
 #include <bit>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 #include "math/combinatorics/primes.hpp"

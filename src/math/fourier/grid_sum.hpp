@@ -10,7 +10,6 @@
 //         grids.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <span>

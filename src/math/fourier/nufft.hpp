@@ -26,11 +26,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "math/fourier/grid_sum.hpp"
 #include "math/fourier/kaiser_bessel.hpp"

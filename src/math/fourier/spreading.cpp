@@ -2,11 +2,9 @@
 #include "math/fourier/spreading.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <utility>
 
 #include "core/machine/wide.hpp"
 #include "core/parallel.hpp"

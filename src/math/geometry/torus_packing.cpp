@@ -2,7 +2,6 @@
 #include "math/geometry/torus_packing.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <optional>
 
 #include "core/machine/int128.hpp"

@@ -16,8 +16,6 @@
 
 #include "math/integrands/integrands.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 

@@ -20,7 +20,6 @@
 //         doi:10.1007/978-1-4613-8643-8.
 
 #include <algorithm>
-#include <limits>
 #include <numbers>
 
 #include "core/domain.hpp"

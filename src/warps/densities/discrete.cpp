@@ -18,7 +18,6 @@
 // Source  A. J. Walker, ACM Trans. Math. Software 3 (1977) 253-256, doi:10.1145/355744.355749;
 //         M. D. Vose, IEEE Trans. Software Eng. 17 (1991) 972-975, doi:10.1109/32.92917 (aliases).
 
-#include <cmath>
 #include <numeric>
 
 #include "core/error.hpp"

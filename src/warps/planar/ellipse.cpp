@@ -17,7 +17,6 @@
 //         (max(a, b) + |cx| + |cy|). Forward and back again is the same point within 1e-14 of
 //         |c| + max(a, b), times max(a, b) / min(a, b). The same bits on every machine.
 
-#include <array>
 #include <numbers>
 
 #include "core/error.hpp"

@@ -7,7 +7,6 @@
 #include <array>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "core/options.hpp"
 #include "math/geometry/edge_frame.hpp"

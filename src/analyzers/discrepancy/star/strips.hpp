@@ -29,7 +29,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <span>
 #include <vector>
 
 #include "analyzers/discrepancy/box_grid.hpp"

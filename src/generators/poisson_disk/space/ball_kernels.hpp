@@ -10,8 +10,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
-#include <cstdint>
 #include <span>
 
 #include "generators/poisson_disk/gaps.hpp"

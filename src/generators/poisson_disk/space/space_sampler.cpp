@@ -11,7 +11,6 @@
 // Cost    O(n) time; on one core 2 us a point. Memory: 230 bytes a point.
 
 #include <bit>
-#include <cmath>
 #include <cstring>
 
 #include "core/machine/wide.hpp"

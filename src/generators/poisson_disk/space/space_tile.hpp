@@ -11,10 +11,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "generators/poisson_disk/space/ball_kernels.hpp"

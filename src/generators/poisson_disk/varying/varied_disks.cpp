@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <boost/container/static_vector.hpp>
-#include <cmath>
 #include <deque>
 #include <ranges>
 #include <tuple>
