@@ -8,7 +8,6 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "core/utf8.hpp"
 #include "io/files.hpp"
 #include "io/source_text.hpp"
 #include "pipeline/chain.hpp"

@@ -2,6 +2,9 @@
 #include "cli/session.hpp"
 
 #include <fmt/format.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <pthread.h>
 #include <unistd.h>
 
@@ -14,12 +17,21 @@
 
 #include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
-#include "core/machine/allocated_bytes.hpp"
 #include "core/text.hpp"
-#include "core/utf8.hpp"
 
 namespace stipple::cli {
 namespace {
+
+/// Bytes that the program has allocated and not freed, libraries' included; 0 where the system's
+/// allocator does not tell.
+std::uint64_t allocated_bytes() {
+#ifdef __GLIBC__
+    const auto heap = ::mallinfo2();
+    return heap.uordblks + heap.hblkhd;  // small blocks of all arenas, and large ones
+#else
+    return 0;
+#endif
+}
 
 std::stop_source& interrupts() {
     static auto* const source = new std::stop_source;  // signals may come when statics are gone

@@ -16,7 +16,6 @@
 #include "io/files.hpp"
 #include "io/source_text.hpp"
 #include "pipeline/ranks.hpp"
-#include "study/spec_list.hpp"
 #include "study/study_config.hpp"
 #include "study/study_file.hpp"
 #include "study/study_run.hpp"

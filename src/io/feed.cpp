@@ -10,7 +10,6 @@
 #include <cerrno>
 
 #include "core/bytes/file_bytes.hpp"
-#include "core/bytes/file_rules.hpp"
 #include "core/error.hpp"
 #include "io/source_text.hpp"
 

@@ -17,10 +17,8 @@
 #include <vector>
 
 #include "core/bytes/file_bytes.hpp"
-#include "core/bytes/file_rules.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "core/utf8.hpp"
 
 namespace stipple::io {
 namespace {

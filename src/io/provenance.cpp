@@ -9,7 +9,6 @@
 
 #include "core/json.hpp"
 #include "core/text.hpp"
-#include "core/utf8.hpp"
 
 namespace stipple::io {
 namespace {

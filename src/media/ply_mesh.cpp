@@ -6,7 +6,6 @@
 #include "core/bytes/raw_numbers.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "core/utf8.hpp"
 #include "media/token_file.hpp"
 #include "media/triangle_mesh.hpp"
 

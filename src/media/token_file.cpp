@@ -7,7 +7,7 @@
 
 #include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
-#include "core/utf8.hpp"
+#include "core/text.hpp"
 
 namespace stipple {
 namespace {

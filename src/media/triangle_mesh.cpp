@@ -8,7 +8,6 @@
 #include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "core/utf8.hpp"
 #include "media/token_file.hpp"
 
 namespace stipple {

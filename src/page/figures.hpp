@@ -14,7 +14,7 @@
 
 #include "core/point_set.hpp"
 #include "page/content.hpp"
-#include "plot/drawing/theme.hpp"
+#include "plot/drawing/drawing.hpp"
 #include "plot/points_picture.hpp"
 #include "stipple/report.hpp"
 

@@ -10,7 +10,6 @@
 
 #include "plot/drawing/drawing.hpp"
 #include "plot/drawing/panel.hpp"
-#include "plot/drawing/theme.hpp"
 
 namespace stipple::plot {
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/utf8.hpp"
+#include "core/text.hpp"
 #include "io/format.hpp"
 #include "plot/drawing/dot_matrix.hpp"
 #include "plot/drawing/ticks.hpp"

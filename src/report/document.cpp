@@ -12,7 +12,6 @@
 #include "core/json.hpp"
 #include "core/options.hpp"
 #include "core/text.hpp"
-#include "core/utf8.hpp"
 #include "stipple/analyze.hpp"
 
 namespace stipple {

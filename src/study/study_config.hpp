@@ -8,6 +8,7 @@
 // data/study.schema.json says the same for editors.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -24,5 +25,15 @@ StudySettings parse_study_config(std::string_view json, const std::string& sourc
 
 /// All keys that a configuration may have.
 std::vector<std::string> study_config_keys();
+
+// Several counts in one text: what a study sweeps over.
+
+/// Whole numbers: lists 16,64,256; ranges by a factor 16..65536*2 or a step 10..50+10; and
+/// 2^4..2^16 or 16..65536, where both ends are powers of one base, all of its powers between. A
+/// range ends at the last number that is not above its end.
+/// @throws Error(usage) naming `who`: no numbers, outside of [low, high], an empty range, a number
+/// that stands twice.
+std::vector<std::uint64_t> parse_counts(std::string_view text, std::string_view who,
+                                        std::uint64_t low, std::uint64_t high);
 
 }  // namespace stipple

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/utf8.hpp"
+#include "core/text.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "core/utf8.hpp"
+#include "core/text.hpp"
 #include "pipeline/chain.hpp"
 #include "plot/distance_chart.hpp"
 #include "plot/domain_outline.hpp"

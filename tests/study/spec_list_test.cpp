@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "study/spec_list.hpp"
+#include "study/study_config.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

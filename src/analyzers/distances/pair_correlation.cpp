@@ -41,7 +41,6 @@
 #include "analyzers/analyzer.hpp"
 #include "analyzers/distances/distances.hpp"
 #include "analyzers/distances/pair_counts.hpp"
-#include "analyzers/distances/pair_measure.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 

@@ -109,13 +109,6 @@ struct Compensated {
     T error;
 };
 
-/// What a product has to heed of a factor.
-enum class Rounding {
-    none,         ///< it has no error term
-    compensated,  ///< it has one
-    above_one     ///< it is given as what it is more than 1, without an error term
-};
-
 /// base + a b: the base is at least as large as |a b|.
 STIPPLE_INLINE Compensated<Group> raised(const Group& a, const Group& b, const Group& base) {
     const Group high = fused(a, b, base);
@@ -131,37 +124,20 @@ STIPPLE_INLINE Compensated<Group> raised(const Group& a, const Group& b,
     return out;
 }
 
-/// |x - y| - vertex of positions in column 0 and, if there are any, rests in column 1. Without
-/// rounding.
-template <bool rests>
+/// |x - y| - vertex of positions in column 0 and rests in column 1. Without rounding.
 STIPPLE_INLINE Compensated<Group> from_vertex(const double* row, const double* block,
                                               const AxisConstants& axis) {
-    const Group vertex = all(same(axis.vertex));
     const Group t = columns(block) - rows(row);
-    if constexpr (!rests) return {flipped(t, t) - vertex, all(V{})};
     const Group rest = columns(block + block_width) - rows(row + block_width);
     const Group whole = t + rest;
-    return {flipped(t, whole) - vertex, flipped(rest, whole)};
+    return {flipped(t, whole) - all(same(axis.vertex)), flipped(rest, whole)};
 }
 
-/// One minimum, of numbers without error terms.
-struct Minimum {
-    static constexpr std::size_t columns_of_factor = 1;
-    static constexpr bool separates = true;
-    static constexpr Rounding rounding = Rounding::none;
-    STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
-                                                    const AxisConstants&) {
-        return {least(columns(block), rows(row)), all(V{})};
-    }
-    /// Of the points of a block that come before the others.
-    STIPPLE_INLINE static Compensated<V> own(const double* block) { return {load(block), V{}}; }
-};
-
 /// One minimum: of the numbers of the point that comes first in the order of column 0.
-struct MinimumCompensated {
+struct Minimum {
     static constexpr std::size_t columns_of_factor = 3;
     static constexpr bool separates = true;
-    static constexpr Rounding rounding = Rounding::compensated;
+    static constexpr bool above_one = false;
     STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
                                                     const AxisConstants&) {
         const Group mine = rows(row);
@@ -170,6 +146,7 @@ struct MinimumCompensated {
             where_less(mine, other, rows(row + block_width), columns(block + block_width)),
             where_less(mine, other, rows(row + 2 * block_width), columns(block + 2 * block_width))};
     }
+    /// Of the points of a block that come before the others.
     STIPPLE_INLINE static Compensated<V> own(const double* block) {
         return {load(block + block_width), load(block + 2 * block_width)};
     }
@@ -179,7 +156,7 @@ struct MinimumCompensated {
 struct TwoSided {
     static constexpr std::size_t columns_of_factor = 2;
     static constexpr bool separates = false;
-    static constexpr Rounding rounding = Rounding::above_one;
+    static constexpr bool above_one = true;  ///< factors are given as what they are more than 1
     STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
                                                     const AxisConstants&) {
         const Group none = all(V{});
@@ -189,17 +166,14 @@ struct TwoSided {
     }
 };
 
-/// A parabola of the distance. Without compensation its base has neither an offset nor an error.
-template <bool compensated, bool rests>
+/// A parabola of the distance.
 struct Bernoulli {
-    static constexpr std::size_t columns_of_factor = rests ? 2 : 1;
+    static constexpr std::size_t columns_of_factor = 2;
     static constexpr bool separates = false;
-    static constexpr Rounding rounding = Rounding::compensated;
+    static constexpr bool above_one = false;
     STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
                                                     const AxisConstants& axis) {
-        const auto [u, rest] = from_vertex<rests>(row, block, axis);
-        if constexpr (!compensated) return raised(u, u, all(same(axis.base)));
-        if constexpr (!rests) return raised(u, u, axis);
+        const auto [u, rest] = from_vertex(row, block, axis);
         Compensated<Group> out = raised(u, u, axis);
         out.error = fused(u + u, rest, out.error);
         return out;
@@ -208,19 +182,18 @@ struct Bernoulli {
 
 /// The mixture kernel: a parabola of the distance over a sum of a number of either point, which
 /// has no rounding.
-template <bool rests>
 struct Mixture {
-    static constexpr std::size_t columns_of_factor = rests ? 4 : 3;
+    static constexpr std::size_t columns_of_factor = 4;
     static constexpr bool separates = false;
-    static constexpr Rounding rounding = Rounding::compensated;
+    static constexpr bool above_one = false;
     STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
                                                     const AxisConstants& axis) {
-        constexpr std::size_t height = (columns_of_factor - 2) * block_width;
-        constexpr std::size_t error = (columns_of_factor - 1) * block_width;
-        const auto [u, rest] = from_vertex<rests>(row, block, axis);
+        constexpr std::size_t height = 2 * block_width;
+        constexpr std::size_t error = 3 * block_width;
+        const auto [u, rest] = from_vertex(row, block, axis);
         Compensated<Group> out = raised(u, u, columns(block + height) + rows(row + height));
         out.error = out.error + (columns(block + error) + rows(row + error));
-        if constexpr (rests) out.error = fused(u + u, rest, out.error);
+        out.error = fused(u + u, rest, out.error);
         return out;
     }
 };
@@ -229,7 +202,7 @@ struct Mixture {
 struct OnePlusMinima {
     static constexpr std::size_t columns_of_factor = 3;
     static constexpr bool separates = false;
-    static constexpr Rounding rounding = Rounding::compensated;
+    static constexpr bool above_one = false;
     STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
                                                     const AxisConstants& axis) {
         const Group x = rows(row);
@@ -246,16 +219,14 @@ struct OnePlusMinima {
 
 template <class Kernel, class T>
 STIPPLE_INLINE void multiply(Compensated<T>& product, const Compensated<T>& by) {
-    if constexpr (Kernel::rounding == Rounding::above_one) {
+    if constexpr (Kernel::above_one) {
         const T next = fused(product.value, by.value, product.value);
         const T rounded = fused(product.value, by.value, product.value - next);
         product.error = fused(product.error, by.value, product.error + rounded);
         product.value = next;
     } else {
         const T next = product.value * by.value;
-        T rounded = fused(product.value, by.value, -next);
-        if constexpr (Kernel::rounding == Rounding::compensated)
-            rounded = fused(product.value, by.error, rounded);
+        const T rounded = fused(product.value, by.error, fused(product.value, by.value, -next));
         product.error = fused(product.error, by.value, rounded);
         product.value = next;
     }
@@ -288,7 +259,7 @@ STIPPLE_INLINE Compensated<Group> first_factor(const GroupPair& g, std::size_t k
     const PointProducts& own = g.pair.column_products;
     if constexpr (Kernel::separates) return {columns(own.value + k), columns(own.error + k)};
     const std::size_t factor = g.pair.factors.front();
-    if constexpr (Kernel::rounding != Rounding::above_one) return factor_of<Kernel>(g, factor, k);
+    if constexpr (!Kernel::above_one) return factor_of<Kernel>(g, factor, k);
     const Group more = factor_of<Kernel>(g, factor, k).value;
     const Group one = all(same(1));
     const Group value = more + one;
@@ -326,8 +297,8 @@ STIPPLE_INLINE void add_lanes(const GroupPair& g, std::size_t lane, LaneSums& su
     for (std::size_t r = 0; r < apart; ++r) {
         const PointProducts& own = g.pair.row_products;
         if constexpr (Kernel::separates)
-            multiply<MinimumCompensated, V>(
-                totals[r], {same(own.value[g.first + r]), same(own.error[g.first + r])});
+            multiply<Minimum, V>(totals[r],
+                                 {same(own.value[g.first + r]), same(own.error[g.first + r])});
         add(total, totals[r]);
     }
     std::memcpy(sums.sum + lane, &total.value, sizeof(V));
@@ -366,20 +337,12 @@ inline PairKernel kernel_for(PairForm form) {
     switch (form) {
         case PairForm::minimum:
             return kernel_of<Minimum>();
-        case PairForm::minimum_compensated:
-            return kernel_of<MinimumCompensated>();
         case PairForm::two_sided:
             return kernel_of<TwoSided>();
         case PairForm::bernoulli:
-            return kernel_of<Bernoulli<false, false>>();
-        case PairForm::bernoulli_compensated:
-            return kernel_of<Bernoulli<true, false>>();
-        case PairForm::bernoulli_with_rests:
-            return kernel_of<Bernoulli<true, true>>();
+            return kernel_of<Bernoulli>();
         case PairForm::mixture:
-            return kernel_of<Mixture<false>>();
-        case PairForm::mixture_with_rests:
-            return kernel_of<Mixture<true>>();
+            return kernel_of<Mixture>();
         default:
             return kernel_of<OnePlusMinima>();
     }

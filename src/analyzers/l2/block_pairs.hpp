@@ -18,17 +18,7 @@ constexpr std::size_t block_width = 64;  ///< points of a block
 constexpr std::size_t max_lanes = 8;     ///< of the widest vector
 
 /// The factors of block_pair_kernels.hpp.
-enum class PairForm {
-    minimum,
-    minimum_compensated,
-    two_sided,
-    bernoulli,
-    bernoulli_compensated,
-    bernoulli_with_rests,
-    mixture,
-    mixture_with_rests,
-    one_plus_minima
-};
+enum class PairForm { minimum, two_sided, bernoulli, mixture, one_plus_minima };
 
 /// What is the same for all points on the axis of a factor.
 struct AxisConstants {

@@ -10,7 +10,6 @@
 #include <span>
 
 #include "analyzers/l2/axis_factor.hpp"
-#include "analyzers/l2/fixed_point.hpp"
 #include "core/machine/int128.hpp"
 #include "core/parallel.hpp"
 

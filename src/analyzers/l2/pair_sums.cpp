@@ -231,8 +231,6 @@ struct Numbers {
     std::vector<PointNumbers> of;
     std::size_t factors = 0;
     Quad means = 0;  ///< mean of the products of the factors' means
-    bool rests = false;
-    bool errors = false;  ///< of values
 };
 
 Numbers numbers_of(const PointSet& points, const Axes& axes, const RunContext& run) {
@@ -252,10 +250,6 @@ Numbers numbers_of(const PointSet& points, const Axes& axes, const RunContext& r
         numbers.means += mean.value();
     }
     numbers.means /= points.count();
-    for (const PointNumbers& number : numbers.of) {
-        numbers.rests = numbers.rests || number.rest != 0;
-        numbers.errors = numbers.errors || number.value.low != 0;
-    }
     return numbers;
 }
 
@@ -329,37 +323,21 @@ std::vector<std::size_t> block_order(const PointSet& points, const Axes& axes, b
     return order;
 }
 
-PairForm form_of(const FactorForm& form, Kind kind, const Numbers& numbers,
-                 const std::vector<AxisConstants>& factors) {
+PairForm form_of(const FactorForm& form, Kind kind) {
     if (form.is_two_sided()) return PairForm::two_sided;
     if (form.is_one_plus_minima()) return PairForm::one_plus_minima;
-    if (kind == Kind::mixture)
-        return numbers.rests ? PairForm::mixture_with_rests : PairForm::mixture;
-    if (!form.is_bernoulli())
-        return numbers.errors ? PairForm::minimum_compensated : PairForm::minimum;
-    const bool plain = std::ranges::all_of(factors, [](const AxisConstants& axis) {
-        return axis.offset == 0 && axis.base_error == 0;
-    });
-    if (numbers.rests) return PairForm::bernoulli_with_rests;
-    return plain ? PairForm::bernoulli : PairForm::bernoulli_compensated;
+    if (kind == Kind::mixture) return PairForm::mixture;
+    return form.is_bernoulli() ? PairForm::bernoulli : PairForm::minimum;
 }
 
 /// The columns of a point that the kernels of a form want, and what may follow them.
 std::array<double, 4> columns_of(PairForm form, const PointNumbers& point, double root) {
     const double value = root * root * point.value.high;
     const double error = root * root * point.value.low;
-    switch (form) {
-        case PairForm::minimum:
-        case PairForm::two_sided:
-            return {value, error};
-        case PairForm::minimum_compensated:
-        case PairForm::one_plus_minima:
-            return {point.position, value, error};
-        case PairForm::mixture:
-            return {root * point.position, value, error};
-        default:
-            return {root * point.position, root * point.rest, value, error};
-    }
+    if (form == PairForm::two_sided) return {value, error};
+    if (form == PairForm::minimum || form == PairForm::one_plus_minima)
+        return {point.position, value, error};
+    return {root * point.position, root * point.rest, value, error};
 }
 
 struct Factors {
@@ -440,7 +418,7 @@ Square pair_square(const PointSet& points, Kind kind, const AxisWeights& weights
     const Numbers numbers = numbers_of(points, axes, run);
     const Factors factors = factors_of(axes);
     const Scaling scaling = scaling_of(numbers, factors.forms);
-    const PairForm form = form_of(axes.forms[0], kind, numbers, factors.constants);
+    const PairForm form = form_of(axes.forms[0], kind);
     const BlockTable table = table_of(form, numbers, scaling, factors.constants,
                                       block_order(points, axes, kind == Kind::centered));
     const DoubleDouble sum = sum_over_pairs(table, widest, run);

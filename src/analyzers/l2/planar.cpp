@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "analyzers/l2/fixed_point.hpp"
+#include "analyzers/l2/axis_factor.hpp"
 #include "core/machine/int128.hpp"
 #include "core/parallel.hpp"
 #include "math/combinatorics/radix_sort.hpp"

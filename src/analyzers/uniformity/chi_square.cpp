@@ -65,7 +65,6 @@
 #include "analyzers/uniformity/cell_grid.hpp"
 #include "analyzers/uniformity/cube_rows.hpp"
 #include "analyzers/uniformity/pearson.hpp"
-#include "analyzers/uniformity/verdict.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "math/functions/distributions.hpp"

@@ -3,13 +3,17 @@
 // Points as points of the cube of their domain, on which what is uniform there is uniform here.
 #pragma once
 
+#include <fmt/format.h>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "analyzers/outside.hpp"
+#include "analyzers/uniformity/pearson.hpp"
 #include "core/domain.hpp"
+#include "core/options.hpp"
 #include "stipple/report.hpp"
 #include "stipple/run.hpp"
 
@@ -25,5 +29,40 @@ void tell_axes(const Domain& domain, Report& report);
 /// are counted, and get numbers that mean nothing.
 std::vector<double> cube_rows(const Domain& domain, std::span<const double> rows,
                               std::uint64_t first, Outside& outside, const RunContext& run);
+
+// What tests of points have in common: the level that decides, and the end of their reports.
+
+inline constexpr Param<double> level_option{
+    .name = "level",
+    .fallback = 0.001,
+    .low = 0,
+    .high = 0.5,
+    .low_open = true,
+    .help = "Significance: a p-value below it decides the verdict"};
+
+inline constexpr Param<Choice> expect_uniformity_option{
+    .name = "expect",
+    .choices = "uniform|stratified",
+    .help = "Fail (exit code 1) when the verdict is another; stratified points are not 'uniform'"};
+
+inline constexpr std::string_view uniformity_verdicts = "uniform|non-uniform|stratified";
+
+/// One of these verdicts, by the tails on one grid or two: which of them is the smaller, and whether
+/// the p-value is below the level.
+inline std::string verdict_of(const Tails& plain, const Tails* second, double level) {
+    const auto clumped = [&](const Tails& tails) {
+        return tails.upper < tails.lower && p_value_of(tails, second ? &tails : nullptr) < level;
+    };
+    if (p_value_of(plain, second) >= level) return "uniform";
+    return clumped(plain) || (second && clumped(*second)) ? "non-uniform" : "stratified";
+}
+
+/// Adds the verdict that a p-value led to, and complains if another one was wanted; no word: any.
+inline void add_verdict(Report& report, const std::string& verdict, double p,
+                        const std::string& wanted) {
+    report.add("verdict", verdict);
+    if (!wanted.empty() && wanted != verdict)
+        report.unmet(fmt::format("expected {}, found {} (p = {:.3g})", wanted, verdict, p));
+}
 
 }  // namespace stipple::analyzers

@@ -39,7 +39,6 @@
 #include "analyzers/analyzer.hpp"
 #include "analyzers/uniformity/cube_rows.hpp"
 #include "analyzers/uniformity/kolmogorov.hpp"
-#include "analyzers/uniformity/verdict.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "math/combinatorics/radix_sort.hpp"

@@ -34,7 +34,6 @@
 #include "analyzers/analyzer.hpp"
 #include "analyzers/uniformity/cube_rows.hpp"
 #include "analyzers/uniformity/pearson.hpp"
-#include "analyzers/uniformity/verdict.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 

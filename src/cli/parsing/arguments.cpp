@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/parsing/arguments.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -53,6 +54,249 @@ void check_choices(const Arguments& arguments) {
         if (common != nullptr && common->option.type == "choice")
             static_cast<void>(common->option.parse(text));
     }
+}
+
+namespace table {
+namespace {
+
+using enum Verb;
+constexpr Verb writers = generate | warp | convert;
+constexpr Verb readers = warp | analyze | convert | plot | report;
+constexpr Verb workers = writers | analyze | plot | study | report | reproduce;
+
+constexpr double most_points = 0x1p53;
+constexpr double most_dimensions = 1'000'000;
+constexpr double most_sets = 1'000'000'000;
+constexpr double most_work = 0x1p60;
+
+const std::vector<CommonOption> rows = {
+    {"--generators", "SPECS", "", "generators to compare: sobol:scramble=owen,halton", study, true},
+    {"--analyze", "SPECS", "", "analyzers to run: star-discrepancy,integration:integrand=...",
+     study, true},
+    {"--config", "FILE", "",
+     "a study as JSON, as data/study.schema.json says; options on the command line override it",
+     study},
+    {"-n,--count", "COUNTS", "1024", "points in a set: 16,64,256 or 2^4..2^16 or 16..65536*2",
+     study},
+    {"-d,--dimension", "DIMENSIONS", "2", "one or several, written as for -n", study},
+    {"-s,--seed", "S", "1", "the first 64-bit seed; 'random' draws one and reports it", study},
+    {"-m,--sets,--seeds", "R", "1",
+     "sets of each generator, dimension and count: seeds S, S + 1, ...", study, false, 1,
+     most_points},
+    {"-n,--count", "N", "1024", "points in a set; 1e6, 2^20 and 64k (= 65536) are accepted",
+     generate, false, 1, most_points},
+    {"-d,--dimension", "D", "2", "dimension", generate, false, 1, most_dimensions},
+    {"-d,--dimension", "D", "", "coordinates of a point; required for raw binary files", readers,
+     false, 1, most_dimensions},
+    {"-s,--seed", "S", "1", "64-bit seed; 'random' draws one and reports it", generate},
+    {"-s,--seed", "S", "1", "64-bit seed of a scramble; 'random' draws one and reports it", warp},
+    {"-m,--sets", "R", "1", "independent realizations, with seeds S, S + 1, ...", generate, false,
+     1, most_sets},
+    {"-m,--sets", "R", "1", "independent replications by a scramble, with seeds S, S + 1, ...",
+     warp, false, 1, most_sets},
+    {"--generate", "GENERATOR[:OPT=V,...]", "",
+     "measure generated sets, without intermediate files: -n, -d, --seed, --sets, --start "
+     "and --warp as in 'stipple generate'",
+     analyze},
+    {"--generate", "GENERATOR[:OPT=V,...]", "",
+     "a generated set, listed after the INPUTs; all share -n, -d, --seed, --start and --warp",
+     report, true},
+    {"-n,--count", "N", "1024", "points of a set of --generate", analyze | report, false, 1,
+     most_points},
+    {"-s,--seed", "S", "1", "64-bit seed of --generate; 'random' draws one and reports it",
+     analyze | report},
+    {"-m,--sets", "R", "1", "sets of --generate, with seeds S, S + 1, ...", analyze, false, 1,
+     most_sets},
+    {"-w,--warp", "NAME[:OPT=V,...]", "", "warp or scramble of --generate", analyze | report, true},
+    {"--start", "I", "0", "index of the first point of --generate", analyze | report, false, 0,
+     most_points},
+    {"--start", "I", "0", "index of a sequence's first point", generate, false, 0, most_points},
+    {"--shard", "I/K", "0/1",
+     "the I-th of K (from 0) contiguous parts; concatenated they are the whole set", generate},
+    {"--bounds", "LO..HI,...", "", "scale to a box: one range for all coordinates, or one for each",
+     generate},
+    {"--bounds", "LO..HI,...", "",
+     "the box that the points lie in; analyzers of the unit cube first map it to the cube",
+     analyze},
+    {"-w,--warp", "NAME[:OPT=V,...]", "",
+     "warp or scramble the points; NAME@I,J takes two coordinates", generate, true},
+    {"-w,--warp", "NAME[:OPT=V,...]", "", "warp or scramble before measuring, in order", study,
+     true},
+    {"--keys", "KEY,...", "",
+     "results to keep, by name or by a dotted part of it: value, radial.power, mean[0]; "
+     "default: all numbers",
+     study},
+    {"--curves", "", "", "also keep lists, a row for each number: radial.power[3]", study},
+    {"--time-limit", "SECONDS", "",
+     "limit for making a set, and for each measure of it; what takes longer fails", study},
+    {"--no-seconds", "", "", "omit the timing columns, so that every run gives the same bytes",
+     study},
+    {"--summary", "", "",
+     "means with standard errors, t and bootstrap intervals, medians, and pairwise "
+     "comparisons of generators with Holm-corrected p-values",
+     study},
+    {"--pairs", "welch|paired", "welch",
+     "compare by Welch's t test, or by paired differences of sets with one seed", study},
+    {"--confidence", "C", "0.95", "confidence level of the intervals", study},
+    {"--bootstrap", "B", "2000", "bootstrap resamples", study, false, 1, 10'000'000},
+    {"--resume", "", "", "continue the study in the output file; start it if there is none", study},
+    {"--overwrite", "", "", "replace the study that the file holds", study},
+    {"--yes", "", "", "start even with more than 10 million rows", study},
+    {"--with-pdf", "", "", "add a column with the density of each point", generate | warp},
+    {"--with-weight", "", "",
+     "add a column with 1 / density: the mean of f times weight estimates the integral of f",
+     generate | warp},
+    {"--inverse", "", "", "map points back to the unit cube", warp},
+    {"--coordinates", "I,J,...", "", "coordinates to warp, from 1; the same as WARP@I,J", warp},
+    {"--domain", "SPEC", "",
+     "domain of the points: unit-cube, disk, triangle:vertices=[...], ...; default: as the file "
+     "states",
+     analyze | plot | report},
+    {"--rescale", "", "", "first map the bounding box of the points to the unit cube", analyze},
+    {"--average", "", "",
+     "one result, the mean over all sets, with standard errors where they apply", analyze},
+    {"--check", "[KEY<VALUE]", "",
+     "exit with 1 unless it holds; also <= > >= == !=; mean[0] picks one of a list; alone: "
+     "valid==true",
+     analyze, true},
+    {"--fail-on", "KEY>VALUE", "",
+     "exit with 1 if it holds for any set, or if bounds cannot exclude it: "
+     "star-discrepancy.value>0.01; also < <= >= == !=",
+     report, true},
+    {"--max-work", "N", "1e9",
+     "comparisons of each search for a worst box (a few seconds); a search that stops there "
+     "gives rigorous bounds",
+     report, false, 1, most_work},
+    {"--concat", "", "", "join all INPUTs into one set, in order, such as the shards of a set",
+     analyze | convert},
+    {"--column", "X,Y,...", "", "columns to read, by name or number (from 1)", readers},
+    {"--from", "FORMAT", "", "format of the input; default: from its extension or first bytes",
+     readers},
+    {"-o,--output", "FILE", "-",
+     "- is standard output; {set} and {seed} in the name make a file for each set", writers},
+    {"-o,--output", "FILE", "-", "- is standard output", analyze | list | plot | study | report},
+    {"-o,--output", "FILE", "", "also write the reproduced points", reproduce},
+    {"--input", "FILE", "",
+     "a file that the points were made from, under whatever name; no other file is read", reproduce,
+     true},
+    {"-f,--format", "FORMAT", "", "file format; default: from the extension, else csv", writers},
+    {"-f,--format", "text|json|csv", "", "output format; default: text on a terminal, else json",
+     analyze},
+    {"-f,--format", "svg|png|text", "",
+     "picture format; default: from the extension; text is Braille, as wide as the terminal", plot},
+    {"--chart", "points|density|histogram|distances|spectrum|radial|pair-correlation|differential",
+     "points",
+     "what to draw of points: their places, counts, a histogram, distances to the nearest "
+     "neighbour, or what analyze finds with its default options",
+     plot},
+    {"--key", "KEY", "", "result to draw of a report, such as prefixes.value or minimum", plot},
+    {"--set", "K", "", "draw only set or report K, from 0; default: all", plot},
+    {"--theme", "light|dark", "light", "colours", plot},
+    {"--width", "W", "", "pixels, or characters of text; default: automatic", plot},
+    {"--height", "H", "", "pixels, or lines of text; default: automatic", plot},
+    {"--title", "TEXT", "", "default: from the provenance; '' for none", plot},
+    {"--x-scale", "linear|log", "", "scale of curves and histograms; default: automatic", plot},
+    {"--y-scale", "linear|log", "", "scale of curves and histograms; default: automatic", plot},
+    {"-f,--format", "csv|jsonl", "", "table format; default: from the extension, else csv", study},
+    {"--output-dtype", "f64|f32", "f64", "number type of binary formats that are written", writers},
+    {"--input-dtype", "f64|f32", "f64", "number type of raw binary input", readers},
+    {"--dtype", "f64|f32", "f64", "short for --output-dtype", generate | convert},
+    {"--dtype", "f64|f32", "f64", "short for --input-dtype", analyze | plot | report},
+    {"--dtype", "f64|f32", "f64", "short for --input-dtype and --output-dtype", warp},
+    {"--precision", "P", "",
+     "digits after the point, truncated; default: the shortest text that reads back exactly",
+     writers, false, 0, 1000},
+    {"--meta", "", "",
+     "write the provenance: in '# ' lines on top of text formats; for npy, bin and psa in "
+     "FILE.meta.json",
+     writers},
+    {"--no-header", "", "", "omit the header line of csv", writers},
+    {"--json", "", "", "as JSON, complete and stable, for programs", list | reproduce},
+    {"--json", "", "", "the page's content as JSON; also for -o FILE.json", report},
+    {"--man", "", "", "as a manual page, for man", help},
+    {"-o,--output", "FOLDER", "", "with --man: all manual pages, as files in a folder", help},
+    {"--markdown", "", "", "as tables in Markdown", list},
+    {"--threads", "T", "0", "0 = all cores; never changes a result", workers, false, 0, 4096},
+    {"--max-memory", "SIZE", "80 % of the machine's",
+     "refuse, before starting, what would need more; 500M, 2G", workers},
+    {"--quiet", "", "", "no warnings and no progress", workers},
+    {"--progress", "auto|always|never", "auto", "a bar on stderr, after 0.5 s on a terminal",
+     workers}};
+
+}  // namespace
+}  // namespace table
+
+const std::vector<VerbInfo>& verbs() {
+    static const auto table = [] {
+        std::vector<VerbInfo> all;
+        for (const auto& [verb, name] : {std::pair{Verb::generate, "generate"},
+                                         {Verb::warp, "warp"},
+                                         {Verb::analyze, "analyze"},
+                                         {Verb::convert, "convert"},
+                                         {Verb::plot, "plot"},
+                                         {Verb::study, "study"},
+                                         {Verb::report, "report"},
+                                         {Verb::list, "list"},
+                                         {Verb::reproduce, "reproduce"},
+                                         {Verb::help, "help"},
+                                         {Verb::completions, "completions"}})
+            all.push_back({verb_page(name), verb, name});
+        return all;
+    }();
+    return table;
+}
+
+const VerbInfo* find_verb(std::string_view name) {
+    const auto it = std::ranges::find(verbs(), name, &VerbInfo::name);
+    return it == verbs().end() ? nullptr : &*it;
+}
+
+const VerbInfo& info_of(Verb verb) { return *std::ranges::find(verbs(), verb, &VerbInfo::verb); }
+
+CommonOption::CommonOption(std::string_view all_names, std::string_view placeholder,
+                           const char* shown_default, const char* help, Verb of_verbs, bool several,
+                           double low, double high)
+    : names(all_names),
+      value(placeholder),
+      fallback(shown_default),
+      option{.name = std::string(all_names.substr(all_names.rfind("--") + 2)),
+             .type = "text",
+             .fallback = fallback,
+             .optional = true,
+             .low = low,
+             .high = high,
+             .help = help},
+      verbs(of_verbs),
+      repeatable(several) {
+    if (value.empty()) option.type = "flag";
+    if (high > 0) option.type = "integer";
+    if (value == "FILE" || value == "FOLDER") option.type = "file";
+    if (value.find('|') == std::string::npos) return;
+    option.type = "choice";
+    for (const auto word : split(value, '|')) option.choices.emplace_back(word);
+}
+
+std::vector<const CommonOption*> options_of(Verb verb) {
+    std::vector<const CommonOption*> found;
+    for (const CommonOption& option : table::rows)
+        if ((static_cast<unsigned>(option.verbs) & static_cast<unsigned>(verb)) != 0)
+            found.push_back(&option);
+    return found;
+}
+
+const CommonOption* find_common(std::string_view name, Verb verb) {
+    for (const CommonOption* option : options_of(verb))
+        for (const auto known : split(option->names, ','))
+            if (known == name) return option;
+    return nullptr;
+}
+
+std::vector<Option> own_options(Verb verb, const UnitInfo& unit) {
+    std::vector<Option> own = unit.options;
+    std::erase_if(own, [&](const Option& option) {
+        return find_common("--" + option.name, verb) != nullptr;
+    });
+    return own;
 }
 
 }  // namespace stipple::cli

@@ -33,7 +33,6 @@
 #include <numeric>
 
 #include "core/text.hpp"
-#include "generators/blue_noise/crowd_extent.hpp"
 #include "generators/blue_noise/eliminator.hpp"
 #include "generators/box_space.hpp"
 #include "generators/density_options.hpp"

@@ -30,7 +30,7 @@
 #include <array>
 
 #include "core/rng.hpp"
-#include "generators/binary_sequence.hpp"
+#include "generators/net_sequence.hpp"
 
 namespace stipple::generators::pmj {
 namespace {

@@ -22,8 +22,8 @@
 //         doi:10.1007/978-1-4612-2552-2_19 (scrambling); A. Helmer, P. Christensen, A. Kensler,
 //         EGSR (2021), doi:10.2312/sr.20211287 (that it makes such sequences).
 
-#include "generators/binary_sequence.hpp"
 #include "generators/digital/sobol_directions.hpp"
+#include "generators/net_sequence.hpp"
 
 namespace stipple::generators::pmj02 {
 namespace {

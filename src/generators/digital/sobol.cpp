@@ -18,8 +18,8 @@
 //         doi:10.1016/0041-5553(67)90144-9. Order: I. A. Antonov, V. M. Saleev, ibid. 19(1) (1979)
 //         252-256, doi:10.1016/0041-5553(79)90085-5. Directions: S. Joe, F. Y. Kuo, SIAM J. Sci.
 //         Comput. 30 (2008) 2635-2654, doi:10.1137/070709359.
-#include "generators/binary_sequence.hpp"
 #include "generators/digital/sobol_directions.hpp"
+#include "generators/net_sequence.hpp"
 
 namespace stipple::generators::sobol {
 namespace {

@@ -15,7 +15,7 @@
 #include <boost/random/detail/sobol_table.hpp>
 
 #include "core/error.hpp"
-#include "core/utf8.hpp"
+#include "core/text.hpp"
 #include "media/token_file.hpp"
 
 namespace stipple {

@@ -18,7 +18,6 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
-#include "core/utf8.hpp"
 #include "io/decimal.hpp"
 #include "io/provenance.hpp"
 

@@ -22,7 +22,7 @@
 
 #include "core/error.hpp"
 #include "core/json.hpp"
-#include "core/utf8.hpp"
+#include "core/text.hpp"
 #include "io/columns.hpp"
 #include "io/decimal.hpp"
 #include "io/format.hpp"

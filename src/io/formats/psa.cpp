@@ -7,7 +7,6 @@
 // Source  the text files of PSA, the program for point set analysis by T. Schloemer.
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "core/utf8.hpp"
 #include "io/decimal.hpp"
 #include "io/format.hpp"
 #include "io/formats/delimited.hpp"

@@ -18,7 +18,6 @@
 #include "core/text.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
-#include "math/functions/real_power.hpp"
 #include "math/functions/roots.hpp"
 #include "math/functions/trigonometry.hpp"
 

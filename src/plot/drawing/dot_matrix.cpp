@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/utf8.hpp"
+#include "core/text.hpp"
 
 namespace stipple::plot {
 DotMatrix::DotMatrix(std::size_t columns, std::size_t rows)

@@ -5,7 +5,6 @@
 #include <cstdint>
 
 #include "core/text.hpp"
-#include "core/utf8.hpp"
 
 namespace stipple::plot {
 

@@ -11,7 +11,6 @@
 #include <sstream>
 
 #include "core/text.hpp"
-#include "core/utf8.hpp"
 
 namespace stipple::plot {
 

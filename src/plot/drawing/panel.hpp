@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "plot/drawing/drawing.hpp"
-#include "plot/drawing/theme.hpp"
 #include "plot/drawing/ticks.hpp"
 
 namespace stipple::plot {

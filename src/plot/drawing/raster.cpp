@@ -10,7 +10,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/utf8.hpp"
+#include "core/text.hpp"
 #include "media/png_picture.hpp"
 #include "plot/drawing/drawing.hpp"
 #include "plot/drawing/letters.hpp"

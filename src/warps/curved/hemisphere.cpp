@@ -28,7 +28,6 @@
 
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
-#include "math/functions/real_power.hpp"
 #include "math/geometry/disk_maps.hpp"
 #include "warps/curved/lobe.hpp"
 #include "warps/curved/placement.hpp"

@@ -34,7 +34,6 @@
 #include "math/densities/quadrature.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
-#include "math/functions/real_power.hpp"
 #include "math/functions/roots.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "warps/common_options.hpp"

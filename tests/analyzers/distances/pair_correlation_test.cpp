@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "analyzers/distances/pair_measure.hpp"
+#include "analyzers/distances/pair_counts.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"
 #include "support/units.hpp"

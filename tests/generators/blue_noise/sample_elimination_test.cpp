@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "core/rng.hpp"
-#include "generators/blue_noise/crowd_extent.hpp"
 #include "generators/blue_noise/eliminator.hpp"
 #include "support/pictures.hpp"
 #include "support/spacing.hpp"

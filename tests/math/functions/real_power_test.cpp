@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "math/functions/real_power.hpp"
+#include "math/functions/logarithm.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,6 @@
 #include "analyzers/discrepancy/coordinate_ascent.hpp"
 #include "analyzers/discrepancy/extreme/cell.hpp"
 #include "analyzers/discrepancy/star/search.hpp"
-#include "analyzers/discrepancy/star/sweep.hpp"
 #include "core/parallel.hpp"
 
 namespace stipple::discrepancy::extreme {

@@ -16,7 +16,7 @@
 //
 // Cost    O(n d).
 
-#include "analyzers/discrepancy/star/bounds.hpp"
+#include "analyzers/discrepancy/star/search.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -16,7 +16,7 @@
 // Promise certain: rounding is allowed for. Never depends on the number of threads.
 // Source  B. Doerr, M. Gnewuch, A. Srivastav, J. Complexity 21 (2005) 691-709 (delta-covers).
 
-#include "analyzers/discrepancy/star/bounds.hpp"
+#include "analyzers/discrepancy/star/search.hpp"
 
 #include <algorithm>
 #include <cmath>

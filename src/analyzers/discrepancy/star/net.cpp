@@ -17,7 +17,7 @@
 // Source  the bound is that of H. Niederreiter, "Random Number Generation and Quasi-Monte Carlo
 //         Methods", SIAM 1992, chapter 4, for base 2; the proof is above.
 
-#include "analyzers/discrepancy/star/bounds.hpp"
+#include "analyzers/discrepancy/star/search.hpp"
 
 #include <algorithm>
 #include <bit>

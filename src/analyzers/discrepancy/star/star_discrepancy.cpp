@@ -48,7 +48,6 @@
 #include "analyzers/discrepancy/extreme/search.hpp"
 #include "analyzers/discrepancy/search_limits.hpp"
 #include "analyzers/discrepancy/star/search.hpp"
-#include "analyzers/discrepancy/star/sweep.hpp"
 #include "analyzers/discrepancy/star/tables.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"

@@ -9,14 +9,223 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
-#include "generators/poisson_disk/plane/coverage_table.hpp"
-#include "generators/poisson_disk/plane/fixed_positions.hpp"
+#include "generators/poisson_disk/gaps.hpp"
+#include "generators/poisson_disk/grid.hpp"
+#include "generators/poisson_disk/near_disks.hpp"
 #include "generators/poisson_disk/tile_rounds.hpp"
 
 namespace stipple::poisson_disk {
+
+// Where the points of a tile of cells in the plane are, in 16 bits along each direction, so that
+// the 25 cells about a place are looked at by ten loads, four cells at a time.
+//
+// Coordinates count 1/8192 of the radius and go around every 8 radii. All that is compared lies
+// within three cells, at most 2.2 radii, so that differences modulo 2^16 are right. A cell without
+// a point has what is 4 radii to the side of its middle, and so nearer than a radius to nothing
+// that is compared with it.
+//
+// Shape   rows of up to 64 cells, with two more at each end.
+// Promise distances are off by less than `position_slack` units.
+
+struct FixedPosition {
+    std::int16_t x;
+    std::int16_t y;
+};
+
+inline constexpr double units_per_radius = 8192;
+inline constexpr double position_slack = 2;
+
+using FourNumbers [[gnu::vector_size(16)]] = std::int32_t;
+
+/// Squared distances from one position to four that lie one behind the other.
+[[gnu::always_inline]] inline FourNumbers four_squares(const FixedPosition* four,
+                                                       FixedPosition from) {
+    using Halves [[gnu::vector_size(16)]] = std::uint16_t;
+    Halves off;
+    std::memcpy(&off, four, sizeof off);
+    off -= (Halves)(FourNumbers{} + std::bit_cast<std::int32_t>(from));
+    const FourNumbers x = (FourNumbers)off << 16 >> 16;
+    const FourNumbers y = (FourNumbers)off >> 16;
+    return x * x + y * y;  // y is small, so that this is below 2^31
+}
+
+/// The positions of a tile's cells.
+class FixedPositions {
+  public:
+    FixedPositions() = default;
+
+    static constexpr std::size_t halo = 2;  ///< cells of other tiles about those of the tile
+    static constexpr std::size_t stride = 64 + 2 * halo;
+
+    /// Positions that a tile of so many rows of cells needs.
+    static constexpr std::size_t needed(std::size_t rows) { return (rows + 2 * halo) * stride; }
+
+    /// @param origin of the tile's first cell; @param cell sides of a cell; both in units
+    /// @param rows of cells; @param room for the positions
+    FixedPositions(const std::array<double, 2>& origin, const std::array<double, 2>& cell,
+                   std::size_t rows, FixedPosition* room)
+        : origin_(origin), cell_(cell), positions_(room) {
+        for (std::size_t y = 0; y < rows + 2 * halo; ++y)
+            for (std::size_t x = 0; x < stride; ++x) {
+                const double to_middle = 0.5 - double{halo};
+                positions_[y * stride + x] = {
+                    wrapped(origin[0] + cell[0] * to_middle + cell[0] * static_cast<double>(x) +
+                            half_turn),
+                    wrapped(origin[1] + cell[1] * to_middle + cell[1] * static_cast<double>(y))};
+            }
+    }
+
+    /// The position of a place, in cells from the tile's first.
+    [[nodiscard]] FixedPosition position_of(double x, double y) const {
+        return {wrapped(origin_[0] + cell_[0] * x), wrapped(origin_[1] + cell_[1] * y)};
+    }
+
+    /// A cell's position and those behind it.
+    [[nodiscard]] const FixedPosition* from(std::size_t number) const {
+        return positions_ + number;
+    }
+
+    void put(std::size_t number, FixedPosition position) { positions_[number] = position; }
+
+    /// Number of a cell, counted from the first one of the halo.
+    static constexpr std::size_t number(std::size_t x, std::size_t y) { return y * stride + x; }
+
+    /// Whether one of the points in the 25 cells from `first` on covers a place in their middle.
+    /// @param sure, possible squared distances below which it does, and from which on it does not
+    [[nodiscard, gnu::always_inline]] Hit hit(std::size_t first, FixedPosition place,
+                                              std::int32_t sure, std::int32_t possible) const {
+        const FixedPosition* row = positions_ + first;
+        FourNumbers least = FourNumbers{} + possible;
+        for (std::size_t y = 0; y < 5; ++y, row += stride)
+            for (std::size_t x = 0; x < 2; ++x) {
+                const FourNumbers squares = four_squares(row + x, place);
+                least = squares < least ? squares : least;
+            }
+        const std::int32_t nearest =
+            std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
+        return nearest < sure ? Hit::yes : nearest < possible ? Hit::unsure : Hit::no;
+    }
+
+    /// Calls visit(position) for those of the points in 25 cells that are nearer than that.
+    template <class Visit>
+    [[gnu::always_inline]] void for_near(std::size_t first, FixedPosition place,
+                                         std::int32_t squared, const Visit& visit) const {
+        for (std::size_t y = 0; y < 5; ++y, first += stride)
+            for (std::size_t x = 0; x < 5; ++x) {
+                const FixedPosition& p = positions_[first + x];
+                const int across = static_cast<std::int16_t>(p.x - place.x);
+                const int up = static_cast<std::int16_t>(p.y - place.y);
+                if (across * across + up * up < squared) visit(p);
+            }
+    }
+
+  private:
+    static constexpr double half_turn = 32768;
+
+    /// Modulo 2^16; units are few, and none farther below 0 than the halo is wide.
+    static std::int16_t wrapped(double units) {
+        return static_cast<std::int16_t>(
+            static_cast<std::uint16_t>(static_cast<std::int64_t>(units + 2 * half_turn)));
+    }
+
+    std::array<double, 2> origin_{};
+    std::array<double, 2> cell_{};
+    FixedPosition* positions_ = nullptr;
+};
+
+// What a disk covers of the 5 x 5 cells about its own: a bit for each of 8 x 8 sub-cells, looked up
+// by where in its cell the centre lies, to one of Q^2 places. What has its bit set is covered for
+// every centre in that place. So whether a dart can stay is mostly known from one bit, and whether
+// a cell is covered from one word.
+//
+// Shape   grids where a radius leads across two cells along both directions.
+// Cost    25 words a disk; 200 kB for a table.
+// Promise what has its bit set is covered by one disk alone, and not within float_slack of its rim.
+
+class CoverageTable {
+  public:
+    using Place = std::array<float, 2>;
+    using Row = std::array<SubcellBits, 5>;
+
+    explicit CoverageTable(const Grid<2>& grid) : grid_(grid) {
+        for (std::size_t k = 0; k < 2; ++k)
+            sides_[k] = static_cast<float>(grid.scales[k] / double{subcells<2>});
+        while (places_ * 2 <= most_places && places_ * places_ * worth < grid.cell_count)
+            places_ *= 2, ++place_bits_;
+        rows_.reserve(places_ * places_ * 5);
+        for (std::size_t place = 0; place < places_ * places_; ++place)
+            for (std::size_t row = 0; row < 5; ++row) rows_.push_back(row_of(place, row));
+    }
+
+    /// Five rows of five cells, from two before the one with the centre on, along both directions.
+    /// @param digits of the place in the cell, 32 binary ones along each direction
+    [[nodiscard]] const Row* about(const std::array<std::uint32_t, 2>& digits) const {
+        const unsigned drop = 31 - place_bits_;
+        const std::size_t place =
+            std::size_t{digits[1] >> 1 >> drop} << place_bits_ | digits[0] >> 1 >> drop;
+        return rows_.data() + 5 * place;
+    }
+
+  private:
+    /// A table takes its time as well: cells for each place of a centre that make the next finer
+    /// one worth it.
+    static constexpr std::size_t worth = 128;
+    static constexpr std::size_t most_places = 32;
+
+    /// What a disk covers of five cells along the first direction, wherever in a place it lies.
+    [[nodiscard]] Row row_of(std::size_t place, std::size_t row) const {
+        const std::array<std::size_t, 2> at{place % places_, place / places_};
+        const std::array<double, 2> there{-2, static_cast<double>(row) - 2};
+        Place center;
+        Place play;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double size = grid_.scales[k] / static_cast<double>(places_);
+            center[k] = static_cast<float>((static_cast<double>(at[k]) + 0.5) * size -
+                                           there[k] * grid_.scales[k]);
+            play[k] = static_cast<float>(size / 2);
+        }
+        Row out;
+        for (SubcellBits& bits : out) {
+            bits = covered(center, play);
+            center[0] -= static_cast<float>(grid_.scales[0]);
+        }
+        return out;
+    }
+
+    /// Sub-cells of a cell that a disk covers, whose centre is within `play` of `center` along each
+    /// direction.
+    [[nodiscard]] SubcellBits covered(const Place& center, const Place& play) const {
+        constexpr std::size_t p = subcells<2>;
+        SubcellBits bits = 0;
+        for (std::size_t line = 0; line < p; ++line) {
+            const float middle = (static_cast<float>(line) + 0.5F) * sides_[1];
+            const float y = std::abs(center[1] - middle) + sides_[1] / 2 + play[1];
+            const float left = 1 - float_slack - y * y;
+            if (left <= 0) continue;
+            const float half = std::sqrt(left) - play[0];
+            const float begin = std::ceil((center[0] - half) / sides_[0]);
+            const float end = std::floor((center[0] + half) / sides_[0]);
+            const auto b = static_cast<unsigned>(std::clamp(begin, 0.0F, float{p}));
+            const auto e = static_cast<unsigned>(std::clamp(end, 0.0F, float{p}));
+            if (b < e) bits |= SubcellBits{(1U << e) - (1U << b)} << (line * p);
+        }
+        return bits;
+    }
+
+    const Grid<2>& grid_;
+    Place sides_{};            ///< of a sub-cell, in radii
+    std::size_t places_ = 4;   ///< of a centre along a direction
+    unsigned place_bits_ = 2;  ///< their number's
+    std::vector<Row> rows_;    ///< for each place of a centre
+};
 
 /// Cells along each side of a tile.
 inline constexpr int plane_side = 1 << plane_tile_bits;

@@ -11,10 +11,8 @@
 #include <thread>
 
 #include "analyzers/discrepancy/coordinate_ascent.hpp"
-#include "analyzers/discrepancy/star/bounds.hpp"
 #include "analyzers/discrepancy/star/search.hpp"
 #include "analyzers/discrepancy/star/strips.hpp"
-#include "analyzers/discrepancy/star/sweep.hpp"
 #include "core/rng.hpp"
 #include "support/lattices.hpp"
 #include "support/units.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "generators/poisson_disk/plane/coverage_table.hpp"
+#include "generators/poisson_disk/plane/plane_tile.hpp"
 
 #include <gtest/gtest.h>
 
