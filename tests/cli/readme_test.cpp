@@ -74,4 +74,18 @@ TEST(Guide, TablesAreTheRegistry) {
             << " --markdown': run scripts/update_guide";
 }
 
+// What other packages print, by scripts/peers, which must find a wrong number, too.
+TEST(Guide, OtherPackagesNumbersAreOurs) {
+    const Sandbox box;
+    const std::string peers = "python3 " STIPPLE_SOURCE_DIR "/scripts/peers ";
+    const Outcome table = box.shell(peers + "$(command -v stipple)");
+    EXPECT_EQ(table.code, 0) << table.err;
+    EXPECT_EQ(table.err, "");
+    EXPECT_THAT(table.out, HasSubstr("\nSciPy "));
+    const Outcome wrong = box.shell(peers + "/bin/true");
+    EXPECT_EQ(wrong.code, 1);
+    EXPECT_THAT(page("data/guide/coming-from.md"), HasSubstr(good(box.shell(peers + "--guide"))))
+        << "run scripts/update_guide";
+}
+
 }  // namespace stipple::testing::readme_test
