@@ -1,4 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "cli/cli.hpp"
+#include "cli/verbs.hpp"
 
 int main(int argc, char** argv) { return stipple::cli::run(argc, argv); }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "cli/cli.hpp"
-
 #include <array>
 #include <exception>
 #include <map>

@@ -16,6 +16,9 @@
 
 namespace stipple::cli {
 
+/// The whole program: parses, works, prints; returns the exit code of the contract.
+int run(int argc, char** argv);
+
 int generate(const Arguments& arguments, Session& session);
 int warp(const Arguments& arguments, Session& session);
 int analyze(const Arguments& arguments, Session& session);

@@ -4,6 +4,8 @@
 // formatted block by block on any thread and joined in order.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
@@ -133,6 +135,12 @@ const Format* format_of_extension(std::string_view path);
 
 /// Whether a file's extension says float32: ".f32".
 bool extension_is_single(std::string_view path);
+
+/// Radius of the disks of `count` points on an area, in its units, of which 1000 make a picture:
+/// 0.15 of the mean distance sqrt(area / count), between 0.5 and 10.
+inline double disk_radius(double area, double count) {
+    return std::clamp(0.15 * std::sqrt(area / std::max(count, 1.0)), 0.5, 10.0);
+}
 
 /// The format that the first bytes tell: npy, json, jsonl; else csv (which reads all plain text).
 const Format& format_of_bytes(std::string_view bytes);

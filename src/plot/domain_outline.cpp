@@ -1,5 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "plot/domain_outline.hpp"
+//
+// The outline of a planar domain, traced with its membership test.
+//
+// Shape   any domain of two coordinates.
+// Cost    about 60 000 membership tests.
+// Beware  parts and holes narrower than 1/200 of the box may be missed.
+// Source  marching squares: W. E. Lorensen, H. E. Cline, SIGGRAPH Comput. Graph. 21 (1987) 163-169,
+//         doi:10.1145/37402.37422, in two dimensions.
+
+#include "plot/points_picture.hpp"
 
 #include <array>
 #include <cmath>

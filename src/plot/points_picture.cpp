@@ -10,8 +10,6 @@
 #include <tuple>
 
 #include "io/format.hpp"
-#include "io/formats/disk_size.hpp"
-#include "plot/domain_outline.hpp"
 
 namespace stipple::plot {
 namespace {

@@ -48,6 +48,10 @@ struct PointsPicture {
     std::size_t most_coordinates = most_pair_coordinates;  ///< of which pairs are drawn
 };
 
+/// Lines along the boundary, in the domain's coordinates; none where the domain has no inside (a circle)
+/// or no end.
+std::vector<std::vector<Position>> outline_of(const Domain& domain);
+
 /// The box that a picture of the sets shows: their domain's and all points. Where points are outside
 /// the unit cube that is their default domain, the box is that of the points.
 Box shown_box(std::span<const PointSet* const> sets);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "math/arithmetic/running_sums.hpp"
+#include "math/arithmetic/double_double.hpp"
 
 namespace stipple::warps {
 

@@ -14,7 +14,6 @@
 #include "core/text.hpp"
 #include "pipeline/chain.hpp"
 #include "plot/distance_chart.hpp"
-#include "plot/domain_outline.hpp"
 #include "plot/drawing/dot_matrix.hpp"
 #include "plot/drawing/letters.hpp"
 #include "plot/text_picture.hpp"

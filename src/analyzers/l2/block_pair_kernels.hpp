@@ -4,7 +4,7 @@
 // term, their products and their sums. This is no header of its own: core/machine/vector_widths.hpp
 // includes it in block_pairs.cpp for STIPPLE_VECTOR_BITS.
 //
-// The factors are those of pair_sums.hpp, with parabolas about their vertices:
+// The factors are those of pair_sums.cpp, with parabolas about their vertices:
 //
 //     a + t (t - 1)             = (a - 1/4) + (t - 1/2)^2
 //     h_x + h_y + t (t - 3/2)   = (h_x + h_y - 9/16) + (t - 3/4)^2

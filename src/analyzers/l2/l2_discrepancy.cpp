@@ -46,10 +46,8 @@
 #include <limits>
 
 #include "analyzers/analyzer.hpp"
-#include "analyzers/l2/divide_and_conquer.hpp"
 #include "analyzers/l2/kinds.hpp"
-#include "analyzers/l2/pair_sums.hpp"
-#include "analyzers/l2/planar.hpp"
+#include "analyzers/l2/squares.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 

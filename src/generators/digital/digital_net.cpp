@@ -13,7 +13,8 @@
 //     dnet      first line `# dnet`, then four numbers: base b, number s of matrices, their columns
 //               k (or the number of points, b^k), and rows r; then a line a matrix: its k columns
 //               as whole numbers below b^r, in whose base b digits the first row is the most
-//               significant (the format of LDData and LatNet Builder);
+//               significant (the format of LDData; LatNet Builder's has another first line, and
+//               no base, which is 2);
 //     dnetup    the same, `# dnetup`, with the first row the least significant;
 //     digits    the same four numbers after `# digits`; then s r lines of k digits, matrix after
 //               matrix, row after row;
@@ -108,6 +109,9 @@ struct Header {
     std::size_t rows = 0;
 };
 
+/// Of LatNet Builder's nets, which do not say their base.
+constexpr std::string_view latnet_title = "# Parameters for a digital net in base 2";
+
 std::string layout_of(const TokenFile& file, std::string_view wanted) {
     if (wanted != "auto") return std::string(wanted);
     const std::string_view line = file.first_line();
@@ -115,6 +119,7 @@ std::string layout_of(const TokenFile& file, std::string_view wanted) {
         const auto words = split(trim(line.substr(1)), ' ');
         for (const char* layout : {"dnet", "dnetup", "digits"})
             if (!words.empty() && trim(words.front()) == layout) return layout;
+        if (line.starts_with(latnet_title)) return "dnet";
     }
     file.refuse({.text = {}, .line = 1, .column = 1},
                 "the first line is not # dnet, # dnetup or # digits; expected one of them, or else "
@@ -124,7 +129,8 @@ std::string layout_of(const TokenFile& file, std::string_view wanted) {
 Header read_header(TokenFile& file) {
     Header header;
     const Token at = file.peek();
-    header.base = static_cast<std::uint32_t>(file.number("the base", 2, BaseNet::largest_base));
+    if (!file.first_line().starts_with(latnet_title))
+        header.base = static_cast<std::uint32_t>(file.number("the base", 2, BaseNet::largest_base));
     if (!is_prime(header.base))
         file.refuse(at, fmt::format("the base {} is not a prime, {} divides it", header.base,
                                     smallest_factor(header.base)));

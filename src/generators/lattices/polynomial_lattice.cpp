@@ -28,8 +28,8 @@
 
 #include "core/error.hpp"
 #include "generators/generator.hpp"
+#include "generators/lattices/lattice_options.hpp"
 #include "generators/lattices/polynomial_search.hpp"
-#include "generators/lattices/product_weights.hpp"
 #include "generators/net_sequence.hpp"
 #include "math/digital/gf2.hpp"
 
@@ -56,19 +56,28 @@ constexpr Param<Numbers> vector_option{
      .help = "Generating vector, polynomials as such numbers; gives the dimension, or more numbers "
              "than that"}};
 
-bool searches(const Values& options) {
-    return options[rule] == "cbc" && !options.given(vector_option);
+bool gives_vector(const Values& options) {
+    return options.given(vector_option) || options.given(vector_file);
 }
 
+bool searches(const Values& options) { return options[rule] == "cbc" && !gives_vector(options); }
+
 void refuse_contradictions(const Values& options) {
-    if (options[rule] == "vector" && !options.given(vector_option))
-        fail(ErrorKind::usage, "--rule: vector needs its --vector");
-    if (options.given(rule) && options[rule] == "cbc" && options.given(vector_option))
+    if (options[rule] == "vector" && !gives_vector(options))
+        fail(ErrorKind::usage, "--rule: vector needs its --vector or --vector-file");
+    if (options.given(vector_option) && options.given(vector_file))
+        fail(ErrorKind::usage,
+             "--vector and --vector-file: either gives the vector; leave one out");
+    if (options.given(rule) && options[rule] == "cbc" && gives_vector(options))
         fail(ErrorKind::usage, "--vector: is of the rule vector; the rule here is cbc");
     check_weights(options, searches(options), "the rule cbc", "vector");
 }
 
 std::uint64_t modulus_for(std::uint64_t count, const Values& options) {
+    const std::uint64_t modulus = vector_in_file(options, true).modulus;
+    if (modulus > 0 && options.given(modulus_option))
+        fail(ErrorKind::usage, "--modulus: {} says its own, {}", options[vector_file], modulus);
+    if (modulus > 0) return modulus;
     if (options.given(modulus_option)) return static_cast<std::uint64_t>(options[modulus_option]);
     const int m = std::max(1, static_cast<int>(std::bit_width(count - 1)));
     if (m > largest_degree)
@@ -93,8 +102,10 @@ void check_search(std::uint64_t count, std::uint64_t modulus) {
 
 Plan plan(const Request& request, const Values& options) {
     refuse_contradictions(options);
-    const std::size_t numbers = options[vector_option].size();
-    const Plan decided = default_plan(request, 1024, options.given(vector_option) ? numbers : 2);
+    const VectorFile file = vector_in_file(options, true);
+    const std::size_t numbers = std::max(file.vector.size(), options[vector_option].size());
+    const Plan decided =
+        default_plan(request, file.points > 0 ? file.points : 1024, numbers > 0 ? numbers : 2);
     const std::uint64_t modulus = modulus_for(decided.count, options);
     const int m = gf2::degree(modulus);
     if (decided.count > std::uint64_t{1} << m)
@@ -106,7 +117,8 @@ Plan plan(const Request& request, const Values& options) {
 
 std::vector<std::uint64_t> given_vector(const Values& options, std::size_t dimension, int m) {
     const std::uint64_t most = (std::uint64_t{1} << m) - 1;
-    return given_components(options[vector_option], dimension, 1, static_cast<double>(most),
+    return given_components(options, vector_in_file(options, true), vector_option, dimension, 1,
+                            static_cast<double>(most),
                             fmt::format("a polynomial in [1, {}]", most));
 }
 
@@ -144,8 +156,8 @@ Generator unit() {
                 "Niederreiter 1992, doi:10.1137/1.9781611970081; "
                 "Baldeaux et al. 2012, doi:10.1007/s11075-011-9497-y",
             .traits = {.prefix = false},
-            .options = Schema(rule, modulus_option, vector_option, product_weights, weight_decay,
-                              binary_scramble),
+            .options = Schema(rule, modulus_option, vector_option, vector_file, product_weights,
+                              weight_decay, binary_scramble),
             .plan = plan,
             .sequence = make,
             .uses_seed = binary_uses_seed,

@@ -36,9 +36,8 @@
 #include "core/text.hpp"
 #include "generators/generator.hpp"
 #include "generators/lattices/component_by_component.hpp"
-#include "generators/lattices/product_weights.hpp"
+#include "generators/lattices/lattice_options.hpp"
 #include "math/arithmetic/ratio.hpp"
-#include "media/token_file.hpp"
 
 namespace stipple::generators::rank1_lattice {
 namespace {
@@ -65,10 +64,6 @@ constexpr Param<double> effort{
 constexpr Param<Numbers> vector{{.name = "vector",
                                  .help = "Generating vector, such as 1,182667,469891; gives the "
                                          "dimension, or more numbers than that"}};
-constexpr Param<Path> vector_file{{.name = "vector-file",
-                                   .help = "File of a generating vector: a line a coordinate, "
-                                           "with its value, or its number from 1 and its value"}};
-
 /// Numbers that are stepped side by side, a few points: none waits for the one before it.
 constexpr std::size_t some_numbers = 64;
 
@@ -138,9 +133,11 @@ std::uint64_t fibonacci_before(std::uint64_t n) {
 Plan plan(const Request& request, const Values& options) {
     const std::string chosen = rule_of(options);
     refuse_contradictions(options, chosen);
-    const std::size_t numbers = options[vector].size();
-    const Plan plan = default_plan(request, chosen == "fibonacci" ? 987 : 1024,
-                                   options.given(vector) ? numbers : 2);
+    const VectorFile file = vector_in_file(options, false);
+    const std::size_t numbers = std::max(file.vector.size(), options[vector].size());
+    const std::uint64_t count = chosen == "fibonacci" ? 987 : 1024;
+    const Plan plan =
+        default_plan(request, file.points > 0 ? file.points : count, numbers > 0 ? numbers : 2);
     if (chosen == "fibonacci") {
         fibonacci_before(plan.count);
         if (plan.dimension > 2)
@@ -155,34 +152,9 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-/// Numbers of a file, one a line, or each behind its number from 1.
-std::vector<std::uint64_t> read_vector(const std::string& path, std::size_t dimension) {
-    TokenFile file(path);
-    std::vector<std::uint64_t> numbers;
-    std::optional<bool> numbered;
-    while (!file.at_end() && numbers.size() < dimension) {
-        const Token token = file.peek();
-        std::uint64_t value = file.number("a component of the vector");
-        if (!numbered) numbered = !file.at_line_end();
-        if (*numbered) {
-            if (value != numbers.size() + 1)
-                file.refuse(token, fmt::format("{} is out of order; expected {}, the number of "
-                                               "the next component",
-                                               value, numbers.size() + 1));
-            value = file.number_on_line("a component of the vector");
-        }
-        file.expect_line_end();
-        numbers.push_back(value);
-    }
-    if (numbers.size() < dimension)
-        file.refuse_whole(fmt::format("{} components are too few; dimension {} needs as many",
-                                      numbers.size(), dimension));
-    return numbers;
-}
-
 std::vector<std::uint64_t> given_vector(const Values& options, std::size_t dimension) {
-    if (options.given(vector_file)) return read_vector(options[vector_file], dimension);
-    return given_components(options[vector], dimension, 0, 0x1p53, "a whole number in [0, 2^53]");
+    return given_components(options, vector_in_file(options, false), vector, dimension, 0, 0x1p53,
+                            "a whole number in [0, 2^53]");
 }
 
 std::vector<std::uint64_t> vector_of(const Plan& plan, const Values& options,
@@ -242,6 +214,11 @@ std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
         std::uint64_t divisor = plan.count;
         for (const std::uint64_t z : given_vector(options, plan.dimension))
             divisor = std::gcd(divisor, z);
+        if (const auto points = vector_in_file(options, false).points; points % plan.count != 0)
+            return {
+                fmt::format("rank1-lattice: {} is a lattice of {} points, which {} does not "
+                            "divide",
+                            options[vector_file], points, plan.count)};
         if (divisor == 1) return {};
         return {
             fmt::format("rank1-lattice: {0} divides the number of points and all of the vector: "

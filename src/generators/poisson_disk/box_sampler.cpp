@@ -13,8 +13,8 @@
 #include <type_traits>
 
 #include "generators/box_space.hpp"
+#include "generators/poisson_disk/grid.hpp"
 #include "generators/poisson_disk/near_disks.hpp"
-#include "generators/poisson_disk/samplers.hpp"
 #include "generators/poisson_disk/tile_rounds.hpp"
 
 namespace stipple::poisson_disk {

@@ -6,7 +6,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
-#include "generators/poisson_disk/samplers.hpp"
+#include "generators/poisson_disk/grid.hpp"
 
 namespace stipple::poisson_disk {
 namespace {

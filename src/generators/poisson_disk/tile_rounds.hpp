@@ -26,7 +26,6 @@
 #include "generators/poisson_disk/near_disks.hpp"
 #include "generators/poisson_disk/pending_darts.hpp"
 #include "generators/poisson_disk/poisson_counts.hpp"
-#include "generators/poisson_disk/samplers.hpp"
 #include "stipple/points.hpp"
 #include "stipple/run.hpp"
 

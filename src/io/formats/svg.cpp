@@ -23,7 +23,6 @@
 #include "io/carried_meta.hpp"
 #include "io/decimal.hpp"
 #include "io/format.hpp"
-#include "io/formats/disk_size.hpp"
 
 namespace stipple::io::svg {
 namespace {

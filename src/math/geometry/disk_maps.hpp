@@ -16,7 +16,7 @@
 #include <cmath>
 
 #include "math/functions/trigonometry.hpp"
-#include "math/geometry/plane_point.hpp"
+#include "math/geometry/vector3.hpp"
 
 namespace stipple {
 

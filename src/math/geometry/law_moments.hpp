@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "core/domain.hpp"
-#include "math/geometry/plane_point.hpp"
 #include "math/geometry/vector3.hpp"
 
 namespace stipple {

@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-#include "math/geometry/plane_point.hpp"
+#include "math/geometry/vector3.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple {

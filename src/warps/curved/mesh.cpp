@@ -27,7 +27,7 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "math/arithmetic/running_sums.hpp"
+#include "math/arithmetic/double_double.hpp"
 #include "math/densities/guide_table.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "media/triangle_mesh.hpp"

@@ -32,7 +32,7 @@
 #include "core/options.hpp"
 #include "math/functions/trigonometry.hpp"
 #include "math/geometry/law_moments.hpp"
-#include "math/geometry/plane_point.hpp"
+#include "math/geometry/vector3.hpp"
 #include "warps/common_options.hpp"
 #include "warps/planar/area_share.hpp"
 #include "warps/row_mapping.hpp"

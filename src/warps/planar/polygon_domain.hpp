@@ -30,8 +30,8 @@
 
 #include "core/domain.hpp"
 #include "math/densities/guide_table.hpp"
-#include "math/geometry/plane_point.hpp"
 #include "math/geometry/polygon_contact.hpp"
+#include "math/geometry/vector3.hpp"
 #include "stipple/run.hpp"
 #include "warps/named_domain.hpp"
 

@@ -15,7 +15,7 @@
 #include "math/functions/trigonometry.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "math/geometry/planar_area.hpp"
-#include "math/geometry/plane_point.hpp"
+#include "math/geometry/vector3.hpp"
 
 namespace stipple::warps {
 

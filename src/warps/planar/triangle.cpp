@@ -34,7 +34,7 @@
 
 #include "core/error.hpp"
 #include "math/geometry/law_moments.hpp"
-#include "math/geometry/plane_point.hpp"
+#include "math/geometry/vector3.hpp"
 #include "warps/planar/flat_domain.hpp"
 #include "warps/row_mapping.hpp"
 

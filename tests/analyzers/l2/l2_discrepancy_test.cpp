@@ -9,8 +9,7 @@
 #include <optional>
 #include <tuple>
 
-#include "analyzers/l2/divide_and_conquer.hpp"
-#include "analyzers/l2/pair_sums.hpp"
+#include "analyzers/l2/squares.hpp"
 #include "core/machine/int128.hpp"
 #include "core/rng.hpp"
 #include "math/arithmetic/double_double.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -236,6 +237,33 @@ TEST(PolynomialLattice, WeightsAndDecaySteerTheSearch) {
     EXPECT_NE(make("polynomial-lattice", request, {{"modulus", "285"}}), plain);
 }
 
+TEST(PolynomialLattice, ReadsLatticesOfOtherPackages) {
+    const PointSet expected =
+        make("polynomial-lattice", {.count = 8}, {{"modulus", "11"}, {"vector", "1,5"}});
+    const auto from = [](const std::string& text, Settings settings = {}) {
+        const TemporaryFile file(text);
+        settings.emplace_back("vector-file", file.path());
+        return make("polynomial-lattice", {}, settings);
+    };
+    EXPECT_EQ(from("# plattice\n2 # base\n2\n3\n11 # modulus\n1\n5\n"), expected);
+    const std::string latnet =
+        "# Parameters for a polynomial lattice rule in base 2\n2  # 2 dimensions\n3\n11\n1\n5\n";
+    EXPECT_EQ(from(latnet), expected);
+    const auto refusal = [&](const std::string& text, const Settings& settings = {}) {
+        return error_of([&] { from(text, settings); });
+    };
+    EXPECT_THAT(refusal(latnet, {{"modulus", "11"}}), ::testing::HasSubstr(" says its own, 11"));
+    EXPECT_THAT(refusal("# lattice\n1\n8\n1\n"),
+                ::testing::HasSubstr("a lattice of whole numbers, which rank1-lattice reads"));
+    EXPECT_THAT(refusal("# plattice\n3\n1\n3\n11\n1\n"), ::testing::HasSubstr("the base 2"));
+    EXPECT_THAT(refusal("# plattice\n2\n1\n3\n16\n1\n"),
+                ::testing::HasSubstr("the modulus, of that degree"));
+    EXPECT_THAT(refusal("# plattice\n2\n1\n3\n11\n8\n"),
+                ::testing::HasSubstr("8 is not a polynomial in [1, 7]"));
+    EXPECT_THAT(refusal(latnet, {{"vector", "1,5"}}),
+                ::testing::HasSubstr("either gives the vector; leave one out"));
+}
+
 TEST(PolynomialLattice, RefusesWhatItCannotMake) {
     const auto refusal = [](const Request& request, const Settings& settings) {
         return error_of([&] { make("polynomial-lattice", request, settings); });
@@ -253,7 +281,7 @@ TEST(PolynomialLattice, RefusesWhatItCannotMake) {
     EXPECT_EQ(refusal(points(8, 2), {{"modulus", "11"}, {"vector", "1,2.5"}}),
               "usage: --vector: 2.5 is not a polynomial in [1, 7]");
     EXPECT_EQ(refusal(points(8, 2), {{"rule", "vector"}}),
-              "usage: --rule: vector needs its --vector");
+              "usage: --rule: vector needs its --vector or --vector-file");
     EXPECT_EQ(refusal(points(8, 2), {{"rule", "cbc"}, {"vector", "1,2"}}),
               "usage: --vector: is of the rule vector; the rule here is cbc");
     EXPECT_EQ(refusal(points(8, 2), {{"decay", "1"}, {"vector", "1,2"}}),

@@ -242,6 +242,33 @@ TEST(Rank1Lattice, ReadsVectorsFromFiles) {
     }
 }
 
+// The header of LDData and LatNet Builder says how many points and coordinates there are.
+TEST(Rank1Lattice, ReadsLatticesOfOtherPackages) {
+    const PointSet expected = make("rank1-lattice", points(8, 3), {{"vector", "1,3,5"}});
+    for (const char* text :
+         {"1\n3\n5\n", "# lattice\n# of somebody\n3  # dimensions\n8\n1\n3\n5\n",
+          "# Parameters for a lattice rule, non-embedded\n3\n8 # n = 8 points\n1 # a_1\n3\n5\n"}) {
+        const TemporaryFile file(text);
+        const Settings settings{{"vector-file", file.path()}};
+        EXPECT_EQ(make("rank1-lattice", {.count = 8}, settings), expected) << text;
+        if (text[0] != '#') continue;
+        EXPECT_EQ(make("rank1-lattice", {}, settings), expected) << text;
+    }
+    const auto refusal = [](const std::string& text) {
+        const TemporaryFile file(text);
+        const std::string error = error_of([&] {
+            make("rank1-lattice", {}, {{"vector-file", file.path()}});
+        });
+        return error.substr(error.find(file.path()) + file.path().size());
+    };
+    EXPECT_EQ(refusal("# plattice\n2\n1\n3\n11\n1\n"),
+              ": a polynomial lattice, which polynomial-lattice reads");
+    EXPECT_EQ(refusal("# Parameters for a polynomial lattice rule in base 2\n1\n3\n11\n1\n"),
+              ": a polynomial lattice, which polynomial-lattice reads");
+    EXPECT_EQ(refusal("# lattice\n3\n8\n1\n3\n"), ": 2 components; expected 3");
+    EXPECT_EQ(refusal("# nothing\n"), ": 0 components; expected some");
+}
+
 TEST(Rank1Lattice, ComplainsOfFilesByLineAndColumn) {
     const auto complaint = [](const std::string& text) {
         const TemporaryFile file(text);

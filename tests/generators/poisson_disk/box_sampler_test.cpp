@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/rng.hpp"
-#include "generators/poisson_disk/samplers.hpp"
+#include "generators/poisson_disk/grid.hpp"
 #include "support/spacing.hpp"
 
 namespace stipple::testing::box_sampler_test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "math/arithmetic/running_sums.hpp"
+#include "math/arithmetic/double_double.hpp"
 
 #include <gtest/gtest.h>
 

@@ -18,9 +18,9 @@
 
 #include "core/machine/large_pages.hpp"
 #include "core/machine/wide.hpp"
+#include "generators/poisson_disk/grid.hpp"
 #include "generators/poisson_disk/near_disks.hpp"
 #include "generators/poisson_disk/plane/plane_tile.hpp"
-#include "generators/poisson_disk/samplers.hpp"
 
 namespace stipple::poisson_disk {
 

@@ -18,7 +18,7 @@
 #include <span>
 
 #include "generators/poisson_disk/gaps.hpp"
-#include "generators/poisson_disk/samplers.hpp"
+#include "generators/poisson_disk/grid.hpp"
 
 namespace stipple::poisson_disk {
 

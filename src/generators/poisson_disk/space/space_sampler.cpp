@@ -14,7 +14,7 @@
 #include <cstring>
 
 #include "core/machine/wide.hpp"
-#include "generators/poisson_disk/samplers.hpp"
+#include "generators/poisson_disk/grid.hpp"
 #include "generators/poisson_disk/space/space_tile.hpp"
 
 namespace stipple::poisson_disk {

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "generators/lattices/lattice_options.hpp"
+
+#include <cmath>
+#include <optional>
+
+#include "core/error.hpp"
+#include "media/token_file.hpp"
+
+namespace stipple {
+namespace {
+
+/// Takes what stands before the vector, which tells how long that is.
+std::size_t read_header(TokenFile& file, bool polynomial, bool with_base, VectorFile& found) {
+    const auto take = [&](std::string_view what, std::uint64_t low, std::uint64_t high) {
+        const std::uint64_t value = file.number(what, low, high);
+        file.expect_line_end();
+        return value;
+    };
+    if (with_base) take("the base 2", 2, 2);
+    const std::size_t dimension = take("the number of dimensions", 1, 1'000'000);
+    if (!polynomial) {
+        found.points = take("the number of points", 1, std::uint64_t{1} << 53);
+        return dimension;
+    }
+    found.points = std::uint64_t{1} << take("the degree of the modulus", 1, 52);
+    found.modulus = take("the modulus, of that degree", found.points, 2 * found.points - 1);
+    return dimension;
+}
+
+}  // namespace
+
+VectorFile vector_in_file(const Values& options, bool polynomial) {
+    VectorFile found;
+    if (!options.given(vector_file)) return found;
+    TokenFile file(options[vector_file]);
+    const std::string_view title = file.first_line();
+    const bool with_base = title.starts_with("# plattice");
+    const bool of_polynomials =
+        with_base || title.starts_with("# Parameters for a polynomial lattice rule");
+    const bool of_numbers =
+        title.starts_with("# lattice") || title.starts_with("# Parameters for a lattice rule");
+    if (polynomial ? of_numbers : of_polynomials)
+        file.refuse_whole(polynomial ? "a lattice of whole numbers, which rank1-lattice reads"
+                                     : "a polynomial lattice, which polynomial-lattice reads");
+    std::size_t wanted = 0;  // 0: all that there are
+    if (of_polynomials || of_numbers) wanted = read_header(file, polynomial, with_base, found);
+    std::optional<bool> numbered;
+    while (!file.at_end()) {
+        const Token token = file.peek();
+        std::uint64_t value = file.number("a component of the vector");
+        if (!numbered) numbered = !file.at_line_end() && wanted == 0;
+        if (*numbered) {
+            const std::size_t next = found.vector.size() + 1;
+            if (value != next)
+                file.refuse(token, fmt::format("{} is out of order; expected {}, the number of "
+                                               "the next component",
+                                               value, next));
+            value = file.number_on_line("a component of the vector");
+        }
+        file.expect_line_end();
+        found.vector.push_back(value);
+    }
+    if (found.vector.empty() || (wanted > 0 && found.vector.size() != wanted))
+        file.refuse_whole(fmt::format("{} components; expected {}", found.vector.size(),
+                                      wanted > 0 ? std::to_string(wanted) : "some"));
+    return found;
+}
+
+void check_weights(const Values& options, bool searches, std::string_view searching,
+                   std::string_view rule) {
+    const bool given = options.given(product_weights);
+    const bool decays = options.given(weight_decay);
+    if (!searches && (given || decays))
+        fail(ErrorKind::usage, "--{}: is of {}; the rule here is {}",
+             given ? product_weights.name : weight_decay.name, searching, rule);
+    if (given && decays)
+        fail(ErrorKind::usage, "--weights and --decay: either gives the weights; leave one out");
+}
+
+std::vector<std::uint64_t> given_components(const Values& options, const VectorFile& file,
+                                            const Param<Numbers>& vector, std::size_t dimension,
+                                            double least, double most, std::string_view range) {
+    std::vector<double> numbers = options[vector];
+    numbers.insert(numbers.end(), file.vector.begin(), file.vector.end());
+    const std::string who = options.given(vector) ? "--vector" : options[vector_file];
+    std::vector<std::uint64_t> components;
+    for (const double z : numbers) {
+        if (!(z >= least && z <= most && z == std::floor(z)))
+            fail(ErrorKind::usage, "{}: {} is not {}", who, z, range);
+        components.push_back(static_cast<std::uint64_t>(z));
+    }
+    if (components.size() < dimension)
+        fail(ErrorKind::usage, "{}: {} components are too few; dimension {} needs as many", who,
+             components.size(), dimension);
+    components.resize(dimension);
+    return components;
+}
+
+std::vector<double> weights_of(const Values& options, std::size_t dimension) {
+    std::vector<double> found = options[product_weights];
+    // By divisions, which round alike everywhere; the library's pow need not.
+    for (std::size_t j = 1; !options.given(product_weights) && j <= dimension; ++j) {
+        found.push_back(1);
+        for (std::int64_t e = 0; e < options[weight_decay]; ++e)
+            found.back() /= static_cast<double>(j);
+    }
+    if (found.size() < dimension)
+        fail(ErrorKind::usage, "--weights: {} numbers for {} coordinates; give one for each",
+             found.size(), dimension);
+    for (const double weight : found)
+        if (!(weight > 0 && weight <= 1e6))
+            fail(ErrorKind::usage, "--weights: {} is outside (0, 1000000]", weight);
+    found.resize(dimension);
+    return found;
+}
+
+}  // namespace stipple
