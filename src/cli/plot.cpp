@@ -20,7 +20,6 @@
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/units.hpp"
-#include "plot/distance_chart.hpp"
 #include "plot/points_picture.hpp"
 #include "plot/report_charts.hpp"
 #include "plot/spectral_table.hpp"

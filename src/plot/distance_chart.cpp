@@ -1,5 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "plot/distance_chart.hpp"
+//
+// Histogram of the distances from each point to its nearest other one, with the density that
+// independent uniform points have:
+//
+//     p(r) = d v_d rho r^(d-1) exp(-rho v_d r^d)
+//
+// where v_d is the volume of the unit ball and rho = n / V.
+//
+// Source  P. Hertz, Math. Ann. 67 (1909) 387-398, doi:10.1007/BF01450410.
+
+#include "plot/points_picture.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -76,4 +76,8 @@ Drawing draw_pairs(const PointsPicture& picture, const PictureStyle& style, cons
 /// The histogram of each coordinate in a panel of its own, at most 6 of them.
 Chart histogram_chart(const PointsPicture& picture);
 
+/// Histogram of the distances to the nearest other point. @throws Error(input) for a set of one point.
+Chart distance_chart(std::span<const PointSet* const> sets, const std::vector<std::string>& names,
+                     const RunContext& run);
+
 }  // namespace stipple::plot

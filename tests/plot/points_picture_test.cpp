@@ -13,7 +13,6 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "pipeline/chain.hpp"
-#include "plot/distance_chart.hpp"
 #include "plot/drawing/dot_matrix.hpp"
 #include "plot/drawing/letters.hpp"
 #include "plot/text_picture.hpp"

@@ -64,16 +64,26 @@ BinaryMatrices van_der_corput_first(std::size_t dimension, std::size_t digits) {
     return matrices;
 }
 
-Initializer read_line(TokenFile& file, std::size_t dimension) {
-    file.number("the dimension that comes next", dimension, dimension);
-    Initializer initial{.degree = file.number_on_line("the degree s", 1, 63)};
-    const std::size_t s = initial.degree;
-    initial.interior =
-        file.number_on_line("the coefficients a", 0, (std::uint64_t{1} << (s - 1)) - 1);
-    for (std::size_t j = 1; j <= s; ++j) {
+/// @param bare the line has no more than m_1 ... m_s: the polynomial is that of the table
+Initializer read_line(TokenFile& file, std::size_t dimension, bool bare) {
+    Initializer initial;
+    if (bare) {
+        if (dimension > JoeKuoTable::max_dimension)
+            file.refuse(file.peek(), "a line more than there are polynomials");
+        initial = from_table(dimension - 2);
+        initial.first.clear();
+    } else {
+        file.number("the dimension that comes next", dimension, dimension);
+        const std::size_t s = initial.degree = file.number_on_line("the degree s", 1, 63);
+        initial.interior =
+            file.number_on_line("the coefficients a", 0, (std::uint64_t{1} << (s - 1)) - 1);
+    }
+    for (std::size_t j = 1; j <= initial.degree; ++j) {
         const Token token = file.peek();
         const std::string what = fmt::format("an odd m_{}", j);
-        initial.first.push_back(file.number_on_line(what, 1, (std::uint64_t{1} << j) - 1));
+        const std::uint64_t most = (std::uint64_t{1} << j) - 1;
+        initial.first.push_back(bare && j == 1 ? file.number(what, 1, most)
+                                               : file.number_on_line(what, 1, most));
         if (initial.first.back() % 2 == 0)
             file.refuse(token, fmt::format("{} is even; expected {}", shown(token.text), what));
     }
@@ -93,11 +103,14 @@ BinaryMatrices sobol_matrices(std::size_t dimension, std::size_t digits) {
 
 BinaryMatrices sobol_matrices(std::size_t dimension, std::size_t digits, const std::string& path) {
     TokenFile file(path);
+    const std::string_view title = file.first_line();
+    const bool bare = (title.starts_with("# sobol") && !title.starts_with("# soboljk")) ||
+                      title.starts_with("# Parameters m_{j,c} for Sobol points");
     if (file.peek().text == "d") file.skip_line();
     BinaryMatrices matrices = van_der_corput_first(dimension, digits);
     std::size_t next = 2;
     for (; !file.at_end(); ++next) {
-        const Initializer initial = read_line(file, next);
+        const Initializer initial = read_line(file, next, bare);
         if (next <= dimension) grow(initial, next - 1, matrices);
     }
     if (next == 2) file.refuse_whole("no direction numbers; expected lines \"d s a m_1 ... m_s\"");

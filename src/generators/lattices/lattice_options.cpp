@@ -11,13 +11,13 @@ namespace stipple {
 namespace {
 
 /// Takes what stands before the vector, which tells how long that is.
-std::size_t read_header(TokenFile& file, bool polynomial, bool with_base, VectorFile& found) {
+std::size_t read_header(TokenFile& file, bool polynomial, VectorFile& found) {
     const auto take = [&](std::string_view what, std::uint64_t low, std::uint64_t high) {
         const std::uint64_t value = file.number(what, low, high);
         file.expect_line_end();
         return value;
     };
-    if (with_base) take("the base 2", 2, 2);
+    if (file.first_line().starts_with("# plattice")) take("the base 2", 2, 2);
     const std::size_t dimension = take("the number of dimensions", 1, 1'000'000);
     if (!polynomial) {
         found.points = take("the number of points", 1, std::uint64_t{1} << 53);
@@ -35,16 +35,15 @@ VectorFile vector_in_file(const Values& options, bool polynomial) {
     if (!options.given(vector_file)) return found;
     TokenFile file(options[vector_file]);
     const std::string_view title = file.first_line();
-    const bool with_base = title.starts_with("# plattice");
-    const bool of_polynomials =
-        with_base || title.starts_with("# Parameters for a polynomial lattice rule");
+    const bool of_polynomials = title.starts_with("# plattice") ||
+                                title.starts_with("# Parameters for a polynomial lattice rule");
     const bool of_numbers =
         title.starts_with("# lattice") || title.starts_with("# Parameters for a lattice rule");
     if (polynomial ? of_numbers : of_polynomials)
         file.refuse_whole(polynomial ? "a lattice of whole numbers, which rank1-lattice reads"
                                      : "a polynomial lattice, which polynomial-lattice reads");
     std::size_t wanted = 0;  // 0: all that there are
-    if (of_polynomials || of_numbers) wanted = read_header(file, polynomial, with_base, found);
+    if (of_polynomials || of_numbers) wanted = read_header(file, polynomial, found);
     std::optional<bool> numbered;
     while (!file.at_end()) {
         const Token token = file.peek();

@@ -207,6 +207,19 @@ TEST(Sobol, ReadsDirectionNumbersAsPublished) {
     EXPECT_TRUE(is_net(mine, 2, 1));
 }
 
+// Of LDData's two forms one leaves the polynomials to a table.
+TEST(Sobol, ReadsDirectionNumbersOfOtherPackages) {
+    const PointSet table = make("sobol", points(64, 5));
+    for (const char* text :
+         {"# sobol\n# five dimensions\n1 # m of the second\n1 3\n1 3 1\n1 1 1\n",
+          "# Parameters m_{j,c} for Sobol points\n1\n1 3\n1 3 1\n1 1 1\n",
+          "# soboljk\n# d s a m\n2 1 0 1\n3 2 1 1 3\n4 3 1 1 3 1\n5 3 2 1 1 1\n"}) {
+        const TemporaryFile numbers(text);
+        EXPECT_EQ(make("sobol", points(64, 5), {{"directions", numbers.path()}}), table) << text;
+    }
+    EXPECT_EQ(complaint("# sobol\n1\n1 2\n"), "input: FILE:3:3: '2' is even; expected an odd m_2");
+}
+
 TEST(Sobol, SaysWhatIsWrongWithDirectionNumbers) {
     EXPECT_EQ(complaint(""),
               "input: FILE: no direction numbers; expected lines \"d s a m_1 ... "
