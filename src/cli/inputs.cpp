@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <random>
 
-#include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
 #include "io/source_text.hpp"

@@ -2,7 +2,6 @@
 #include "media/density_map.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/bytes/file_bytes.hpp"

@@ -7,9 +7,7 @@
 #include <array>
 #include <boost/crc.hpp>
 #include <csetjmp>
-#include <cstdint>
 #include <cstring>
-#include <utility>
 
 #include "core/error.hpp"
 

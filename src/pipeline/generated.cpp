@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <future>
-#include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"

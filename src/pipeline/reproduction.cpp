@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "core/bytes/raw_numbers.hpp"
 #include "core/error.hpp"

@@ -11,7 +11,6 @@
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "io/carried_meta.hpp"
-#include "io/output.hpp"
 
 namespace stipple {
 namespace {

@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
-#include "core/json.hpp"
 #include "core/options.hpp"
 #include "core/text.hpp"
 #include "stipple/analyze.hpp"

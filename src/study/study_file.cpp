@@ -13,7 +13,6 @@
 
 #include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
-#include "core/json.hpp"
 #include "core/text.hpp"
 
 namespace stipple {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/text.hpp"
-#include "study/statistics.hpp"
 
 namespace stipple {
 namespace {

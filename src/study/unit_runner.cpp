@@ -9,10 +9,8 @@
 #include <map>
 #include <mutex>
 #include <new>
-#include <optional>
 #include <thread>
 
-#include "core/error.hpp"
 #include "core/text.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"

@@ -10,7 +10,6 @@
 
 #include "analyzers/analyzer.hpp"
 #include "core/error.hpp"
-#include "core/json.hpp"
 #include "core/text.hpp"
 #include "generators/generator.hpp"
 #include "io/format.hpp"

@@ -8,11 +8,9 @@
 #include <optional>
 #include <queue>
 #include <utility>
-#include <vector>
 
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
-#include "generators/box_space.hpp"
 #include "math/functions/roots.hpp"
 #include "math/neighbors/point_grid.hpp"
 

@@ -4,20 +4,21 @@
 //
 //     phi_b(i) = sum_j a_j b^(-j-1)    where    i = sum_j a_j b^j,  0 <= a_j < b.
 //
-// Permutations of the digits break the correlation of the coordinates: Faure's, the same for all
-// positions j of one base; random ones, one for each position; or Owen's nested ones, one for each
-// position and each choice of the digits before it.
+// Permutations of the digits break the correlation of the coordinates: Faure's, or all but 0
+// reversed, the same for all positions j of one base; random ones, one for each position; or Owen's
+// nested ones, one for each position and each choice of the digits before it.
 //
 // Shape   n x d for d <= 1000; indices below 2^53.
 // Cost    O(n d): a table of reversed low digits makes it one division a coordinate. Owen's takes
 //         O(b) for every digit behind those. With a leap, O(log_b i) a coordinate.
-// Promise without or with Faure's permutations, every coordinate is correctly rounded; with random
+// Promise without or with fixed permutations, every coordinate is correctly rounded; with random
 //         ones, within 2^-52. All are below 1. Any b_1^m1 * ... * b_d^md consecutive points meet
 //         every box of that grid exactly once, also those of a leaped sequence. Under random and
 //         nested permutations each point is uniformly distributed.
 // Beware  dimensions above 10 are strongly correlated at small counts, unless permuted.
 // Source  J. H. Halton, Numer. Math. 2 (1960) 84-90, doi:10.1007/BF01386213; leap: L. Kocis,
 //         W. J. Whiten, ACM Trans. Math. Softw. 23 (1997) 266-294, doi:10.1145/264029.264064;
+//         reverse: B. Vandewoestyne, R. Cools, J. Comput. Appl. Math. 189 (2006) 341-361; other
 //         permutations: math/digital/digit_permutations.hpp, math/digital/base_scramble.hpp.
 
 #include <string_view>
@@ -36,10 +37,11 @@ namespace {
 constexpr Param<Choice> scramble{
     .name = "scramble",
     .fallback = "none",
-    .choices = "none|faure|permutation|owen",
+    .choices = "none|faure|reverse|permutation|owen",
     .help =
-        "Permutations of the digits: Faure's fixed ones; a random one for each base and "
-        "position; or nested (Owen), a random one for each choice of the digits before, too"};
+        "Permutations of the digits: Faure's fixed ones; reverse, a to b - a but for 0; a random "
+        "one "
+        "for each base and position; nested (Owen), one for each choice of the digits before, too"};
 constexpr Param<std::int64_t> leap{
     .name = "leap",
     .fallback = 1,
@@ -55,6 +57,11 @@ using Inverse = std::variant<RadicalInverse, PermutedInverse, BaseOwen>;
 Inverse inverse(std::size_t k, std::string_view how, std::uint64_t seed) {
     const std::uint32_t b = primes[k];
     if (how == "faure") return RadicalInverse(b, faure_permutation(b));
+    if (how == "reverse") {
+        std::vector<std::uint32_t> digits(b);
+        for (std::uint32_t a = 1; a < b; ++a) digits[a] = b - a;
+        return RadicalInverse(b, digits);
+    }
     if (how == "permutation") return PermutedInverse(b, Rng(seed, k));
     if (how == "owen") return BaseOwen(seed, k, b);
     return RadicalInverse(b);

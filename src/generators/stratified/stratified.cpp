@@ -5,7 +5,6 @@
 #include <numeric>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include "core/error.hpp"
 #include "math/combinatorics/permutation.hpp"

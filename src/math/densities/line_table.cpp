@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "math/densities/line_table.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <queue>
 

@@ -5,9 +5,7 @@
 #include <array>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
-#include <functional>
 #include <queue>
-#include <vector>
 
 namespace stipple {
 namespace {

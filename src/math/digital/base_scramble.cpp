@@ -2,7 +2,6 @@
 #include "math/digital/base_scramble.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/machine/wide.hpp"

@@ -12,7 +12,6 @@
 #include "core/error.hpp"
 #include "core/machine/large_pages.hpp"
 #include "core/parallel.hpp"
-#include "math/fourier/grid_cells.hpp"
 #include "math/functions/powers.hpp"
 
 namespace stipple {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "math/functions/normal_distribution.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <numbers>
 

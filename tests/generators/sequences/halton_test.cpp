@@ -57,7 +57,7 @@ TEST(Halton, CoordinatesAreRadicalInversesInTheFirstPrimes) {
 
 // So do permuted and leaped ones.
 TEST(Halton, EveryBlockMeetsEachElementaryBoxOnceWhateverIsPermutedOrLeaptOver) {
-    for (const char* scramble : {"none", "faure", "permutation", "owen"})
+    for (const char* scramble : {"none", "faure", "reverse", "permutation", "owen"})
         for (const char* leap : {"1", "7", "409"})
             for (const auto& [start, seed] : {std::pair{0U, 1U}, {12345U, 2U}, {999'999'999U, 3U}})
                 for (const auto& [nx, ny, nz] : {std::tuple{8U, 9U, 5U}, {1U, 27U, 25U}}) {
@@ -75,7 +75,7 @@ TEST(Halton, EveryBlockMeetsEachElementaryBoxOnceWhateverIsPermutedOrLeaptOver) 
 }
 
 TEST(Halton, LeapTakesEveryLthPoint) {
-    for (const char* scramble : {"none", "faure", "permutation", "owen"}) {
+    for (const char* scramble : {"none", "faure", "reverse", "permutation", "owen"}) {
         const PointSet all = make("halton", points(410, 4), {{"scramble", scramble}});
         const PointSet leapt =
             make("halton", points(32, 4, 5), {{"scramble", scramble}, {"leap", "11"}});
@@ -90,6 +90,17 @@ TEST(Halton, FaurePermutationsByHand) {
     EXPECT_EQ(part_of(set, 0, 6, {2}),
               points_of({{0}, {3. / 5}, {2. / 5}, {1. / 5}, {4. / 5}, {3. / 25}}));
     EXPECT_EQ(part_of(set, 0, 6, {0, 1}), make("halton", points(6, 2)));
+}
+
+// In base 3 digits 1 and 2 change places, in base 5 the digits 1 to 4 become 4 to 1.
+TEST(Halton, ReversedDigitsByHand) {
+    const PointSet set = make("halton", points(6, 3), {{"scramble", "reverse"}});
+    EXPECT_EQ(set, points_of({{0, 0, 0},
+                              {1. / 2, 2. / 3, 4. / 5},
+                              {1. / 4, 1. / 3, 3. / 5},
+                              {3. / 4, 2. / 9, 2. / 5},
+                              {1. / 8, 8. / 9, 1. / 5},
+                              {5. / 8, 5. / 9, 4. / 25}}));
 }
 
 TEST(Halton, FaureCoordinatesAreCorrectlyRounded) {
@@ -147,8 +158,11 @@ TEST(Halton, RandomPermutationsMakeEachPointUniform) {
 }
 
 TEST(Halton, UsesTheSeedWhereDigitsAreRandom) {
-    for (const auto& [scramble, seeded] :
-         {std::pair{"none", false}, {"faure", false}, {"permutation", true}, {"owen", true}}) {
+    for (const auto& [scramble, seeded] : {std::pair{"none", false},
+                                           {"faure", false},
+                                           {"reverse", false},
+                                           {"permutation", true},
+                                           {"owen", true}}) {
         const Settings settings{{"scramble", scramble}};
         EXPECT_EQ(make("halton", points(20, 2), settings, {.seed = 1}) !=
                       make("halton", points(20, 2), settings, {.seed = 2}),
@@ -160,7 +174,7 @@ TEST(Halton, UsesTheSeedWhereDigitsAreRandom) {
 TEST(Halton, AnyStretchIsThatOfTheWhole) {
     EXPECT_TRUE(stretches_agree("halton", points(50, 3)));
     EXPECT_TRUE(stretches_agree("halton", points(5000, 2)));
-    for (const char* scramble : {"faure", "permutation", "owen"}) {
+    for (const char* scramble : {"faure", "reverse", "permutation", "owen"}) {
         EXPECT_TRUE(stretches_agree("halton", points(2000, 13), {{"scramble", scramble}}));
         EXPECT_TRUE(
             stretches_agree("halton", points(300, 2), {{"scramble", scramble}, {"leap", "31"}}));
