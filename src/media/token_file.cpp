@@ -29,6 +29,13 @@ TokenFile::TokenFile(std::string bytes, std::string name)
     : name_(std::move(name)), bytes_(std::move(bytes)) {
     if (bytes_.starts_with("\xEF\xBB\xBF")) bytes_.erase(0, 3);
     pass_blanks();
+    front_ = at_;
+}
+
+bool TokenFile::is_headed(std::string_view words) const {
+    const auto lines = split(std::string_view(bytes_).substr(0, front_), '\n');
+    return std::ranges::any_of(lines,
+                               [&](std::string_view line) { return line.starts_with(words); });
 }
 
 void TokenFile::pass_blanks() {

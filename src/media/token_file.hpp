@@ -48,6 +48,9 @@ class TokenFile {
         return std::string_view(bytes_).substr(0, bytes_.find_first_of("\r\n"));
     }
 
+    /// Whether a line before the first token begins so: a comment that says what the file is.
+    [[nodiscard]] bool is_headed(std::string_view words) const;
+
     /// The next token, which stays where it is; its text is empty at the end of the file.
     [[nodiscard]] Token peek() const;
 
@@ -86,7 +89,8 @@ class TokenFile {
 
     std::string name_;
     std::string bytes_;
-    std::size_t at_ = 0;  ///< of the next token, or the end
+    std::size_t at_ = 0;     ///< of the next token, or the end
+    std::size_t front_ = 0;  ///< of the first one
     std::size_t line_ = 1;
     std::size_t line_begin_ = 0;
     std::size_t last_line_ = 0;  ///< of the last token taken

@@ -114,12 +114,12 @@ constexpr std::string_view latnet_title = "# Parameters for a digital net in bas
 
 std::string layout_of(const TokenFile& file, std::string_view wanted) {
     if (wanted != "auto") return std::string(wanted);
+    if (file.is_headed(latnet_title)) return "dnet";
     const std::string_view line = file.first_line();
     if (line.starts_with("#")) {
         const auto words = split(trim(line.substr(1)), ' ');
         for (const char* layout : {"dnet", "dnetup", "digits"})
             if (!words.empty() && trim(words.front()) == layout) return layout;
-        if (line.starts_with(latnet_title)) return "dnet";
     }
     file.refuse({.text = {}, .line = 1, .column = 1},
                 "the first line is not # dnet, # dnetup or # digits; expected one of them, or else "
@@ -129,7 +129,7 @@ std::string layout_of(const TokenFile& file, std::string_view wanted) {
 Header read_header(TokenFile& file) {
     Header header;
     const Token at = file.peek();
-    if (!file.first_line().starts_with(latnet_title))
+    if (!file.is_headed(latnet_title))
         header.base = static_cast<std::uint32_t>(file.number("the base", 2, BaseNet::largest_base));
     if (!is_prime(header.base))
         file.refuse(at, fmt::format("the base {} is not a prime, {} divides it", header.base,

@@ -103,9 +103,8 @@ BinaryMatrices sobol_matrices(std::size_t dimension, std::size_t digits) {
 
 BinaryMatrices sobol_matrices(std::size_t dimension, std::size_t digits, const std::string& path) {
     TokenFile file(path);
-    const std::string_view title = file.first_line();
-    const bool bare = (title.starts_with("# sobol") && !title.starts_with("# soboljk")) ||
-                      title.starts_with("# Parameters m_{j,c} for Sobol points");
+    const bool bare = (file.is_headed("# sobol") && !file.is_headed("# soboljk")) ||
+                      file.is_headed("# Parameters m_{j,c} for Sobol points");
     if (file.peek().text == "d") file.skip_line();
     BinaryMatrices matrices = van_der_corput_first(dimension, digits);
     std::size_t next = 2;

@@ -17,7 +17,7 @@ std::size_t read_header(TokenFile& file, bool polynomial, VectorFile& found) {
         file.expect_line_end();
         return value;
     };
-    if (file.first_line().starts_with("# plattice")) take("the base 2", 2, 2);
+    if (file.is_headed("# plattice")) take("the base 2", 2, 2);
     const std::size_t dimension = take("the number of dimensions", 1, 1'000'000);
     if (!polynomial) {
         found.points = take("the number of points", 1, std::uint64_t{1} << 53);
@@ -34,11 +34,10 @@ VectorFile vector_in_file(const Values& options, bool polynomial) {
     VectorFile found;
     if (!options.given(vector_file)) return found;
     TokenFile file(options[vector_file]);
-    const std::string_view title = file.first_line();
-    const bool of_polynomials = title.starts_with("# plattice") ||
-                                title.starts_with("# Parameters for a polynomial lattice rule");
+    const bool of_polynomials = file.is_headed("# plattice") ||
+                                file.is_headed("# Parameters for a polynomial lattice rule");
     const bool of_numbers =
-        title.starts_with("# lattice") || title.starts_with("# Parameters for a lattice rule");
+        file.is_headed("# lattice") || file.is_headed("# Parameters for a lattice rule");
     if (polynomial ? of_numbers : of_polynomials)
         file.refuse_whole(polynomial ? "a lattice of whole numbers, which rank1-lattice reads"
                                      : "a polynomial lattice, which polynomial-lattice reads");

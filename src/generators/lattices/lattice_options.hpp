@@ -38,7 +38,8 @@ struct VectorFile {
 };
 
 /// The file that the options name; nothing where they name none. Reads plain vectors, `# lattice` and `# plattice` of LDData, and LatNet Builder's `# Parameters
-/// for a lattice rule` and `... a polynomial lattice rule`, by their first lines.
+/// for a lattice rule` and `... a polynomial lattice rule`, by what they say of themselves
+/// before the numbers.
 /// @throws Error(input) naming file, line and column, also for a lattice of the other kind
 /// Source  github.com/QMCSoftware/LDData, README.md
 VectorFile vector_in_file(const Values& options, bool polynomial);

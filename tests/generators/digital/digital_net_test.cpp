@@ -91,7 +91,8 @@ TEST(DigitalNet, ReadsEveryLayout) {
     };
     for (const auto& [text, layout] :
          {Case{"# dnet" + head + "3\n3\n4 2 1\n4 6 5\n", "auto"},
-          {"# Parameters for a digital net in base 2 \n2 # dimensions\n3\n3\n# C_1\n4 2 1\n4 6 5\n",
+          {"# Merit: 3\n# Parameters for a digital net in base 2 \n2 # dimensions\n3\n3\n# C_1\n4 "
+           "2 1\n4 6 5\n",
            "auto"},
           {"#dnetup of three digits" + head + "3 3\n1 2 4\n1 3 5", "auto"},
           {"# digits\r\n2 2 3 3\r\n" + rows, "auto"},

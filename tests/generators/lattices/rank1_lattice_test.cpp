@@ -247,7 +247,9 @@ TEST(Rank1Lattice, ReadsLatticesOfOtherPackages) {
     const PointSet expected = make("rank1-lattice", points(8, 3), {{"vector", "1,3,5"}});
     for (const char* text :
          {"1\n3\n5\n", "# lattice\n# of somebody\n3  # dimensions\n8\n1\n3\n5\n",
-          "# Parameters for a lattice rule, non-embedded\n3\n8 # n = 8 points\n1 # a_1\n3\n5\n"}) {
+          "# Input Command Line: -t lattice\n# Merit: 1.5\n# Parameters for a lattice rule, "
+          "non-embedded\n3    # 3 dimensions\n8    # modulus = n = 8 points\n# "
+          "Coordinates\n1\n3\n5"}) {
         const TemporaryFile file(text);
         const Settings settings{{"vector-file", file.path()}};
         EXPECT_EQ(make("rank1-lattice", {.count = 8}, settings), expected) << text;
@@ -263,8 +265,10 @@ TEST(Rank1Lattice, ReadsLatticesOfOtherPackages) {
     };
     EXPECT_EQ(refusal("# plattice\n2\n1\n3\n11\n1\n"),
               ": a polynomial lattice, which polynomial-lattice reads");
-    EXPECT_EQ(refusal("# Parameters for a polynomial lattice rule in base 2\n1\n3\n11\n1\n"),
-              ": a polynomial lattice, which polynomial-lattice reads");
+    EXPECT_EQ(
+        refusal(
+            "# Merit: 2\r\n# Parameters for a polynomial lattice rule in base 2\n1\n3\n11\n1\n"),
+        ": a polynomial lattice, which polynomial-lattice reads");
     EXPECT_EQ(refusal("# lattice\n3\n8\n1\n3\n"), ": 2 components; expected 3");
     EXPECT_EQ(refusal("# nothing\n"), ": 0 components; expected some");
 }
