@@ -220,14 +220,15 @@ void Outputs::set_aside() {
     put_text(*names_, target);
 }
 
-Outputs::~Outputs() try {
+Outputs::~Outputs() {
     if (!names_) return;
-    names_->rewind();
-    std::string target;
-    for (std::string name; take_text(*names_, name); take_text(*names_, target))
-        ::unlink(name.c_str());
-} catch (const Error&) {
-    return;  // their names cannot be read: they stay
+    try {
+        names_->rewind();
+        std::string target;
+        for (std::string name; take_text(*names_, name); take_text(*names_, target))
+            ::unlink(name.c_str());
+    } catch (const Error&) {  // their names cannot be read: they stay
+    }
 }
 
 void Outputs::commit() {

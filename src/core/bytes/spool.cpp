@@ -21,6 +21,7 @@ Spool::Spool() {
     if (descriptor < 0) refuse();
     ::unlink(name.c_str());
     file_.reset(::fdopen(descriptor, "w+"));
+    if (file_ == nullptr) refuse();
 }
 
 void Spool::write(std::string_view bytes) {

@@ -13,7 +13,7 @@
 //     dnet      first line `# dnet`, then four numbers: base b, number s of matrices, their columns
 //               k (or the number of points, b^k), and rows r; then a line a matrix: its k columns
 //               as whole numbers below b^r, in whose base b digits the first row is the most
-//               significant (the format of LDData; LatNet Builder's has another first line, and
+//               significant (the format of LDData; LatNet Builder's has another title, and
 //               no base, which is 2);
 //     dnetup    the same, `# dnetup`, with the first row the least significant;
 //     digits    the same four numbers after `# digits`; then s r lines of k digits, matrix after
