@@ -154,7 +154,7 @@ int warp(const Arguments& arguments, Session& session) {
     const RunContext& run = session.run();
     if (scrambled) {
         const auto sets = read_input(path, arguments, run);
-        arguments.refuse({"inverse", "with-pdf", "with-weight"},
+        arguments.refuse({"inverse", "density-at", "with-pdf", "with-weight"},
                          spec.name + " is a scramble, random and of density 1");
         const std::uint64_t seed = seed_of(arguments, ~std::uint64_t{0}, session);
         const auto replications = arguments.integer("sets").value_or(1);
@@ -163,12 +163,23 @@ int warp(const Arguments& arguments, Session& session) {
     }
     const auto stream = open_input(path, arguments, run);
     const bool inverse = arguments.has("inverse");
-    if (can_stream(*stream, target))
-        write_warped(*stream,
-                     input_domain(stream->provenance(), stream->dimension(), arguments, run), spec,
-                     inverse, target, run);
+    const bool at_points = arguments.has("density-at");
+    if (at_points)
+        arguments.refuse({"inverse", "with-pdf", "with-weight"},
+                         "--density-at leaves the points where they are");
+    if (!can_stream(*stream, target)) {
+        auto sets = read_all(*stream, arguments, run);
+        if (at_points)
+            write_density_at(std::move(sets), spec, target, run);
+        else
+            write_warped(std::move(sets), spec, inverse, target, run);
+        return 0;
+    }
+    const auto on = input_domain(stream->provenance(), stream->dimension(), arguments, run);
+    if (at_points)
+        write_density_at(*stream, on, spec, target, run);
     else
-        write_warped(read_all(*stream, arguments, run), spec, inverse, target, run);
+        write_warped(*stream, on, spec, inverse, target, run);
     return 0;
 }
 

@@ -235,12 +235,12 @@ DomainPtr product_domain(std::vector<Factor> factors) {
 
 Box parse_box(std::string_view text, std::size_t dimension) {
     Box box;
-    for (const auto part : split(text, ',')) {
+    for (const auto part : split_formulas(text, ',')) {
         const auto dots = part.find("..");
-        const auto low = parse_number(trim(part.substr(0, dots)));
+        const auto low = parse_formula("bounds", trim(part.substr(0, dots)));
         const auto high = dots == std::string_view::npos
                               ? std::nullopt
-                              : parse_number(trim(part.substr(dots + 2)));
+                              : parse_formula("bounds", trim(part.substr(dots + 2)));
         if (!low || !high || !(*low < *high) || !std::isfinite(*high - *low))
             fail(ErrorKind::usage,
                  "--bounds: '{}' is not a range lo..hi of finite numbers with lo < hi", part);

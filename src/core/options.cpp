@@ -28,28 +28,22 @@ std::vector<std::string> words(std::string_view text, char separator) {
     fail(ErrorKind::usage, "--{}: '{}' is not {}", option.name, text, wanted);
 }
 
-/// Rows of a matrix may stand apart by spaces: 2,1 1,2.
-std::vector<double> parse_numbers(const Option& option, std::string_view text) {
-    std::vector<double> numbers;
-    for (const auto part : split(text, ',')) {
-        const std::size_t before = numbers.size();
-        for (const auto word : split(trim(part), ' ')) {
-            auto value = parse_number(word);
-            if (const auto whole = parse_integer(word); whole && !value)  // 2^20, 64k
-                value = static_cast<double>(*whole);
-            if (value) numbers.push_back(*value);
-            if (!value && !word.empty()) refuse(option, text, "a list of numbers such as 0.5,1");
-        }
-        if (numbers.size() == before) refuse(option, text, "a list of numbers such as 0.5,1");
+/// Whether a text that is no number is to be read as a formula: it has an operator, but for the
+/// sign of an exponent, or is a constant.
+bool looks_like_formula(std::string_view text) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool sign = text[i] == '+' || text[i] == '-';
+        if (text[i] == '(' || text[i] == '*' || text[i] == '/' || text[i] == '^' ||
+            (sign && i > 0 && text[i - 1] != 'e' && text[i - 1] != 'E'))
+            return true;
     }
-    if (numbers.empty()) refuse(option, text, "a list of numbers such as 0.5,1");
-    return numbers;
+    return text == "pi" || text == "-pi";
 }
 
 Table parse_points(const Option& option, std::string_view text) {
     Table points;
     for (const auto part : split(text, ' '))
-        if (!trim(part).empty()) points.push_back(parse_numbers(option, trim(part)));
+        if (!trim(part).empty()) points.push_back(parse_numbers(option.name, trim(part)));
     if (points.empty()) refuse(option, text, "a list of points such as '0,0 1,0'");
     for (const auto& point : points)
         if (point.size() != points.front().size())
@@ -131,6 +125,38 @@ std::string format_value(const Value& value) {
     return std::visit(text, value);
 }
 
+std::optional<double> parse_formula(std::string_view option, std::string_view text) {
+    if (const auto number = parse_number(text)) return number;
+    if (!looks_like_formula(text)) return std::nullopt;
+    const double value = formula_value(option, text);
+    if (!std::isfinite(value))
+        fail(ErrorKind::usage, "--{}: '{}' is not a finite number", option, text);
+    return value;
+}
+
+std::vector<double> parse_numbers(std::string_view option, std::string_view text) {
+    std::vector<double> numbers;
+    const auto refuse_list = [&] {
+        Option numbers_option;
+        numbers_option.name = option;
+        refuse(numbers_option, text, "a list of numbers such as 0.5,1");
+    };
+    for (const auto part : split_formulas(text, ',')) {
+        const std::size_t before = numbers.size();
+        for (const auto word : split_formulas(trim(part), ' ')) {
+            auto value = parse_number(word);
+            if (const auto whole = parse_integer(word); whole && !value)  // 2^20, 64k
+                value = static_cast<double>(*whole);
+            if (!value) value = parse_formula(option, word);
+            if (value) numbers.push_back(*value);
+            if (!value && !word.empty()) refuse_list();
+        }
+        if (numbers.size() == before) refuse_list();
+    }
+    if (numbers.empty()) refuse_list();
+    return numbers;
+}
+
 const Values::Item* Values::try_find(std::string_view name) const {
     const auto it = std::ranges::find(items_, name, &Item::name);
     return it == items_.end() ? nullptr : &*it;
@@ -163,7 +189,7 @@ Value Option::parse(std::string_view text) const {
         return *value;
     }
     if (type == "number") {
-        const auto value = parse_number(text);
+        const auto value = parse_formula(name, text);
         if (!value) refuse(*this, text, "a finite number");
         check_range(*this, *value, text);
         return *value;
@@ -176,7 +202,7 @@ Value Option::parse(std::string_view text) const {
         }
         return std::string(text);
     }
-    if (type == "numbers") return parse_numbers(*this, text);
+    if (type == "numbers") return parse_numbers(name, text);
     if (type == "points") return parse_points(*this, text);
     if (type == "extents") return parse_extents(*this, text);
     if (text.empty())

@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -38,6 +39,18 @@ using Table = std::vector<std::vector<double>>;
 /// What an option can hold.
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>, Table,
                            std::vector<std::int64_t>>;
+
+/// The finite number that a text is, or that it is a formula of: 0.5, 1/3, sqrt(2)/2. Nothing where
+/// it is neither. @throws Error(usage) naming the option and what is wrong with a formula
+std::optional<double> parse_formula(std::string_view option, std::string_view text);
+
+/// The value of a formula without variables. @throws Error(usage)
+/// Not defined here, but where formulas of densities are (math/densities/expression.cpp).
+double formula_value(std::string_view option, std::string_view text);
+
+/// Numbers with commas, or for rows of a matrix blanks, between them; each as parse_formula() takes
+/// it. @throws Error(usage)
+std::vector<double> parse_numbers(std::string_view option, std::string_view text);
 
 /// A value as one types it: true, 12, 0.5, polar, "0,0", "0,0 1,0", 40x25.
 std::string format_value(const Value& value);

@@ -139,6 +139,19 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     return parts;
 }
 
+std::vector<std::string_view> split_formulas(std::string_view text, char separator) {
+    std::vector<std::string_view> parts = split(text, separator);
+    for (std::size_t i = 0; i + 1 < parts.size();) {
+        if (std::ranges::count(parts[i], '(') <= std::ranges::count(parts[i], ')')) {
+            ++i;
+            continue;
+        }
+        parts[i] = {parts[i].data(), parts[i].size() + 1 + parts[i + 1].size()};
+        parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(i + 1));
+    }
+    return parts;
+}
+
 std::string join(std::span<const std::string> words, std::string_view between) {
     return fmt::format("{}", fmt::join(words, between));
 }

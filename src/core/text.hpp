@@ -38,6 +38,9 @@ void replace_all(std::string& text, std::string_view from, std::string_view to);
 /// Parts between separators; "a,b" -> {"a", "b"}, "" -> {}.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
+/// The same, less separators in parentheses: "1,min(2,3)" -> {"1", "min(2,3)"}.
+std::vector<std::string_view> split_formulas(std::string_view text, char separator);
+
 std::string join(std::span<const std::string> words, std::string_view between);
 
 /// The text with a capital letter at its front.

@@ -124,6 +124,19 @@ DigitMatrix product(const BaseMatrix& left, const DigitMatrix& right, std::uint3
 
 }  // namespace
 
+std::vector<DigitMatrix> interlace(std::vector<DigitMatrix> matrices, std::size_t alpha) {
+    if (alpha == 1) return matrices;
+    std::vector<DigitMatrix> woven;
+    for (std::size_t first = 0; first + alpha <= matrices.size(); first += alpha) {
+        DigitMatrix& matrix =
+            woven.emplace_back(alpha * matrices[first].rows, matrices[first].columns);
+        for (std::size_t r = 0; r < matrix.rows; ++r)
+            for (std::size_t c = 0; c < matrix.columns; ++c)
+                matrix.at(r, c) = matrices[first + r % alpha].at(r / alpha, c);
+    }
+    return woven;
+}
+
 std::size_t net_digits(std::uint32_t base) { return base == 2 ? binary_digits : digits_of(base); }
 
 std::uint32_t prime_base(std::int64_t base) {

@@ -31,6 +31,14 @@ void check_net_end(const Request& request, const Plan& plan, std::uint32_t base,
 std::unique_ptr<Sequence> net_sequence(std::uint32_t base, std::vector<DigitMatrix> matrices,
                                        const Plan& plan, const Values& options);
 
+/// Coordinates of higher order: row r of the k-th is row r / alpha of matrix alpha k + r mod alpha.
+/// What is left over of the matrices when alpha does not divide their number is left out.
+std::vector<DigitMatrix> interlace(std::vector<DigitMatrix> matrices, std::size_t alpha);
+
+/// What LatNet Builder says on the line of the interlacing factor; the next one has the number of
+/// components, factor times dimension.
+inline constexpr std::string_view interlacing_comment = "Interlacing factor";
+
 // What the digital sequences in base 2 have in common: the order of their points, their
 // scramblings, and the counts at which they are nets.
 

@@ -10,13 +10,14 @@ namespace stipple::io {
 
 const Format& format_for(const std::string& path, std::string_view bytes) {
     const Format* named = format_of_extension(path);
-    if (named == nullptr || named->name == "csv" || named->name == "txt")
-        return format_of_bytes(bytes);
-    if (named->name == "json" || named->name == "jsonl") {
-        const Format& found = format_of_bytes(bytes);
-        if (found.name == "json" || found.name == "jsonl") return found;
-    }
-    return *named;
+    const Format& found = format_of_bytes(bytes);
+    const auto either = [](const Format& one, const char* first, const char* second) {
+        return one.name == first || one.name == second;
+    };
+    const bool told = named == nullptr || either(*named, "csv", "txt") ||
+                      (either(*named, "json", "jsonl") && either(found, "json", "jsonl")) ||
+                      (named->name == "bin" && found.name == "utk");
+    return told ? found : *named;
 }
 
 std::string read_bytes(const std::string& path, const RunContext& run) {

@@ -96,6 +96,7 @@ bool extension_is_single(std::string_view path) { return extension_of(path) == "
 
 const Format& format_of_bytes(std::string_view bytes) {
     if (bytes.starts_with("\x93NUMPY")) return format_named("npy");
+    if (bytes.starts_with("UTK!")) return format_named("utk");
     if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
     constexpr std::string_view blanks = " \t\r\n";
     const auto first = bytes.find_first_not_of(blanks);

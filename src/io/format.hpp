@@ -142,7 +142,7 @@ inline double disk_radius(double area, double count) {
     return std::clamp(0.15 * std::sqrt(area / std::max(count, 1.0)), 0.5, 10.0);
 }
 
-/// The format that the first bytes tell: npy, json, jsonl; else csv (which reads all plain text).
+/// The format that the first bytes tell: npy, utk, json, jsonl; else csv (which reads all plain text).
 const Format& format_of_bytes(std::string_view bytes);
 
 }  // namespace io

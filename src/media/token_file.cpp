@@ -38,6 +38,12 @@ bool TokenFile::is_headed(std::string_view words) const {
                                [&](std::string_view line) { return line.starts_with(words); });
 }
 
+bool TokenFile::comment_has(std::string_view words) const {
+    const auto line = std::string_view(bytes_).substr(at_, bytes_.find('\n', at_) - at_);
+    const auto comment = line.find('#');
+    return comment != std::string_view::npos && line.find(words, comment) != std::string_view::npos;
+}
+
 void TokenFile::pass_blanks() {
     for (; at_ != bytes_.size(); ++at_) {
         if (bytes_[at_] == '#') at_ = std::min(bytes_.find('\n', at_), bytes_.size());

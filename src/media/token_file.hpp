@@ -51,6 +51,9 @@ class TokenFile {
     /// Whether a line before the first token begins so: a comment that says what the file is.
     [[nodiscard]] bool is_headed(std::string_view words) const;
 
+    /// Whether the line of the next token ends in a comment with these words.
+    [[nodiscard]] bool comment_has(std::string_view words) const;
+
     /// The next token, which stays where it is; its text is empty at the end of the file.
     [[nodiscard]] Token peek() const;
 

@@ -173,13 +173,11 @@ void record_warp(PointSet& set, const WarpChain& chain, bool inverse,
 /// Numbers of a row that the warp makes into one of `after` numbers.
 std::size_t dimension_before(const Spec& spec, std::size_t after, const RunContext& run) {
     const Warp& warp = find_warp(spec.name);
-    if (!warp.traits.invertible)
-        fail(ErrorKind::usage, "--inverse: the warp {} has no inverse", warp.name);
     const std::size_t given = spec.coordinates.empty() ? after : spec.coordinates.size();
     const auto mapping = warp.make(spec.values(warp.options), given, run);
     const std::size_t gives = mapping->domain()->dimension();
     if (gives > after || (spec.coordinates.empty() && gives != after))
-        fail(ErrorKind::input, "the inverse of {} takes points of {} numbers; these have {}",
+        fail(ErrorKind::input, "the images of {} are points of {} numbers; these have {}",
              spec.name, gives, after);
     return after - gives + mapping->cube_dimension();
 }
@@ -211,6 +209,8 @@ struct Warping {
             const RunContext& run, const ChainSet& set = {})
         : inverse(back), taken(named_or_all(spec, on->dimension())) {
         const std::size_t d = on->dimension();
+        if (inverse && !find_warp(spec.name).traits.invertible)
+            fail(ErrorKind::usage, "--inverse: the warp {} has no inverse", spec.name);
         if (!inverse) before = warped_factors(on, taken, run);
         chain = std::make_shared<WarpChain>(
             std::span(&spec, 1), inverse ? dimension_before(spec, d, run) : d, set, run, before);
@@ -249,6 +249,18 @@ PointSet warped(const PointSet& set, const Warping& warping, const RunContext& r
     if (!said) image.provenance.domain.clear();
     return image;
 }
+
+/// What writes the density of a warp's images at points of d numbers.
+struct DensityAt {
+    DensityAt(const Spec& warp, std::size_t d, Target to, const RunContext& run)
+        : chain(std::span(&warp, 1), dimension_before(warp, d, run), {}, run),
+          target(std::move(to)) {
+        target.columns = {.pdf = true, .anywhere = true};
+    }
+
+    WarpChain chain;
+    Target target;
+};
 
 /// The images of the points of a stream, each of `wide` numbers.
 NextRows warped_rows(io::PointStream& stream, const Warping& warping, std::size_t wide,
@@ -460,6 +472,34 @@ void write_warped(io::PointStream& stream, const DomainPtr& on, const Spec& warp
                  .provenance = [&](std::size_t) { return stream.provenance(); },
                  .counts = Counts::equal(sets, 0)},
                 target, run);
+}
+
+void write_density_at(std::vector<PointSet> sets, const Spec& warp, const Target& target,
+                      const RunContext& run) {
+    const DensityAt at(warp, sets.front().dimension(), target, run);
+    write_all(sets, at.chain, at.target, run);
+}
+
+void write_density_at(io::PointStream& stream, const DomainPtr& on, const Spec& warp,
+                      const Target& target, const RunContext& run) {
+    const DensityAt at(warp, stream.dimension(), target, run);
+    const std::size_t sets = stream.sets().value_or(1);
+    const auto next = [&stream](std::span<double> rows) {
+        const std::size_t count = stream.read(rows);
+        if (count == 0) refuse_second_set(stream);
+        return count;
+    };
+    write_files({.sets = sets,
+                 .domain = on,
+                 .chain = &at.chain,
+                 .source =
+                     [&](std::size_t /*set*/, const RunContext&) {
+                         stream.next_set();
+                         return next;
+                     },
+                 .provenance = [&](std::size_t) { return stream.provenance(); },
+                 .counts = Counts::equal(sets, 0)},
+                at.target, run);
 }
 
 void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, std::uint64_t seed,

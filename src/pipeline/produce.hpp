@@ -60,6 +60,14 @@ bool can_stream(const io::PointStream& stream, const Target& target);
 void write_warped(io::PointStream& stream, const DomainPtr& on, const Spec& warp, bool inverse,
                   const Target& target, const RunContext& run);
 
+/// Writes sets as they are, each point with the density that images of uniform points have there: 0
+/// off the warp's domain.
+/// @throws Error(input) where points have another number of coordinates, or the density is infinite
+void write_density_at(std::vector<PointSet> sets, const Spec& warp, const Target& target,
+                      const RunContext& run);
+void write_density_at(io::PointStream& stream, const DomainPtr& on, const Spec& warp,
+                      const Target& target, const RunContext& run);
+
 /// Writes `replications` of each set, independently scrambled with the seeds seed, seed + 1, ...
 /// @throws Error(input) for points outside the unit cube
 void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, std::uint64_t seed,

@@ -21,7 +21,7 @@ double finite(const char* column, double value, std::span<const double> point, b
     fail_with_hint(
         ErrorKind::input,
         starts ? "--start 1 leaves out a sequence's first point, where coordinates are 0" : "",
-        "--with-{}: it is infinite at the point ({})", column, fmt::join(point, ", "));
+        "--{}: it is infinite at the point ({})", column, fmt::join(point, ", "));
 }
 
 /// The rows of one set as bytes of the output, a batch of blocks at a time; `set` is its number in
@@ -172,10 +172,13 @@ std::vector<double> with_columns(std::span<const double> rows, const Columns& co
     for (std::size_t i = 0; i < density.size(); ++i) {
         const auto row = rows.subspan(i * d, d);
         wide.insert(wide.end(), row.begin(), row.end());
-        const double pdf = density[i] / volume;
+        const bool off = columns.anywhere && !job.chain->domain()->contains(row);
+        const double pdf = off ? 0 : density[i] / volume;
         const double weight = volume / density[i];
-        if (columns.pdf) wide.push_back(finite("pdf", pdf, row, job.starts));
-        if (columns.weight) wide.push_back(finite("weight", weight, row, job.starts));
+        if (columns.pdf)
+            wide.push_back(
+                finite(columns.anywhere ? "density-at" : "with-pdf", pdf, row, job.starts));
+        if (columns.weight) wide.push_back(finite("with-weight", weight, row, job.starts));
     }
     return wide;
 }

@@ -20,8 +20,9 @@ namespace stipple {
 
 /// Columns that are written behind the coordinates.
 struct Columns {
-    bool pdf = false;     ///< the density of each point
-    bool weight = false;  ///< 1 / density: the mean of f times weight estimates the integral of f
+    bool pdf = false;       ///< the density of each point
+    bool weight = false;    ///< 1 / density: the mean of f times weight estimates the integral of f
+    bool anywhere = false;  ///< points may be off the domain, with a density of 0
 
     [[nodiscard]] bool any() const { return pdf || weight; }
     [[nodiscard]] std::vector<std::string> names() const;

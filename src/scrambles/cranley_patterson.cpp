@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Cranley-Patterson rotation: one random vector u is added to all points, modulo 1.
+// Cranley-Patterson rotation: one vector u is added to all points, modulo 1.
 //
-//     y = x + u mod 1,    u uniform in [0, 1)^d.
+//     y = x + u mod 1,    u uniform in [0, 1)^d, or given.
 //
 // Cost     O(n d).
 // Promise  differences of points modulo 1 stay, to rounding: a lattice stays a (shifted) lattice.
@@ -11,16 +11,33 @@
 // Source   R. Cranley, T. N. L. Patterson, SIAM J. Numer. Anal. 13 (1976) 904-914,
 //          doi:10.1137/0713071.
 
+#include <cmath>
+
+#include "core/error.hpp"
 #include "math/digital/scramble_stream.hpp"
 #include "scrambles/scramble.hpp"
 
 namespace stipple::scrambles::cranley_patterson {
 namespace {
 
-Randomization make(const Values&, const ScrambleRequest& request) {
+constexpr Param<Numbers> shift{
+    {.name = "shift",
+     .help = "The vector itself, one number for each coordinate, taken modulo 1; else random"}};
+
+/// Numbers as they are to be added, in [0, 1).
+std::vector<double> fractions(std::vector<double> numbers, std::size_t coordinates) {
+    if (numbers.size() != coordinates)
+        fail(ErrorKind::usage, "--shift: {} numbers for {} coordinates", numbers.size(),
+             coordinates);
+    for (double& x : numbers) x = std::min(x - std::floor(x), one_minus_ulp);
+    return numbers;
+}
+
+Randomization make(const Values& options, const ScrambleRequest& request) {
     const Rng rng = scramble_numbers(request.seed, ScrambleStream::rotation);
     std::vector<double> offsets;
     for (const std::size_t k : request.coordinates) offsets.push_back(rng.uniform(k));
+    if (options.given(shift)) offsets = fractions(options[shift], offsets.size());
     return coordinate_wise(offsets.size(), [offsets](std::size_t k, std::span<double> x) {
         for (double& value : x) {
             const double sum = value + offsets[k];
@@ -32,12 +49,13 @@ Randomization make(const Values&, const ScrambleRequest& request) {
 }  // namespace
 
 Scramble unit() {
-    return {.name = "cranley-patterson",
-            .summary = "Rotation of all points by one random vector, modulo 1; for lattices",
-            .source = "Cranley, Patterson 1976, doi:10.1137/0713071",
-            .options = Schema(scramble_seed),
-            .aliases = {"rotation", "random-shift"},
-            .make = make};
+    return {
+        .name = "cranley-patterson",
+        .summary = "Rotation of all points by one vector, random or given, modulo 1; for lattices",
+        .source = "Cranley, Patterson 1976, doi:10.1137/0713071",
+        .options = Schema(scramble_seed, shift),
+        .aliases = {"rotation", "random-shift", "shift"},
+        .make = make};
 }
 
 }  // namespace stipple::scrambles::cranley_patterson

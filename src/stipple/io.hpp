@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Point sets in files. The format follows from the extension: csv, txt, json, jsonl, npy, bin, psa to
-// read and write; ply and svg to write.
+// Point sets in files. The format follows from the extension: csv, txt, json, jsonl, npy, bin, utk,
+// psa to read and write; ply and svg to write.
 #pragma once
 
 #include <cstddef>

@@ -3,10 +3,85 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
 #include "core/error.hpp"
+#include "core/rng.hpp"
 #include "core/spec.hpp"
 
 namespace stipple {
+namespace {
+
+class Oriented final : public Mapping {
+  public:
+    Oriented(std::unique_ptr<Mapping> mapping, std::span<const double> order)
+        : Mapping(mapping->domain()), mapping_(std::move(mapping)) {
+        for (const double k : order) places_.push_back({std::size_t(std::abs(k)) - 1, k < 0});
+    }
+
+    std::size_t cube_dimension() const override { return places_.size(); }
+    bool drops() const override { return mapping_->drops(); }
+
+    void forward(std::span<const double> cube, std::span<double> image,
+                 std::span<std::uint8_t> keep) const override {
+        mapping_->forward(turned(cube), image, keep);
+    }
+
+    bool infinite(std::span<const double> row) const override {
+        return mapping_->infinite(turned(row));
+    }
+
+    void inverse(std::span<const double> image, std::span<double> cube) const override {
+        std::vector<double> rows(cube.size());
+        mapping_->inverse(image, rows);
+        for (std::size_t i = 0; i < rows.size(); i += places_.size())
+            for (std::size_t k = 0; k < places_.size(); ++k)
+                cube[i + places_[k].from] = places_[k].reflected ? 1 - rows[i + k] : rows[i + k];
+    }
+
+    double density(std::span<const double> point) const override {
+        return mapping_->density(point);
+    }
+
+  private:
+    struct Place {
+        std::size_t from;
+        bool reflected;
+    };
+
+    [[nodiscard]] std::vector<double> turned(std::span<const double> cube) const {
+        std::vector<double> rows(cube.size());
+        for (std::size_t i = 0; i < rows.size(); i += places_.size())
+            for (std::size_t k = 0; k < places_.size(); ++k) {
+                const double x = cube[i + places_[k].from];
+                rows[i + k] = places_[k].reflected ? std::min(1 - x, one_minus_ulp) : x;
+            }
+        return rows;
+    }
+
+    std::unique_ptr<Mapping> mapping_;
+    std::vector<Place> places_;
+};
+
+/// The mapping of rows in which `order` says what stands in each place: k for xi_k, -k for 1 - xi_k.
+/// @throws Error(usage) unless it names each coordinate once
+std::unique_ptr<Mapping> oriented(std::unique_ptr<Mapping> mapping, std::span<const double> order) {
+    const std::size_t d = mapping->cube_dimension();
+    std::vector<double> named(order.size());
+    std::ranges::transform(order, named.begin(), [](double k) { return std::abs(k); });
+    std::ranges::sort(named);
+    std::vector<double> all(d);
+    std::iota(all.begin(), all.end(), 1.0);
+    if (named != all)
+        fail(ErrorKind::usage,
+             "--orientation: it names each of the unit coordinates 1 to {} once, such as {}", d,
+             d == 2 ? "2,1 or -1,2" : "3,1,2");
+    return std::make_unique<Oriented>(std::move(mapping), order);
+}
+
+}  // namespace
 
 void Mapping::check_way_back() const {
     if (!no_way_back_.empty()) fail(ErrorKind::usage, "--inverse: {}", no_way_back_);
@@ -41,6 +116,14 @@ std::string WarpRequest::spec(std::initializer_list<std::string_view> which) con
         some.put(option, item.value, item.given);
     }
     return format_spec(warp.name, some, warp.options);
+}
+
+std::unique_ptr<Mapping> Warp::make(const Values& values, std::size_t given,
+                                    const RunContext& run) const {
+    std::unique_ptr<Mapping> made = mapping({*this, values, given, run});
+    const bool turned =
+        values.try_find(warps::orientation.name) != nullptr && values.given(warps::orientation);
+    return turned ? oriented(std::move(made), values[warps::orientation]) : std::move(made);
 }
 
 }  // namespace stipple

@@ -114,12 +114,17 @@ struct Warp {
     /// dimension ignores it. @throws Error(usage); of warps that read a file, also what reading
     /// throws, and Error(limit)
     std::unique_ptr<Mapping> make(const Values& values, std::size_t given,
-                                  const RunContext& run) const {
-        return mapping({*this, values, given, run});
-    }
+                                  const RunContext& run) const;
 };
 
 namespace warps {
+
+/// For warps of which other programs have the same map with the angle first, or from another corner.
+inline constexpr Param<Numbers> orientation{
+    {.name = "orientation",
+     .help = "Unit coordinates in the order in which they are taken, with a minus sign where "
+             "1 - xi is: 2,1 takes the angle first where it is last; default: 1,2"}};
+
 /// All warps, in alphabetical order.
 const std::vector<Warp>& all();
 }  // namespace warps

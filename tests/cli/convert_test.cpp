@@ -100,6 +100,22 @@ TEST(Convert, PicksAndOrdersColumns) {
     EXPECT_EQ(box.run({"convert", "--column", "3,1"}, "0.1,0.2,0.3\n").out, "x,y\n0.3,0.1\n");
 }
 
+// Whatever it is called, as UTK calls its own files .bin.
+TEST(Convert, UtkIsKnownByItsFirstBytes) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -n 9 -d 3 -m 2 -o a.csv --format csv"));
+    good(box.shell("stipple convert a.csv -o a.bin --format utk"));
+    EXPECT_EQ(good(box.shell("stipple convert a.bin")), box.read("a.csv"));
+    EXPECT_EQ(good(box.shell("stipple convert < a.bin")), box.read("a.csv"));
+    EXPECT_THAT(good(box.shell("stipple analyze nearest-neighbor a.bin -f csv")),
+                HasSubstr(",9,3,"));
+    EXPECT_EQ(box.shell("head -c 30 a.bin | stipple convert").code, 3);
+    EXPECT_EQ(box.shell("stipple convert a.bin --from bin -d 3").code, 3);
+    good(box.shell(
+        "stipple generate random -n 3e5 -f utk > big && stipple convert big -f csv | cksum "
+        "> one && stipple generate random -n 3e5 | cksum > two && cmp one two"));
+}
+
 TEST(Convert, PsaStartsWithTheCount) {
     const Sandbox box;
     EXPECT_EQ(box.run({"convert", "-f", "psa"}, "0.5 0.25\n0 0\n").out, "2\n0.5 0.25\n0 0\n");

@@ -289,6 +289,34 @@ TEST(Generate, WeightIsOneOverDensity) {
                 HasSubstr("--with-weight: the inverse gives points of the unit cube"));
 }
 
+// Points stay where they are; 0 off the domain, also in coordinates that the warp leaves.
+TEST(Warp, TellsItsDensityAtGivenPoints) {
+    const Sandbox box;
+    const auto at = [&](const std::vector<std::string>& warp, const std::string& points) {
+        std::vector<std::string> words{"warp"};
+        words.insert(words.end(), warp.begin(), warp.end());
+        words.insert(words.end(), {"--density-at", "--no-header"});
+        return box.run(words, points);
+    };
+    EXPECT_EQ(good(at({"disk", "--radius", "2"}, "0,1\n2,2\n2,0\n-9,0\n")),
+              "0,1,0.07957747154594767\n2,2,0\n2,0,0.07957747154594767\n-9,0,0\n");
+    EXPECT_EQ(good(at({"disk", "--method", "naive"}, "0.5,0\n1.5,0\n")),
+              "0.5,0,0.3183098861837907\n1.5,0,0\n");
+    EXPECT_EQ(good(at({"sphere"}, "0,0,1\n0,0,0.5\n")), "0,0,1,0.07957747154594767\n0,0,0.5,0\n");
+    EXPECT_EQ(good(at({"disk", "--coordinates", "1,2"}, "0,0,0.5\n0,0,1.5\n3,0,0.5\n")),
+              "0,0,0.5,0.3183098861837907\n0,0,1.5,0\n3,0,0.5,0\n");
+    EXPECT_EQ(good(at({"circle", "--method", "square-normalize"}, "1,0\n0,0\n")).substr(0, 4),
+              "1,0,");
+    EXPECT_EQ(good(box.shell("stipple generate random -n 300000 -w disk | stipple warp disk "
+                             "--density-at | cksum")),
+              good(box.shell("stipple generate random -n 300000 -w disk --with-pdf | cksum")));
+    EXPECT_EQ(at({"disk"}, "1,2,3\n").code, 3);
+    EXPECT_THAT(at({"disk", "--inverse"}, "1,2\n").err,
+                HasSubstr("leaves the points where they are"));
+    EXPECT_THAT(at({"owen"}, "0.1,0.2\n").err, HasSubstr("is a scramble"));
+    EXPECT_EQ(at({"power", "--exponent", "-1/2"}, "0\n").code, 3);
+}
+
 TEST(Generate, SinglePrecisionNeverHoldsOne) {
     const Sandbox box;
     good(box.run({"generate", "random", "-n", "1e6", "-d", "1", "-o", "p.f32"}));

@@ -12,6 +12,7 @@ namespace stipple::testing::topics_test {
 
 using namespace stipple::cli;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // What a topic shows works: its examples run one after the other in one folder.
 TEST(Topics, ExamplesRun) {
@@ -56,6 +57,25 @@ TEST(Topics, AreListedAndFound) {
     EXPECT_EQ(typo.code, 2);
     EXPECT_THAT(typo.err,
                 HasSubstr("unknown topic, verb or unit 'format'; did you mean 'formats'?"));
+}
+
+TEST(Topics, FindWhatOtherPackagesCallSomething) {
+    const Sandbox box;
+    const std::string halton = good(box.run({"help", "qmc.Halton"}));
+    EXPECT_THAT(halton, HasSubstr("SciPy\n  Halton(3, scramble=False).random(5)\n"
+                                  "      stipple generate halton -d 3 -n 5\n"));
+    EXPECT_THAT(halton, HasSubstr("QMCPy\n"));
+    EXPECT_THAT(halton, Not(HasSubstr("HaltonSequence")));
+    EXPECT_EQ(good(box.run({"help", "HALTON"})), halton);
+    const std::string disk = good(box.run({"help", "square_to_uniform_disk"}));
+    EXPECT_THAT(disk, HasSubstr("' | stipple warp disk --orientation 2,1\n"));
+    EXPECT_THAT(disk, Not(HasSubstr("concentric")));
+    const std::string package = good(box.run({"help", "scipy"}));
+    EXPECT_TRUE(package.starts_with("SciPy\n"));
+    EXPECT_THAT(package, HasSubstr("   # centered.squared\n"));
+    EXPECT_THAT(package, Not(HasSubstr("QMCPy")));
+    EXPECT_THAT(good(box.run({"help", "coming-from"})), HasSubstr(package));
+    EXPECT_EQ(box.run({"help", "square_to"}).code, 2);
 }
 
 // Every exit code that the program knows stands in the topic, in the help and in the contract.

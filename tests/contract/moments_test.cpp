@@ -168,6 +168,10 @@ TEST(MomentsOfParts, OfAPictureAndOfOutcomesByHand) {
     EXPECT_NEAR(picture->covariance[0], 1 / 48. + 7 / 16. - 0.625 * 0.625, 1e-15);
     EXPECT_NEAR(picture->covariance[3], 1 / 12., 1e-15);
     expect_same(*picture, integrated(*mapping("image:file=" + file.path()), 600), 1e-4);
+    const std::vector<double> values{1, 3, 0, 0, 0, 7, 2, 1, 1, 0.5, 4, 2};
+    const TemporaryFile smooth(npy_of<double>("<f8", "(4, 3)", values));
+    const auto map = mapping("image:interpolation=bilinear,file=" + smooth.path());
+    expect_same(*map->domain()->moments(), integrated(*map, 600), 1e-4);
     // 0 and 1 with 3/4 and 1/4: variance 3/16, skewness (1 - 2 p) / sqrt(p q).
     const auto coin =
         mapping("discrete:probabilities=[0.75,0.25],values=[0,1]")->domain()->moments();

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "core/options.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
+#include "core/domain.hpp"
 #include "core/spec.hpp"
 #include "support/units.hpp"
 
@@ -54,6 +59,24 @@ TEST(Options, ValuesAreReadFromText) {
     EXPECT_EQ(with("center", "2,1  1,2 ")[center], (std::vector<double>{2, 1, 1, 2}));
     EXPECT_EQ(with("vertices", "0,0  2,0 0,2")[vertices], (Table{{0, 0}, {2, 0}, {0, 2}}));
     EXPECT_EQ(with("shape", "40x25")[shape], (std::vector<std::int64_t>{40, 25}));
+}
+
+TEST(Options, NumbersMayBeFormulas) {
+    EXPECT_EQ(with("radius", "sqrt(2)/2")[radius], std::sqrt(2.0) / 2);
+    EXPECT_EQ(with("radius", "pi")[radius], std::numbers::pi);
+    EXPECT_EQ(with("radius", "1-0.25")[radius], 0.75);
+    EXPECT_EQ(with("radius", "2.5e-1")[radius], 0.25);
+    EXPECT_EQ(with("center", "-1/4,min(2,3)")[center], (std::vector<double>{-0.25, 2}));
+    EXPECT_EQ(with("vertices", "0,0 1,0 1/2,sqrt(3)/2")[vertices],
+              (Table{{0, 0}, {1, 0}, {0.5, std::sqrt(3.0) / 2}}));
+    EXPECT_EQ(parse_box("0..2*pi,-1/2..max(1,2)", 2).high,
+              (std::vector<double>{2 * std::numbers::pi, 2}));
+    EXPECT_EQ(refusal("radius", "1/0"), "usage: --radius: '1/0' is not a finite number");
+    EXPECT_EQ(refusal("radius", "0*2"), "usage: --radius: 0*2 is outside (0, inf)");
+    EXPECT_EQ(refusal("radius", "two"), "usage: --radius: 'two' is not a finite number");
+    EXPECT_THAT(refusal("radius", "2*x"), ::testing::HasSubstr("--radius: '2*x', column 3"));
+    EXPECT_THAT(refusal("center", "1,(2"), ::testing::HasSubstr("the formula ends"));
+    EXPECT_EQ(refusal("base", "4/2"), "usage: --base: '4/2' is not a whole number");
 }
 
 TEST(Options, RefusalsSayTheValueAndWhatIsAllowed) {

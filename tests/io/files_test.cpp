@@ -302,10 +302,10 @@ TEST_F(Files, ReadPointsNamesTheFile) {
               "input: " + path("a.csv") +
                   ":2:1: 'word' is not a number; expected one such as 0.5 or 1e-3");
     put("a.ply", "ply\n");
-    EXPECT_EQ(
-        error_of([&] { io::read_points(path("a.ply"), {}, {}); }),
-        "usage: " + path("a.ply") +
-            ": ply is only written; formats that are read: bin, csv, json, jsonl, npy, psa, txt");
+    EXPECT_EQ(error_of([&] { io::read_points(path("a.ply"), {}, {}); }),
+              "usage: " + path("a.ply") +
+                  ": ply is only written; formats that are read: bin, csv, json, jsonl, npy, psa, "
+                  "txt, utk");
 }
 
 }  // namespace stipple::testing::files_test

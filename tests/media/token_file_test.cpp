@@ -57,6 +57,20 @@ TEST(TokenFile, KnowsWhatBelongsToALine) {
     EXPECT_TRUE(file.at_end());
 }
 
+TEST(TokenFile, KnowsTheCommentOfTheNextTokensLine) {
+    TokenFile file("# title\n2 # dimensions\n3\n# k =\n4 5 # both\n", "f");
+    EXPECT_TRUE(file.comment_has("dimensions"));
+    EXPECT_FALSE(file.comment_has("title"));
+    file.number("two");
+    EXPECT_FALSE(file.comment_has("#"));
+    file.number("three");
+    file.number("four");
+    EXPECT_TRUE(file.comment_has("both"));
+    EXPECT_FALSE(file.comment_has("5"));
+    file.number("five");
+    EXPECT_FALSE(file.comment_has("#"));
+}
+
 TEST(TokenFile, SaysWhichFileCannotBeRead) {
     EXPECT_EQ(error_of([] { TokenFile file("/no/such/file"); }), "io: /no/such/file: no such file");
     EXPECT_EQ(error_of([] { TokenFile file("/"); }), "io: /: is a folder, not a file");

@@ -23,6 +23,19 @@ TEST(CranleyPatterson, TakesOneForZero) {
     EXPECT_NEAR(moved[0][1], moved[1][1], 1e-15);
 }
 
+TEST(CranleyPatterson, AddsAGivenVector) {
+    const PointSet plain = points_of({{0, 0.5}, {0.75, 1}});
+    const auto shifted = [&](const char* by) {
+        return scrambled(plain, std::string("cranley-patterson:shift=[") + by + "]", 4);
+    };
+    EXPECT_EQ(shifted("0.25,0.25"), points_of({{0.25, 0.75}, {0, 0.25}}));
+    EXPECT_EQ(shifted("2.25,-1.75"), shifted("0.25,0.25"));
+    EXPECT_EQ(shifted("0,1/2"), points_of({{0, 0}, {0.75, 0.5}}));
+    EXPECT_EQ(error_of([&] { shifted("0.5"); }), "usage: --shift: 1 numbers for 2 coordinates");
+    const PointSet nearly_a_turn = shifted("-1e-300,0");
+    for (const double x : nearly_a_turn.flat()) EXPECT_LT(x, 1);
+}
+
 TEST(CranleyPatterson, GoesByItsOtherNames) {
     EXPECT_EQ(scramble_named("rotation"), scramble_named("cranley-patterson"));
     EXPECT_EQ(scramble_named("rotations"), nullptr);

@@ -27,15 +27,21 @@ std::optional<Box> box_of(const Domain& domain) {
     return domain.bounding_box();
 }
 
-/// @throws Error(input) where the square of the box's diagonal is more than float64 holds.
+Norm norm_of(const std::string& metric) {
+    if (metric.ends_with("manhattan")) return Norm::manhattan;
+    return metric.ends_with("chebyshev") ? Norm::chebyshev : Norm::euclidean;
+}
+
+/// @throws Error(input) where the square of the sum of the box's sides, which is more than that of
+/// its diagonal, is more than float64 holds.
 void require_squares(const Box& box, const char* too_wide) {
     double sum = 0;
     std::size_t widest = 0;
     for (std::size_t k = 0; k < box.dimension(); ++k) {
-        sum += box.extent(k) * box.extent(k);
+        sum += box.extent(k);
         if (box.extent(k) > box.extent(widest)) widest = k;
     }
-    if (!std::isfinite(sum))
+    if (!std::isfinite(sum * sum))
         fail(ErrorKind::input, "{} for squared distances in float64: x{} from {} to {}", too_wide,
              widest + 1, format_number(box.low[widest]), format_number(box.high[widest]));
 }
@@ -64,6 +70,12 @@ void require_squares(const PointSet& points) {
 
 }  // namespace
 
+std::string Distances::name() const {
+    if (norm == Norm::euclidean) return torus ? "torus" : "euclidean";
+    return std::string(torus ? "torus-" : "") +
+           (norm == Norm::manhattan ? "manhattan" : "chebyshev");
+}
+
 std::vector<double> Distances::sides() const {
     std::vector<double> sides;
     for (std::size_t k = 0; torus && k < box->dimension(); ++k) sides.push_back(box->extent(k));
@@ -71,9 +83,11 @@ std::vector<double> Distances::sides() const {
 }
 
 Distances distances_of(const PointSet& points, const std::string& asked) {
-    Distances distances{.torus = asked != "euclidean", .box = box_of(*points.domain)};
+    Distances distances{.torus = asked.empty() || asked.starts_with("torus"),
+                        .box = box_of(*points.domain),
+                        .norm = norm_of(asked)};
     if (!distances.box) {
-        if (asked == "torus")
+        if (asked.starts_with("torus"))
             fail(ErrorKind::usage,
                  "--metric: a torus joins the faces of a unit cube or a box; the points live on {}",
                  points.domain->spec());
@@ -145,13 +159,14 @@ std::vector<Neighbor> nearest_neighbors(const PointSet& points, const Distances&
     run.need_memory(
         static_cast<double>(points.count()) * (48 + 10 * static_cast<double>(points.dimension())),
         "the search for nearest neighbours");
-    if (points.dimension() <= 3) {
+    if (points.dimension() <= 3 && distances.norm == Norm::euclidean) {
         const Box box =
             distances.torus ? *distances.box : bounding_box(points.flat(), points.dimension());
         auto found = all_nearest_by_grid(points.flat(), box, distances.torus, run);
         if (found) return std::move(*found);
     }
-    const KdTree tree(points.flat(), points.dimension(), distances.sides(), run.stage(0, 0.5));
+    const KdTree tree(points.flat(), points.dimension(), distances.sides(), run.stage(0, 0.5),
+                      distances.norm);
     return tree.all_nearest(run.stage(0.5, 1));
 }
 

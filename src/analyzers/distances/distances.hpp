@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // How the distances between a set's points are measured: in the box that they live on with its
-// opposite faces joined (torus), or straight (Euclidean).
+// opposite faces joined (torus), or straight; Euclidean, or in another norm.
 #pragma once
 
 #include <optional>
@@ -24,19 +24,30 @@ inline constexpr Param<Choice> metric{
         "Across opposite faces of the unit cube or box that the points live on, or straight; "
         "default: torus, and euclidean on domains without faces"};
 
+/// The same for measures that make sense in other norms, too.
+inline constexpr Param<Choice> metric_of_any_norm{
+    .name = "metric",
+    .choices = "torus|euclidean|manhattan|chebyshev|torus-manhattan|torus-chebyshev",
+    .help =
+        "Across opposite faces of the unit cube or box that the points live on (torus), or "
+        "straight; Euclidean, the sum of the distances along the axes (manhattan), or the largest "
+        "(chebyshev); default: torus, and euclidean on domains without faces"};
+
 struct Distances {
     bool torus;
     std::optional<Box> box;  ///< where all points are; none if they are in no box that is known
+    Norm norm = Norm::euclidean;
 
-    [[nodiscard]] const char* name() const { return torus ? "torus" : "euclidean"; }
+    /// As one asks for it.
+    [[nodiscard]] std::string name() const;
 
-    /// As a search tree takes them: none for Euclidean distances.
+    /// As a search tree takes them: none for straight distances.
     [[nodiscard]] std::vector<double> sides() const;
 };
 
-/// What `asked` (torus, euclidean, or nothing) means for the points.
+/// What `asked` (a metric's name, or nothing) means for the points.
 /// @throws Error(usage) for a torus of what is no box
-/// @throws Error(input) for points outside the domain, unless they were said to be Euclidean,
+/// @throws Error(input) for points outside the domain, unless straight distances are asked for,
 ///         and for points (or their box) that float64 cannot hold the squared distances of
 Distances distances_of(const PointSet& points, const std::string& asked);
 

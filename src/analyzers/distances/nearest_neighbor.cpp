@@ -4,6 +4,8 @@
 //
 //     d_i = min over j != i of |x_i - x_j|;      minimum, mean, maximum and deviation over i.
 //
+// Distances are Euclidean, or in the Manhattan or Chebyshev norm.
+//
 // On the torus (the default on the unit cube and on boxes) distances go across opposite faces. The
 // relative radius compares the minimum with the smallest distance of the densest packing of n
 // points in the domain's volume V,
@@ -14,7 +16,7 @@
 // 1/2, 1/(2 sqrt 3), 1/(4 sqrt 2), 1/8, 1/(8 sqrt 2), 1/(8 sqrt 3), 1/16, 1/16. In 2-D that is
 // minimum / sqrt(2 V / (sqrt 3 n)), as the literature on blue noise has it. No set is denser for
 // d = 1, 2, 3 and 8, so that the ratio is at most 1 on the torus; between, none is known. The key
-// is left out for d > 8, and where the points are in no box.
+// is left out for d > 8, where the points are in no box, and in other norms.
 //
 // Shape   n >= 2 points of any dimension. A duplicate has distance 0.
 // Cost    O(n log n) for few dimensions; on one core 10^6 even points take 0.3 s in 2-D, 0.6 s in
@@ -65,7 +67,7 @@ double sum_up(const std::vector<Neighbor>& neighbors, const RunContext& run, con
 }
 
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
-    const Distances distances = distances_of(points, options[metric]);
+    const Distances distances = distances_of(points, options[metric_of_any_norm]);
     if (points.count() == 1)
         fail(ErrorKind::input, "nearest-neighbor needs at least two points; this is one");
     const auto neighbors = nearest_neighbors(points, distances, run);
@@ -80,7 +82,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     results.add("mean", mean);
     results.add("maximum", std::sqrt(std::ranges::max(neighbors, {}, &Neighbor::squared).squared));
     results.add("standard_deviation", std::sqrt(deviations / n));
-    if (distances.box && points.dimension() <= packing.size())
+    if (distances.box && distances.norm == Norm::euclidean && points.dimension() <= packing.size())
         results.add("relative_radius", minimum / packing_distance(*distances.box, n));
     results.add("pair", Report::Integers{static_cast<std::int64_t>(closest.first),
                                          static_cast<std::int64_t>(closest.second.index)});
@@ -97,23 +99,26 @@ void refine(Report& mean, std::size_t sets, const Values&) {
 }  // namespace
 
 Analyzer unit() {
-    return {.name = "nearest-neighbor",
-            .summary = "Distances to the nearest other point: minimum, mean, relative radius",
-            .source = "Lagae, Dutre 2008, doi:10.1111/j.1467-8659.2007.01100.x (relative radius)",
-            .traits = {.unit_cube = false},
-            .options = Schema(metric),
-            .results = {{"minimum", "the smallest distance of two points"},
-                        {"mean", "of the points' distances to their nearest neighbours"},
-                        {"maximum", "the largest of them"},
-                        {"standard_deviation", "of them, over all n points"},
-                        {"relative_radius",
-                         "minimum over that of the densest packing known (hexagonal in 2-D); not "
-                         "for more than 8 dimensions"},
-                        {"pair", "the two points (from 0) that have the smallest distance"},
-                        {"duplicates", "points that are at the same place as another"},
-                        {"metric", "torus or euclidean", true, "torus|euclidean"}},
-            .analyze = analyze,
-            .refine = refine};
+    return {
+        .name = "nearest-neighbor",
+        .summary = "Distances to the nearest other point: minimum, mean, relative radius",
+        .source = "Lagae, Dutre 2008, doi:10.1111/j.1467-8659.2007.01100.x (relative radius)",
+        .traits = {.unit_cube = false},
+        .options = Schema(metric_of_any_norm),
+        .results = {{"minimum", "the smallest distance of two points"},
+                    {"mean", "of the points' distances to their nearest neighbours"},
+                    {"maximum", "the largest of them"},
+                    {"standard_deviation", "of them, over all n points"},
+                    {"relative_radius",
+                     "minimum over that of the densest packing known (hexagonal in 2-D); not "
+                     "for more than 8 dimensions, nor in other norms"},
+                    {"pair", "the two points (from 0) that have the smallest distance"},
+                    {"duplicates", "points that are at the same place as another"},
+                    {"metric",
+                     "torus, euclidean, manhattan, chebyshev, torus-manhattan or torus-chebyshev",
+                     true, metric_of_any_norm.choices}},
+        .analyze = analyze,
+        .refine = refine};
 }
 
 }  // namespace stipple::analyzers::nearest_neighbor

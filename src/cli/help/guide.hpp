@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace stipple::cli {
@@ -25,6 +26,11 @@ struct Topic {
 };
 
 const std::vector<Topic>& topics();
+
+/// What the page coming-from tells of another package (scipy), of what it calls something
+/// (latinhypercube, qmc.Halton), or, for its own name, of all; whatever the case. Empty where that is
+/// nothing.
+std::string coming_from(std::string_view name);
 
 /// What a verb's page says: its heading, the command, paragraphs, and "## Examples".
 struct VerbPage {

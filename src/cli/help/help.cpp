@@ -26,6 +26,7 @@ std::string escaped(std::string_view text) {
                                       {"`", "\\(ga"},
                                       {"^", "\\(ha"},
                                       {"~", "\\(ti"},
+                                      {"|", "|\\:"},  // a line may end there
                                       {"\n.", "\n\\&."}})
         replace_all(out, plain, roff);
     return out.starts_with('.') ? "\\&" + out : out;
@@ -261,6 +262,7 @@ std::string help_of_unit(const std::string& name) {
         if (const VerbInfo* info = find_verb(kind.verb)) return page_of_unit(*info, *unit).text();
         if (const Topic* topic = find_topic(kind.name)) return topic->text;  // csv: formats
     }
+    if (std::string lines = coming_from(name); !lines.empty()) return lines;
     refuse_name(name);
 }
 

@@ -147,6 +147,9 @@ const std::vector<CommonOption> rows = {
      "add a column with 1 / density: the mean of f times weight estimates the integral of f",
      generate | warp},
     {"--inverse", "", "", "map points back to the unit cube", warp},
+    {"--density-at", "", "",
+     "the points stay where they are, with a column of the warp's density there: 0 off its domain",
+     warp},
     {"--coordinates", "I,J,...", "", "coordinates to warp, from 1; the same as WARP@I,J", warp},
     {"--domain", "SPEC", "",
      "domain of the points: unit-cube, disk, triangle:vertices=[...], ...; default: as the file "
@@ -207,7 +210,7 @@ const std::vector<CommonOption> rows = {
      "digits after the point, truncated; default: the shortest text that reads back exactly",
      writers, false, 0, 1000},
     {"--meta", "", "",
-     "write the provenance: in '# ' lines on top of text formats; for npy, bin and psa in "
+     "write the provenance: in '# ' lines on top of text formats; for npy, bin, utk and psa in "
      "FILE.meta.json",
      writers},
     {"--no-header", "", "", "omit the header line of csv", writers},

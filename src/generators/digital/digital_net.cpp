@@ -84,18 +84,20 @@ constexpr Param<std::int64_t> base_option{.name = "base",
                                           .help =
                                               "Base of a file in the layout rows, a prime; "
                                               "else 2"};
-constexpr Param<std::int64_t> interlacing{.name = "interlace",
-                                          .fallback = 1,
-                                          .low = 1,
-                                          .high = 64,
-                                          .help =
-                                              "Interlacing factor alpha: a coordinate is made "
-                                              "of the digits of that many matrices"};
+constexpr Param<std::int64_t> interlacing{
+    .name = "interlace",
+    .low = 1,
+    .high = 64,
+    .optional = true,
+    .help =
+        "Interlacing factor alpha: a coordinate is made of the digits of that many matrices; "
+        "default: as the file says, else 1"};
 
 /// Matrices of one shape, in one prime base.
 struct MatrixFile {
     std::uint32_t base = 2;
     std::vector<DigitMatrix> matrices;
+    std::size_t interlaced = 1;  ///< as the file says, or as the options do
 };
 
 constexpr std::size_t most_columns = 64;
@@ -107,6 +109,7 @@ struct Header {
     std::size_t matrices = 0;
     std::size_t columns = 0;
     std::size_t rows = 0;
+    std::size_t interlaced = 1;
 };
 
 /// Of LatNet Builder's nets, which do not say their base.
@@ -135,6 +138,11 @@ Header read_header(TokenFile& file) {
         file.refuse(at, fmt::format("the base {} is not a prime, {} divides it", header.base,
                                     smallest_factor(header.base)));
     header.matrices = file.number("the number of matrices", 1, most_matrices);
+    if (file.comment_has(interlacing_comment)) {
+        header.interlaced = file.number("the interlacing factor", 1, 64);
+        header.matrices *= header.interlaced;
+        file.number("the number of components", header.matrices, header.matrices);
+    }
     const Token shape = file.peek();
     header.columns = file.number("the number of columns, or of points", 1);
     for (std::size_t k = 1; header.columns > most_columns && k <= most_columns; ++k)
@@ -191,7 +199,7 @@ std::uint64_t largest_column(const Header& header) {
 
 MatrixFile with_header(TokenFile& file, std::string_view layout) {
     const Header header = read_header(file);
-    MatrixFile found{.base = header.base, .matrices = {}};
+    MatrixFile found{.base = header.base, .matrices = {}, .interlaced = header.interlaced};
     const std::uint64_t high = largest_column(header);
     if (layout != "digits" && high == 0)
         file.refuse_whole(
@@ -250,20 +258,6 @@ MatrixFile read_matrices(TokenFile& file, std::string_view wanted, std::uint32_t
     return found;
 }
 
-/// Coordinates of higher order: row r of the k-th is row r / alpha of matrix alpha k + r mod alpha.
-/// What is left over of the matrices when alpha does not divide their number is left out.
-std::vector<DigitMatrix> interlace(const std::vector<DigitMatrix>& matrices, std::size_t alpha) {
-    std::vector<DigitMatrix> woven;
-    for (std::size_t first = 0; first + alpha <= matrices.size(); first += alpha) {
-        DigitMatrix& matrix =
-            woven.emplace_back(alpha * matrices[first].rows, matrices[first].columns);
-        for (std::size_t r = 0; r < matrix.rows; ++r)
-            for (std::size_t c = 0; c < matrix.columns; ++c)
-                matrix.at(r, c) = matrices[first + r % alpha].at(r / alpha, c);
-    }
-    return woven;
-}
-
 MatrixFile read(const Values& options) {
     if (!options.given(matrices_option))
         fail(ErrorKind::usage, "--matrices: digital-net needs a file of generating matrices");
@@ -272,12 +266,15 @@ MatrixFile read(const Values& options) {
         fail(ErrorKind::usage, "--base: only the layout rows does not say or fix its base");
     const std::uint32_t base = prime_base(options.given(base_option) ? options[base_option] : 2);
     TokenFile file(options[matrices_option]);
-    return read_matrices(file, options[layout_option], base);
+    MatrixFile found = read_matrices(file, options[layout_option], base);
+    if (options.given(interlacing))
+        found.interlaced = static_cast<std::size_t>(options[interlacing]);
+    return found;
 }
 
 Plan plan(const Request& request, const Values& options) {
     const MatrixFile file = read(options);
-    const auto alpha = static_cast<std::size_t>(options[interlacing]);
+    const std::size_t alpha = file.interlaced;
     const std::size_t most = file.matrices.size() / alpha;
     if (most == 0)
         fail(ErrorKind::usage, "--interlace: {} is above the {} matrices of {}", alpha,
@@ -297,10 +294,9 @@ Plan plan(const Request& request, const Values& options) {
 
 std::unique_ptr<Sequence> make(const Plan& decided, const Values& options, const RunContext&) {
     MatrixFile file = read(options);
-    const auto alpha = static_cast<std::size_t>(options[interlacing]);
-    file.matrices.resize(decided.dimension * alpha);
-    if (alpha > 1) file.matrices = interlace(file.matrices, alpha);
-    return net_sequence(file.base, std::move(file.matrices), decided, options);
+    file.matrices.resize(decided.dimension * file.interlaced);
+    return net_sequence(file.base, interlace(std::move(file.matrices), file.interlaced), decided,
+                        options);
 }
 
 std::vector<std::string> notes(const Request& request, const Plan& decided, const Values& options) {

@@ -16,6 +16,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "generators/net_sequence.hpp"
 #include "media/token_file.hpp"
 
 namespace stipple {
@@ -91,6 +92,33 @@ Initializer read_line(TokenFile& file, std::size_t dimension, bool bare) {
     return initial;
 }
 
+/// Takes the numbers that LatNet Builder puts on lines with comments before the directions: the
+/// dimension, perhaps two of interlacing, perhaps the digits of the number of points. Gives the
+/// interlacing factor.
+std::size_t take_header(TokenFile& file) {
+    std::size_t alpha = 1;
+    while (file.comment_has("#")) {
+        const bool interlaced = file.comment_has(interlacing_comment);
+        const std::uint64_t number =
+            file.number("a number of the header", 1, interlaced ? 64 : 1'000'000);
+        if (interlaced) alpha = static_cast<std::size_t>(number);
+        file.expect_line_end();
+    }
+    return alpha;
+}
+
+/// Each coordinate made of the digits of alpha: the first of each, then the second of each, ...
+BinaryMatrices interlaced(const BinaryMatrices& matrices, std::size_t alpha) {
+    BinaryMatrices woven{matrices.dimension / alpha, {}};
+    for (std::size_t at = 0; at < matrices.columns.size(); at += alpha) {
+        std::uint64_t column = 0;
+        for (std::size_t r = 0; r < 64; ++r)
+            column |= (matrices.columns[at + r % alpha] >> (63 - r / alpha) & 1) << (63 - r);
+        woven.columns.push_back(column);
+    }
+    return woven;
+}
+
 }  // namespace
 
 const std::size_t sobol_table_dimensions = JoeKuoTable::max_dimension;
@@ -106,18 +134,20 @@ BinaryMatrices sobol_matrices(std::size_t dimension, std::size_t digits, const s
     const bool bare = (file.is_headed("# sobol") && !file.is_headed("# soboljk")) ||
                       file.is_headed("# Parameters m_{j,c} for Sobol points");
     if (file.peek().text == "d") file.skip_line();
-    BinaryMatrices matrices = van_der_corput_first(dimension, digits);
+    const bool latnet = file.is_headed("# Parameters");
+    const std::size_t alpha = latnet ? take_header(file) : 1;
+    BinaryMatrices matrices = van_der_corput_first(dimension * alpha, digits);
     std::size_t next = 2;
     for (; !file.at_end(); ++next) {
         const Initializer initial = read_line(file, next, bare);
-        if (next <= dimension) grow(initial, next - 1, matrices);
+        if (next <= matrices.dimension) grow(initial, next - 1, matrices);
     }
     if (next == 2) file.refuse_whole("no direction numbers; expected lines \"d s a m_1 ... m_s\"");
-    if (next <= dimension)
+    if (next <= matrices.dimension)
         fail(ErrorKind::usage,
              "--dimension: {} is outside [1, {}], what {} has direction numbers for", dimension,
-             next - 1, path);
-    return matrices;
+             (next - 1) / alpha, path);
+    return alpha > 1 ? interlaced(matrices, alpha) : matrices;
 }
 
 }  // namespace stipple

@@ -17,8 +17,8 @@ extern const std::size_t sobol_table_dimensions;
 BinaryMatrices sobol_matrices(std::size_t dimension, std::size_t digits);
 
 /// The same by a file in the format of Joe and Kuo's: a line of names, then one line a dimension
-/// from the second on, "d s a m_1 ... m_s"; or LDData's `# sobol`, lines of no more than the m. The
-/// whole file is checked.
+/// from the second on, "d s a m_1 ... m_s"; or LDData's `# sobol`, lines of no more than the m; or
+/// LatNet Builder's of either kind, also interlaced. The whole file is checked.
 /// @throws Error(input) naming line and column; Error(usage) when it has too few dimensions
 BinaryMatrices sobol_matrices(std::size_t dimension, std::size_t digits, const std::string& path);
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "generators/net_sequence.hpp"
 #include "media/token_file.hpp"
 
 namespace stipple {
@@ -18,7 +19,12 @@ std::size_t read_header(TokenFile& file, bool polynomial, VectorFile& found) {
         return value;
     };
     if (file.is_headed("# plattice")) take("the base 2", 2, 2);
-    const std::size_t dimension = take("the number of dimensions", 1, 1'000'000);
+    std::size_t dimension = take("the number of dimensions", 1, 1'000'000);
+    if (polynomial && file.comment_has(interlacing_comment)) {
+        found.interlaced = take("the interlacing factor", 1, 64);
+        const std::size_t components = dimension * found.interlaced;
+        dimension = take("the number of components", components, components);
+    }
     if (!polynomial) {
         found.points = take("the number of points", 1, std::uint64_t{1} << 53);
         return dimension;

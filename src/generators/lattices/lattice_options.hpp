@@ -33,13 +33,14 @@ inline constexpr Param<Path> vector_file{
 /// What a file says of a lattice.
 struct VectorFile {
     std::vector<std::uint64_t> vector;
-    std::uint64_t points = 0;   ///< 0: it does not say
-    std::uint64_t modulus = 0;  ///< of a polynomial lattice in base 2; 0: it is none
+    std::uint64_t points = 0;    ///< 0: it does not say
+    std::size_t interlaced = 1;  ///< components whose digits make a coordinate
+    std::uint64_t modulus = 0;   ///< of a polynomial lattice in base 2; 0: it is none
 };
 
-/// The file that the options name; nothing where they name none. Reads plain vectors, `# lattice` and `# plattice` of LDData, and LatNet Builder's `# Parameters
-/// for a lattice rule` and `... a polynomial lattice rule`, by what they say of themselves
-/// before the numbers.
+/// The file that the options name; nothing where they name none. Reads plain vectors, `# lattice`
+/// and `# plattice` of LDData, and LatNet Builder's `# Parameters for a lattice rule` and `... a
+/// polynomial lattice rule`, by what they say of themselves before the numbers.
 /// @throws Error(input) naming file, line and column, also for a lattice of the other kind
 /// Source  github.com/QMCSoftware/LDData, README.md
 VectorFile vector_in_file(const Values& options, bool polynomial);

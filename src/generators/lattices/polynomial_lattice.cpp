@@ -103,7 +103,8 @@ void check_search(std::uint64_t count, std::uint64_t modulus) {
 Plan plan(const Request& request, const Values& options) {
     refuse_contradictions(options);
     const VectorFile file = vector_in_file(options, true);
-    const std::size_t numbers = std::max(file.vector.size(), options[vector_option].size());
+    const std::size_t numbers =
+        std::max(file.vector.size() / file.interlaced, options[vector_option].size());
     const Plan decided =
         default_plan(request, file.points > 0 ? file.points : 1024, numbers > 0 ? numbers : 2);
     const std::uint64_t modulus = modulus_for(decided.count, options);
@@ -115,10 +116,10 @@ Plan plan(const Request& request, const Values& options) {
     return decided;
 }
 
-std::vector<std::uint64_t> given_vector(const Values& options, std::size_t dimension, int m) {
+std::vector<std::uint64_t> given_vector(const Values& options, const VectorFile& file,
+                                        std::size_t components, int m) {
     const std::uint64_t most = (std::uint64_t{1} << m) - 1;
-    return given_components(options, vector_in_file(options, true), vector_option, dimension, 1,
-                            static_cast<double>(most),
+    return given_components(options, file, vector_option, components, 1, static_cast<double>(most),
                             fmt::format("a polynomial in [1, {}]", most));
 }
 
@@ -138,13 +139,15 @@ DigitMatrix hankel(std::uint64_t q, std::uint64_t modulus) {
 
 std::unique_ptr<Sequence> make(const Plan& decided, const Values& options, const RunContext& run) {
     const std::uint64_t modulus = modulus_for(decided.count, options);
+    const VectorFile file = vector_in_file(options, true);
     const std::vector<std::uint64_t> vector =
         searches(options)
             ? polynomial_components(modulus, weights_of(options, decided.dimension), run)
-            : given_vector(options, decided.dimension, gf2::degree(modulus));
+            : given_vector(options, file, decided.dimension * file.interlaced,
+                           gf2::degree(modulus));
     std::vector<DigitMatrix> matrices;
     for (const std::uint64_t q : vector) matrices.push_back(hankel(q, modulus));
-    return net_sequence(2, std::move(matrices), decided, options);
+    return net_sequence(2, interlace(std::move(matrices), file.interlaced), decided, options);
 }
 
 }  // namespace

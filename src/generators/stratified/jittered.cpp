@@ -7,7 +7,8 @@
 //              s_r = floor(r n / R), side by side and equally wide; it reaches from y = s_r / n to
 //              s_{r+1} / n. So all cells have the area 1 / n, and for n = k^2 they are the k x k
 //              grid.
-//     d > 2    k^d = n cubes, the first coordinate fastest
+//     d > 2    k^d = n cubes, the first coordinate fastest; or, for any d, a shape of
+//              k_1 x ... x k_d = n boxes in the same order
 //
 // Cost    O(n d); point i is found without the others.
 // Promise point i is in cell i, half-open, in exact arithmetic (math/digital/stratum.hpp).
@@ -18,6 +19,7 @@
 
 #include "core/rng.hpp"
 #include "generators/generator.hpp"
+#include "generators/stratified/stratified.hpp"
 #include "math/arithmetic/ratio.hpp"
 #include "math/digital/stratum.hpp"
 #include "math/functions/powers.hpp"
@@ -26,6 +28,10 @@
 namespace stipple::generators::jittered {
 namespace {
 
+constexpr Param<Extents> shape{
+    {.name = "shape",
+     .unit = "cells",
+     .help = "Cells in each direction, such as 40x25; gives count and dimension"}};
 constexpr Param<Choice> cell{.name = "cell",
                              .fallback = "random",
                              .choices = "random|center",
@@ -59,50 +65,46 @@ void place_in_rows(std::uint64_t n, bool centered, std::uint64_t first, std::spa
     }
 }
 
-/// The cells of points first, first + 1, ... of a cube cut alike along all sides.
-void find_cells(std::span<const std::uint64_t> shape, std::uint64_t first,
-                std::span<double> cells) {
-    const std::size_t d = shape.size();
-    for_each_lattice_row(shape, first, cells.size() / d,
-                         [&](auto start, std::size_t offset, std::size_t length) {
-                             double* const at = cells.data() + offset * d;
-                             for (std::size_t i = 0; i < length; ++i) {
-                                 for (std::size_t c = 0; c < d; ++c)
-                                     at[i * d + c] = static_cast<double>(start[c]);
-                                 at[i * d] += static_cast<double>(i);
-                             }
-                         });
-}
-
-void place_in_cubes(std::span<const std::uint64_t> shape, bool centered, std::uint64_t first,
+/// Points first, first + 1, ... of boxes, sides[k] of them along axis k.
+void place_in_boxes(std::span<const std::uint64_t> sides, bool centered, std::uint64_t first,
                     std::span<double> rows) {
-    const std::size_t d = shape.size();
-    const std::size_t portion = (1 + 4096 / d) * d;
-    std::vector<double> cells;
-    for (std::size_t at = 0; at < rows.size(); at += portion) {
-        const auto some = rows.subspan(at, std::min(portion, rows.size() - at));
-        cells.resize(some.size());
-        find_cells(shape, first + at / d, cells);
-        place(centered, {.low = cells, .parts = shape[0]}, some.data(), 1);
+    const std::size_t d = sides.size();
+    const std::size_t most = 1 + 4096 / d;  // so many at a time, axis after axis
+    std::vector<double> low(most * d);
+    for (std::size_t done = 0; done < rows.size() / d; done += most) {
+        const std::size_t count = std::min(most, rows.size() / d - done);
+        for_each_lattice_row(sides, first + done, count,
+                             [&](auto start, std::size_t offset, std::size_t length) {
+                                 for (std::size_t k = 0; k < d; ++k)
+                                     for (std::size_t i = 0; i < length; ++i)
+                                         low[k * most + offset + i] =
+                                             static_cast<double>(start[k] + (k == 0 ? i : 0));
+                             });
+        for (std::size_t k = 0; k < d; ++k)
+            place(centered, {.low = std::span(low).subspan(k * most, count), .parts = sides[k]},
+                  rows.data() + done * d + k, d);
     }
 }
 
-Plan plan(const Request& request, const Values&) {
+Plan plan(const Request& request, const Values& options) {
+    if (options.given(shape)) return plan_of_shape(request, options[shape], "cells");
     if (request.dimension.value_or(2) == 2) return default_plan(request);
     return plan_of_cubes(request, "jittered");
 }
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     const bool centered = options[cell] == "center";
-    const bool in_rows = plan.dimension == 2;
-    const std::uint64_t side = in_rows ? 0 : exact_root(plan.count, plan.dimension, "jittered");
-    return sequence_of(
-        [=, n = plan.count, rng = Rng(plan.seed), shape = std::vector(plan.dimension, side)](
-            std::uint64_t first, std::span<double> rows) {
-            if (!centered) rng.fill(first * shape.size(), rows);
-            in_rows ? place_in_rows(n, centered, first, rows)
-                    : place_in_cubes(shape, centered, first, rows);
-        });
+    const bool in_rows = plan.dimension == 2 && !options.given(shape);
+    std::vector<std::uint64_t> sides;
+    for (const std::int64_t k : options[shape]) sides.push_back(static_cast<std::uint64_t>(k));
+    if (sides.empty() && !in_rows)
+        sides.assign(plan.dimension, exact_root(plan.count, plan.dimension, "jittered"));
+    return sequence_of([=, d = plan.dimension, n = plan.count, rng = Rng(plan.seed)](
+                           std::uint64_t first, std::span<double> rows) {
+        if (!centered) rng.fill(first * d, rows);
+        in_rows ? place_in_rows(n, centered, first, rows)
+                : place_in_boxes(sides, centered, first, rows);
+    });
 }
 
 }  // namespace
@@ -112,7 +114,7 @@ Generator unit() {
             .summary = "Jittered points: one at random in each of n cells of equal volume",
             .source = "Cook 1986, doi:10.1145/7529.8927",
             .traits = {.prefix = false},
-            .options = Schema(cell),
+            .options = Schema(shape, cell),
             .aliases = {"stratified"},
             .plan = plan,
             .sequence = make};

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/options.hpp"
 #include "core/text.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
@@ -327,6 +328,10 @@ Expression::Expression(std::string_view option, std::string_view text, std::size
                 machine ? machine->parser.GetFunDef() : mu::funmap_type());
     }
     machines_ = std::make_shared<Machines>(text_, dimension);
+}
+
+double formula_value(std::string_view option, std::string_view text) {
+    return Expression(option, text, 0).at({});
 }
 
 double Expression::at(std::span<const double> point) const {

@@ -16,13 +16,15 @@ namespace {
 
 constexpr std::size_t leaf_size = 8;
 
-/// Distances in D dimensions, or in as many as is said when D = 0. Bounds are made by the same
+/// Distances in D dimensions, or in as many as is said when D = 0, where the norm may be another
+/// than the Euclidean one. Bounds are made by the same
 /// operations as distances, each of which rounds monotonically: a bound is never on the wrong side
 /// of a distance as computed.
 template <std::size_t D, bool Torus>
 class Metric {
   public:
-    Metric(std::size_t dimension, const double* sides) : dimension_(dimension), sides_(sides) {}
+    Metric(std::size_t dimension, const double* sides, Norm norm)
+        : dimension_(dimension), sides_(sides), norm_(norm) {}
 
     [[nodiscard]] double distance(const double* p, const double* q) const {
         return sum([&](std::size_t k) {
@@ -57,15 +59,23 @@ class Metric {
     template <class Along>
     [[nodiscard]] double sum(const Along& along) const {
         double squared = 0;
-        for (std::size_t k = 0; k < size(); ++k) {
-            const double d = along(k);
-            squared += d * d;
+        if (D > 0 || norm_ == Norm::euclidean) {
+            for (std::size_t k = 0; k < size(); ++k) {
+                const double d = along(k);
+                squared += d * d;
+            }
+            return squared;
         }
-        return squared;
+        double distance = 0;
+        for (std::size_t k = 0; k < size(); ++k)
+            distance =
+                norm_ == Norm::manhattan ? distance + along(k) : std::max(distance, along(k));
+        return distance * distance;
     }
 
     std::size_t dimension_;
     const double* sides_;
+    Norm norm_;
 };
 
 /// Widens box by a row or another box: low and high may be the same.
@@ -121,6 +131,13 @@ struct Several {
 };
 
 }  // namespace
+
+double squared_distance(std::span<const double> p, std::span<const double> q,
+                        const std::vector<double>& sides, Norm norm) {
+    if (sides.empty())
+        return Metric<0, false>(p.size(), nullptr, norm).distance(p.data(), q.data());
+    return Metric<0, true>(p.size(), sides.data(), norm).distance(p.data(), q.data());
+}
 
 /// Sorts the points into the leaves, level by level.
 class KdTree::Builder {
@@ -220,8 +237,8 @@ class KdTree::Builder {
 };
 
 KdTree::KdTree(std::span<const double> rows, std::size_t dimension, std::vector<double> sides,
-               const RunContext& run)
-    : dimension_(dimension), sides_(std::move(sides)) {
+               const RunContext& run, Norm norm)
+    : dimension_(dimension), sides_(std::move(sides)), norm_(norm) {
     const std::size_t n = rows.size() / dimension;
     if (n >= std::numeric_limits<std::uint32_t>::max())
         fail(ErrorKind::limit, "a search tree takes up to 2^32 - 2 points; these are {}", n);
@@ -241,12 +258,12 @@ KdTree::KdTree(std::span<const double> rows, std::size_t dimension, std::vector<
 template <class Work>
 auto KdTree::with_metric(const Work& work) const {
     const auto with = [&]<std::size_t D>() {
-        if (torus()) return work(Metric<D, true>(dimension_, sides_.data()));
-        return work(Metric<D, false>(dimension_, nullptr));
+        if (torus()) return work(Metric<D, true>(dimension_, sides_.data(), norm_));
+        return work(Metric<D, false>(dimension_, nullptr, norm_));
     };
     constexpr std::size_t most = 4;
-    return dimension_ > most ? with.template operator()<0>()
-                             : with_dimension<most>(dimension_, with);
+    return dimension_ > most || norm_ != Norm::euclidean ? with.template operator()<0>()
+                                                         : with_dimension<most>(dimension_, with);
 }
 
 /// Goes to the leaves that the query wants, the nearest first. It wants a node when a point at the

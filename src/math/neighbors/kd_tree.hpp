@@ -2,7 +2,10 @@
 //
 // Balanced k-d tree of n points in d dimensions: finds the nearest of them to a place.
 //
-//     distance^2 = sum_k d_k^2,    d_k = |p_k - q_k|,  on the torus min(d_k, side_k - d_k).
+//     distance^2 = sum_k d_k^2,    d_k = |p_k - q_k|,  on the torus min(d_k, side_k - d_k),
+//
+// or, in other norms, the square of sum_k d_k (Manhattan) or of max_k d_k (Chebyshev), of which the
+// root is that sum or largest d_k again.
 //
 // Every node has the tightest box around its points, and their lowest index. Halves are split
 // across the longest side of that box, so that clusters cost no more than even points do.
@@ -43,15 +46,22 @@ struct Neighbor {
     }
 };
 
+/// How the distances along the axes make one.
+enum class Norm { euclidean, manhattan, chebyshev };
+
+/// The squared distance of two places, as above.
+double squared_distance(std::span<const double> p, std::span<const double> q,
+                        const std::vector<double>& sides, Norm norm);
+
 class KdTree {
   public:
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
     /// Copies the rows of `dimension` numbers. `sides` are those of the box whose opposite faces
-    /// are joined (torus); none for Euclidean distances.
+    /// are joined (torus); none for straight distances.
     /// @throws Error(limit, cancelled)
     KdTree(std::span<const double> rows, std::size_t dimension, std::vector<double> sides,
-           const RunContext& run);
+           const RunContext& run, Norm norm = Norm::euclidean);
 
     [[nodiscard]] std::size_t count() const { return indices_.size(); }
     [[nodiscard]] std::size_t dimension() const { return dimension_; }
@@ -118,6 +128,7 @@ class KdTree {
 
     std::size_t dimension_;
     std::vector<double> sides_;
+    Norm norm_;
     std::size_t leaves_ = 1;              ///< a power of 2
     std::vector<double> rows_;            ///< in the order of the leaves
     std::vector<std::uint32_t> indices_;  ///< of those rows in the set

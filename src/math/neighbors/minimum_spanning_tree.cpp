@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "core/parallel.hpp"
-#include "math/neighbors/kd_tree.hpp"
 
 namespace stipple {
 namespace {
@@ -38,17 +36,6 @@ class Parts {
   private:
     std::vector<std::uint32_t> parents_;
 };
-
-double squared_between(const double* p, const double* q, std::size_t d,
-                       const std::vector<double>& sides) {
-    double sum = 0;
-    for (std::size_t k = 0; k < d; ++k) {
-        double gap = std::abs(p[k] - q[k]);
-        if (!sides.empty()) gap = std::min(gap, sides[k] - gap);
-        sum += gap * gap;
-    }
-    return sum;
-}
 
 /// Grows all parts at once. What is nearest to a point outside its part is kept for as long as it
 /// is outside: nearer ones cannot come.
@@ -157,15 +144,17 @@ class Growth {
 }  // namespace
 
 std::vector<double> near_spanning_tree(std::span<const double> rows, std::size_t dimension,
-                                       const std::vector<double>& sides, const RunContext& run) {
-    const KdTree tree(rows, dimension, sides, run.stage(0, 0.1));
+                                       const std::vector<double>& sides, const RunContext& run,
+                                       Norm norm) {
+    const KdTree tree(rows, dimension, sides, run.stage(0, 0.1), norm);
     if (tree.count() < 2) return {};
     run.need_memory(72.0 * static_cast<double>(tree.count()), "the spanning tree");
     return Growth(tree, run.stage(0.1, 1)).edges();
 }
 
 std::vector<double> plain_spanning_tree(std::span<const double> rows, std::size_t dimension,
-                                        const std::vector<double>& sides, const RunContext& run) {
+                                        const std::vector<double>& sides, const RunContext& run,
+                                        Norm norm) {
     const std::size_t n = rows.size() / dimension;
     std::vector<double> least(n, infinity);
     std::vector<std::uint32_t> outside(n);
@@ -175,11 +164,9 @@ std::vector<double> plain_spanning_tree(std::span<const double> rows, std::size_
     for (std::size_t left = n; left > 1; --left) {
         run.tick(n - left + 1, n - 1);
         outside.erase(std::ranges::find(outside, latest));
-        const double* p = rows.data() + std::size_t{latest} * dimension;
-        for (const std::uint32_t i : outside) {
-            const double* q = rows.data() + std::size_t{i} * dimension;
-            least[i] = std::min(least[i], squared_between(p, q, dimension, sides));
-        }
+        const auto row = [&](std::size_t i) { return rows.subspan(i * dimension, dimension); };
+        for (const std::uint32_t i : outside)
+            least[i] = std::min(least[i], squared_distance(row(latest), row(i), sides, norm));
         latest = *std::ranges::min_element(outside, {}, [&](std::uint32_t i) { return least[i]; });
         tree.push_back(least[latest]);
     }
@@ -188,9 +175,10 @@ std::vector<double> plain_spanning_tree(std::span<const double> rows, std::size_
 }
 
 std::vector<double> minimum_spanning_tree(std::span<const double> rows, std::size_t dimension,
-                                          const std::vector<double>& sides, const RunContext& run) {
-    if (dimension < many_dimensions) return near_spanning_tree(rows, dimension, sides, run);
-    return plain_spanning_tree(rows, dimension, sides, run);
+                                          const std::vector<double>& sides, const RunContext& run,
+                                          Norm norm) {
+    if (dimension < many_dimensions) return near_spanning_tree(rows, dimension, sides, run, norm);
+    return plain_spanning_tree(rows, dimension, sides, run, norm);
 }
 
 }  // namespace stipple

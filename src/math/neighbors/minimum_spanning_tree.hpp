@@ -8,7 +8,7 @@
 //     plain_spanning_tree    one part takes the nearest point outside, n times (Prim).
 //
 // Shape   1 <= n < 2^32 points. `sides` as for KdTree: of the torus, whose points are in one box of
-//         these sides; none for Euclidean distances. Duplicates are joined by edges of length 0.
+//         these sides; none for straight distances. Duplicates are joined by edges of length 0.
 // Cost    near O(n log^2 n) in few dimensions, 4.2 s for 10^6 points of the plane on one core, 72
 //         bytes a point besides the tree; in many dimensions up to that of plain, times log n;
 //         plain O(n^2 d) and n doubles.
@@ -22,20 +22,24 @@
 #include <span>
 #include <vector>
 
+#include "math/neighbors/kd_tree.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple {
 
 /// @throws Error(limit, cancelled)
 std::vector<double> near_spanning_tree(std::span<const double> rows, std::size_t dimension,
-                                       const std::vector<double>& sides, const RunContext& run);
+                                       const std::vector<double>& sides, const RunContext& run,
+                                       Norm norm = Norm::euclidean);
 
 /// @throws Error(cancelled)
 std::vector<double> plain_spanning_tree(std::span<const double> rows, std::size_t dimension,
-                                        const std::vector<double>& sides, const RunContext& run);
+                                        const std::vector<double>& sides, const RunContext& run,
+                                        Norm norm = Norm::euclidean);
 
 /// Whichever of them is faster. @throws Error(limit, cancelled)
 std::vector<double> minimum_spanning_tree(std::span<const double> rows, std::size_t dimension,
-                                          const std::vector<double>& sides, const RunContext& run);
+                                          const std::vector<double>& sides, const RunContext& run,
+                                          Norm norm = Norm::euclidean);
 
 }  // namespace stipple

@@ -174,7 +174,7 @@ Warp unit() {
                 "xi1 falls from the axis to the horizon, as the share of the density; xi2 is "
                 "the longitude; with --disk concentric squares about the centre become rings; "
                 "all as they are",
-            .options = Schema(method, exponent, axis, disk_map),
+            .options = Schema(method, exponent, axis, disk_map, orientation),
             .mapping = make};
 }
 

@@ -150,7 +150,7 @@ Warp unit() {
                 "xi1 falls from the north pole z = R to the south pole, as the share of the "
                 "area; xi2 is the longitude; both as they are",
             .traits = {.drops = true, .biased = true},
-            .options = Schema(method, radius, center, inner),
+            .options = Schema(method, radius, center, inner, orientation),
             .mapping = make};
 }
 

@@ -103,7 +103,7 @@ Warp unit() {
                 "polar: xi1 is the share of the area within the radius, xi2 the angle, both as "
                 "they are; concentric: squares about the centre become rings, left stays left",
             .traits = {.drops = true, .biased = true},
-            .options = Schema(method, radius, shape_center),
+            .options = Schema(method, radius, shape_center, orientation),
             .aliases = {"disc"},
             .mapping = make};
 }

@@ -172,7 +172,7 @@ Warp unit() {
                 "sqrt: xi1 is the share of the area between the first vertex and a parallel of the "
                 "opposite side, xi2 the place along it, both as they are; low-distortion: the "
                 "diagonal becomes the median from the first vertex, linear on either side",
-            .options = Schema(method, vertices),
+            .options = Schema(method, vertices, orientation),
             .mapping = make};
 }
 

@@ -22,20 +22,28 @@ struct Expected {
 };
 
 /// Oracle: all pairs, by the definition, in a box of these sides (none: straight distances).
-Expected by_definition(const PointSet& p, const std::vector<double>& sides) {
+Expected by_definition(const PointSet& p, const std::vector<double>& sides,
+                       const std::string& norm = "") {
     Expected found;
     for (std::size_t i = 0; i < p.count(); ++i) {
         double nearest = std::numeric_limits<double>::infinity();
         for (std::size_t j = 0; j < p.count(); ++j) {
             double sum = 0;
+            double all = 0;
+            double largest = 0;
             for (std::size_t k = 0; k < p.dimension(); ++k) {
                 double gap = std::abs(p[i][k] - p[j][k]);
                 if (!sides.empty()) gap = std::min(gap, sides[k] - gap);
                 sum += gap * gap;
+                all += gap;
+                largest = std::max(largest, gap);
             }
-            if (i != j) nearest = std::min(nearest, std::sqrt(sum));
-            if (i != j && std::sqrt(sum) < found.minimum) {
-                found.minimum = std::sqrt(sum);
+            const double distance = norm == "manhattan"   ? all
+                                    : norm == "chebyshev" ? largest
+                                                          : std::sqrt(sum);
+            if (i != j) nearest = std::min(nearest, distance);
+            if (i != j && distance < found.minimum) {
+                found.minimum = distance;
                 found.pair = {static_cast<std::int64_t>(i), static_cast<std::int64_t>(j)};
             }
         }
@@ -46,15 +54,18 @@ Expected by_definition(const PointSet& p, const std::vector<double>& sides) {
     return found;
 }
 
-void expect_as_defined(const PointSet& set, const std::vector<double>& sides) {
-    const Report report = analyze(unit, set, {{"metric", sides.empty() ? "euclidean" : "torus"}});
-    const Expected expected = by_definition(set, sides);
+void expect_as_defined(const PointSet& set, const std::vector<double>& sides,
+                       const std::string& norm = "") {
+    std::string metric = sides.empty() ? "euclidean" : "torus";
+    if (!norm.empty()) metric = sides.empty() ? norm : metric + "-" + norm;
+    const Report report = analyze(unit, set, {{"metric", metric}});
+    const Expected expected = by_definition(set, sides, norm);
     EXPECT_EQ(report.number("minimum"), expected.minimum);
     EXPECT_NEAR(report.number("mean"), expected.mean, 1e-12 * expected.mean);
     EXPECT_EQ(report.number("maximum"), expected.maximum);
     EXPECT_EQ(report.number("duplicates"), static_cast<double>(expected.duplicates));
     EXPECT_EQ(*std::get_if<Report::Integers>(report.find("pair")), expected.pair);
-    EXPECT_EQ(report.text("metric"), sides.empty() ? "euclidean" : "torus");
+    EXPECT_EQ(report.text("metric"), metric);
 }
 
 /// Points c / 2 for the words of d binary digits that are kept.
@@ -103,6 +114,25 @@ TEST(NearestNeighbor, IsWhatAllPairsGive) {
             expect_as_defined(set, {});
             expect_as_defined(set, std::vector<double>(d, 1));
         }
+}
+
+TEST(NearestNeighbor, IsWhatAllPairsGiveInOtherNorms) {
+    for (const char* norm : {"manhattan", "chebyshev"})
+        for (const std::size_t d : {1, 2, 3, 4, 7})
+            for (const std::uint64_t n : {2, 3, 200}) {
+                SCOPED_TRACE(::testing::Message() << norm << ", " << n << " points, " << d);
+                PointSet set = make("random", points(n, d));
+                expect_as_defined(set, {}, norm);
+                expect_as_defined(set, std::vector<double>(d, 1), norm);
+                for (double& x : set.flat()) x = std::floor(8 * x) / 8;  // ties, duplicates
+                set[0][0] = 0;
+                set[1][0] = 1;
+                expect_as_defined(set, {}, norm);
+                expect_as_defined(set, std::vector<double>(d, 1), norm);
+            }
+    const Report report =
+        analyze(unit, make("random", points(9, 2)), {{"metric", "torus-chebyshev"}});
+    EXPECT_EQ(report.find("relative_radius"), nullptr);
 }
 
 TEST(NearestNeighbor, HoldsInTheBoxThatThePointsLiveOn) {

@@ -147,6 +147,19 @@ TEST(DigitalNet, InterlacesTheDigitsOfItsMatrices) {
               1U);
 }
 
+// LatNet Builder's files tell the factor; the option, where it is given, wins.
+TEST(DigitalNet, InterlacesWhatAFileSaysIsToBe) {
+    const std::string rest = "3\n3\n4 2 1\n4 6 5\n4 2 3\n4 6 7\n";
+    const TemporaryFile plain("# dnet\n2\n4\n" + rest);
+    const std::string title = "# Parameters for a digital net in base 2\n2  # 2 dimensions\n";
+    const TemporaryFile woven(title + "2  # Interlacing factor\n4  # Number of components\n" +
+                              rest);
+    EXPECT_EQ(net(woven, {.count = 8}), net(plain, {.count = 8}, {{"interlace", "2"}}));
+    EXPECT_EQ(net(woven, {.count = 8}, {{"interlace", "1"}}), net(plain, {.count = 8}));
+    EXPECT_EQ(refusal(title + "2 # Interlacing factor\n3\n" + rest),
+              "input: FILE:4:1: '3' is out of range; expected the number of components, 4");
+}
+
 // Dick 2008: interlacing alpha = 2 coordinates of a (t, m, 2)-net gives a rule of order 2. The mean
 // of x^2 over such nets in one dimension is off 1/3 by little more than n^-2, over others by n^-1.
 TEST(DigitalNet, InterlacedNetsIntegrateSmoothFunctionsToHigherOrder) {

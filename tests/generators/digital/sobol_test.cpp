@@ -217,7 +217,42 @@ TEST(Sobol, ReadsDirectionNumbersOfOtherPackages) {
         const TemporaryFile numbers(text);
         EXPECT_EQ(make("sobol", points(64, 5), {{"directions", numbers.path()}}), table) << text;
     }
+    // LatNet Builder tells the dimension, and later versions the digits of the number of points.
+    for (const char* text :
+         {"# Merit: 5\n# Parameters m_{j,c} for Sobol points\n5    # 5 dimensions\n# m_{j,c}\n1\n1 "
+          "3\n"
+          "1 3 1\n1 1 1\n",
+          "# Parameters m_{j,c} for Sobol points\n5  # s = 5 dimensions\n6  # k = 6\n1\n1 3\n1 3 "
+          "1\n"
+          "1 1 1\n",
+          "# Parameters for Sobol points, in JK format\n5 # 5 dimensions\n2 1 0 1\n3 2 1 1 3\n"
+          "4 3 1 1 3 1\n5 3 2 1 1 1\n"}) {
+        const TemporaryFile numbers(text);
+        EXPECT_EQ(make("sobol", points(64, 5), {{"directions", numbers.path()}}), table) << text;
+    }
     EXPECT_EQ(complaint("# sobol\n1\n1 2\n"), "input: FILE:3:3: '2' is even; expected an odd m_2");
+}
+
+// The points that LatNet Builder's own scripts make of these numbers.
+TEST(Sobol, InterlacesWhatAFileSaysIsToBe) {
+    const std::string text =
+        "# Parameters m_{j,c} for Sobol points\n2  # 2 dimensions\n2  # Interlacing factor\n"
+        "4  # Number of components = interlacing factor x dimension\n# m_{j,c}\n1\n1 1\n1 3 1\n";
+    const TemporaryFile numbers(text);
+    EXPECT_EQ(make("sobol", points(8, 2), {{"directions", numbers.path()}}),
+              points_of({{0, 0},
+                         {0.75, 0.75},
+                         {0.4375, 0.4375},
+                         {0.6875, 0.6875},
+                         {0.296875, 0.671875},
+                         {0.546875, 0.421875},
+                         {0.234375, 0.859375},
+                         {0.984375, 0.109375}}));
+    EXPECT_EQ(complaint(text, 3),
+              "usage: --dimension: 3 is outside [1, 2], what FILE has direction numbers for");
+    EXPECT_EQ(complaint("# Parameters m_{j,c} for Sobol points\n0 # dimensions\n1\n"),
+              "input: FILE:2:1: '0' is out of range; expected a number of the header in [1, "
+              "1000000]");
 }
 
 TEST(Sobol, SaysWhatIsWrongWithDirectionNumbers) {

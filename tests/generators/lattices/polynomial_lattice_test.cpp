@@ -249,9 +249,23 @@ TEST(PolynomialLattice, ReadsLatticesOfOtherPackages) {
     const std::string latnet =
         "# Parameters for a polynomial lattice rule in base 2\n2  # 2 dimensions\n3\n11\n1\n5\n";
     EXPECT_EQ(from(latnet), expected);
+    // The points that LatNet Builder's own scripts make of an interlaced one.
+    const std::string woven =
+        "# Parameters for a polynomial lattice rule in base 2\n2  # 2 dimensions\n2 # Interlacing "
+        "factor\n4 # Number of components\n10 # k = 10\n1033\n1\n800\n839\n753\n";
+    const TemporaryFile interlaced(woven);
+    EXPECT_EQ(make("polynomial-lattice", {.count = 4}, {{"vector-file", interlaced.path()}}),
+              points_of({{0, 0},
+                         {0.31349754333496094, 0.9035816192626953},
+                         {0.25399112701416016, 0.6143264770507812},
+                         {0.0674581527709961, 0.47689247131347656}}));
     const auto refusal = [&](const std::string& text, const Settings& settings = {}) {
         return error_of([&] { from(text, settings); });
     };
+    EXPECT_THAT(
+        refusal("# Parameters for a polynomial lattice rule\n2\n2 # Interlacing factor\n5\n"),
+        ::testing::HasSubstr(":4:1: '5' is out of range; expected the number of components, "
+                             "4"));
     EXPECT_THAT(refusal(latnet, {{"modulus", "11"}}), ::testing::HasSubstr(" says its own, 11"));
     EXPECT_THAT(refusal("# lattice\n1\n8\n1\n"),
                 ::testing::HasSubstr("a lattice of whole numbers, which rank1-lattice reads"));

@@ -48,6 +48,39 @@ TEST(Jittered, PutsOnePointIntoEachCellOfEqualArea) {
     }
 }
 
+// Of any shape, the first coordinate fastest.
+TEST(Jittered, PutsOnePointIntoEachCellOfAShape) {
+    for (const auto& shape : {std::vector<std::int64_t>{7}, {16, 4}, {1, 5, 3}, {3, 2, 1, 2}}) {
+        std::string text;
+        std::int64_t n = 1;
+        for (const std::int64_t k : shape) {
+            text += (text.empty() ? "" : "x") + std::to_string(k);
+            n *= k;
+        }
+        const PointSet set = make("jittered", {}, {{"shape", text}});
+        const PointSet grid = make("grid", {}, {{"shape", text}});
+        ASSERT_EQ(set.count(), static_cast<std::size_t>(n)) << text;
+        ASSERT_EQ(set.dimension(), shape.size());
+        for (std::size_t i = 0; i < set.count(); ++i)
+            for (std::size_t k = 0; k < shape.size(); ++k) {
+                const Fraction half(1, 2 * shape[k]);
+                const Fraction off =
+                    exactly(set[i][k]) -
+                    Fraction(std::lround(grid[i][k] * 2 * static_cast<double>(shape[k])),
+                             2 * shape[k]);
+                ASSERT_TRUE(off >= -half && off < half) << text << ", point " << i;
+            }
+        EXPECT_EQ(make("jittered", {}, {{"shape", text}, {"cell", "center"}}), grid) << text;
+    }
+    EXPECT_EQ(make("jittered", points(1000, 3), {}), make("jittered", {}, {{"shape", "10x10x10"}}));
+    EXPECT_EQ(error_of([] {
+                  make("jittered", points(7, 2), {{"shape", "2x3"}});
+              }),
+              error_of([] {
+                  make("multi-jittered", points(7, 2), {{"shape", "2x3"}});
+              }));
+}
+
 TEST(Jittered, CellsAreNearlySquare) {
     for (std::int64_t n = 64; n < 2000; n += 13)
         for (const auto& [x0, x1, y0, y1] : cells_of(n)) {

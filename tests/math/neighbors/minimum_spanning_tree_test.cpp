@@ -26,7 +26,8 @@ Rows random_rows(std::size_t n, std::size_t d, std::uint64_t seed, double levels
 }
 
 /// Oracle: every edge that there could be, the shortest first, if it joins what was not joined.
-Rows by_definition(const Rows& rows, std::size_t d, const Rows& sides) {
+Rows by_definition(const Rows& rows, std::size_t d, const Rows& sides,
+                   Norm norm = Norm::euclidean) {
     struct Pair {
         double squared;
         std::size_t i, j;
@@ -36,11 +37,17 @@ Rows by_definition(const Rows& rows, std::size_t d, const Rows& sides) {
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < i; ++j) {
             double sum = 0;
+            double all = 0;
+            double largest = 0;
             for (std::size_t k = 0; k < d; ++k) {
                 double gap = std::abs(rows[i * d + k] - rows[j * d + k]);
                 if (!sides.empty()) gap = std::min(gap, sides[k] - gap);
                 sum += gap * gap;
+                all += gap;
+                largest = std::max(largest, gap);
             }
+            if (norm == Norm::manhattan) sum = all * all;
+            if (norm == Norm::chebyshev) sum = largest * largest;
             pairs.push_back({sum, i, j});
         }
     std::ranges::stable_sort(pairs, {}, &Pair::squared);
@@ -64,6 +71,11 @@ TEST(MinimumSpanningTree, EveryWayFindsTheLengthsOfTheDefinition) {
                 for (const double levels : {0x1p40, 5.0}) {  // the latter with ties and duplicates
                     const Rows rows = random_rows(n, d, 10 * n + d, levels);
                     const Rows sides = torus ? Rows(d, 1.0) : Rows();
+                    for (const Norm norm : {Norm::manhattan, Norm::chebyshev}) {
+                        const Rows lengths = by_definition(rows, d, sides, norm);
+                        ASSERT_EQ(near_spanning_tree(rows, d, sides, {}, norm), lengths) << d << n;
+                        ASSERT_EQ(plain_spanning_tree(rows, d, sides, {}, norm), lengths) << d << n;
+                    }
                     const Rows oracle = by_definition(rows, d, sides);
                     ASSERT_EQ(near_spanning_tree(rows, d, sides, {}), oracle) << d << torus << n;
                     ASSERT_EQ(plain_spanning_tree(rows, d, sides, {}), oracle) << d << torus << n;

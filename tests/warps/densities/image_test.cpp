@@ -19,6 +19,10 @@ std::unique_ptr<Mapping> image_of(const TemporaryFile& file) {
     return mapping("image:file=" + file.path());
 }
 
+std::unique_ptr<Mapping> bilinear(const TemporaryFile& file) {
+    return mapping("image:interpolation=bilinear,file=" + file.path());
+}
+
 /// 9 x 11 pixels, some of them empty, a row and a column, too.
 std::vector<double> spotty() {
     std::vector<double> values(99);
@@ -135,6 +139,89 @@ TEST(Image, DensityIntegratesToOneAndIsTheStretch) {
         if (map->density(at.subspan(2, 2)) != p || map->density(at.last(2)) != p) continue;
         EXPECT_NEAR((image[2] - image[0]) * (image[5] - image[1]) * p / (h * h), 1, 1e-6) << i;
     }
+}
+
+// Values 1 and 3 at the pixels' middles 1/4 and 3/4: p = 1/2 up to 1/4, then a line to 3/2 at 3/4,
+// in all heights. P(x < 1/4) = 1/8, P(x < 1/2) = 5/16, P(x < 3/4) = 5/8.
+TEST(BilinearImage, ByHand) {
+    const auto map = bilinear(array_of(2, 1, {1, 3}));
+    std::vector<double> image(8);
+    map->forward(std::vector{1 / 16.0, 0.25, 1 / 8.0, 0.5, 5 / 16.0, 0.75, 13 / 16.0, 0.1}, image,
+                 {});
+    const std::vector<double> wanted{0.125, 0.25, 0.25, 0.5, 0.5, 0.75, 0.875, 0.1};
+    for (std::size_t i = 0; i < 8; ++i) EXPECT_NEAR(image[i], wanted[i], 1e-15) << i;
+    EXPECT_EQ(map->density(std::vector{0.1, 0.9}), 0.5);
+    EXPECT_EQ(map->density(std::vector{0.5, 0.1}), 1);
+    EXPECT_EQ(map->density(std::vector{1.0, 1.0}), 1.5);
+    EXPECT_EQ(map->density(std::vector{1.5, 0.5}), 0);
+    EXPECT_NEAR(map->domain()->box_mass({{-1, 0.25}, {0.5, 0.75}})->value, 5 / 32.0, 1e-15);
+}
+
+TEST(BilinearImage, RoundTripOverTheWholeSquare) {
+    expect_round_trip(*bilinear(array_of(9, 11, spotty())), 1e-7);
+    expect_round_trip(*bilinear(array_of(1, 1, {5})), 1e-15);
+    expect_round_trip(*bilinear(array_of(3, 1, {1, 2, 4})), 1e-14);
+}
+
+// Cells of the domain's cube have the probability of their volume: 16 x 16 of them, so the statistic
+// has mean 255 and deviation 22.6; above 390 with probability 1e-7. Constant pixels are not the same
+// distribution, and fail.
+TEST(BilinearImage, PointsFollowTheDensity) {
+    const auto values = spotty();
+    const auto map = bilinear(array_of(9, 11, values));
+    const auto statistic = [&](const Mapping& from) {
+        const PointSet image = warped(from, make("random", points(100'000, 2)));
+        std::vector<double> found(256);
+        for (std::size_t i = 0; i < image.count(); ++i) {
+            const auto cube = inverse_of(*map, {image[i][0], image[i][1]});
+            ++found[static_cast<std::size_t>(std::min(cube[0], 1 - 1e-16) * 16) * 16 +
+                    static_cast<std::size_t>(std::min(cube[1], 1 - 1e-16) * 16)];
+        }
+        double sum = 0;
+        for (const double n : found) sum += (n - 1e5 / 256) * (n - 1e5 / 256) / (1e5 / 256);
+        return sum;
+    };
+    EXPECT_LT(statistic(*map), 390);
+    EXPECT_GT(statistic(*image_of(array_of(9, 11, values))), 1000);
+}
+
+// The density by its definition at the nodes and between, its integrals over boxes by the midpoint
+// rule on cells that no bend crosses (36 = 4 x 9 and 44 = 4 x 11), exact for what is bilinear there.
+TEST(BilinearImage, DensityAndMassesAreThoseOfTheDefinition) {
+    const auto values = spotty();
+    const auto map = bilinear(array_of(9, 11, values));
+    const auto at = [&](int i, int j) {
+        return values[static_cast<std::size_t>(std::clamp(j, 0, 10) * 9 + std::clamp(i, 0, 8))];
+    };
+    const auto value = [&](double x, double y) {
+        const double s = 9 * x - 0.5;
+        const double t = 11 * y - 0.5;
+        const int i = static_cast<int>(std::floor(s));
+        const int j = static_cast<int>(std::floor(t));
+        return (1 - (t - j)) * ((1 - (s - i)) * at(i, j) + (s - i) * at(i + 1, j)) +
+               (t - j) * ((1 - (s - i)) * at(i, j + 1) + (s - i) * at(i + 1, j + 1));
+    };
+    double total = 0;
+    double quarter = 0;
+    for (int i = 0; i < 36; ++i)
+        for (int j = 0; j < 44; ++j) {
+            const double part = value((i + 0.5) / 36, (j + 0.5) / 44) / (36 * 44);
+            total += part;
+            if (i < 18 && j >= 11) quarter += part;
+        }
+    EXPECT_NEAR(map->domain()->box_mass({{0, 0}, {1, 1}})->value, 1, 1e-14);
+    EXPECT_NEAR(map->domain()->box_mass({{0, 0.25}, {0.5, 1}})->value, quarter / total, 1e-14);
+    for (std::uint64_t i = 0; i < 300; ++i) {
+        const std::vector<double> point{Rng(4).uniform(2 * i), Rng(4).uniform(2 * i + 1)};
+        EXPECT_NEAR(map->density(point), value(point[0], point[1]) / total, 1e-13);
+    }
+    EXPECT_TRUE(bilinear(array_of(2, 2, {1, 2, 3, 4}))->domain()->support().whole);
+    // Two corners of the square are beyond middles of empty pixels.
+    const Support corners = bilinear(array_of(2, 2, {1, 0, 0, 1}))->domain()->support();
+    EXPECT_EQ(corners.measure->value, 0.875);
+    const Support gap = bilinear(array_of(1, 4, {1, 0, 0, 1}))->domain()->support();
+    EXPECT_FALSE(gap.whole);
+    EXPECT_NEAR(gap.measure->value, 0.75, 1e-15);
 }
 
 TEST(Image, DomainSaysWhatItIsAndParsesBack) {
