@@ -371,6 +371,9 @@ std::vector<Strip> tabulate_strips(const std::string& what, const BlockFunction&
 
 StripTable::StripTable(const std::vector<Strip>& strips) {
     double top = 0;
+    std::size_t count = 0;
+    for (const Strip& strip : strips) count += strip.patches.size();
+    patches_.reserve(count);
     for (const Strip& strip : strips)
         for (const StripPatch& patch : strip.patches)
             top = std::max({top, patch.left[0], patch.left[1], patch.right[0], patch.right[1]});
