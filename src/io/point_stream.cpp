@@ -122,7 +122,10 @@ class RawStream final : public PointStream {
             fail(ErrorKind::input,
                  "{}: byte {}: the file ends too soon; expected {} bytes of "
                  "numbers, found {}",
-                 source_, all, shape_.sets * *shape_.count * point, all - shape_.offset);
+                 source_, all,
+                 static_cast<double>(shape_.sets) * static_cast<double>(*shape_.count) *
+                     static_cast<double>(point),
+                 all - shape_.offset);
         if (bytes_.size() % point != 0) refuse_part(fmt::format("{}: byte {}", source_, all));
     }
 

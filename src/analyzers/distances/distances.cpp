@@ -32,16 +32,17 @@ Norm norm_of(const std::string& metric) {
     return metric.ends_with("chebyshev") ? Norm::chebyshev : Norm::euclidean;
 }
 
-/// @throws Error(input) where the square of the sum of the box's sides, which is more than that of
-/// its diagonal, is more than float64 holds.
-void require_squares(const Box& box, const char* too_wide) {
+/// @throws Error(input) where float64 does not hold the square of the distance of its corners.
+void require_squares(const Box& box, Norm norm, const char* too_wide) {
     double sum = 0;
+    double squares = 0;
     std::size_t widest = 0;
     for (std::size_t k = 0; k < box.dimension(); ++k) {
         sum += box.extent(k);
+        squares += box.extent(k) * box.extent(k);
         if (box.extent(k) > box.extent(widest)) widest = k;
     }
-    if (!std::isfinite(sum * sum))
+    if (!std::isfinite(norm == Norm::manhattan ? sum * sum : squares))
         fail(ErrorKind::input, "{} for squared distances in float64: x{} from {} to {}", too_wide,
              widest + 1, format_number(box.low[widest]), format_number(box.high[widest]));
 }
@@ -56,9 +57,9 @@ void require_finite(const PointSet& points) {
          at % points.dimension() + 1, at / points.dimension(), *bad);
 }
 
-void require_squares(const PointSet& points) {
+void require_squares(const PointSet& points, Norm norm) {
     require_finite(points);
-    require_squares(bounding_box(points.flat(), points.dimension()),
+    require_squares(bounding_box(points.flat(), points.dimension()), norm,
                     "the points lie too far apart");
 }
 
@@ -92,12 +93,13 @@ Distances distances_of(const PointSet& points, const std::string& asked) {
                  "--metric: a torus joins the faces of a unit cube or a box; the points live on {}",
                  points.domain->spec());
         distances.torus = false;
-        require_squares(points);
+        require_squares(points, distances.norm);
         return distances;
     }
     const Outside outside = outside_of(points);
     if (outside.count == 0) {
-        require_squares(*distances.box, "the box that the points live on is too wide");
+        require_squares(*distances.box, distances.norm,
+                        "the box that the points live on is too wide");
         return distances;
     }
     if (distances.torus)
@@ -105,7 +107,7 @@ Distances distances_of(const PointSet& points, const std::string& asked) {
             outside, points,
             "--domain names what the points live on; --metric euclidean takes points anywhere");
     distances.box.reset();
-    require_squares(points);
+    require_squares(points, distances.norm);
     return distances;
 }
 
@@ -119,7 +121,7 @@ Distances distances_in_box(const PointSet& points, const std::string& asked, con
     const Outside outside = outside_of(points);
     if (outside.count > 0)
         refuse_places(outside, points, "--domain 'box:bounds=[lo..hi,...]' names another box");
-    require_squares(*box, "the box that the points live on is too wide");
+    require_squares(*box, Norm::euclidean, "the box that the points live on is too wide");
     return {.torus = asked != "euclidean", .box = box};
 }
 

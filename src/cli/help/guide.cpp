@@ -77,6 +77,8 @@ std::string coming_from(std::string_view name) {
     std::string word = lower(name);
     if (const auto dot = word.rfind('.'); dot != word.npos && word != peers_page)
         word.erase(0, dot + 1);
+    const bool is_name = word.size() > 1 && std::isalpha(static_cast<unsigned char>(word[0])) != 0;
+    if (!is_name) return {};
     std::string found;
     std::string heading;
     bool all = false;
