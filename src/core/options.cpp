@@ -28,16 +28,20 @@ std::vector<std::string> words(std::string_view text, char separator) {
     fail(ErrorKind::usage, "--{}: '{}' is not {}", option.name, text, wanted);
 }
 
-/// Whether a text that is no number is to be read as a formula: it has an operator, but for the
-/// sign of an exponent, or is a constant.
+/// Whether a text that is no number is to be read as a formula: it has an operator, but for its sign
+/// and that of an exponent, or is a constant.
 bool looks_like_formula(std::string_view text) {
+    const auto digit = [&](std::size_t i) {
+        return i < text.size() && (text[i] == '.' || (text[i] >= '0' && text[i] <= '9'));
+    };
     for (std::size_t i = 0; i < text.size(); ++i) {
-        const bool sign = text[i] == '+' || text[i] == '-';
-        if (text[i] == '(' || text[i] == '*' || text[i] == '/' || text[i] == '^' ||
-            (sign && i > 0 && text[i - 1] != 'e' && text[i - 1] != 'E'))
-            return true;
+        if (text[i] == '(' || text[i] == '*' || text[i] == '/' || text[i] == '^') return true;
+        const bool sign = i > 0 && (text[i] == '+' || text[i] == '-');
+        const bool of_exponent = (text[i - sign] == 'e' || text[i - sign] == 'E') && digit(i - 2);
+        if (sign && !of_exponent) return true;
     }
-    return text == "pi" || text == "-pi";
+    if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+    return text == "pi" || text == "e";
 }
 
 Table parse_points(const Option& option, std::string_view text) {

@@ -140,15 +140,16 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }
 
 std::vector<std::string_view> split_formulas(std::string_view text, char separator) {
-    std::vector<std::string_view> parts = split(text, separator);
-    for (std::size_t i = 0; i + 1 < parts.size();) {
-        if (std::ranges::count(parts[i], '(') <= std::ranges::count(parts[i], ')')) {
-            ++i;
-            continue;
-        }
-        parts[i] = {parts[i].data(), parts[i].size() + 1 + parts[i + 1].size()};
-        parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(i + 1));
+    std::vector<std::string_view> parts;
+    std::size_t begin = 0;
+    int open = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        open += text[i] == '(' ? 1 : text[i] == ')' ? -1 : 0;
+        if (text[i] != separator || open > 0) continue;
+        parts.push_back(text.substr(begin, i - begin));
+        begin = i + 1;
     }
+    if (!text.empty()) parts.push_back(text.substr(begin));
     return parts;
 }
 

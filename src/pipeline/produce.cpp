@@ -250,17 +250,32 @@ PointSet warped(const PointSet& set, const Warping& warping, const RunContext& r
     return image;
 }
 
-/// What writes the density of a warp's images at points of d numbers.
+/// What writes the density of a warp's images at points that are, where the warp does not ask for
+/// their coordinates, on what they are said to be on.
 struct DensityAt {
-    DensityAt(const Spec& warp, std::size_t d, Target to, const RunContext& run)
-        : chain(std::span(&warp, 1), dimension_before(warp, d, run), {}, run),
-          target(std::move(to)) {
+    DensityAt(const Spec& warp, const DomainPtr& on, Target to, const RunContext& run)
+        : target(std::move(to)) {
+        const std::size_t d = dimension_before(warp, on->dimension(), run);
+        const WarpChain alone(std::span(&warp, 1), d, {}, run);
+        const auto taken = named_or_all(warp, d);
+        chain =
+            std::make_shared<WarpChain>(std::span(&warp, 1), d, ChainSet{}, run,
+                                        warped_factors(alone.domain_before(on, run), taken, run));
         target.columns = {.pdf = true, .anywhere = true};
     }
 
-    WarpChain chain;
+    std::shared_ptr<const WarpChain> chain;
     Target target;
 };
+
+/// What is known of points that have a column which nothing of their making tells of.
+Provenance without_making(const Provenance& meta) {
+    Provenance known;
+    known.count = meta.count;
+    known.dimension = meta.dimension;
+    known.domain = meta.domain;
+    return known;
+}
 
 /// The images of the points of a stream, each of `wide` numbers.
 NextRows warped_rows(io::PointStream& stream, const Warping& warping, std::size_t wide,
@@ -476,13 +491,14 @@ void write_warped(io::PointStream& stream, const DomainPtr& on, const Spec& warp
 
 void write_density_at(std::vector<PointSet> sets, const Spec& warp, const Target& target,
                       const RunContext& run) {
-    const DensityAt at(warp, sets.front().dimension(), target, run);
-    write_all(sets, at.chain, at.target, run);
+    const DensityAt at(warp, sets.front().domain, target, run);
+    for (PointSet& set : sets) set.provenance = without_making(set.provenance);
+    write_all(sets, *at.chain, at.target, run);
 }
 
 void write_density_at(io::PointStream& stream, const DomainPtr& on, const Spec& warp,
                       const Target& target, const RunContext& run) {
-    const DensityAt at(warp, stream.dimension(), target, run);
+    const DensityAt at(warp, on, target, run);
     const std::size_t sets = stream.sets().value_or(1);
     const auto next = [&stream](std::span<double> rows) {
         const std::size_t count = stream.read(rows);
@@ -491,13 +507,13 @@ void write_density_at(io::PointStream& stream, const DomainPtr& on, const Spec& 
     };
     write_files({.sets = sets,
                  .domain = on,
-                 .chain = &at.chain,
+                 .chain = at.chain.get(),
                  .source =
                      [&](std::size_t /*set*/, const RunContext&) {
                          stream.next_set();
                          return next;
                      },
-                 .provenance = [&](std::size_t) { return stream.provenance(); },
+                 .provenance = [&](std::size_t) { return without_making(stream.provenance()); },
                  .counts = Counts::equal(sets, 0)},
                 at.target, run);
 }

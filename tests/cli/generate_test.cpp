@@ -2,7 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "places.hpp"
 #include "support/program.hpp"
@@ -310,6 +312,17 @@ TEST(Warp, TellsItsDensityAtGivenPoints) {
     EXPECT_EQ(good(box.shell("stipple generate random -n 300000 -w disk | stipple warp disk "
                              "--density-at | cksum")),
               good(box.shell("stipple generate random -n 300000 -w disk --with-pdf | cksum")));
+    // Coordinates that the warp leaves are on what the file says; what made the rest does not make
+    // the column.
+    good(
+        box.shell("stipple generate halton -n 5 -d 4 --start 1 -w sphere@1,2 -o on.json && stipple "
+                  "warp exponential@4 on.json --density-at -o at.json"));
+    const json on = json::parse(box.read("at.json"));
+    for (const auto& row : on["points"])
+        EXPECT_NEAR(row[5].get<double>() * 4 * std::numbers::pi, std::exp(-row[3].get<double>()),
+                    1e-14)
+            << row;
+    EXPECT_EQ(box.shell("stipple reproduce at.json").code, 3);
     EXPECT_EQ(at({"disk"}, "1,2,3\n").code, 3);
     EXPECT_THAT(at({"disk", "--inverse"}, "1,2\n").err,
                 HasSubstr("leaves the points where they are"));

@@ -65,6 +65,9 @@ TEST(Options, NumbersMayBeFormulas) {
     EXPECT_EQ(with("radius", "sqrt(2)/2")[radius], std::sqrt(2.0) / 2);
     EXPECT_EQ(with("radius", "pi")[radius], std::numbers::pi);
     EXPECT_EQ(with("radius", "1-0.25")[radius], 0.75);
+    EXPECT_EQ(with("radius", "e")[radius], std::numbers::e);
+    EXPECT_EQ(with("radius", "e-1")[radius], std::numbers::e - 1);
+    EXPECT_EQ(with("radius", "1e1-2")[radius], 8);
     EXPECT_EQ(with("radius", "2.5e-1")[radius], 0.25);
     EXPECT_EQ(with("center", "-1/4,min(2,3)")[center], (std::vector<double>{-0.25, 2}));
     EXPECT_EQ(with("vertices", "0,0 1,0 1/2,sqrt(3)/2")[vertices],

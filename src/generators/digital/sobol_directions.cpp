@@ -136,17 +136,17 @@ BinaryMatrices sobol_matrices(std::size_t dimension, std::size_t digits, const s
     if (file.peek().text == "d") file.skip_line();
     const bool latnet = file.is_headed("# Parameters");
     const std::size_t alpha = latnet ? take_header(file) : 1;
-    BinaryMatrices matrices = van_der_corput_first(dimension * alpha, digits);
-    std::size_t next = 2;
-    for (; !file.at_end(); ++next) {
-        const Initializer initial = read_line(file, next, bare);
-        if (next <= matrices.dimension) grow(initial, next - 1, matrices);
-    }
-    if (next == 2) file.refuse_whole("no direction numbers; expected lines \"d s a m_1 ... m_s\"");
-    if (next <= matrices.dimension)
+    std::vector<Initializer> initials;
+    while (!file.at_end()) initials.push_back(read_line(file, initials.size() + 2, bare));
+    if (initials.empty())
+        file.refuse_whole("no direction numbers; expected lines \"d s a m_1 ... m_s\"");
+    const std::size_t most = (initials.size() + 1) / alpha;
+    if (dimension > most)
         fail(ErrorKind::usage,
              "--dimension: {} is outside [1, {}], what {} has direction numbers for", dimension,
-             (next - 1) / alpha, path);
+             most, path);
+    BinaryMatrices matrices = van_der_corput_first(dimension * alpha, digits);
+    for (std::size_t k = 1; k < matrices.dimension; ++k) grow(initials[k - 1], k, matrices);
     return alpha > 1 ? interlaced(matrices, alpha) : matrices;
 }
 

@@ -107,6 +107,9 @@ Plan plan(const Request& request, const Values& options) {
         std::max(file.vector.size() / file.interlaced, options[vector_option].size());
     const Plan decided =
         default_plan(request, file.points > 0 ? file.points : 1024, numbers > 0 ? numbers : 2);
+    if (file.interlaced > 1 && decided.dimension > numbers)
+        fail(ErrorKind::usage, "--dimension: {} is outside [1, {}], what {} gives",
+             decided.dimension, numbers, options[vector_file]);
     const std::uint64_t modulus = modulus_for(decided.count, options);
     const int m = gf2::degree(modulus);
     if (decided.count > std::uint64_t{1} << m)

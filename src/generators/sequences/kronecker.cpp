@@ -111,6 +111,18 @@ Wide fraction_of_root(std::uint64_t p) {
     return fraction(root) + fraction(-std::fma(root, root, -square) / (2 * root));
 }
 
+/// Formulas with commas between them. @throws Error(usage)
+std::vector<double> numbers_of(std::string_view text) {
+    std::vector<double> numbers;
+    for (const auto part : split_formulas(text, ',')) {
+        const auto plain = parse_number(part);
+        numbers.push_back(plain ? *plain : formula_value(alpha.name, part));
+        if (!std::isfinite(numbers.back()))
+            fail(ErrorKind::usage, "--alpha: '{}' is not a finite number", part);
+    }
+    return numbers;
+}
+
 bool is_preset(const std::string& text) {
     return text == "golden" || text == "square-roots" || text == "richtmyer";
 }
@@ -126,15 +138,14 @@ std::vector<Wide> steps_of(const std::string& text, std::size_t dimension) {
         for (std::uint64_t p = 2; steps.size() < dimension; p = next_prime(p + 1))
             steps.push_back(fraction_of_root(p));
     } else {
-        for (const double number : parse_numbers(alpha.name, text))
-            steps.push_back(fraction(number));
+        for (const double number : numbers_of(text)) steps.push_back(fraction(number));
     }
     return steps;
 }
 
 Plan plan(const Request& request, const Values& options) {
     const std::string text = options[alpha];
-    const std::size_t given = is_preset(text) ? 0 : parse_numbers(alpha.name, text).size();
+    const std::size_t given = is_preset(text) ? 0 : numbers_of(text).size();
     const Plan plan = default_plan(request, 1024, given > 0 ? given : 2);
     if (given > 0 && given < plan.dimension)
         fail(ErrorKind::usage, "--alpha: {} numbers are too few; dimension {} needs as many", given,

@@ -17,7 +17,8 @@
 //         O(log W), 0.9 us there; 130 bytes a pixel.
 // Promise no point where the picture is 0. Forward, back and forward again is the same point within
 //         1e-15 / p; back and forward give xi within 4e-16 times the pixels of a side. Bilinear: the
-//         same point within 1e-14, but for 1e-7 beside places where the density falls to 0.
+//         same point within 1e-14, but for 1e-7 beside places where the density falls to 0, on
+//         which xi of 0 may put a point.
 // Source  Marginal and conditional: P. Shirley, C. Wang, K. Zimmerman, "Monte Carlo techniques for
 //         direct lighting calculations", ACM Trans. Graph. 15(1) (1996) 1-36,
 //         doi:10.1145/226150.226151. Guide tables: H.-C. Chen, Y. Asau, AIIE Trans. 6(2) (1974)
