@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Provenance where readers of points do not look for it: in a file beside the points, for formats
-// that have no place for it (npy, bin, utk, psa); in the comments of ply; in the metadata of svg; in a
-// text chunk of a PNG picture that a generator made with its points.
+// that have no place for it (npy, bin, utk, psa); in the comments of ply; in the metadata of svg; in
+// a text chunk of a PNG picture that a generator made with its points.
 //
 //     points.npy.meta.json {"format":"stipple.meta","version":1,"of":"npy","width":2,"meta":{...}}
 //

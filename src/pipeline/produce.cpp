@@ -256,11 +256,11 @@ struct DensityAt {
     DensityAt(const Spec& warp, const DomainPtr& on, Target to, const RunContext& run)
         : target(std::move(to)) {
         const std::size_t d = dimension_before(warp, on->dimension(), run);
-        const WarpChain alone(std::span(&warp, 1), d, {}, run);
-        const auto taken = named_or_all(warp, d);
-        chain =
-            std::make_shared<WarpChain>(std::span(&warp, 1), d, ChainSet{}, run,
-                                        warped_factors(alone.domain_before(on, run), taken, run));
+        chain = std::make_shared<WarpChain>(std::span(&warp, 1), d, ChainSet{}, run);
+        auto others = warped_factors(chain->domain_before(on, run), named_or_all(warp, d), run);
+        if (!others.empty())
+            chain = std::make_shared<WarpChain>(std::span(&warp, 1), d, ChainSet{}, run,
+                                                std::move(others));
         target.columns = {.pdf = true, .anywhere = true};
     }
 

@@ -42,11 +42,7 @@ Plan plan(const Request& request, const Values& options) {
 }
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
-    std::vector<std::uint64_t> sides;
-    if (options.given(shape))
-        for (const std::int64_t k : options[shape]) sides.push_back(static_cast<std::uint64_t>(k));
-    else
-        sides.assign(plan.dimension, exact_root(plan.count, plan.dimension, "grid"));
+    const auto sides = sides_of(plan, options[shape], "grid");
     return sequence_of([sides, centered = options[cell] == "center"](std::uint64_t first,
                                                                      std::span<double> rows) {
         const std::size_t d = sides.size();

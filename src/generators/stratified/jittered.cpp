@@ -95,10 +95,8 @@ Plan plan(const Request& request, const Values& options) {
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     const bool centered = options[cell] == "center";
     const bool in_rows = plan.dimension == 2 && !options.given(shape);
-    std::vector<std::uint64_t> sides;
-    for (const std::int64_t k : options[shape]) sides.push_back(static_cast<std::uint64_t>(k));
-    if (sides.empty() && !in_rows)
-        sides.assign(plan.dimension, exact_root(plan.count, plan.dimension, "jittered"));
+    const auto sides =
+        in_rows ? std::vector<std::uint64_t>() : sides_of(plan, options[shape], "jittered");
     return sequence_of([=, d = plan.dimension, n = plan.count, rng = Rng(plan.seed)](
                            std::uint64_t first, std::span<double> rows) {
         if (!centered) rng.fill(first * d, rows);

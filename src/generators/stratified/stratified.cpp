@@ -111,6 +111,13 @@ Plan plan_of_shape(const Request& request, const std::vector<std::int64_t>& side
     return default_plan(request, count, sides.size());
 }
 
+std::vector<std::uint64_t> sides_of(const Plan& plan, const std::vector<std::int64_t>& shape,
+                                    const std::string& who) {
+    if (shape.empty())
+        return std::vector(plan.dimension, exact_root(plan.count, plan.dimension, who));
+    return {shape.begin(), shape.end()};
+}
+
 Plan plan_jitter_grid(const Request& request, const Values& options) {
     if (!options.given(shape_option)) return default_plan(request);
     const auto sides = options[shape_option];

@@ -68,6 +68,11 @@ std::uint64_t jitter_columns(std::uint64_t count, const Values& options);
 Plan plan_of_shape(const Request& request, const std::vector<std::int64_t>& sides,
                    std::string_view cells);
 
+/// Cells along each axis: as a shape says or, where it is empty, the root of the count along all.
+/// @throws Error(usage) as exact_root()
+std::vector<std::uint64_t> sides_of(const Plan& plan, const std::vector<std::int64_t>& shape,
+                                    const std::string& who);
+
 /// The plan that count and shape imply. @throws Error(usage) when they contradict each other.
 Plan plan_jitter_grid(const Request& request, const Values& options);
 
