@@ -25,8 +25,9 @@ namespace stipple {
 struct AnalyzerTraits {
     std::size_t min_dimension = 1;
     std::size_t max_dimension = 1'000'000;
-    bool unit_cube = true;  ///< takes points of the closed unit cube only
-    bool boxed = false;     ///< takes points of the unit cube or a box only
+    bool unit_cube = true;   ///< takes points of the closed unit cube only
+    bool boxed = false;      ///< takes points of the unit cube or a box only
+    bool densities = false;  ///< looks at what is known of the points' own densities
 };
 
 /// One key of the results, for help and `list`.

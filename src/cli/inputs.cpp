@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/text.hpp"
+#include "io/columns.hpp"
 #include "io/files.hpp"
 #include "io/source_text.hpp"
 #include "pipeline/chain.hpp"
@@ -28,6 +29,8 @@ Reading reading_of(const std::string& path, const Arguments& arguments) {
     ReadOptions options{.source = path};
     std::string from = arguments.get("from").value_or("");
     options.single = from == "f32";
+    options.densities =
+        arguments.verb == Verb::analyze && find_analyzer(arguments.unit).traits.densities;
     auto type = arguments.get("input-dtype");
     if (!type && arguments.verb != Verb::convert) type = arguments.get("dtype");
     if (type) options.single = *type == "f32";
@@ -58,6 +61,7 @@ std::unique_ptr<io::PointStream> open_file(const std::string& path, const Argume
 std::vector<PointSet> named(std::vector<PointSet> sets, const Arguments& arguments,
                             const RunContext& run) {
     for (PointSet& set : sets) {
+        io::take_densities(set);
         set.domain = input_domain(set.provenance, set.dimension(), arguments, run);
         set.provenance.domain = set.domain->spec();
         set.provenance.count = set.count();
@@ -169,6 +173,8 @@ void take_box(std::span<double> rows, std::size_t width, const Box& box, std::ui
 
 PointSet taken_box(PointSet points, const Box& box, bool to_cube) {
     take_box(points.flat(), box.dimension(), box, 0, to_cube);
+    if (to_cube)
+        for (double& density : points.densities) density *= volume_of(box);
     points.domain = to_cube ? unit_cube(points.dimension()) : box_domain(box);
     return points;
 }

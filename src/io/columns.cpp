@@ -23,6 +23,19 @@ std::size_t find_column(const std::string& wanted, const std::vector<std::string
                    names.size());
 }
 
+/// Puts pdf or, where there is none, weight behind the coordinates.
+void add_density(Columns& columns, const std::vector<std::string>& names) {
+    for (const char* name : {"pdf", "weight"}) {
+        const auto it = std::ranges::find(names, name);
+        if (it == names.end()) continue;
+        std::size_t& role = columns.role[static_cast<std::size_t>(it - names.begin())];
+        if (role != Columns::checked) continue;
+        role = columns.dimension++;
+        columns.density = name;
+        return;
+    }
+}
+
 /// As R and pandas write them.
 bool has_row_names(const std::vector<std::string>& names, const ReadOptions& options) {
     return names[0].empty() && !options.all_columns;
@@ -77,7 +90,28 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
                        "{}: points have {} coordinates; --dimension says {}", place,
                        columns.dimension, *options.dimension);
     if (strong) columns.role[strength] = columns.dimension++;
+    if (options.densities && options.columns.empty()) add_density(columns, names);
     return columns;
+}
+
+void take_densities(PointSet& set) {
+    const std::string& column = set.provenance.density_column;
+    if (column.empty() || !set.densities.empty()) return;
+    const std::size_t d = set.dimension() - 1;
+    PointSet points(set.count(), d);
+    points.densities.reserve(set.count());
+    for (std::size_t i = 0; i < set.count(); ++i) {
+        std::ranges::copy(set[i].first(d), points[i].begin());
+        const double number = set[i][d];
+        const bool pdf = column == "pdf";
+        if (!(pdf ? number > 0 : number >= 0))
+            fail(ErrorKind::input, "point {}: its {} is {}; expected a number {} 0", i, column,
+                 number, pdf ? "above" : "not below");
+        points.densities.push_back(pdf ? number : 1 / number);
+    }
+    points.domain = std::move(set.domain);
+    points.provenance = std::move(set.provenance);
+    set = std::move(points);
 }
 
 std::vector<double> keep_coordinates(std::vector<double> table, const Columns& columns) {

@@ -22,6 +22,7 @@ struct Columns {
 
     std::vector<std::size_t> role;
     std::size_t dimension = 0;
+    std::string density = {};  ///< name of the column behind the coordinates, where it tells it
 
     [[nodiscard]] std::size_t width() const { return role.size(); }
     /// Whether all columns are coordinates, in order.
@@ -36,6 +37,11 @@ struct Columns {
 /// @throws Error(usage) for a column that is not there; Error(input) for a wrong dimension.
 Columns choose_columns(std::vector<std::string> names, std::size_t width,
                        const ReadOptions& options, const std::string& place);
+
+/// Where the last number of a row tells the density of its point, by pdf or by weight = 1 / pdf,
+/// takes it out of the rows.
+/// @throws Error(input) naming the first point whose number is none
+void take_densities(PointSet& set);
 
 /// Keeps the coordinates of a table that holds all columns.
 std::vector<double> keep_coordinates(std::vector<double> table, const Columns& columns);

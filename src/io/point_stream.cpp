@@ -228,6 +228,7 @@ class JoinedStream final : public PointStream {
         if (part->provenance().domain != whole_.domain)
             fail(ErrorKind::input, "{}: its points are on {}; those before are on {}", name,
                  part->provenance().domain, whole_.domain);
+        same_warps_ = same_warps_ && part->provenance().warps == whole_.warps;
         shards_ = shards_ && unsharded(part->provenance()) == unsharded(whole_);
         part_ = std::move(part);
         enter();
@@ -246,6 +247,8 @@ class JoinedStream final : public PointStream {
     [[nodiscard]] Provenance whole() const {
         Provenance meta;
         meta.domain = whole_.domain;
+        if (same_warps_) meta.warps = whole_.warps;
+        meta.density_column = whole_.density_column;
         if (shards_ && at_ + 1 == paths_.size()) meta = unsharded(whole_);
         meta.count = count_;
         meta.dimension = dimension();
@@ -260,6 +263,7 @@ class JoinedStream final : public PointStream {
     std::uint64_t count_ = 0;
     bool begun_ = false;
     bool ended_ = false;
+    bool same_warps_ = true;
     bool shards_ = true;  ///< all files so far are the shards of one set
 };
 

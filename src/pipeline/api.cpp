@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/spec.hpp"
+#include "io/columns.hpp"
 #include "io/files.hpp"
 #include "io/format.hpp"
 #include "pipeline/chain.hpp"
@@ -205,12 +206,13 @@ void write(const std::string& path, const PointSet& points, const WriteOptions& 
 
 std::vector<PointSet> read_sets(const std::string& path, const ReadFileOptions& options,
                                 const RunContext& run) {
-    ReadOptions inner{.source = path};
+    ReadOptions inner{.source = path, .densities = true};
     if (options.dimension > 0) inner.dimension = options.dimension;
     inner.single = options.single;
     const Format* format = options.format.empty() ? nullptr : &io::format_named(options.format);
     std::vector<PointSet> sets = io::read_points(path, inner, run, format);
     for (PointSet& set : sets) {
+        io::take_densities(set);
         complete(set.provenance);
         if (const std::string& domain = set.provenance.domain; !domain.empty())
             set.domain = parse_domain(domain, set.dimension(), run);

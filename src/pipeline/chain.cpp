@@ -450,6 +450,73 @@ DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunCo
     return filled_up(std::move(factors), dimension);
 }
 
+namespace {
+
+/// What the points of a factor of a domain follow.
+struct FactorLaw {
+    Factor factor;
+    std::unique_ptr<Mapping> mapping = {};  ///< that made them; none: the factor's own density
+};
+
+bool may_be_biased(const std::string& step) {
+    return std::ranges::any_of(warps::all(), [&](const Warp& warp) {
+        return (warp.traits.biased || warp.traits.tabulated) &&
+               step.find(warp.name) != std::string::npos;
+    });
+}
+
+/// Which of the steps that may be biased made which factor of the domain. A biased step that made none, since
+/// others came behind it, or that went back to the cube, is told to the user.
+std::vector<FactorLaw> factor_laws(std::span<const std::string> steps, const DomainPtr& domain,
+                                   const RunContext& run) {
+    std::vector<FactorLaw> laws;
+    for (Factor& factor : warped_factors(domain, {}, run)) laws.push_back({std::move(factor)});
+    for (const std::string& step : steps) {
+        if (!may_be_biased(step)) continue;
+        constexpr std::string_view inverse = "inverse ";
+        const bool back = step.starts_with(inverse);
+        const Spec spec = parse_spec(std::string_view(step).substr(back ? inverse.size() : 0));
+        const Warp& warp = find_warp(spec.name);
+        auto mapping = warp.make(spec.values(warp.options), domain->dimension(), run);
+        const auto made = std::ranges::find_if(laws, [&](const FactorLaw& law) {
+            return !law.mapping && law.factor.domain->spec() == mapping->domain()->spec();
+        });
+        if (!back && made != laws.end())
+            made->mapping = std::move(mapping);
+        else if (mapping->biased())
+            run.notify(
+                fmt::format("the points come from {}, which is biased; their density on the domain "
+                            "{} is not known, and taken to be the domain's",
+                            step, domain->spec()));
+    }
+    return laws;
+}
+
+}  // namespace
+
+std::vector<double> biased_densities(const PointSet& points, const RunContext& run) {
+    const auto& steps = points.provenance.warps;
+    if (std::ranges::none_of(steps, may_be_biased)) return {};
+    std::vector<FactorLaw> laws;
+    try {
+        laws = factor_laws(steps, points.domain, run);
+    } catch (const Error& e) {  // it is the file that is wrong, not the call
+        if (e.kind() != ErrorKind::usage) throw;
+        throw Error(ErrorKind::input, fmt::format("its warps: {}", e.what()), e.hint());
+    }
+    const auto biased = [](const FactorLaw& law) { return law.mapping && law.mapping->biased(); };
+    if (std::ranges::none_of(laws, biased)) return {};
+    std::vector<double> densities(points.count(), 1);
+    std::vector<double> part;
+    for (std::size_t i = 0; i < densities.size(); ++i)
+        for (const auto& [factor, mapping] : laws) {
+            part.clear();
+            for (const std::size_t k : factor.coordinates) part.push_back(points[i][k]);
+            densities[i] *= mapping ? mapping->density(part) : factor.domain->density(part);
+        }
+    return densities;
+}
+
 std::vector<Factor> warped_factors(const DomainPtr& domain, std::span<const std::size_t> boxless,
                                    const RunContext& run) {
     const std::size_t d = domain->dimension();

@@ -156,6 +156,10 @@ std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const st
 /// coordinates joined by " x ". @throws Error(usage)
 DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunContext& run = {});
 
+/// Density of each point where its provenance names a method that is biased on purpose; empty where
+/// it names none: it is then the domain's. Tells the user where it is not known.
+std::vector<double> biased_densities(const PointSet& points, const RunContext& run);
+
 /// What a domain is put together from, in the sense of parse_domain, less what is of the unit cube.
 /// The axes of a box are factors of their own, those `boxless` left out.
 std::vector<Factor> warped_factors(const DomainPtr& domain, std::span<const std::size_t> boxless,

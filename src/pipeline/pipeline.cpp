@@ -94,6 +94,13 @@ Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& o
         fail(ErrorKind::input, "points of the domain {} have dimension {}; these have {}",
              points.domain->spec(), points.domain->dimension(), points.dimension());
     if (analyzer.traits.unit_cube) require_unit_cube(points);
+    if (analyzer.traits.densities && points.densities.empty()) {
+        if (auto densities = biased_densities(points, run); !densities.empty()) {
+            PointSet own = points;
+            own.densities = std::move(densities);
+            return analyzer.analyze(own, options, run);
+        }
+    }
     if (!analyzer.accumulate) return analyzer.analyze(points, options, run);
     // As they lie there: a copy takes as long as some analyzers.
     const auto measure = analyzer.accumulate({points.domain, points.count()}, options, run);

@@ -92,6 +92,8 @@ struct Provenance {
     std::string flaw = {};
     /// The generator's points are independent of one another; not written, but known by its name.
     bool independent = false;
+    /// Column of the file that tells the density of each point, "pdf" or "weight"; not written.
+    std::string density_column = {};
 
     bool operator==(const Provenance&) const = default;
 };
@@ -137,7 +139,11 @@ class PointSet {
         return dimension_ == other.dimension_ && std::ranges::equal(flat(), other.flat());
     }
 
-    DomainPtr domain;       ///< what the points live on; the unit cube unless set
+    DomainPtr domain;  ///< what the points live on; the unit cube unless set
+
+    /// Density of each point with respect to the domain's measure, where that is known and may not
+    /// be the domain's own; empty: it is.
+    std::vector<double> densities;
     Provenance provenance;  ///< empty unless known
 
     std::vector<SideFile> side_files;  ///< for whoever writes the points to write, too

@@ -134,6 +134,10 @@ class RowMapping final : public Mapping {
         if (!map_rows_back(known_, method_, image, cube)) expect_inside(image);
     }
 
+    bool biased() const override {
+        return requires { &Method::density; };
+    }
+
     double density(std::span<const double> point) const override {
         if constexpr (requires { &Method::density; })
             return known_.contains(point) ? method_.density(point) : 0;

@@ -23,6 +23,7 @@ class Oriented final : public Mapping {
 
     std::size_t cube_dimension() const override { return places_.size(); }
     bool drops() const override { return mapping_->drops(); }
+    bool biased() const override { return mapping_->biased(); }
 
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> keep) const override {

@@ -51,6 +51,9 @@ class Mapping {
     /// another. @throws Error(usage) where there is none; Error(input) naming a point outside
     virtual void inverse(std::span<const double> image, std::span<double> cube) const;
 
+    /// Whether the density is not the domain's, on purpose or by the tolerance of a table.
+    [[nodiscard]] virtual bool biased() const { return false; }
+
     /// Density of the image of a uniform point with respect to the domain's measure: the domain's,
     /// save where the method is biased.
     [[nodiscard]] virtual double density(std::span<const double> point) const {
@@ -90,9 +93,10 @@ struct WarpRequest {
 
 struct WarpTraits {
     bool invertible = true;
-    bool drops = false;     ///< with some options, some points have no image
-    bool biased = false;    ///< with some options, deliberately wrong; the option's help says which
-    bool discrete = false;  ///< points are outcomes, each with a probability, and have no density
+    bool drops = false;   ///< with some options, some points have no image
+    bool biased = false;  ///< with some options, deliberately wrong; the option's help says which
+    bool tabulated = false;  ///< points follow a table, near the domain's density
+    bool discrete = false;   ///< points are outcomes, each with a probability, and have no density
 };
 
 struct Warp {

@@ -51,6 +51,40 @@ TEST(Analyze, GivesTheContractsDocument) {
         EXPECT_TRUE(results["worst_box"].contains(key)) << key;
 }
 
+// Columns pdf and weight = 1 / pdf, in each format that names its columns.
+TEST(Analyze, IntegrationTakesTheDensityOfAColumn) {
+    const Sandbox box;
+    const std::string rows = "0.1,2\n0.2,2\n0.6,0.5\n0.8,0.5\n";
+    const auto estimate = [&](const std::string& text, const std::string& density,
+                              std::vector<std::string> more = {}) {
+        more.insert(more.begin(), {"analyze", "integration", "--expression", "x"});
+        const json results = report_of(box.run(more, text))["results"];
+        EXPECT_EQ(results.value("density", "domain"), density) << text;
+        return results["expression"]["estimate"].get<double>();
+    };
+    EXPECT_DOUBLE_EQ(estimate("x,pdf\n" + rows, "pdf"), 0.7375);
+    EXPECT_DOUBLE_EQ(estimate("x,weight\n0.1,0.5\n0.2,0.5\n0.6,2\n0.8,2\n", "weight"), 0.7375);
+    EXPECT_DOUBLE_EQ(estimate("x,weight,pdf\n0.1,9,2\n0.2,9,2\n0.6,9,0.5\n0.8,9,0.5\n", "pdf"),
+                     0.7375);
+    const std::string lines = "[0.1,2]\n[0.2,2]\n[0.6,0.5]\n[0.8,0.5]\n";
+    const std::string head = R"({"columns":["x","pdf"],"dimension":1})";
+    EXPECT_DOUBLE_EQ(estimate(head + "\n" + lines, "pdf"), 0.7375);
+    EXPECT_DOUBLE_EQ(
+        estimate(R"({"columns":["x","pdf"],"dimension":1,"points":[[0.1,2],[0.2,2],[0.6,0.5],)"
+                 R"([0.8,0.5]]})",
+                 "pdf"),
+        0.7375);
+    // In a box twice as long, moved to the unit cube, the density is twice as high.
+    EXPECT_DOUBLE_EQ(estimate("x,pdf\n0,1\n2,0.25\n", "pdf", {"--rescale"}), 1);
+    // The pdf of a row is not of coordinates picked by hand.
+    EXPECT_DOUBLE_EQ(estimate("x,pdf\n" + rows, "domain", {"--column", "x"}), 0.425);
+    box.write("a.csv", "x,pdf\n0.1,2\n0.2,2\n");
+    box.write("b.csv", "x,pdf\n0.6,0.5\n0.8,0.5\n");
+    EXPECT_DOUBLE_EQ(estimate("", "pdf", {"--concat", "a.csv", "b.csv"}), 0.7375);
+    const auto wrong = box.run({"analyze", "integration"}, "x,pdf\n0.1,2\n0.2,0\n");
+    expect_refusal(wrong, 3, "point 1: its pdf is 0; expected a number above 0");
+}
+
 TEST(Analyze, KnownDiscrepanciesComeOut) {
     const Sandbox box;
     const auto value = [&](const std::string& points) {

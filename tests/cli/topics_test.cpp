@@ -2,10 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "cli/help/guide.hpp"
 #include "cli/parsing/arguments.hpp"
+#include "math/densities/expression.hpp"
 #include "support/program.hpp"
 
 namespace stipple::testing::topics_test {
@@ -29,6 +32,28 @@ TEST(Topics, ExamplesRun) {
         }
         EXPECT_GT(examples, 1) << topic.name;
     }
+}
+
+// "mod(-0.3, 0.7) = -0.3": all that is said of formulas, and of each function.
+TEST(Topics, FormulasHaveTheValuesThatAreSaid) {
+    const auto topic = std::ranges::find(topics(), std::string("formulas"), &Topic::name);
+    ASSERT_NE(topic, topics().end());
+    std::istringstream lines(topic->text);
+    int values = 0;
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t equals = line.find(" = ");
+        if (!line.starts_with("    ") || equals == std::string::npos) continue;
+        const std::size_t begin = line.rfind("  ", equals) + 2;
+        const std::string left = line.substr(begin, equals - begin);
+        std::string right = line.substr(equals + 3);
+        right = right.substr(0, right.find(". "));
+        const double value = Expression("right", right, 0).at({});
+        EXPECT_NEAR(Expression("left", left, 0).at({}), value, 1e-15 * std::abs(value)) << line;
+        ++values;
+    }
+    EXPECT_EQ(values, 22);
+    for (const std::string& name : formula_functions())
+        EXPECT_THAT(topic->text, HasSubstr(" " + name + "(")) << name;
 }
 
 TEST(Topics, TellTheTruthAboutTheSameBytes) {

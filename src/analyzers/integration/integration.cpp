@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Integrals of functions that are known, by the points of a set. With the density p of the law that
-// the domain's points follow (1 / measure where it is uniform),
+// Integrals of functions that are known, by the points of a set. With the density p that the points
+// follow,
 //
 //     estimate = (1 / n) sum_i f(x_i) / p(x_i),        error = estimate - exact
+//
+// p is the domain's density (1 / measure where it is uniform), unless the set tells of another: by
+// a column pdf or weight = 1 / pdf, or by a warp in its meta that is biased on purpose.
 //
 // Integrands of the unit cube take any box, and any density on it: the function is stretched to the
 // box, its integral multiplied by the volume.
@@ -28,7 +31,7 @@
 // support is known as a few boxes of one or two dimensions; else there is none.
 //
 // Where the density is level, on any domain, both are the same points. Where the domain has no such
-// coordinates (mixtures, formulas, supports with gaps), the uniform estimator's variance is worked
+// coordinates (mixtures, formulas, supports with gaps), or the density is not its own, the uniform estimator's variance is worked
 // out from the same points by their weights,
 //
 //     n / (n - 1) (measure mean(f^2 / p) - mean(f / p)^2),
@@ -79,7 +82,7 @@ constexpr Param<Text> expression{
     {.name = "expression",
      .help =
          "Also, or instead, a formula in x, y, z or x1, x2, ..., the points' coordinates as they "
-         "are: 'exp(-x*y)'"}};
+         "are: 'exp(-x*y)'; its functions: stipple help formulas"}};
 
 constexpr Param<double> exact{.name = "exact",
                               .optional = true,
@@ -239,6 +242,11 @@ std::vector<Task> tasks_of(const Domain& domain, const RegionView& view, const S
 
 // ---------------------------------------------------------------- sums
 
+/// That which the points follow.
+double density_of(const PointSet& points, std::size_t i) {
+    return points.densities.empty() ? points.domain->density(points[i]) : points.densities[i];
+}
+
 /// A value that cannot be summed.
 struct Fault {
     std::uint64_t point = std::numeric_limits<std::uint64_t>::max();
@@ -285,19 +293,20 @@ struct Uniform {
 /// Values of all integrands at points of the domain.
 class Evaluation {
   public:
-    Evaluation(const Domain& domain, const RegionView& view, const std::vector<Task>& tasks,
+    Evaluation(const PointSet& points, const RegionView& view, const std::vector<Task>& tasks,
                const Uniform& beside)
-        : domain_(domain), view_(view), tasks_(tasks), beside_(beside) {
+        : points_(points), domain_(*points.domain), view_(view), tasks_(tasks), beside_(beside) {
         sums_.weighted.resize(tasks.size());
         if (beside.how != Uniform::none) sums_.uniform.resize(tasks.size());
     }
 
-    void add(std::uint64_t i, std::span<const double> point) {
+    void add(std::uint64_t i) {
+        const auto point = points_[i];
         if (!domain_.contains(point)) {
             sums_.outside.add(i, point);
             return;
         }
-        const double density = domain_.density(point);
+        const double density = density_of(points_, i);
         each(point, [&](std::size_t k, double value) {
             const double weight = value == 0 ? 0 : value / density;
             if (!std::isfinite(weight)) {
@@ -341,6 +350,7 @@ class Evaluation {
         });
     }
 
+    const PointSet& points_;
     const Domain& domain_;
     const RegionView& view_;
     const std::vector<Task>& tasks_;
@@ -365,8 +375,8 @@ Sums sums_over(const PointSet& points, const RegionView& view, const std::vector
     const std::size_t size = std::max<std::size_t>(1, 4096 / points.dimension());
     std::vector<Sums> parts(block_count(points.count(), size));
     for_each_block(run, points.count(), size, [&](const Block& block) {
-        Evaluation evaluation(domain, view, tasks, uniform);
-        for (std::uint64_t i = block.first; i < block.last; ++i) evaluation.add(i, points[i]);
+        Evaluation evaluation(points, view, tasks, uniform);
+        for (std::uint64_t i = block.first; i < block.last; ++i) evaluation.add(i);
         parts[block.index] = evaluation.sums();
     });
     Sums all;
@@ -411,9 +421,16 @@ Report comparison(const std::vector<Task>& tasks, const Sums& sums, bool weighed
 /// The measure of what the points are on, as an integral over them.
 Tally measure_of(const PointSet& points) {
     Tally inverse;
-    for (std::size_t i = 0; i < points.count(); ++i)
-        inverse.add(1 / points.domain->density(points[i]));
+    for (std::size_t i = 0; i < points.count(); ++i) inverse.add(1 / density_of(points, i));
     return inverse;
+}
+
+/// Whether the points follow the domain's density.
+bool follows_domain(const PointSet& points) {
+    for (std::size_t i = 0; i < points.densities.size(); ++i)
+        if (std::abs(points.domain->density(points[i]) / points.densities[i] - 1) > 1e-12)
+            return false;
+    return true;
 }
 
 /// How uniform points are had. @throws Error(input) when there are none to compare with.
@@ -429,10 +446,11 @@ Uniform uniform_for(const PointSet& points, const RegionView& view, const Suppor
         const Tally found = measure_of(points);
         return {Uniform::weighed, found.mean(), found};
     }
-    if (support.whole && view.has_uniform()) return {Uniform::remade, domain.measure()};
+    if (support.whole && view.has_uniform() && follows_domain(points))
+        return {Uniform::remade, domain.measure()};
     const double measure = support.measure->value;
     for (std::size_t i = 0; i < points.count(); ++i)
-        if (std::abs(domain.density(points[i]) * measure - 1) > 1e-12)
+        if (std::abs(density_of(points, i) * measure - 1) > 1e-12)
             return {Uniform::weighed, measure};
     return {Uniform::as_they_are, measure};
 }
@@ -473,6 +491,8 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     const Sums sums = sums_over(points, view, tasks, uniform, run);
     Report report;
     tell_support(support, report);
+    const std::string& column = points.provenance.density_column;
+    if (!points.densities.empty()) report.add("density", column.empty() ? "warps" : column);
     for (std::size_t k = 0; k < tasks.size(); ++k) {
         const Tally& values = sums.weighted[k];
         Report one;
@@ -534,36 +554,43 @@ void combine(Report& mean, std::span<const Report> sets, const Values&) {
 }
 
 std::vector<ResultKey> results() {
-    return {{"INTEGRAND.estimate", "mean of f / p, where p is the density of the points"},
-            {"INTEGRAND.exact", "the integral; of an expression, if --exact tells it"},
-            {"INTEGRAND.error", "estimate - exact"},
-            {"INTEGRAND.exact_error", "what exact may be off by, where it is by quadrature", false},
-            {"support.whole",
-             "false where the density is 0 on a part of the domain: all is then of the rest", false,
-             true_or_false},
-            {"support.measure", "of that rest, where it is known", false},
-            {"support.measure_error", "what it may be off by; of an estimate, one standard error",
-             false},
-            {"support.measure_is_estimate",
-             "true: --compare found the measure from the points' weights, as nobody knows it",
-             false, true_or_false},
-            {"support.meaning", "the same in words", false},
-            {"INTEGRAND.standard_error",
-             "of the estimate: of several sets (--average) from the spread between them; of one "
-             "set only if its meta names a generator of independent points",
-             false},
-            {"INTEGRAND.interval_low",
-             "of several sets (--average): the 95 % confidence interval, by Student's t", false},
-            {"INTEGRAND.interval_high", "its other end", false},
-            {"INTEGRAND.rms_error", "of several sets (--average): root mean square of their errors",
-             false},
-            {"compare.INTEGRAND.importance_estimate", "--compare: the estimate", false},
-            {"compare.INTEGRAND.importance_variance", "variance of f / p over the points", false},
-            {"compare.INTEGRAND.uniform_estimate", "estimate by uniform points", false},
-            {"compare.INTEGRAND.uniform_variance",
-             "variance of the domain's measure times f over uniform points", false},
-            {"compare.INTEGRAND.variance_ratio",
-             "uniform over importance: above 1, importance sampling pays", false}};
+    return {
+        {"INTEGRAND.estimate",
+         "mean of f / p, where p is the density of the points: that of a column pdf or weight "
+         "(1 / pdf), or of a biased warp in the meta, where there is one; else the domain's"},
+        {"INTEGRAND.exact", "the integral; of an expression, if --exact tells it"},
+        {"INTEGRAND.error", "estimate - exact"},
+        {"INTEGRAND.exact_error", "what exact may be off by, where it is by quadrature", false},
+        {"density",
+         "whose density it is, where not the domain's: pdf or weight, the column's; warps, that of "
+         "the warps in the meta",
+         false, "pdf|weight|warps"},
+        {"support.whole",
+         "false where the density is 0 on a part of the domain: all is then of the rest", false,
+         true_or_false},
+        {"support.measure", "of that rest, where it is known", false},
+        {"support.measure_error", "what it may be off by; of an estimate, one standard error",
+         false},
+        {"support.measure_is_estimate",
+         "true: --compare found the measure from the points' weights, as nobody knows it", false,
+         true_or_false},
+        {"support.meaning", "the same in words", false},
+        {"INTEGRAND.standard_error",
+         "of the estimate: of several sets (--average) from the spread between them; of one "
+         "set only if its meta names a generator of independent points",
+         false},
+        {"INTEGRAND.interval_low",
+         "of several sets (--average): the 95 % confidence interval, by Student's t", false},
+        {"INTEGRAND.interval_high", "its other end", false},
+        {"INTEGRAND.rms_error", "of several sets (--average): root mean square of their errors",
+         false},
+        {"compare.INTEGRAND.importance_estimate", "--compare: the estimate", false},
+        {"compare.INTEGRAND.importance_variance", "variance of f / p over the points", false},
+        {"compare.INTEGRAND.uniform_estimate", "estimate by uniform points", false},
+        {"compare.INTEGRAND.uniform_variance",
+         "variance of the domain's measure times f over uniform points", false},
+        {"compare.INTEGRAND.variance_ratio",
+         "uniform over importance: above 1, importance sampling pays", false}};
 }
 
 }  // namespace
@@ -572,7 +599,7 @@ Analyzer unit() {
     return {.name = "integration",
             .summary = "Integrals of functions with known integrals, and their errors",
             .source = "Genz 1984; Owen 2003",
-            .traits = {.max_dimension = 10'000, .unit_cube = false},
+            .traits = {.max_dimension = 10'000, .unit_cube = false, .densities = true},
             .options = Schema(integrand, expression, exact, compare),
             .results = results(),
             .analyze = analyze,

@@ -420,6 +420,7 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
     head.dialect.model_line = text.line_of(head.top.first);
     head.columns = choose_columns(names, fields.size(), options,
                                   fmt::format("{}:{}", text.source(), head.dialect.model_line));
+    head.top.provenance.density_column = head.columns.density;
     head.body = head.names ? head.top.next : head.top.first;
     return head;
 }

@@ -75,7 +75,7 @@ Json parse_piece(const SourceText& text, std::string_view piece) {
     }
 }
 
-Columns json_columns(const SourceText& text, const JsonHead& head, std::size_t width,
+Columns json_columns(const SourceText& text, JsonHead& head, std::size_t width,
                      const ReadOptions& options) {
     if (!head.columns.empty() && head.columns.size() != width)
         text.refuse_whole(fmt::format("{} columns are named; the points have {} numbers",
@@ -83,7 +83,7 @@ Columns json_columns(const SourceText& text, const JsonHead& head, std::size_t w
     ReadOptions inner = options;
     if (head.dimension && options.columns.empty()) {
         inner.dimension.reset();
-        inner.all_columns = false;
+        inner.all_columns = inner.densities = false;
         const Columns columns = choose_columns(head.columns, width, inner, text.source());
         if (columns.dimension != *head.dimension)
             text.refuse(
@@ -91,7 +91,9 @@ Columns json_columns(const SourceText& text, const JsonHead& head, std::size_t w
                 fmt::format("the dimension is said to be {}; the points have {} coordinates",
                             *head.dimension, columns.dimension));
     }
-    return choose_columns(head.columns, width, options, text.source());
+    Columns columns = choose_columns(head.columns, width, options, text.source());
+    head.provenance.density_column = columns.density;
+    return columns;
 }
 
 void check_counts(const SourceText& text, const JsonHead& head,

@@ -40,9 +40,9 @@ void take_key(const SourceText& text, const char* at, std::string_view key,
 /// one, or is too deep.
 nlohmann::ordered_json parse_piece(const SourceText& text, std::string_view piece);
 
-/// Decides what the columns of rows of `width` numbers are.
+/// Decides what the columns of rows of `width` numbers are, and notes the one of densities.
 /// @throws Error(input) when the head says otherwise.
-Columns json_columns(const SourceText& text, const JsonHead& head, std::size_t width,
+Columns json_columns(const SourceText& text, JsonHead& head, std::size_t width,
                      const ReadOptions& options);
 
 /// @throws Error(input) when the head counts otherwise.

@@ -56,7 +56,7 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
                            const RunContext& run) {
     const SourceText text(bytes, options.source);
     const Top top = read_top(text);
-    const JsonHead head = head_at(text, top.first);
+    JsonHead head = head_at(text, top.first);
     const char* const model = first_row(text, top.first);
     const std::string_view row = line_at(text, model);
     const auto width = static_cast<std::size_t>(std::ranges::count(row, ',')) + 1;
@@ -68,6 +68,7 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     std::vector<PointSet> sets =
         cut_sets(std::move(rows.numbers), columns.dimension, starts, head.provenance);
     for (const Mark& mark : rows.marks) {
+        if (options.any_count) break;
         const auto set = std::ranges::find(starts, mark.row) - starts.begin();
         check_counts(text, head_at(text, mark.at), {sets[static_cast<std::size_t>(set)].count()});
     }

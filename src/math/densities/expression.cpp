@@ -348,6 +348,14 @@ void Expression::evaluate(std::span<const double> points, std::span<double> valu
     }
 }
 
+std::vector<std::string> formula_functions() {
+    std::vector<std::string> names;
+    for (const auto& [name, f] : functions_of_one) names.emplace_back(name);
+    for (const auto& [name, f] : functions_of_two) names.emplace_back(name);
+    for (const auto& [name, f] : functions_of_many) names.emplace_back(name);
+    return names;
+}
+
 std::string muparser_version() {
     const std::string version = mu::ParserVersion;
     return version.substr(0, version.find(' '));

@@ -2,13 +2,8 @@
 //
 // A formula that a user typed, parsed by muParser and evaluated at points: f(x, y).
 //
-//     variables   x, y, z or x1 ... xd for the coordinates
-//     constants   pi, e
-//     operators   + - * / ^ ( ), < <= > >= == != && ||, condition ? a : b
-//     functions   sin cos tan asin acos atan atan2 sinh cosh tanh exp log ln log2 log10 sqrt cbrt
-//                 pow abs sign min max floor ceil round mod hypot
+// Variables, operators and functions are those of data/guide/formulas.md.
 //
-// Units   angles in radians; log and ln are natural.
 // Cost    some 10 ns an operation and point; parsing once a thread.
 // Promise the same bits on every machine: functions and ^ are those of src/math, not the C
 //         library's, and muParser's optimizer, which changes roundings, is off. Safe to use from
@@ -20,6 +15,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace stipple {
 
@@ -44,6 +40,9 @@ class Expression {
     std::size_t dimension_;
     std::shared_ptr<Machines> machines_;
 };
+
+/// Names of all functions.
+std::vector<std::string> formula_functions();
 
 /// Of the library: "2.3.3".
 std::string muparser_version();

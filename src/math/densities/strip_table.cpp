@@ -427,29 +427,47 @@ std::array<double, 2> StripTable::quantile(double u, double v) const {
             within(shape.y_low, shape.y_high, shape.y_low + part * (shape.y_high - shape.y_low))};
 }
 
-std::array<double, 2> StripTable::fraction(double x, double y) const {
+std::pair<std::size_t, double> StripTable::column_at(double x) const {
     const auto columns = std::span(columns_).first(columns_.size() - 1);
     const auto next = std::ranges::upper_bound(columns, x, {}, &Column::x_low);
     const auto i =
         static_cast<std::size_t>(std::max<std::ptrdiff_t>(next - columns.begin(), 1) - 1);
     const Column& column = columns_[i];
-    const double width = std::clamp((x - column.x_low) / (column.x_high - column.x_low), 0.0, 1.0);
+    return {i, std::clamp((x - column.x_low) / (column.x_high - column.x_low), 0.0, 1.0)};
+}
+
+std::size_t StripTable::patch_at(std::span<const Patch> patches, double y) {
+    const auto above = std::ranges::upper_bound(
+        patches, y, {}, [](const Patch& patch) { return patch.shape.y_low; });
+    return static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - patches.begin(), 1) - 1);
+}
+
+std::array<double, 2> StripTable::fraction(double x, double y) const {
+    const auto [i, width] = column_at(x);
+    const Column& column = columns_[i];
     const double part = mass_share(column.left, column.right, width);
     const double u = (masses_.begin(i) + part * masses_.width(i)) / masses_.total();
     const double t = column.side(width);
 
     const auto patches = patches_of(i);
-    const auto above = std::ranges::upper_bound(
-        patches, y, {}, [](const Patch& patch) { return patch.shape.y_low; });
-    const auto at = above == patches.begin() ? above : above - 1;
-    const double below = at == patches.begin() ? 0 : (at - 1)->sum_at(t);
-    const StripPatch& shape = at->shape;
+    const std::size_t at = patch_at(patches, y);
+    const double below = at == 0 ? 0 : patches[at - 1].sum_at(t);
+    const StripPatch& shape = patches[at].shape;
     const auto [low, high] = shape.ends(t);
     const double share = mass_share(
         low, high, std::clamp((y - shape.y_low) / (shape.y_high - shape.y_low), 0.0, 1.0));
     const double total = patches.back().sum_at(t);
-    const double v = total > 0 ? (below + share * (at->sum_at(t) - below)) / total : 0;
+    const double v = total > 0 ? (below + share * (patches[at].sum_at(t) - below)) / total : 0;
     return {std::min(u, 1.0), std::min(v, 1.0)};
+}
+
+double StripTable::density(double x, double y) const {
+    const auto [i, t] = column_at(x);
+    const auto patches = patches_of(i);
+    const StripPatch& shape = patches[patch_at(patches, y)].shape;
+    const auto [low, high] = shape.ends(t);
+    const double share = std::clamp((y - shape.y_low) / (shape.y_high - shape.y_low), 0.0, 1.0);
+    return ((1 - share) * low + share * high) / masses_.total();
 }
 
 }  // namespace stipple

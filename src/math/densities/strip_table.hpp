@@ -21,7 +21,9 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/domain.hpp"
@@ -62,6 +64,9 @@ class StripTable {
     [[nodiscard]] std::array<double, 2> quantile(double u, double v) const;
     [[nodiscard]] std::array<double, 2> fraction(double x, double y) const;
 
+    /// Of the points that quantile() gives, at a place of the box.
+    [[nodiscard]] double density(double x, double y) const;
+
   private:
     /// Integrals over y on a strip's two sides, up to the upper end of a patch.
     struct Patch {
@@ -85,6 +90,11 @@ class StripTable {
             return left > 0 ? 0 : 1;
         }
     };
+
+    /// The column that holds x, and where between its sides x is.
+    [[nodiscard]] std::pair<std::size_t, double> column_at(double x) const;
+    /// The last of the patches that begins at y or below.
+    [[nodiscard]] static std::size_t patch_at(std::span<const Patch> patches, double y);
 
     [[nodiscard]] std::span<const Patch> patches_of(std::size_t column) const {
         return std::span(patches_).subspan(columns_[column].first,

@@ -32,9 +32,9 @@ namespace {
 
 constexpr Param<Text> density{
     {.name = "density",
-     .help =
-         "Formula in x, not negative, of any integral: 'exp(-x)', 'x < 0.5 ? 1 : 3'. It is looked "
-         "at in 65536 places at least: what is narrower and has no --breaks may be missed"}};
+     .help = "Formula in x (stipple help formulas), not negative, of any integral: 'exp(-x)', 'x < "
+             "0.5 ? 1 : 3'. It is looked "
+             "at in 65536 places at least: what is narrower and has no --breaks may be missed"}};
 constexpr Param<Numbers> range{{.name = "range", .fallback = "0,1", .help = "Range of x: a,b"}};
 constexpr Param<Numbers> breaks{
     {.name = "breaks",

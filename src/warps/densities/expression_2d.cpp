@@ -14,7 +14,8 @@
 // Cost    about 100 ns a point; the table takes 20 ms for a smooth f, 0.5 s where f jumps along a
 //         slanting line, at the default tolerance, and as the inverse of the tolerance.
 // Promise no probability is off by more than about the tolerance, by which the table differs from
-//         f. density() is f over its integral by quadrature. Forward and back is xi within 1e-13.
+//         f. The density of the points is the table's, to rounding; that of the domain is f over its
+//         integral by quadrature. Forward and back is xi within 1e-13.
 //         No point where f is 0 beside a jump, but for what 9 points of a patch do not show.
 // Beware  never F(x, y) / F(x, y_max), which is the distribution of y given X <= x.
 
@@ -33,9 +34,9 @@ namespace {
 
 constexpr Param<Text> density{
     {.name = "density",
-     .help =
-         "Formula in x and y, not negative, of any integral: 'x + y', 'x + y < 1 ? 1 : 0'. It is "
-         "looked at on a grid of 512 x 512 places at least: what is narrower may be missed"}};
+     .help = "Formula in x and y (stipple help formulas), not negative, of any integral: 'x + y', "
+             "'x + y < 1 ? 1 : 0'. It is "
+             "looked at on a grid of 512 x 512 places at least: what is narrower may be missed"}};
 constexpr Param<Text> bounds{{.name = "bounds",
                               .fallback = "0..1,0..1",
                               .help = "Ranges of x and y: lo..hi,lo..hi, or one for both"}};
@@ -43,7 +44,10 @@ constexpr Param<double> tolerance{.name = "tolerance",
                                   .fallback = 3e-4,
                                   .low = 1e-7,
                                   .high = 0.1,
-                                  .help = "What any probability may be off by"};
+                                  .help =
+                                      "What any probability may be off by; the columns pdf and "
+                                      "weight are of the points as they are, so estimates by them "
+                                      "are not off"};
 
 struct ByTable {
     std::shared_ptr<const StripTable> table;
@@ -53,6 +57,9 @@ struct ByTable {
     }
     std::array<double, 2> inverse(std::span<const double> point) const {
         return table->fraction(point[0], point[1]);
+    }
+    double density(std::span<const double> point) const {
+        return table->density(point[0], point[1]);
     }
 };
 
@@ -84,6 +91,7 @@ Warp unit() {
             .strata =
                 "xi1 is the share of the mass left of x, xi2 the share below y of what is "
                 "at that x, both as they are",
+            .traits = {.tabulated = true},
             .options = Schema(density, bounds, tolerance),
             .aliases = {"formula-2d"},
             .mapping = make};

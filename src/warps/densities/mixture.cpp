@@ -259,6 +259,10 @@ class Mixture final : public Mapping {
         return parts_[c].mapping->infinite(own);
     }
 
+    bool biased() const override {
+        return std::ranges::any_of(parts_, [](const auto& part) { return part.mapping->biased(); });
+    }
+
     double density(std::span<const double> point) const override {
         double sum = 0;
         for (const Component& part : parts_) sum += part.weight * part.mapping->density(point);

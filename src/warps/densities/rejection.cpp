@@ -30,9 +30,9 @@
 namespace stipple::warps::rejection {
 namespace {
 
-constexpr Param<Text> density{
-    {.name = "density",
-     .help = "Formula in x, y, z, as many as --bounds has ranges; not negative, of any integral"}};
+constexpr Param<Text> density{{.name = "density",
+                               .help = "Formula (stipple help formulas) in x, y, z, as many as "
+                                       "--bounds has ranges; not negative, of any integral"}};
 constexpr Param<double> bound{
     .name = "bound", .fallback = 1, .low = 0, .low_open = true, .help = "No value of it is above"};
 constexpr Param<Text> bounds{{.name = "bounds",

@@ -213,6 +213,48 @@ TEST(Integration, WithADensityIsUnbiasedAndAWrongDensityIsSeen) {
     }
 }
 
+// Each of these is off by a half or more with the density of the domain.
+TEST(Integration, TakesTheDensityOfBiasedWarps) {
+    for (const auto& [warp, f, exact] :
+         {std::tuple{"disk:method=naive", "x*x", std::numbers::pi / 4},
+          {"disk:method=naive,radius=2,center=[1,0]", "x", 4 * std::numbers::pi},
+          {"sphere:method=naive-lat-long", "z*z", 4 * std::numbers::pi / 3},
+          {"circle:method=square-normalize", "abs(x*y)", 2.0},
+          {"mixture:components=[disk:method=naive|disk:radius=2]", "1", 4 * std::numbers::pi}}) {
+        PointSet set = warped(*mapping(warp), random_points(100'000, 2, 7));
+        set.provenance.independent = true;
+        set.provenance.warps = {warp};
+        const Report found = analyze("integration", set, {{"expression", f}, {"compare", "true"}});
+        EXPECT_EQ(found.text("density"), "warps");
+        const double error = found.number("expression.standard_error");
+        EXPECT_NEAR(found.number("expression.estimate"), exact, 5 * error + 1e-12) << warp;
+        EXPECT_LT(error, 0.02 * exact) << warp;
+        EXPECT_NEAR(found.number("compare.expression.uniform_estimate"), exact, 5 * error + 1e-12);
+    }
+}
+
+// Factors of a product are told apart by the order of the warps that made them.
+TEST(Integration, TakesTheDensityOfTheFactorThatIsBiased) {
+    const Spec naive = parse_spec("disk@3,4:method=naive");
+    const Spec right = parse_spec("disk@1,2");
+    const WarpChain chain(std::vector{right, naive}, 4);
+    PointSet set = chain.image(random_points(100'000, 4, 9), {});
+    set.provenance.independent = true;
+    set.provenance.warps = chain.specs();
+    const Report found = analyze("integration", set, {{"expression", "x1*x1*x3*x3 + x4"}});
+    const double exact = std::numbers::pi * std::numbers::pi / 16;
+    EXPECT_NEAR(found.number("expression.estimate"), exact,
+                5 * found.number("expression.standard_error"));
+}
+
+// 1 / p of the points as they are: x uniform, pdf 2, stands for half of them.
+TEST(Integration, TakesDensitiesThatAreGiven) {
+    PointSet set(std::vector{0.1, 0.2, 0.6, 0.8}, 1);
+    set.densities = {2, 2, 0.5, 0.5};
+    const Report found = analyze("integration", set, {{"expression", "x"}});
+    EXPECT_DOUBLE_EQ(found.number("expression.estimate"), (0.05 + 0.1 + 1.2 + 1.6) / 4);
+}
+
 TEST(Integration, ComparesWithUniformPointsOfTheSameCube) {
     const PointSet cube = random_points(100'000, 2, 5);
     const Report found = integrate(on_ramp(cube), "measure,smooth-gaussian", {{"compare", "true"}});

@@ -48,7 +48,8 @@ TEST(Expression2d, TriangleHasItsMomentsAndNoPointOutside) {
     EXPECT_NEAR(m.xy, -1 / 36.0, 2e-4);
     const PointSet image = warped(*map, make("random", points(300'000, 2)));
     for (std::size_t i = 0; i < image.count(); ++i) ASSERT_LT(image[i][0] + image[i][1], 1);
-    EXPECT_NEAR(map->density(std::vector{0.2, 0.3}), 2, 1e-7);
+    EXPECT_NEAR(map->domain()->density(std::vector{0.2, 0.3}), 2, 1e-7);
+    EXPECT_NEAR(map->density(std::vector{0.2, 0.3}), 2, 1e-3);
     EXPECT_EQ(map->density(std::vector{0.8, 0.3}), 0);
 }
 
@@ -124,13 +125,34 @@ TEST(Expression2d, SeesWhatIsNarrow) {
         const double area = M_PI * r * r;
         const double whole = area + 0.001 * (1 - area);
         EXPECT_NEAR(static_cast<double>(inside) / (n * n), area / whole, 0.002) << x << " " << r;
-        EXPECT_NEAR(map->density(std::array{x, y}), 1 / whole, 1e-3 / whole);
+        EXPECT_NEAR(map->domain()->density(std::array{x, y}), 1 / whole, 1e-3 / whole);
     }
     const auto bell = mapping("expression-2d:density=[exp(-1e6*((x-0.3)^2+(y-0.7)^2))]");
     const PlaneMoments m = moments_of(*bell, 300);
     EXPECT_NEAR(m.x, 0.3, 2e-6);
     EXPECT_NEAR(m.yy, 0.5e-6, 1e-8);
-    EXPECT_NEAR(bell->density(std::array{0.3, 0.7}), 1e6 / M_PI, 10);
+    EXPECT_NEAR(bell->domain()->density(std::array{0.3, 0.7}), 1e6 / M_PI, 10);
+}
+
+// dx dy = dxi / density: x depends on xi0 alone, so that the area that a small square of the cube
+// becomes is dx/dxi0 dy/dxi1 of it.
+TEST(Expression2d, DensityIsThatOfThePointsAsTheyAre) {
+    const PointSet cube = make("random", points(500, 2));
+    for (const std::string spec :
+         {"density=[abs(sin(20*x*y))]", "density=[exp(-9*(x-y)^2)],bounds=[-1..2,0..3]"}) {
+        const auto map = mapping("expression-2d:tolerance=0.01," + spec);
+        double worst = 0;
+        for (std::size_t i = 0; i < cube.count(); ++i) {
+            constexpr double h = 1e-7;
+            const double u = cube[i][0], v = cube[i][1];
+            const auto at = image_of(*map, {u, v});
+            const double dx = image_of(*map, {u + h, v})[0] - image_of(*map, {u - h, v})[0];
+            const double dy = image_of(*map, {u, v + h})[1] - image_of(*map, {u, v - h})[1];
+            EXPECT_NEAR(map->density(at) * dx * dy / (4 * h * h), 1, 2e-5) << spec << " " << i;
+            worst = std::max(worst, std::abs(map->density(at) / map->domain()->density(at) - 1));
+        }
+        EXPECT_GT(worst, 1e-4) << "what the tolerance allows is not there to be seen";
+    }
 }
 
 TEST(Expression2d, ProbabilitiesOfCellsAreIntegrals) {
