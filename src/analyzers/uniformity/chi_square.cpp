@@ -8,8 +8,8 @@
 //
 //     p_upper = P(chi2 >= X^2),  p_lower = P(chi2 <= X^2),  p = min(1, 2 min(p_upper, p_lower))
 //
-// (p_lower with what whole counts add to it where groups are few, see pearson.hpp: five points in
-// each of three cells are nothing rare.)
+// (p_lower is that of whole counts, see pearson.hpp: five points in each of three cells are nothing
+// rare.)
 //
 // p < level with the upper tail the smaller one: non-uniform, the counts differ too much from what
 // is expected. With the lower tail: stratified, they differ less than those of random points do.
@@ -216,7 +216,8 @@ Judged judge(double statistic, double error, const F& tails) {
 Report& add_tails(Report& report, const Tails& tails) {
     return report.add("p_value", tails.two_sided())
         .add("p_upper", tails.upper)
-        .add("p_lower", tails.lower);
+        .add("p_lower", tails.lower)
+        .add("p_method", tails.exact ? "exact" : "corrected");
 }
 
 /// Both tails on one grid or two, as a verdict; none that the errors of the cells' probabilities
@@ -449,6 +450,11 @@ std::vector<ResultKey> results() {
         {"p_value", "two-sided: twice the smaller of p_upper and p_lower, at most 1"},
         {"p_upper", "chance that random points have as large a statistic"},
         {"p_lower", "chance that random points have as small a statistic; their counts are whole"},
+        {"p_method",
+         "of p_lower: exact, summed over all counts that give so small a statistic, where these "
+         "can "
+         "be gone through; corrected: chi-square's, with what whole counts add to it",
+         true, "exact|corrected"},
         {"verdict", "uniform; non-uniform: counts differ too much; stratified: too little", true,
          uniformity_verdicts},
         {"cells", "cells laid out"},
@@ -469,6 +475,7 @@ std::vector<ResultKey> results() {
         {"shifted.p_value", "two-sided", false},
         {"shifted.p_upper", "chance of as large a statistic", false},
         {"shifted.p_lower", "chance of as small a statistic", false},
+        {"shifted.p_method", "of its p_lower: exact or corrected", false, "exact|corrected"},
         {"shifted.pooled_cells", "its cells put together with others", false},
         {"shifted.impossible_points", "points in its cells of probability 0", false},
         {"shifted.statistic_error", "most by which its statistic may be off", false}};

@@ -4,14 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "analyzers/uniformity/cell_grid.hpp"
+#include "analyzers/uniformity/count_law.hpp"
 #include "core/error.hpp"
 #include "core/machine/int128.hpp"
 #include "math/functions/distributions.hpp"
 
 namespace stipple::analyzers {
 namespace {
+
+constexpr std::size_t most_unequal = 8;  ///< groups; counts of more are too many to be gone through
 
 /// Equal cells to a group so that its expectation is at least 5. @throws Error(input) if fewer than
 /// two groups come of it.
@@ -36,13 +40,6 @@ double most_even_chance(std::uint64_t n, std::uint64_t groups) {
     const double counts = log_factorial(static_cast<double>(n)) - (k - more) * log_factorial(each) -
                           more * log_factorial(each + 1);
     return std::min(1.0, std::exp(ways + counts - static_cast<double>(n) * std::log(k)));
-}
-
-/// ln(n! / (n^n e^-n)) by Stirling's series, to 1e-8 from n = 5 on.
-double log_excess(double n) {
-    constexpr double two_pi = 6.28318530717958647693;
-    const double square = n * n;
-    return 0.5 * std::log(two_pi * n) + (1.0 / 12 - (1.0 / 360 - 1 / (1260 * square)) / square) / n;
 }
 
 /// q_1, q_2, ... of groups that expect this, the least first: all, or those above 1e-30.
@@ -138,7 +135,10 @@ double statistic_error_of(double statistic, const std::vector<Group>& groups) {
 Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunContext& run) {
     const std::uint64_t total = counts.size();
     const std::uint64_t size = group_size(n, total);
-    Fit found{.groups = total / size, .pooled = size > 1 ? total : 0};
+    Fit found{.groups = total / size,
+              .pooled = size > 1 ? total : 0,
+              .points = n,
+              .equal = total % size == 0};
     ModalProbabilities modal_probabilities(n);
     for (std::uint64_t g = 0; g < found.groups; ++g) {
         if (g % 65536 == 0) run.check_stop();
@@ -154,9 +154,10 @@ Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunC
         const double off = scaled / static_cast<double>(total);
         found.statistic += off * off / expected;
         if (g + 1 < found.groups) modal_probabilities.add(expected);
+        if (!found.equal && found.groups <= most_unequal) found.expected.push_back(expected);
     }
     found.modal_probabilities = modal_probabilities.take();
-    if (total % size == 0) found.most_even = most_even_chance(n, found.groups);
+    if (found.equal) found.most_even = most_even_chance(n, found.groups);
     return found;
 }
 
@@ -175,10 +176,15 @@ Fit fit_masses(std::span<const std::uint64_t> counts, std::span<const Estimate> 
     run.check_stop();
     const auto groups = pool(cells, n);
     found.groups = groups.size();
+    found.points = n;
+    found.equal = std::ranges::all_of(
+        groups, [&](const Group& group) { return group.expected == groups.front().expected; });
+    if (found.equal) found.most_even = most_even_chance(n, found.groups);
     ModalProbabilities modal_probabilities(n);
     for (const Group& group : groups) {
         const double off = static_cast<double>(group.observed) - group.expected;
         found.statistic += off * off / group.expected;
+        if (!found.equal && groups.size() <= most_unequal) found.expected.push_back(group.expected);
         if (group.cells > 1) found.pooled += group.cells;
         if (&group != &groups.back()) modal_probabilities.add(group.expected);
     }
@@ -195,8 +201,23 @@ Tails chi_square_tails(double statistic, double freedom) {
             .lower = chi_square_below(statistic, freedom)};
 }
 
+namespace {
+
+std::optional<double> exact_tail(double statistic, const Fit& fit) {
+    if (fit.equal) return exact_lower_tail(statistic, fit.points, fit.groups);
+    if (fit.expected.empty()) return std::nullopt;
+    return exact_lower_tail(statistic, fit.points, fit.expected);
+}
+
+}  // namespace
+
 Tails count_tails(double statistic, const Fit& fit) {
     Tails tails = chi_square_tails(statistic, fit.freedom());
+    if (const auto exact = exact_tail(statistic, fit)) {
+        tails.lower = *exact;
+        tails.exact = true;
+        return tails;
+    }
     const auto all = static_cast<std::size_t>(fit.groups - 1);
     double mixed = 0;
     for (std::size_t s = 1; s <= fit.modal_probabilities.size(); ++s) {

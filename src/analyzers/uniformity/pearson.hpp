@@ -17,7 +17,8 @@
 //     (X - D)^2 / (1 + r)  <=  right statistic  <=  (X + D)^2 / (1 - r),    r = max d_i / E_i
 //
 // Counts are whole, so that few groups leave few values to X^2, and a value as small as any has a
-// chance that chi-square, being continuous, takes for next to nothing. Let q_s be the chance of the
+// chance that chi-square, being continuous, takes for next to nothing. The lower tail is exact where
+// the counts can be gone through (count_law.hpp). Elsewhere, let q_s be the chance of the
 // most probable counts in the s groups that expect the least, and F_f the chi-square distribution
 // function (F_0 = 1). Taking these s groups as they are and the others as a continuum gives
 // q_s F_(f-s), and a ball holds about as many lattice points as its volume and those of its
@@ -25,9 +26,8 @@
 //
 //     lower tail = max(F_f + q_f (1 - F_f), sum_{s=1..f} q_s F_(f-s)),    f = degrees of freedom,
 //
-// not below the chance of the most even counts there are, where that is known. With two groups a
-// small tail is exact (in the normal limit); with more, random counts have a tail of at most P with
-// a chance of at most 2 P. Terms beyond F_f vanish as groups and expectations grow.
+// not below the chance of the most even counts there are, where that is known. Where it takes the
+// place of an exact one, of equal groups, it was found within 5 % of it for tails down to 1e-4.
 //
 // Promise equal cells: (K (O - E))^2 is worked out in whole numbers.
 #pragma once
@@ -50,6 +50,9 @@ struct Fit {
     double statistic_error = 0;    ///< most by which it may be off the right statistic
     double most_even = 0;          ///< chance of the least statistic there is; 0: not known
     std::vector<double> modal_probabilities = {};  ///< q_1, q_2, ... as far as they matter
+    std::uint64_t points = 0;
+    std::vector<double> expected = {};  ///< of groups, where they are few and not equal
+    bool equal = false;                 ///< all groups expect as many points
 
     [[nodiscard]] double freedom() const { return static_cast<double>(groups - 1); }
 };
@@ -65,6 +68,7 @@ Fit fit_masses(std::span<const std::uint64_t> counts, std::span<const Estimate> 
 struct Tails {
     double upper = 1;
     double lower = 1;
+    bool exact = false;  ///< the lower one is
 
     [[nodiscard]] double two_sided() const;
 };
@@ -72,7 +76,7 @@ struct Tails {
 /// Of chi-square with these degrees of freedom.
 Tails chi_square_tails(double statistic, double freedom);
 
-/// The same with what whole counts make of the lower tail, for a statistic on the groups of `fit`.
+/// The same with the lower tail that whole counts have, for a statistic on the groups of `fit`.
 Tails count_tails(double statistic, const Fit& fit);
 
 /// One of several independent tests: the least of their p-values, 1 - (1 - p)^T; each tail by

@@ -123,9 +123,9 @@ TEST(ChiSquare, TwoCellsByHand) {
     EXPECT_DOUBLE_EQ(report.number("statistic"), 3.2);
     EXPECT_EQ(report.number("degrees_of_freedom"), 1);
     EXPECT_NEAR(report.number("p_upper"), std::erfc(std::sqrt(1.6)), 1e-15);
-    const double middle = 184756.0 / (1 << 20);  // C(20, 10) / 2^20: chance of 10 and 10
-    EXPECT_NEAR(report.number("p_lower"),
-                std::erf(std::sqrt(1.6)) + middle * std::erfc(std::sqrt(1.6)), 1e-9);
+    // All but 0 to 5 and 15 to 20 of 20.
+    EXPECT_NEAR(report.number("p_lower"), 1 - 2 * 21700.0 / (1 << 20), 1e-14);
+    EXPECT_EQ(report.text("p_method"), "exact");
     EXPECT_NEAR(report.number("p_value"), 2 * std::erfc(std::sqrt(1.6)), 1e-15);
     EXPECT_EQ(report.text("verdict"), "uniform");
 }

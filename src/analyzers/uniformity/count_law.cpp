@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "analyzers/uniformity/count_law.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "math/functions/distributions.hpp"
+
+namespace stipple::analyzers {
+namespace {
+
+constexpr double most_steps = 2e6;
+constexpr double tie = 1e-12;  ///< by which equal statistics may differ in rounding
+
+/// Sums over the counts of equal groups, of how far each is above m: weights m! m^e / (m + e)! by
+/// the sum of e and the sum of its squares.
+class EqualCounts {
+  public:
+    /// @param squares most that the sum of squares may be
+    EqualCounts(std::int64_t m, std::int64_t squares)
+        : squares_(squares), least_(-std::min(root(squares), m)) {
+        const auto count = static_cast<double>(m);
+        const auto zero = static_cast<std::size_t>(-least_);
+        weights_.assign(static_cast<std::size_t>(root(squares) - least_) + 1, 1);
+        for (std::size_t k = zero + 1; k < weights_.size(); ++k)
+            weights_[k] = weights_[k - 1] * (count / (count + static_cast<double>(k - zero)));
+        for (std::size_t k = zero; k-- > 0;)
+            weights_[k] = weights_[k + 1] * ((count - static_cast<double>(zero - k - 1)) / count);
+    }
+
+    /// The sum over all counts of `groups` groups, e summing to `rest`, below `groups`.
+    double sum(std::int64_t groups, std::int64_t rest) {
+        reach_ = root(groups * squares_) + 1;
+        std::vector<double> from(table_size());
+        from[at(0, 0)] = 1;
+        for (std::int64_t left = groups; left > 0; --left) from = with_group(from, left, rest);
+        double all = 0;
+        for (std::int64_t q = 0; q <= squares_; ++q) all += from[at(rest, q)];
+        return all;
+    }
+
+  private:
+    static std::int64_t root(std::int64_t x) {
+        return static_cast<std::int64_t>(std::sqrt(static_cast<double>(x)));
+    }
+    [[nodiscard]] std::size_t table_size() const {
+        return static_cast<std::size_t>((2 * reach_ + 1) * (squares_ + 1));
+    }
+    [[nodiscard]] std::size_t at(std::int64_t sum, std::int64_t squares) const {
+        return static_cast<std::size_t>((sum + reach_) * (squares_ + 1) + squares);
+    }
+
+    /// One more group, of `left` that are to come; sums from which `rest` is out of reach end.
+    [[nodiscard]] std::vector<double> with_group(const std::vector<double>& from, std::int64_t left,
+                                                 std::int64_t rest) const {
+        std::vector<double> to(table_size());
+        for (std::int64_t s = -reach_; s <= reach_; ++s)
+            for (std::int64_t q = 0; q <= squares_; ++q) {
+                const double here = from[at(s, q)];
+                if (here == 0 || (rest - s) * (rest - s) > left * (squares_ - q)) continue;
+                const std::int64_t most = root(squares_ - q);
+                const std::int64_t first = std::max({-most, least_, -reach_ - s});
+                for (std::int64_t e = first; e <= std::min(most, reach_ - s); ++e)
+                    to[at(s + e, q + e * e)] +=
+                        here * weights_[static_cast<std::size_t>(e - least_)];
+            }
+        return to;
+    }
+
+    std::int64_t squares_;
+    std::int64_t least_;
+    std::int64_t reach_ = 0;  ///< the sum of e is at most so far from 0
+    std::vector<double> weights_;
+};
+
+/// The chance that `count` of n points are where `expected` of them are, by n! / (k! (n - k)!) with
+/// the powers of n, k and n - k taken apart: so nothing cancels.
+double binomial_chance(double count, double n, double expected) {
+    const auto off = [](double found, double right) {
+        const double e = (found - right) / right;
+        return right * (found > 0 ? (1 + e) * std::log1p(e) - e : 1);
+    };
+    return std::exp(log_excess(n) - log_excess(count) - log_excess(n - count) -
+                    off(count, expected) - off(n - count, n - expected));
+}
+
+/// Counts of unequal groups, the one that expects the most last.
+class UnequalCounts {
+  public:
+    explicit UnequalCounts(std::span<const double> expected)
+        : expected_(expected.begin(), expected.end()) {
+        std::ranges::sort(expected_);
+        behind_.resize(expected_.size());
+        for (std::size_t k = expected_.size() - 1; k-- > 0;)
+            behind_[k] = behind_[k + 1] + expected_[k + 1];
+    }
+
+    /// No fewer counts than there are with so small a statistic.
+    [[nodiscard]] double most(double statistic) const {
+        double count = 1;
+        for (std::size_t k = 0; k + 1 < expected_.size(); ++k)
+            count *= 2 * std::sqrt(statistic * expected_[k]) + 1;
+        return count;
+    }
+
+    /// The chance that groups k, k + 1, ... share `left` points so that they add at most `room`.
+    [[nodiscard]] double chance(std::size_t k, std::uint64_t left, double room) const {
+        const double here = expected_[k];
+        const double rest = behind_[k];
+        const auto points = static_cast<double>(left);
+        const double off = points - here - rest;
+        const double width = (room - off * off / (here + rest)) / (1 / here + 1 / rest);
+        if (width < 0) return 0;
+        const double middle = points * (here / (here + rest));
+        const double low = std::max(std::ceil(middle - std::sqrt(width)), 0.0);
+        const double high = std::min(std::floor(middle + std::sqrt(width)), points);
+        if (low > high) return 0;
+        double weight = binomial_chance(low, points, middle);
+        double sum = 0;
+        for (double count = low; count <= high; ++count) {
+            const double used = (count - here) * (count - here) / here;
+            const bool last = k + 2 == expected_.size();
+            sum += last ? weight
+                        : weight *
+                              chance(k + 1, left - static_cast<std::uint64_t>(count), room - used);
+            weight *= (points - count) / (count + 1) * (here / rest);
+        }
+        return sum;
+    }
+
+  private:
+    std::vector<double> expected_;
+    std::vector<double> behind_;  ///< expected in all groups behind
+};
+
+}  // namespace
+
+std::optional<double> exact_lower_tail(double statistic, std::uint64_t n, std::uint64_t groups) {
+    const auto k = static_cast<double>(groups);
+    const auto rest = static_cast<double>(n % groups);
+    const double squares = static_cast<double>(n) * (statistic / k) + rest * (rest / k);
+    const double steps = std::max(1.0, squares) * k;
+    if (!(steps * std::max(1.0, squares) * std::sqrt(k) < 3 * most_steps)) return std::nullopt;
+    const auto m = static_cast<std::int64_t>(n / groups);
+    EqualCounts counts(m, static_cast<std::int64_t>(squares + 1e-6));
+    const double sum =
+        counts.sum(static_cast<std::int64_t>(groups), static_cast<std::int64_t>(n % groups));
+    // ln(n! / (K^n m!^K m^r)) by ln n! = n ln n - n + log_excess(n).
+    const auto points = static_cast<double>(n);
+    const double ways = log_excess(points) - k * log_excess(static_cast<double>(m)) +
+                        points * std::log1p(rest / (points - rest)) - rest;
+    return std::min(1.0, sum * std::exp(ways));
+}
+
+std::optional<double> exact_lower_tail(double statistic, std::uint64_t n,
+                                       std::span<const double> expected) {
+    const UnequalCounts counts(expected);
+    if (!(counts.most(statistic) < most_steps)) return std::nullopt;
+    const double least = std::min(tie, 0.01 / static_cast<double>(n));
+    return std::min(1.0, counts.chance(0, n, statistic * (1 + tie) + least));
+}
+
+}  // namespace stipple::analyzers
