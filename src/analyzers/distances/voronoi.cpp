@@ -222,6 +222,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     results.add("lloyd_energy", sums.second_moment / count * mean);
     results.add("normalized_second_moment", sums.second_moment / count / 2);
     results.add("centroid_offset", std::move(offset));
+    results.add("mean_distance", unit);
     results.add("metric", distances.name());
     return results;
 }
@@ -256,9 +257,11 @@ Analyzer unit() {
              {"bond_order.bonds", "the same, all bonds having one weight"},
              {"lloyd_energy", "mean squared distance of a place to the nearest point"},
              {"normalized_second_moment", "m E / (2 V): 0.080188 for hexagons, 0.159 at random"},
-             {"centroid_offset.mean", "distance of a point from its cell's centroid"},
+             {"centroid_offset.mean",
+              "distance of a point from its cell's centroid, in mean distances sqrt(V / m)"},
              {"centroid_offset.root_mean_square", "the root of the mean square of these"},
              {"centroid_offset.maximum", "the largest of these"},
+             {"mean_distance", "sqrt(V / m), in units of the points"},
              {"metric", "torus or euclidean", true, "torus|euclidean"}},
         .analyze = analyze};
 }

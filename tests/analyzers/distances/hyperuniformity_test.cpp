@@ -75,6 +75,41 @@ TEST(Hyperuniformity, VarianceIsTheSumOverPairsOfTheirOverlaps) {
     }
 }
 
+// Squares of a lattice have few distances, which bins of any width keep; lattices of others have a
+// few in each. Oracle: all pairs, whose overlaps are summed one by one.
+TEST(Hyperuniformity, VarianceOfLatticesIsWithinTheErrorThatIsStated) {
+    for (const auto& [generator, n, most] :
+         {std::tuple{"regular", std::size_t{900}, 1e-10}, {"halton", std::size_t{500}, 1e-6}}) {
+        const PointSet set = make(generator, points(n, 2));
+        const Report found = report(set);
+        for (const std::size_t at : {0U, 11U, 39U}) {
+            if (at >= found.curve("radius").size()) continue;
+            const long double radius =
+                found.curve("radius")[at] * static_cast<long double>(found.number("mean_distance"));
+            long double sum = 0;
+            for (std::size_t i = 0; i < n; ++i)
+                for (std::size_t j = 0; j < i; ++j) {
+                    long double squared = 0;
+                    for (std::size_t k = 0; k < 2; ++k) {
+                        const long double gap = std::abs(set[i][k] - set[j][k]);
+                        squared += std::min(gap, 1 - gap) * std::min(gap, 1 - gap);
+                    }
+                    const long double r = std::sqrt(squared);
+                    if (r >= 2 * radius) continue;
+                    sum += 2 * radius * radius * std::acos(r / (2 * radius)) -
+                           r / 2 * std::sqrt(4 * radius * radius - squared);
+                }
+            const long double mean =
+                static_cast<long double>(n) * std::numbers::pi_v<long double> * radius * radius;
+            const auto right = static_cast<double>(mean + 2 * sum - mean * mean);
+            const double error = found.curve("variance_error")[at];
+            const double rounding = 1e-14 * static_cast<double>(mean * mean);
+            EXPECT_NEAR(found.curve("variance")[at], right, error + rounding) << generator;
+            EXPECT_LT(error, most) << generator << " " << found.curve("radius")[at];
+        }
+    }
+}
+
 // As defined: windows at many places, here on a lattice of centres that is in step with nothing.
 TEST(Hyperuniformity, VarianceIsThatOfCountsInWindows) {
     const PointSet set = make("random", points(200, 2));

@@ -253,7 +253,8 @@ TEST(Voronoi, CellsAreThoseOfTheDefinition) {
                     << about;
                 EXPECT_NEAR(found.number("lloyd_energy"), oracle.second_moment / volume, tolerance)
                     << about;
-                EXPECT_NEAR(found.number("centroid_offset.mean") * std::sqrt(volume / count),
+                EXPECT_NEAR(found.number("mean_distance"), std::sqrt(volume / count), tolerance);
+                EXPECT_NEAR(found.number("centroid_offset.mean") * found.number("mean_distance"),
                             oracle.offset / count, tolerance)
                     << about;
                 EXPECT_EQ(found.number("inner_cells"), oracle.inner) << about;
