@@ -120,6 +120,7 @@ std::unique_ptr<io::PointStream> open_original(const Original& original, ReadOpt
     RunContext reading = run;
     reading.threads = 1;
     options.source = original.name;
+    options.any_count = true;  // what is too many or too few is told by who compares them
     options.single = original.meta.single;
     if (original.width) options.dimension = original.width;
     return io::open_points(original.path, options, reading, original.format);

@@ -147,6 +147,23 @@ TEST(Reproduce, NamesTheFirstDifference) {
     EXPECT_THAT(difference(box, "c.csv"), HasSubstr("it has 9 points; made again it has 10"));
     good(box.shell("stipple generate halton -n 10 --meta -o d.csv && echo 0.5,0.5 >> d.csv"));
     EXPECT_THAT(difference(box, "d.csv"), HasSubstr("more than 10 points"));
+    // A head that counts the points is not what the points are compared with.
+    good(box.shell("stipple generate halton -n 10 -o f.jsonl && sed -i '$d' f.jsonl"));
+    EXPECT_THAT(difference(box, "f.jsonl"), HasSubstr("it has 9 points; made again it has 10"));
+    good(
+        box.shell("stipple generate halton -n 10 -o g.jsonl && echo '[0.5,0.5]' >> g.jsonl && "
+                  "stipple generate halton -n 3 -o h.json && sed -i '3d' h.json"));
+    EXPECT_THAT(difference(box, "g.jsonl"), HasSubstr("more than 10 points"));
+    EXPECT_THAT(difference(box, "h.json"), HasSubstr("point 1, x: the file has 0.25"));
+    for (const std::string file : {"k.csv", "k.txt", "k.json", "k.jsonl"}) {
+        good(box.shell("stipple generate random -n 2 -w disk --with-pdf --with-weight --meta -o " +
+                       file));
+        replace_in(box, file, "0.3183098861837907", "0.3183098861837908");
+        EXPECT_THAT(difference(box, file), HasSubstr("point 0, pdf"));
+        replace_in(box, file, "0.3183098861837908", "0.3183098861837907");
+        replace_in(box, file, "3.14159265358979", "3.14159265358978");
+        EXPECT_THAT(difference(box, file), HasSubstr("point 0, weight"));
+    }
     good(
         box.shell("stipple generate random -n 10 -f svg --meta -o e.svg && sed -i "
                   "'s/<circle cx=\"[0-9]/<circle cx=\"99/' e.svg"));

@@ -22,12 +22,13 @@
 namespace stipple::generators::orthogonal_array {
 namespace {
 
-constexpr Param<Choice> construction{.name = "construction",
-                                     .fallback = "cmj",
-                                     .choices = "bose|bush|cmj",
-                                     .help =
-                                         "bose: s^2 points; bush: s^strength points, s prime; "
-                                         "cmj: s^dimension points, any s"};
+constexpr Param<Choice> construction{
+    .name = "construction",
+    .fallback = "cmj",
+    .choices = "bose|bush|cmj",
+    .help =
+        "bose: s^2 points, bush: s^strength points, s prime in both; "
+        "cmj: s^dimension points, any s"};
 constexpr Param<std::int64_t> strength{
     .name = "strength",
     .low = 1,
