@@ -40,12 +40,14 @@ Report& Report::put(std::string_view name, Item value, std::string_view unit) {
 }
 
 const Report::Item* Report::find(std::string_view key) const {
-    const auto dot = key.find('.');
-    const auto it = std::ranges::find(entries_, key.substr(0, dot), &Entry::name);
-    if (it == entries_.end()) return nullptr;
-    if (dot == std::string_view::npos) return &it->value;
-    const auto* group = std::get_if<Report>(&it->value);
-    return group ? group->find(key.substr(dot + 1)) : nullptr;
+    for (const auto& [name, value, unit] : entries_) {
+        if (name == key) return &value;  // a name may hold dots of its own
+        const auto* group = std::get_if<Report>(&value);
+        if (group == nullptr || !key.starts_with(name) || key.substr(name.size(), 1) != ".")
+            continue;
+        if (const Item* item = group->find(key.substr(name.size() + 1))) return item;
+    }
+    return nullptr;
 }
 
 Report::Item* Report::find(std::string_view key) {

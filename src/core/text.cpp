@@ -37,8 +37,10 @@ std::optional<std::int64_t> power(std::string_view base_text, std::string_view e
     const auto base = parse_whole<std::int64_t>(base_text);
     const auto exponent = parse_whole<int>(exponent_text);
     if (!base || !exponent || *exponent < 0) return std::nullopt;
+    const bool grows = *base > 1 || *base < -1;  // else only the exponent's parity counts
+    const int factors = grows ? *exponent : std::min(*exponent, 2 - *exponent % 2);
     std::int64_t value = 1;
-    for (int i = 0; i < *exponent; ++i)
+    for (int i = 0; i < factors; ++i)
         if (__builtin_mul_overflow(value, *base, &value)) return std::nullopt;
     return value;
 }

@@ -139,14 +139,15 @@ class RawStream final : public PointStream {
     void check_rest() {
         if (!shape_.count || left_ > 0 || set_ < shape_.sets || ended_) return;
         ended_ = true;
+        char next = 0;
+        if (feed_->read({&next, 1}) == 0) return;
         std::string more(Feed::front_size, '\0');
-        const std::size_t got = feed_->read(more);
-        if (got > 0)
-            fail(ErrorKind::input,
-                 "{}: byte {}: {}{} bytes follow the numbers; expected the end "
-                 "of the file",
-                 source_, shape_.offset + numbers_ * shape_.type.size,
-                 got == more.size() ? "at least " : "", got);
+        const std::size_t got = 1 + feed_->read(std::span(more).first(more.size() - 1));
+        fail(ErrorKind::input,
+             "{}: byte {}: {}{} bytes follow the numbers; expected the end "
+             "of the file",
+             source_, shape_.offset + numbers_ * shape_.type.size,
+             got == more.size() ? "at least " : "", got);
     }
 
     std::unique_ptr<Feed> feed_;

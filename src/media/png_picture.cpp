@@ -135,10 +135,23 @@ class Encoder : public ErrorText {
     png_infop info_ = nullptr;
 };
 
+/// Whether no chunk says that it is longer than what is left: libpng allocates what it says.
+bool chunks_fit(std::string_view png) {
+    for (png.remove_prefix(png_magic.size()); png.size() >= 8;) {
+        const std::size_t length = png_get_uint_32(reinterpret_cast<png_const_bytep>(png.data()));
+        if (png.size() < 12 || length > png.size() - 12) return false;
+        if (png.substr(4, 4) == "IEND") break;  // what follows is not read
+        png.remove_prefix(12 + length);
+    }
+    return true;
+}
+
 }  // namespace
 
 PngPicture read_png(std::string_view bytes, const std::string& source, const RunContext& run) {
     if (!bytes.starts_with(png_magic)) fail(ErrorKind::input, "{}: not a PNG picture", source);
+    if (!chunks_fit(bytes))
+        fail(ErrorKind::input, "{}: no whole PNG picture: the file ends too soon", source);
     Decoder decoder(bytes);
     if (!decoder.read_head())
         fail(ErrorKind::input, "{}: no whole PNG picture: {}", source, decoder.error());

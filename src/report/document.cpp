@@ -49,12 +49,15 @@ std::string shortened(const Report::Curve& curve) {
     return text;
 }
 
-const std::string& unit_of(const Report& report, std::string_view dotted_key) {
-    const auto dot = dotted_key.find('.');
-    const auto it =
-        std::ranges::find(report.entries(), dotted_key.substr(0, dot), &Report::Entry::name);
-    const auto* group = std::get_if<Report>(&it->value);
-    return group ? unit_of(*group, dotted_key.substr(dot + 1)) : it->unit;
+/// The unit of an item that is there.
+std::string unit_of(const Report& report, const Report::Item* item) {
+    for (const auto& [name, value, unit] : report.entries()) {
+        if (&value == item) return unit;
+        const auto* group = std::get_if<Report>(&value);
+        if (const std::string inner = group ? unit_of(*group, item) : ""; !inner.empty())
+            return inner;
+    }
+    return {};
 }
 
 std::string source_of(const Measurement& m) {
@@ -72,11 +75,12 @@ std::string to_text(const Measurement& m) {
     std::size_t width = 0;
     for (const auto& key : keys) width = std::max(width, key.size());
     for (const auto& key : keys) {
-        std::string line = fmt::format("  {:<{}}  {}", key, width, text_of(*m.results.find(key)));
+        const Report::Item* item = m.results.find(key);
+        std::string line = fmt::format("  {:<{}}  {}", key, width, text_of(*item));
         const Report::Item* error = m.standard_error ? m.standard_error->find(key) : nullptr;
         if (const auto* number = std::get_if<double>(error))
             line += fmt::format(" +- {:.3g}", *number);
-        const std::string& unit = unit_of(m.results, key);
+        const std::string unit = unit_of(m.results, item);
         text += unit.empty() ? line + "\n" : fmt::format("{} {}\n", line, unit);
     }
     return text;

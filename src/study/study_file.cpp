@@ -157,7 +157,8 @@ void StudyFile::begin_journal() {
 void StudyFile::refuse_other(const Json& found) const {
     std::string differs;
     for (const auto& [name, value] : sweep_.settings()) {
-        if (!found.is_object() || !found.contains(name) || found[name] == value) continue;
+        if (!found.is_object() || !found.contains(name) || !found[name].is_string()) continue;
+        if (found[name] == value) continue;
         differs = fmt::format(": it has {} '{}', this one '{}'", name,
                               found[name].get<std::string>(), value);
         break;
@@ -189,10 +190,16 @@ bool StudyFile::read_entry(std::istream& in) {
     if (numbers.empty()) return false;
     Waiting waiting{.bytes = {numbers.begin() + 1, numbers.end()},
                     .offset = journal_size_ + line.size() + 1};
-    const std::uint64_t size = waiting.size();
-    in.ignore(static_cast<std::streamsize>(size));
-    if (static_cast<std::uint64_t>(in.gcount()) < size) return false;
-    journal_size_ = waiting.offset + size;
+    for (std::uint64_t unit = numbers[0]; std::uint64_t left : waiting.bytes) {
+        do {  // a crash may have left other bytes than those that were written
+            if (!whole_line(in, line) || line.size() + 1 > left) return false;
+            const auto row = table_.parse(line);
+            if (!row || !is_of(*row, unit)) return false;
+            left -= line.size() + 1;
+        } while (left > 0);
+        ++unit;
+    }
+    journal_size_ = waiting.offset + waiting.size();
     waiting_.emplace(numbers[0], std::move(waiting));
     return true;
 }

@@ -289,6 +289,32 @@ TEST(Study, ResumeAfterACutGivesTheSameBytes) {
     }
 }
 
+// After a power failure a journal may hold anything in place of what was written last.
+TEST(Study, ResumeTakesNothingFromADamagedJournal) {
+    const Sandbox box;
+    const std::string study =
+        "stipple study --generators halton -n 1..4+1 --analyze star-discrepancy --keys value "
+        "--no-seconds ";
+    ASSERT_EQ(good(box.shell(study + "-o whole.csv")), "");
+    const std::string whole = box.read("whole.csv");
+    const std::string last = whole.substr(lines(whole, 4).size());
+    const std::string print = last.substr(last.rfind(',') + 1, 16);
+    const std::string head = "{\"format\":\"stipple.study-journal\",\"version\":2,\"study\":\"";
+    const std::string size = std::to_string(last.size());
+    for (const std::string& entry :
+         {"3 " + size + "\n" + last, "3 " + size + "\n" + std::string(last.size(), '\0'),
+          "2 " + size + "\n" + last, "0 0 0 0 0 0 0 0 0\n" + last,
+          "0 18446744073709551615 1\n" + last, "9223372036854775807 " + size + "\n" + last}) {
+        box.write("cut.csv", lines(whole, 2));
+        box.write("cut.csv.journal", head + print + "\",\"settings\":{}}\n" + entry);
+        EXPECT_EQ(good(box.shell(study + "-o cut.csv --resume")), "") << entry;
+        EXPECT_EQ(box.read("cut.csv"), whole) << entry;
+    }
+    box.write("cut.csv.journal", head + "0\",\"settings\":{\"counts\":1,\"generators\":[]}}\n");
+    box.write("cut.csv", lines(whole, 2));
+    expect_refusal(box.shell(study + "-o cut.csv --resume"), 3, "the study there is another one");
+}
+
 // A finished study has no journal; the file may have been copied in part since.
 TEST(Study, ResumeCompletesAFinishedTableThatWasCut) {
     const Sandbox box;

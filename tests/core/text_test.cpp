@@ -14,6 +14,11 @@ TEST(Text, WholeNumbersInManyWays) {
     EXPECT_EQ(parse_integer("1.5e3"), 1500);
     EXPECT_EQ(parse_integer("2^20"), 1'048'576);
     EXPECT_EQ(parse_integer("3^0"), 1);
+    EXPECT_EQ(parse_integer("1^2147483647"), 1);  // at once
+    EXPECT_EQ(parse_integer("-1^2147483647"), -1);
+    EXPECT_EQ(parse_integer("-1^2147483646"), 1);
+    EXPECT_EQ(parse_integer("0^2147483647"), 0);
+    EXPECT_EQ(parse_integer("0^0"), 1);
     EXPECT_EQ(parse_integer("64k"), 65'536);
     EXPECT_EQ(parse_integer("2M"), 2'097'152);
     EXPECT_EQ(parse_integer("0.5k"), 512);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "report/document.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -126,6 +127,21 @@ TEST(Check, TakesOneOfSeveralNumbers) {
     for (const char* text : {"mean[2]<1", "mean[-1]<1", "mean[]<1", "mean<1", "mena[0]<1"})
         EXPECT_TRUE(error_of([&] { (void)parse_check(text).holds(report); }).starts_with("usage: "))
             << text;
+}
+
+// Names are whatever a program, or a file, gives them.
+TEST(Document, NamesMayHoldDots) {
+    Report inner;
+    inner.add("b.c", 2, "points").add("d", 3);
+    Report report;
+    report.add("a.b", 1, "seconds").add("a", inner).add("a.b.d", 4);
+    EXPECT_EQ(report.keys(), (std::vector<std::string>{"a.b", "a.b.c", "a.d", "a.b.d"}));
+    EXPECT_EQ(report.number("a.b"), 1);
+    EXPECT_EQ(report.number("a.b.c"), 2);
+    EXPECT_EQ(report.number("a.d"), 3);
+    EXPECT_EQ(report.number("a.b.d"), 4);
+    EXPECT_EQ(report.find("a.c"), nullptr);
+    EXPECT_THAT(to_text(report), ::testing::HasSubstr("a.b.c  2 points\n"));
 }
 
 // The standard errors of a mean are columns of their own, behind the results.
