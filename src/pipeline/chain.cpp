@@ -116,6 +116,20 @@ std::vector<std::size_t> all_of(std::size_t dimension) {
     fail_with_hint(ErrorKind::usage, hint, "{}; the points have {}", wants, width);
 }
 
+/// Multiplies by the density of each row's `coordinates`, which are on a domain: that of the mapping
+/// that made them or, where there is none, the domain's.
+void multiply_densities(std::span<double> densities, std::span<const double> rows,
+                        std::span<const std::size_t> coordinates, const Domain& domain,
+                        const Mapping* mapping) {
+    const std::size_t width = densities.empty() ? 0 : rows.size() / densities.size();
+    std::vector<double> point;
+    for (std::size_t i = 0; i < densities.size(); ++i) {
+        point.clear();
+        for (const std::size_t k : coordinates) point.push_back(rows[i * width + k]);
+        densities[i] *= mapping != nullptr ? mapping->density(point) : domain.density(point);
+    }
+}
+
 /// The product of factors and of the unit cube in all other coordinates.
 DomainPtr filled_up(std::vector<Factor> factors, std::size_t dimension) {
     std::vector<std::size_t> taken;
@@ -388,13 +402,9 @@ PointSet WarpChain::preimage(const PointSet& points, const RunContext& run) cons
 
 std::vector<double> WarpChain::density(std::span<const double> rows) const {
     std::vector<double> density(rows.size() / dimension_out_, 1.0);
-    std::vector<double> point;
     for (const Step& step : steps_)
-        for (std::size_t i = 0; step.domain && i < density.size(); ++i) {
-            point.clear();
-            for (const std::size_t k : step.image) point.push_back(rows[i * dimension_out_ + k]);
-            density[i] *= step.mapping ? step.mapping->density(point) : step.domain->density(point);
-        }
+        if (step.domain)
+            multiply_densities(density, rows, step.image, *step.domain, step.mapping.get());
     return density;
 }
 
@@ -465,8 +475,8 @@ bool may_be_biased(const std::string& step) {
     });
 }
 
-/// Which of the steps that may be biased made which factor of the domain. A biased step that made none, since
-/// others came behind it, or that went back to the cube, is told to the user.
+/// Which of the steps that may be biased made which factor of the domain. A biased step that made
+/// none, since others came behind it, or that went back to the cube, is told to the user.
 std::vector<FactorLaw> factor_laws(std::span<const std::string> steps, const DomainPtr& domain,
                                    const RunContext& run) {
     std::vector<FactorLaw> laws;
@@ -507,13 +517,9 @@ std::vector<double> biased_densities(const PointSet& points, const RunContext& r
     const auto biased = [](const FactorLaw& law) { return law.mapping && law.mapping->biased(); };
     if (std::ranges::none_of(laws, biased)) return {};
     std::vector<double> densities(points.count(), 1);
-    std::vector<double> part;
-    for (std::size_t i = 0; i < densities.size(); ++i)
-        for (const auto& [factor, mapping] : laws) {
-            part.clear();
-            for (const std::size_t k : factor.coordinates) part.push_back(points[i][k]);
-            densities[i] *= mapping ? mapping->density(part) : factor.domain->density(part);
-        }
+    for (const auto& [factor, mapping] : laws)
+        multiply_densities(densities, points.flat(), factor.coordinates, *factor.domain,
+                           mapping.get());
     return densities;
 }
 

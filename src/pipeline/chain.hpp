@@ -156,8 +156,8 @@ std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const st
 /// coordinates joined by " x ". @throws Error(usage)
 DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunContext& run = {});
 
-/// Density of each point where its provenance names a method that is biased on purpose; empty where
-/// it names none: it is then the domain's. Tells the user where it is not known.
+/// Density of each point where the set's provenance names a warp whose points do not have that of
+/// the domain; empty where it names none. Tells the user where it is not known.
 std::vector<double> biased_densities(const PointSet& points, const RunContext& run);
 
 /// What a domain is put together from, in the sense of parse_domain, less what is of the unit cube.

@@ -9,7 +9,7 @@
 //                                                                               // domain's to_cube
 //         static constexpr const char* no_way_back;                             // if there is none
 //         bool keeps(const std::array<double, d>& xi) const;                    // if it drops some
-//         double density(std::span<const double> point) const;                  // if it is biased
+//         double density(std::span<const double> point) const;                  // if its own
 //     };
 //
 // Of several methods for one domain, those that make the domain's own density need no density().

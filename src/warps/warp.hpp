@@ -55,7 +55,7 @@ class Mapping {
     [[nodiscard]] virtual bool biased() const { return false; }
 
     /// Density of the image of a uniform point with respect to the domain's measure: the domain's,
-    /// save where the method is biased.
+    /// unless biased().
     [[nodiscard]] virtual double density(std::span<const double> point) const {
         return domain_->density(point);
     }

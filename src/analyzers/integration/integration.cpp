@@ -31,8 +31,8 @@
 // support is known as a few boxes of one or two dimensions; else there is none.
 //
 // Where the density is level, on any domain, both are the same points. Where the domain has no such
-// coordinates (mixtures, formulas, supports with gaps), or the density is not its own, the uniform estimator's variance is worked
-// out from the same points by their weights,
+// coordinates (mixtures, formulas, supports with gaps), or the density is not its own, the uniform
+// estimator's variance is worked out from the same points by their weights,
 //
 //     n / (n - 1) (measure mean(f^2 / p) - mean(f / p)^2),
 //
