@@ -31,6 +31,7 @@ class EqualCounts {
 
     /// The sum over all counts of `groups` groups, e summing to `rest`, below `groups`.
     double sum(std::int64_t groups, std::int64_t rest) {
+        if (rest > squares_) return 0;  // whole numbers have no smaller squares than sizes
         reach_ = root(groups * squares_) + 1;
         std::vector<double> from(table_size());
         from[at(0, 0)] = 1;
