@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <array>
+#include <cstdio>
 #include <exception>
 #include <map>
+#include <new>
 
 #include "cli/launched.hpp"
 #include "cli/parsing/arguments.hpp"
@@ -63,17 +65,21 @@ int end_with(std::string_view verb, const Error& error) {
     return exit_code(cause.kind());
 }
 
-/// The exit code, once what went wrong is said.
-int run_verb(int argc, char** argv) {
-    const std::string_view verb = argc > 1 ? argv[1] : "";
+int run_verb(std::string_view verb, int argc, char** argv) {
+    catch_interrupts();
+    if (verb != "complete") return dispatch(parse_arguments(argc, argv));
+    write_text("-", complete({argv + 2, argv + argc}));
+    return 0;
+}
+
+/// The exit code for the exception that is handled, once what went wrong is said.
+int end_caught(std::string_view verb) {
     try {
-        if (verb == "complete") {
-            write_text("-", complete({argv + 2, argv + argc}));
-            return 0;
-        }
-        return dispatch(parse_arguments(argc, argv));
-    } catch (const std::exception&) {
         return end_with(verb, caught_error());
+    } catch (const std::bad_alloc&) {  // not even memory for a message
+        constexpr std::string_view text = "stipple: out of memory\n";
+        std::fwrite(text.data(), 1, text.size(), stderr);
+        return exit_code(ErrorKind::limit);
     }
 }
 
@@ -106,8 +112,13 @@ int list(const Arguments& arguments) {
 }
 
 int run(int argc, char** argv) {
-    catch_interrupts();
-    const int code = run_verb(argc, argv);
+    const std::string_view verb = argc > 1 ? argv[1] : "";
+    int code = 0;
+    try {
+        code = run_verb(verb, argc, argv);
+    } catch (const std::exception&) {
+        code = end_caught(verb);
+    }
     leave_ranks();
     return code;
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "io/carried_meta.hpp"
@@ -67,6 +68,14 @@ void refuse_without_points(const std::string& name, std::string_view front) {
         if (is_it) fail_with_hint(ErrorKind::input, hint, "{}: {}", name, what);
 }
 
+/// What a path names, which may be nothing. @throws Error(io) where that cannot be told
+std::filesystem::file_status status_of(const std::string& path) {
+    std::error_code trouble;
+    const auto status = std::filesystem::status(path, trouble);
+    if (!status_known(status)) refuse_file(path, trouble.value());
+    return status;
+}
+
 /// A pipe's bytes, on disk.
 std::shared_ptr<Spool> spooled(const std::string& pipe, const RunContext& run) {
     auto spool = std::make_shared<Spool>();
@@ -100,7 +109,7 @@ bool take_carried(Original& original, std::string_view front, const RunContext& 
         if (take_plot(original, whole)) return true;
         carried = io::find_carried_meta(whole, original.name);
         if (!carried) refuse_without_provenance(original);
-    } else if (std::error_code none; std::filesystem::exists(beside, none)) {
+    } else if (exists(status_of(beside))) {
         carried = io::carried_meta(io::read_bytes(beside, run), beside);
         original.format = &io::format_named(carried->of);
         if (carried->width > 0) original.width = carried->width;
@@ -127,10 +136,9 @@ std::unique_ptr<io::PointStream> open_original(const Original& original, ReadOpt
 }
 
 Original read_original(const std::string& input, const RunContext& run) {
-    std::error_code ignored;
-    const bool pipe = input == "-" || (std::filesystem::exists(input, ignored) &&
-                                       !std::filesystem::is_regular_file(input, ignored) &&
-                                       !std::filesystem::is_directory(input, ignored));
+    const auto status = status_of(input);
+    const bool pipe =
+        input == "-" || (exists(status) && !is_regular_file(status) && !is_directory(status));
     Original original{.name = io::source_name(input), .path = input};
     if (pipe) {
         original.spool = spooled(input, run);

@@ -2,6 +2,7 @@
 #include "core/error.hpp"
 
 #include <new>
+#include <string_view>
 #include <system_error>
 
 namespace stipple {
@@ -15,7 +16,10 @@ Error caught_error() {
         return {ErrorKind::limit, "out of memory"};
     } catch (const std::exception& e) {
         const auto* failed = dynamic_cast<const std::system_error*>(&e);
-        if (failed != nullptr && failed->code() == std::errc::resource_unavailable_try_again)
+        const bool thread =
+            failed ? failed->code() == std::errc::resource_unavailable_try_again
+                   : std::string_view(e.what()).starts_with("pthread_create");  // oneTBB's
+        if (thread)
             return {ErrorKind::limit, "a thread does not start",
                     "limits (ulimit) may allow fewer: --threads"};
         return {ErrorKind::io, fmt::format("internal error: {}", e.what())};

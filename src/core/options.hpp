@@ -34,7 +34,11 @@ struct Points {};
 /// Whole numbers separated by x; "40x25".
 struct Extents {};
 
-using Table = std::vector<std::vector<double>>;
+/// Not a plain vector: a variant of these and strings alone is never valueless for libstdc++ 12, which
+/// destroys what is not there when a copy of it runs out of memory.
+struct Table : std::vector<std::vector<double>> {
+    using vector::vector;
+};
 
 /// What an option can hold.
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>, Table,

@@ -100,12 +100,14 @@ Output::Output(std::string path, std::stop_token stop)
     const bool protected_file = (status.st_mode & 0222) == 0 || ::access(path_.c_str(), W_OK) != 0;
     if (there && protected_file) fail(ErrorKind::io, "{}: the file is read-only", path_);
     target_ = follow_links(path_);
-    open_beside();
-    if (!there) return;
-    // The owner stays where that is allowed; the mode comes second, for a change of owner cuts it.
     // Nobody has checked that the new bytes may run with the rights of the owner or group.
+    const mode_t mode = there ? status.st_mode & 01777 : 0666;
+    open_beside(mode);
+    if (!there) return;
+    // The owner and what the mask took of the mode stay where that is allowed; the mode comes second,
+    // for a change of owner cuts it.
     if (::fchown(descriptor_, status.st_uid, status.st_gid) != 0) errno = 0;
-    ::fchmod(descriptor_, status.st_mode & 01777);
+    if (::fchmod(descriptor_, mode) != 0) errno = 0;
 }
 
 Output::Output(Sink sink) : sink_(std::move(sink)) {}
@@ -117,15 +119,15 @@ void Output::open_in_place() {
     owned_ = true;
 }
 
-void Output::open_beside() {
+void Output::open_beside(mode_t mode) {
     const std::string folder = folder_of(target_);
     struct stat status {};
     if (::stat(folder.c_str(), &status) != 0 && errno == ENOENT)
         fail(ErrorKind::io, "{}: there is no folder {}", path_, shown(folder));
-    if (open_unnamed()) return;
+    if (open_unnamed(mode)) return;
     while (descriptor_ < 0) {
         temporary_ = part_name(target_);
-        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
         if (descriptor_ >= 0 || errno == EEXIST) continue;
         temporary_.clear();
         if (errno == ENOENT) fail(ErrorKind::io, "{}: no file can be made in its folder", path_);
@@ -135,10 +137,10 @@ void Output::open_beside() {
 }
 
 /// Makes a file without a name, where the file system has such files and lets them be named later.
-bool Output::open_unnamed() {
+bool Output::open_unnamed(mode_t mode) {
 #ifdef O_TMPFILE
     const std::string folder = folder_of(target_);
-    const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
     if (descriptor < 0) return false;
     if (leaves_descriptors(descriptor) &&
         ::access(name_of_descriptor(descriptor).c_str(), F_OK) == 0) {
@@ -193,9 +195,9 @@ void Output::name_it() {
     };
     if (link_as(target_)) return;
     while (errno == EEXIST) {
-        const std::string name = part_name(target_);
+        std::string name = part_name(target_);
         if (!link_as(name)) continue;
-        temporary_ = name;
+        temporary_ = std::move(name);
         return;
     }
     refuse_file(path_, errno);
@@ -212,12 +214,13 @@ void Output::commit() {
 void Outputs::set_aside() {
     if (files_.empty()) return;
     files_.back().finish();
-    const auto [name, target] = files_.back().released();
+    const auto& [name, target] = files_.back().names();
     if (name.empty()) return;
-    files_.pop_back();
     if (!names_) names_ = std::make_unique<Spool>();
     put_text(*names_, name);
     put_text(*names_, target);
+    files_.back().release();
+    files_.pop_back();
 }
 
 Outputs::~Outputs() {
@@ -227,37 +230,49 @@ Outputs::~Outputs() {
         std::string target;
         for (std::string name; take_text(*names_, name); take_text(*names_, target))
             ::unlink(name.c_str());
-    } catch (const Error&) {  // their names cannot be read: they stay
+    } catch (...) {  // their names cannot be read: they stay
     }
 }
 
 void Outputs::commit() {
+    constexpr std::size_t named = 10;
     std::uint64_t count = 0;
     std::vector<std::string> some;  // of the files in place
-    const auto place = [&](const std::string& path, const auto& put) {
+    some.reserve(named);
+    // Puts one file in place and returns its name, or nothing where there is none.
+    const auto place = [&](const auto& put) {
         try {
-            put();
-        } catch (const Error& e) {
+            std::optional<std::string> path = put();
+            if (path && count++ < named) some.push_back(std::move(*path));
+            return path.has_value();
+        } catch (...) {
             if (count == 0) throw;
+            const Error e = caught_error();
             const std::string more =
-                some.size() < count ? fmt::format(" and {} others", count - some.size()) : "";
+                count > named ? fmt::format(" and {} others", count - named) : "";
             throw Error(e.kind(),
                         fmt::format("{}; in place already: {}{}", e.what(), join(some, ", "), more),
                         e.hint());
         }
-        if (++count <= 10) some.push_back(path);
     };
     set_aside();
-    for (Output& file : files_) place(file.path(), [&] { file.commit(); });
+    for (Output& file : files_)
+        place([&] {
+            std::optional path = file.path();
+            file.commit();
+            return path;
+        });
     files_.clear();
     if (!names_) return;
     names_->rewind();
-    std::string target;
-    for (std::string name; take_text(*names_, name);) {
+    while (place([&]() -> std::optional<std::string> {
+        std::string name;
+        std::string target;
+        if (!take_text(*names_, name)) return std::nullopt;
         take_text(*names_, target);
-        place(target, [&] {
-            if (::rename(name.c_str(), target.c_str()) != 0) refuse_file(target, errno);
-        });
+        if (::rename(name.c_str(), target.c_str()) != 0) refuse_file(target, errno);
+        return target;
+    })) {
     }
     names_.reset();
 }

@@ -3,6 +3,8 @@
 // Files that are written beside their targets and put in place when all of them are whole.
 #pragma once
 
+#include <sys/types.h>
+
 #include <functional>
 #include <list>
 #include <memory>
@@ -48,16 +50,18 @@ class Output {
 
     [[nodiscard]] const std::string& path() const { return path_; }
 
-    /// The name until commit() and that of the target, for whoever renames or removes the file from
-    /// now on; empty where it has no such name.
-    [[nodiscard]] std::pair<std::string, std::string> released() {
-        return {std::exchange(temporary_, {}), target_};
+    /// The name until commit(), empty where it has none, and that of the target.
+    [[nodiscard]] std::pair<const std::string&, const std::string&> names() const {
+        return {temporary_, target_};
     }
+
+    /// Somebody else renames or removes the file of that name from now on.
+    void release() { temporary_.clear(); }
 
   private:
     void open_in_place();
-    void open_beside();
-    bool open_unnamed();
+    void open_beside(mode_t mode);
+    bool open_unnamed(mode_t mode);
     void name_it();
     void close();
 

@@ -22,9 +22,12 @@ constexpr const char* journal_format = "stipple.study-journal";
 
 std::string journal_of(const std::string& path) { return path + ".journal"; }
 
-bool there(const std::string& path) {
+/// What the path names; nothing where nothing is there. @throws Error(io) where that cannot be told
+std::optional<struct stat> status_of(const std::string& path) {
     struct stat status {};
-    return ::stat(path.c_str(), &status) == 0;
+    if (::stat(path.c_str(), &status) == 0) return status;
+    if (errno != ENOENT && errno != ENOTDIR) refuse_file(path, errno);
+    return std::nullopt;
 }
 
 [[noreturn]] void refuse(const std::string& path) {
@@ -32,7 +35,7 @@ bool there(const std::string& path) {
     const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
     if (errno == ENOENT)
         fail(ErrorKind::io, "{}: {}", path,
-             there(folder) ? "no file can be made in its folder" : "no such folder");
+             status_of(folder) ? "no file can be made in its folder" : "no such folder");
     refuse_file(path, errno);
 }
 
@@ -55,8 +58,36 @@ void cut_to(int descriptor, std::uint64_t size, const std::string& path) {
     if (::ftruncate(descriptor, static_cast<off_t>(size)) != 0) refuse(path);
 }
 
-/// The whole line that comes next; false at the end and where it has no end.
-bool whole_line(std::istream& in, std::string& line) { return std::getline(in, line) && !in.eof(); }
+/// Lines of a file, which may not be there. A read that fails is not its end.
+class Lines {
+  public:
+    explicit Lines(const std::string& path) : path_(path), in_(path, std::ios::binary) {
+        if (!in_.is_open() && errno != ENOENT) refuse_file(path_, errno);
+        empty_ = !in_.is_open() || in_.peek() == std::ifstream::traits_type::eof();
+        require_read();
+    }
+
+    [[nodiscard]] bool is_empty() const { return empty_; }
+
+    /// The whole line that comes next; false at the end, and where it has no end.
+    bool take(std::string& line) {
+        const bool whole = std::getline(in_, line) && !in_.eof();
+        require_read();
+        return whole;
+    }
+
+  private:
+    void require_read() const {
+        if (in_.bad()) refuse_file(path_, errno);
+    }
+
+    std::string path_;
+    std::ifstream in_;
+    bool empty_ = true;
+};
+
+/// Whether the bytes are on the disk. Some file systems have nothing to synchronise, and say so.
+bool is_synchronised(int result) { return result == 0 || errno == EINVAL || errno == ENOTSUP; }
 
 [[noreturn]] void refuse_place(const std::string& path, std::uint64_t line) {
     fail(ErrorKind::input,
@@ -75,11 +106,10 @@ std::vector<std::string> keys_of(const std::vector<StudyRow>& rows) {
 StudyFile::StudyFile(std::string path, const Sweep& sweep, const StudyTable& table, Start start,
                      Listener listener, const RunContext& run)
     : path_(std::move(path)), sweep_(sweep), table_(table), listener_(std::move(listener)) {
-    struct stat status {};
-    const bool exists = path_ != "-" && ::stat(path_.c_str(), &status) == 0;
-    if (exists && S_ISDIR(status.st_mode))
+    const auto status = path_ == "-" ? std::nullopt : status_of(path_);
+    if (status && S_ISDIR(status->st_mode))
         fail(ErrorKind::io, "{}: is a folder, not a file", path_);
-    const bool is_file = path_ != "-" && (!exists || S_ISREG(status.st_mode));
+    const bool is_file = path_ != "-" && (!status || S_ISREG(status->st_mode));
     if (is_file) {
         open_file(start, run);
         return;
@@ -97,18 +127,18 @@ StudyFile::~StudyFile() {
 
 void StudyFile::sync() {
     if (!dirty_.exchange(false)) return;
-    if (output_ >= 0) ::fdatasync(output_);
-    if (journal_ >= 0) ::fdatasync(journal_);
+    for (const int descriptor : {output_, journal_})
+        if (descriptor >= 0 && !is_synchronised(::fdatasync(descriptor))) lost_ = errno;
 }
 
 void StudyFile::open_file(Start start, const RunContext& run) {
     const bool resume = start == Start::resume;
-    const bool unfinished = there(journal_of(path_));
-    std::ifstream in(path_, std::ios::binary);
+    const bool unfinished = status_of(journal_of(path_)).has_value();
+    Lines lines(path_);
     std::string first;
-    const bool empty = !in || in.peek() == std::ifstream::traits_type::eof();
+    const bool empty = lines.is_empty();
     // A crash may have left a part of the first line; its end was not reached then.
-    const bool whole = !empty && whole_line(in, first);
+    const bool whole = lines.take(first);
     const bool ours = whole ? table_.is_head(first)
                             : start != Start::fresh && (table_.head().starts_with(first) ||
                                                         first.starts_with("{\"generator\":"));
@@ -169,22 +199,23 @@ void StudyFile::refuse_other(const Json& found) const {
 
 void StudyFile::read_journal() {
     open_journal();
-    std::ifstream in(journal_of(path_), std::ios::binary);
+    Lines lines(journal_of(path_));
     std::string line;
-    const Json head = whole_line(in, line) ? try_parse_json(line) : Json();
+    const Json head = lines.take(line) ? try_parse_json(line) : Json();
     if (!head.is_object() || !head.contains("study") || !head.contains("settings") ||
         !line.starts_with(fmt::format("{{\"format\":\"{}\",\"version\":2,", journal_format)))
         return begin_journal();
     if (head["study"] != sweep_.fingerprint()) refuse_other(head["settings"]);
     journal_size_ = line.size() + 1;
-    while (read_entry(in)) {
+    const auto next = [&lines](std::string& text) { return lines.take(text); };
+    while (read_entry(next)) {
     }
     cut_to(journal_, journal_size_, journal_of(path_));
 }
 
-bool StudyFile::read_entry(std::istream& in) {
+bool StudyFile::read_entry(const NextLine& next) {
     std::string line;
-    if (!whole_line(in, line)) return false;
+    if (!next(line)) return false;
     std::vector<std::uint64_t> numbers;
     for (const auto word : split(line, ' ')) numbers.push_back(parse_unsigned(word).value_or(0));
     if (numbers.empty()) return false;
@@ -192,7 +223,7 @@ bool StudyFile::read_entry(std::istream& in) {
                     .offset = journal_size_ + line.size() + 1};
     for (std::uint64_t unit = numbers[0]; std::uint64_t left : waiting.bytes) {
         do {  // a crash may have left other bytes than those that were written
-            if (!whole_line(in, line) || line.size() + 1 > left) return false;
+            if (!next(line) || line.size() + 1 > left) return false;
             const auto row = table_.parse(line);
             if (!row || !is_of(*row, unit)) return false;
             left -= line.size() + 1;
@@ -216,7 +247,7 @@ bool StudyFile::is_of(const StudyRow& row, std::uint64_t unit) const {
 }
 
 void StudyFile::read_rows(const RunContext& run) {
-    std::ifstream in(path_, std::ios::binary);
+    Lines lines(path_);
     std::string line;
     std::uint64_t number = 0;
     std::uint64_t end = 0;       // of the rows read so far
@@ -229,12 +260,12 @@ void StudyFile::read_rows(const RunContext& run) {
         whole = end;
     };
     if (table_.style() == TableStyle::csv) {
-        whole_line(in, line);
+        lines.take(line);
         if (line + "\n" != table_.head()) refuse_other({});
         ++number;
         whole = end = line.size() + 1;
     }
-    while (whole_line(in, line)) {
+    while (lines.take(line)) {
         run.check_stop();
         ++number;
         const auto row = table_.parse(line);
@@ -254,6 +285,8 @@ void StudyFile::read_rows(const RunContext& run) {
 }
 
 bool StudyFile::put(const Segment& segment) {
+    if (broken_) return false;
+    broken_ = true;
     Waiting waiting;
     std::string head = std::to_string(segment.units.first);
     for (const auto& lines : segment.lines) {
@@ -270,7 +303,8 @@ bool StudyFile::put(const Segment& segment) {
     }
     dirty_ = true;
     waiting_.emplace(segment.units.first, std::move(waiting));
-    return write_waiting();
+    broken_ = !write_waiting();
+    return !broken_;
 }
 
 bool StudyFile::write_waiting() {
@@ -297,11 +331,13 @@ bool StudyFile::write(const std::string& text) {
 std::string StudyFile::text_of(const Waiting& waiting) const {
     if (!waiting.text.empty()) return waiting.text;
     std::string text(waiting.size(), '\0');
-    const auto got =
-        ::pread(journal_, text.data(), text.size(), static_cast<off_t>(waiting.offset));
-    if (got < 0) refuse(journal_of(path_));
-    if (got != static_cast<ssize_t>(text.size()))
-        fail(ErrorKind::io, "{}: was cut off by another program", journal_of(path_));
+    for (std::size_t done = 0; done < text.size();) {
+        const auto got = ::pread(journal_, text.data() + done, text.size() - done,
+                                 static_cast<off_t>(waiting.offset + done));
+        if (got == 0) fail(ErrorKind::io, "{}: was cut off by another program", journal_of(path_));
+        if (got < 0 && errno != EINTR) refuse(journal_of(path_));
+        if (got > 0) done += static_cast<std::size_t>(got);
+    }
     return text;
 }
 
@@ -312,9 +348,10 @@ std::uint64_t StudyFile::Waiting::size(std::size_t units) const {
 
 bool StudyFile::finish(const std::string& more) {
     const bool wanted = write(more);
-    // Some file systems have nothing to synchronise, and say so.
-    if (output_ >= 0 && ::fsync(output_) != 0 && errno != EINVAL && errno != ENOTSUP) refuse(path_);
-    if (journal_ >= 0) ::unlink(journal_of(path_).c_str());
+    if (output_ >= 0 && !is_synchronised(::fsync(output_))) refuse(path_);
+    // What an earlier one could not write, the system does not try again.
+    if (lost_ != 0) refuse_file(path_, lost_);
+    if (journal_ >= 0 && ::unlink(journal_of(path_).c_str()) != 0) refuse(journal_of(path_));
     return wanted;
 }
 

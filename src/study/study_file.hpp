@@ -83,7 +83,8 @@ class StudyFile {
     void open_journal();
     void begin_journal();
     void read_journal();
-    bool read_entry(std::istream& in);
+    using NextLine = std::function<bool(std::string& line)>;
+    bool read_entry(const NextLine& next);
     void read_rows(const RunContext& run);
     [[nodiscard]] bool is_of(const StudyRow& row, std::uint64_t unit) const;
     [[noreturn]] void refuse_other(const Json& found) const;
@@ -98,6 +99,8 @@ class StudyFile {
     int output_ = -1;
     int journal_ = -1;
     std::atomic<bool> dirty_ = false;   ///< something was written since the last sync
+    std::atomic<int> lost_ = 0;         ///< why what was written did not get to the disk; 0: it did
+    bool broken_ = false;               ///< a write failed: nothing may be written behind the gap
     std::optional<io::Output> stream_;  ///< in place of a file: standard output, a pipe, a device
     std::uint64_t journal_size_ = 0;
     std::uint64_t next_ = 0;  ///< unit whose rows come next

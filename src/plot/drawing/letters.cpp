@@ -45,6 +45,7 @@ const std::vector<Glyph>& glyphs() {
             if (line.empty()) continue;
             const Letter letter = first_letter(line);
             std::istringstream rest{std::string(line.substr(letter.size))};
+            rest.exceptions(std::ios::badbit);  // memory that is out is no end of the text
             Glyph glyph{.letter = letter.point};
             rest >> glyph.advance >> std::ws;
             std::getline(rest, glyph.path);
