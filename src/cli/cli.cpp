@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <map>
 #include <new>
@@ -53,7 +54,11 @@ int dispatch(const Arguments& arguments) {
         {Verb::convert, convert},   {Verb::plot, plot},          {Verb::study, study},
         {Verb::report, report},     {Verb::reproduce, reproduce}};
     const int code = work.at(*arguments.verb)(arguments, session);
-    session.tell_warnings();
+    try {
+        session.tell_warnings();
+    } catch (const std::bad_alloc&) {  // the files are in place
+        std::fputs("stipple: out of memory for its warnings\n", stderr);
+    }
     return code;
 }
 
@@ -65,22 +70,31 @@ int end_with(std::string_view verb, const Error& error) {
     return exit_code(cause.kind());
 }
 
-int run_verb(std::string_view verb, int argc, char** argv) {
-    catch_interrupts();
-    if (verb != "complete") return dispatch(parse_arguments(argc, argv));
-    write_text("-", complete({argv + 2, argv + argc}));
-    return 0;
+/// The exit code, once what went wrong is said.
+int run_verb(int argc, char** argv) {
+    const std::string_view verb = argc > 1 ? argv[1] : "";
+    try {
+        catch_interrupts();
+        if (verb == "complete") {
+            write_text("-", complete({argv + 2, argv + argc}));
+            return 0;
+        }
+        return dispatch(parse_arguments(argc, argv));
+    } catch (const std::exception&) {
+        return end_with(verb, caught_error());
+    }
 }
 
-/// The exit code for the exception that is handled, once what went wrong is said.
-int end_caught(std::string_view verb) {
+/// Memory can be out where nothing may be thrown: while that is said, and in destructors of JSON.
+[[noreturn]] void end_terminated() {
     try {
-        return end_with(verb, caught_error());
-    } catch (const std::bad_alloc&) {  // not even memory for a message
-        constexpr std::string_view text = "stipple: out of memory\n";
-        std::fwrite(text.data(), 1, text.size(), stderr);
-        return exit_code(ErrorKind::limit);
+        if (const auto caught = std::current_exception()) std::rethrow_exception(caught);
+    } catch (const std::bad_alloc&) {
+        std::fputs("stipple: out of memory\n", stderr);
+        std::_Exit(exit_code(ErrorKind::limit));
+    } catch (...) {
     }
+    std::abort();
 }
 
 }  // namespace
@@ -112,13 +126,8 @@ int list(const Arguments& arguments) {
 }
 
 int run(int argc, char** argv) {
-    const std::string_view verb = argc > 1 ? argv[1] : "";
-    int code = 0;
-    try {
-        code = run_verb(verb, argc, argv);
-    } catch (const std::exception&) {
-        code = end_caught(verb);
-    }
+    std::set_terminate(end_terminated);
+    const int code = run_verb(argc, argv);
     leave_ranks();
     return code;
 }

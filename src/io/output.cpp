@@ -7,8 +7,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
+#include <climits>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -49,18 +51,22 @@ std::string part_name(const std::filesystem::path& target) {
     return fmt::format("{}/.stipple-{}-{}.part", folder_of(target), ::getpid(), number++);
 }
 
-void put_text(Spool& spool, const std::string& text) {
+void append_text(std::string& record, const std::string& text) {
     const std::size_t size = text.size();
-    spool.write({reinterpret_cast<const char*>(&size), sizeof size});
-    spool.write(text);
+    record.append(reinterpret_cast<const char*>(&size), sizeof size).append(text);
 }
 
-/// False: there are no more.
-bool take_text(Spool& spool, std::string& text) {
+/// Room for the name of a file.
+using NameBuffer = std::array<char, PATH_MAX>;
+
+/// Takes no memory but the buffer's. Nothing: there are no more.
+std::optional<std::string_view> take_text(Spool& spool, NameBuffer& buffer) {
     std::size_t size = 0;
-    if (spool.read({reinterpret_cast<char*>(&size), sizeof size}) == 0) return false;
-    text.resize(size);
-    return spool.read(text) == size;
+    if (spool.read({reinterpret_cast<char*>(&size), sizeof size}) < sizeof size)
+        return std::nullopt;
+    if (size >= buffer.size() || spool.read({buffer.data(), size}) < size) return std::nullopt;
+    buffer[size] = '\0';
+    return std::string_view(buffer.data(), size);
 }
 
 /// The name by which the system reaches an open file that has none.
@@ -216,9 +222,11 @@ void Outputs::set_aside() {
     files_.back().finish();
     const auto& [name, target] = files_.back().names();
     if (name.empty()) return;
-    if (!names_) names_ = std::make_unique<Spool>();
-    put_text(*names_, name);
-    put_text(*names_, target);
+    if (!names_) names_ = std::make_unique<Spool>(Spool::Buffered::no);
+    std::string record;
+    append_text(record, name);
+    append_text(record, target);
+    names_->write(record);
     files_.back().release();
     files_.pop_back();
 }
@@ -227,9 +235,8 @@ Outputs::~Outputs() {
     if (!names_) return;
     try {
         names_->rewind();
-        std::string target;
-        for (std::string name; take_text(*names_, name); take_text(*names_, target))
-            ::unlink(name.c_str());
+        NameBuffer buffer;
+        for (; take_text(*names_, buffer); take_text(*names_, buffer)) ::unlink(buffer.data());
     } catch (...) {  // their names cannot be read: they stay
     }
 }
@@ -266,11 +273,11 @@ void Outputs::commit() {
     if (!names_) return;
     names_->rewind();
     while (place([&]() -> std::optional<std::string> {
-        std::string name;
-        std::string target;
+        NameBuffer name;
+        NameBuffer buffer;
         if (!take_text(*names_, name)) return std::nullopt;
-        take_text(*names_, target);
-        if (::rename(name.c_str(), target.c_str()) != 0) refuse_file(target, errno);
+        std::string target(take_text(*names_, buffer).value());
+        if (::rename(name.data(), target.c_str()) != 0) refuse_file(target, errno);
         return target;
     })) {
     }

@@ -35,6 +35,8 @@ std::string file_trouble(int error) {
             return "larger than the limit of files (ulimit -f)";
         case EROFS:
             return "the file system is read-only";
+        case ENOMEM:
+            return "out of memory";
         case ENOTDIR:
             return "a part of its path is not a folder";
         default:
@@ -45,7 +47,8 @@ std::string file_trouble(int error) {
 }  // namespace
 
 void refuse_file(const std::string& name, int error) {
-    fail(ErrorKind::io, "{}: {}", name, file_trouble(error));
+    const auto kind = error == ENOMEM ? ErrorKind::limit : ErrorKind::io;
+    fail(kind, "{}: {}", name, file_trouble(error));
 }
 
 std::string read_file(const std::string& path) {

@@ -10,7 +10,8 @@
 
 namespace stipple {
 
-/// @param error errno: what went wrong with the file. @throws Error(io) "NAME: what"
+/// @param error errno: what went wrong with the file. @throws Error(io) "NAME: what"; Error(limit)
+/// where it was memory
 [[noreturn]] void refuse_file(const std::string& name, int error);
 
 /// Reads the file at once. @throws Error(io): missing, a directory, unreadable; Error(limit): larger

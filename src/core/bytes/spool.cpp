@@ -12,7 +12,7 @@
 
 namespace stipple {
 
-Spool::Spool() {
+Spool::Spool(Buffered buffered) {
     std::error_code none;
     folder_ = std::filesystem::temp_directory_path(none).string();
     if (none) folder_ = "/tmp";
@@ -22,6 +22,7 @@ Spool::Spool() {
     ::unlink(name.c_str());
     file_.reset(::fdopen(descriptor, "w+"));
     if (file_ == nullptr) refuse();
+    if (buffered == Buffered::no) std::setvbuf(file_.get(), nullptr, _IONBF, 0);
 }
 
 void Spool::write(std::string_view bytes) {

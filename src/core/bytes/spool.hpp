@@ -15,7 +15,9 @@ namespace stipple {
 /// of temporary files (TMPDIR), which goes with the process. @throws Error(io) where it has no room
 class Spool {
   public:
-    Spool();
+    /// Without a buffer, what was written can be read though what came later had no room.
+    enum class Buffered { no, yes };
+    explicit Spool(Buffered buffered = Buffered::yes);
 
     void write(std::string_view bytes);
 

@@ -87,6 +87,7 @@ void add_curve(std::vector<Position>& stroke, Position corner, Position end) {
 std::vector<std::vector<Position>> strokes_in(const std::string& path) {
     std::vector<std::vector<Position>> strokes;
     std::istringstream in(path);
+    in.exceptions(std::ios::badbit);
     char command = 0;
     for (Position at; in >> command >> at.x >> at.y;) {
         if (command == 'M') strokes.emplace_back();
