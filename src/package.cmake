@@ -56,7 +56,7 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # For programs that are built with the library.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-    "libfmt-dev, nlohmann-json3-dev, libtbb-dev, libpng-dev, libfftw3-dev, libmuparser-dev, pkg-config")
+    "libfmt-dev, nlohmann-json3-dev, libtbb-dev, libpng-dev, zlib1g-dev, libzstd-dev, libfftw3-dev, libmuparser-dev, pkg-config")
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
 "Points for whatever samples a domain: random numbers, low-discrepancy
 sequences, nets, lattices and blue noise; maps of them onto other domains and

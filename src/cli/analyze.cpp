@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <exception>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -92,8 +93,11 @@ void check_side_files(const Values& options, const std::string& output) {
 /// text, json or csv
 std::string report_format(const Arguments& arguments, const std::string& path) {
     if (const auto format = arguments.get("format")) return *format;
-    if (path.ends_with(".csv")) return "csv";
-    return is_terminal(path) || path.ends_with(".txt") ? "text" : "json";
+    static const std::vector<std::string> known = {".json", ".csv", ".txt"};
+    io::require_extension(path, known, "--format names what is written under any name");
+    const std::string extension = io::extension_of(path);
+    if (extension == ".csv") return "csv";
+    return is_terminal(path) || extension == ".txt" ? "text" : "json";
 }
 
 // Sets wait to be measured side by side, a few megabytes at a time.
@@ -106,6 +110,27 @@ struct FoundSet {
     PointSet points;
     std::string source;
     std::optional<std::size_t> number;  ///< in its file, of several
+    std::string kind;                   ///< sets of one kind have a mean
+};
+
+/// What sets that may be averaged have in common: how they were made, but for the seed, as far as it
+/// is known; else their number of points.
+/// @param count of this set, or of the first in its file
+std::string kind_of(const Provenance& made, std::uint64_t count) {
+    if (made.generator.empty()) return fmt::format("{} points", count);
+    std::string kind = made.generator;
+    for (const auto& [name, value] : made.options) kind += fmt::format(" {}={}", name, value);
+    for (const std::string& warp : made.warps) kind += " -w " + warp;
+    // A count that was not asked for may differ from seed to seed.
+    if (made.command.find(" --count ") != std::string::npos) kind += fmt::format(" -n {}", made.count);
+    return fmt::format("{} {} {} {}", kind, made.start, made.shard, made.bounds);
+}
+
+/// The sets of one kind, for their mean.
+struct Group {
+    Values options;  ///< those asked for, and what the first set decides
+    ReportAverage average = {};
+    std::vector<Report> singles = {};  ///< what was averaged, where it is needed
 };
 
 /// What became of a set that was measured beside others; nothing where a stop came before it.
@@ -124,11 +149,13 @@ class Analysis {
           session_(session),
           ranks_(ranks),
           analyzer_(find_analyzer(arguments.unit)),
-          options_(settings_of(analyzer_.options, arguments)),
+          asked_(settings_of(analyzer_.options, arguments)),
+          options_(asked_),
           inputs_(input_names(arguments)),
           path_(output_of(arguments)),
           format_(report_format(arguments, path_)),
-          averaged_(arguments.has("average")),
+          pooled_(arguments.has("pool")),
+          averaged_(arguments.has("average") || pooled_),
           strengths_(text_of(analyzer_.strengths).value_or("")) {
         for (const auto& text : arguments.all("check"))
             checks_.push_back(check_of(text, analyzer_));
@@ -137,6 +164,7 @@ class Analysis {
     int go() {
         check_domain(arguments_, analyzer_);
         check_side_files(options_, path_);
+        warn_of_units();
         if (ranks_.size() > 1)
             share();
         else
@@ -144,7 +172,7 @@ class Analysis {
         measure_waiting();
         if (ranks_.rank() > 0) return 0;  // rank 0 speaks
         if (interrupted()) return print_what_is_known();
-        if (averaged_) finish_average();
+        if (averaged_) finish_averages();
         save_wisdom();
         const bool fine = verdict();
         print();
@@ -153,6 +181,26 @@ class Analysis {
     }
 
   private:
+    /// Distances in a box whose sides measure different things mean little.
+    void warn_of_units() const {
+        const auto bounds = arguments_.get("bounds");
+        if (!bounds || !options_.try_find("metric")) return;
+        const auto ranges = std::ranges::count(*bounds, ',') + 1;
+        const Box box = parse_box(*bounds, static_cast<std::size_t>(ranges));
+        double shortest = box.extent(0);
+        double longest = shortest;
+        for (std::size_t k = 1; k < box.dimension(); ++k) {
+            shortest = std::min(shortest, box.extent(k));
+            longest = std::max(longest, box.extent(k));
+        }
+        if (longest > shortest)
+            session_.warn(
+                fmt::format("the sides of --bounds are from {} to {} long, and distances "
+                            "add up what is measured along them; --rescale measures in "
+                            "the unit cube",
+                            format_number(shortest), format_number(longest)));
+    }
+
     /// One set, by all ranks.
     void share() {
         if (!analyzer_.sharing)
@@ -181,7 +229,7 @@ class Analysis {
             if (analyzer_.sharing.together) return Found{searched_together(set), *set.points.count};
             return analyze_shared(analyzer_, set, options_, ranks_, own_run()).value_or(Found{});
         });
-        if (ranks_.rank() == 0) keep(std::move(m), false);
+        if (ranks_.rank() == 0) keep(std::move(m), {}, false);
     }
 
     SharedSet shared_generated() {
@@ -251,10 +299,12 @@ class Analysis {
             if (analyzer_.accumulate && count)
                 keep(measured_in_blocks({generated.domain(), count}, generated.stream(set, quiet),
                                         text, number_of(set, sets), quiet),
-                     sets > 1);
+                     {}, sets > 1);
             else
-                add({of_the_cube(generated.made(set, quiet), analyzer_), text,
-                     number_of(set, sets)});
+                add({of_the_cube(generated.made(set, quiet), analyzer_),
+                     text,
+                     number_of(set, sets),
+                     {}});
         }
     }
 
@@ -300,18 +350,39 @@ class Analysis {
     void add_sets(const std::string& input) {
         std::vector<PointSet> sets;
         before_errors([&] { sets = read_input(input, arguments_, session_.run()); });
+        const std::uint64_t count = sets.empty() ? 0 : sets[0].count();
         for (std::size_t set = 0; set < sets.size() && !interrupted(); ++set) {
             before_errors([&] {
                 naming(input,
                        [&] { sets[set] = prepared(std::move(sets[set]), analyzer_, arguments_); });
             });
-            add({std::move(sets[set]), input, number_of(set, sets.size())});
+            std::string kind = kind_of(sets[set].provenance, count);
+            add({std::move(sets[set]), input, number_of(set, sets.size()), std::move(kind)});
         }
+    }
+
+    /// Prefixes of sets whose points come in no order, or in that of their places, tell little.
+    void warn_of_prefixes(const Provenance& made) {
+        const bool asked =
+            std::ranges::any_of(std::array{"prefixes", "every"}, [&](const char* name) {
+                const auto* option = options_.try_find(name);
+                return option != nullptr && option->given;
+            });
+        const Generator* generator = generator_named(made.generator);
+        const bool progressive =
+            std::ranges::find(made.options, std::pair<std::string, std::string>(
+                                                "order", "progressive")) != made.options.end();
+        if (!asked || !generator || generator->traits.prefix || progressive || told_of_prefixes_)
+            return;
+        told_of_prefixes_ = true;
+        session_.warn(fmt::format(
+            "{} makes whole sets: their prefixes are no sets that it would make", made.generator));
     }
 
     /// Takes a set, and measures those that wait when they have become many. Large sets do not
     /// wait: they get all threads, and the memory, for themselves.
     void add(FoundSet set) {
+        warn_of_prefixes(set.points.provenance);
         const std::size_t numbers = set.points.flat().size();
         if (numbers >= large) measure_waiting();
         waiting_.push_back(std::move(set));
@@ -368,7 +439,7 @@ class Analysis {
     }
 
     void keep_found(const FoundSet& set, Measurement m) {
-        keep(std::move(m), inputs_.size() > 1 || set.number);
+        keep(std::move(m), set.kind, inputs_.size() > 1 || set.number);
     }
 
     /// Errors of an input are reported after the sets before it have been measured.
@@ -388,15 +459,20 @@ class Analysis {
         const auto stream = open_input(input, arguments_, run, strengths_);
         const std::size_t before = measurements_.size();
         std::size_t sets = 0;
+        std::string kind;  // not known of the first set before it is counted, where nobody says it
         for (; stream->next_set(); ++sets)
             naming(input, [&] {
                 const NextRows read = [&](std::span<double> rows) { return stream->read(rows); };
                 const Arrival points =
                     arrival_of(*stream, !strengths_.empty(), analyzer_, arguments_, run);
-                keep(measured_in_blocks(points,
-                                        within_bounds(read, points, 0, analyzer_, arguments_),
-                                        input, sets, run),
-                     inputs_.size() > 1 || sets > 0);
+                const Provenance& made = stream->provenance();
+                if (!made.generator.empty()) kind = kind_of(made, 0);
+                options_ = options_for(kind, points.dimension());
+                Measurement m = measured_in_blocks(
+                    points, within_bounds(read, points, 0, analyzer_, arguments_), input, sets,
+                    run);
+                if (kind.empty()) kind = kind_of(made, m.count);
+                keep(std::move(m), kind, inputs_.size() > 1 || sets > 0);
             });
         if (sets == 1 && measurements_.size() == before + 1) measurements_.back().set.reset();
     }
@@ -432,54 +508,79 @@ class Analysis {
         });
     }
 
+    /// What the group of a kind is called; sets of different dimensions are never of one kind.
+    [[nodiscard]] std::string group_name(const std::string& kind, std::size_t dimension) const {
+        return pooled_ ? "" : fmt::format("{} {}", dimension, kind);
+    }
+
+    /// What the next set is measured with: where others of its kind came before it, as these.
+    [[nodiscard]] Values options_for(const std::string& kind, std::size_t dimension) const {
+        const auto it = group_indices_.find(group_name(kind, dimension));
+        return it == group_indices_.end() ? asked_ : groups_[it->second].options;
+    }
+
+    /// The group of a kind, which begins where there is none.
+    std::size_t group_of(const std::string& kind, std::size_t dimension) {
+        const auto [it, is_new] =
+            group_indices_.emplace(group_name(kind, dimension), groups_.size());
+        if (is_new) groups_.push_back({asked_});
+        return it->second;
+    }
+
     /// Takes one set's results, `several` if there are others.
-    void keep(Measurement m, bool several) {
+    void keep(Measurement m, const std::string& kind, bool several) {
         if (!averaged_) {
             save_grid(m.results, measurements_.size(), several);
             measurements_.push_back(std::move(m));
             return;
         }
-        if (!measurements_.empty() && measurements_[0].dimension != m.dimension)
-            fail(ErrorKind::usage, "--average: the sets have points of {} and of {} coordinates",
-                 measurements_[0].dimension, m.dimension);
-        average_.add(m.results);
-        if (average_.count() == 1) follow(m.results);
-        if (analyzer_.combine) singles_.push_back(numbers_only(m.results));
-        if (average_.count() == 1) {
-            measurements_.push_back(std::move(m));
-        } else {
-            measurements_[0].seconds += m.seconds;
-            Measurement& mean = measurements_[0];
-            if (mean.source != m.source) mean.source += ", " + m.source;
-            const std::uint64_t largest = std::max({mean.count, mean.largest_count, m.count});
-            mean.count = std::min(mean.count, m.count);
-            if (mean.count != largest) mean.largest_count = largest;
-        }
+        const std::size_t index = group_of(kind, m.dimension);
+        Group& group = groups_[index];
+        if (index < measurements_.size() && measurements_[index].dimension != m.dimension)
+            fail(ErrorKind::usage, "--pool: the sets have points of {} and of {} coordinates",
+                 measurements_[index].dimension, m.dimension);
+        group.average.add(m.results);
+        if (analyzer_.combine) group.singles.push_back(numbers_only(m.results));
+        if (group.average.count() > 1) return add_to(measurements_[index], m);
+        if (analyzer_.follow) analyzer_.follow(m.results, group.options);
+        options_ = group.options;
+        measurements_.push_back(std::move(m));
     }
 
-    /// Fixes what the first set decides for all.
-    void follow(const Report& first) {
-        if (!analyzer_.follow) return;
-        const Values asked = options_;
-        analyzer_.follow(first, options_);
-        for (const auto& item : options_.items())
-            if (item != asked.find(item.name))
-                followed_.push_back(fmt::format("--{} {}", item.name, format_value(item.value)));
+    /// Adds to what a mean says of its sets.
+    static void add_to(Measurement& mean, const Measurement& m) {
+        mean.seconds += m.seconds;
+        if (mean.source != m.source) mean.source += ", " + m.source;
+        const std::uint64_t largest = std::max({mean.count, mean.largest_count, m.count});
+        mean.count = std::min(mean.count, m.count);
+        if (mean.count != largest) mean.largest_count = largest;
     }
 
-    void warn_of_sizes() const {
+    void warn_of_sizes(const Group& group) const {
+        std::vector<std::string> followed;  // options that the first set decided
+        for (const auto& item : group.options.items())
+            if (item != asked_.find(item.name))
+                followed.push_back(fmt::format("--{} {}", item.name, format_value(item.value)));
         std::string text = "the sets that were averaged differ in their number of points";
-        if (!followed_.empty())
-            text += fmt::format("; all are measured with {}, as the first", join(followed_, " "));
+        if (!followed.empty())
+            text += fmt::format("; all are measured with {}, as the first", join(followed, " "));
         session_.warn(text);
     }
 
-    void finish_average() {
-        Measurement& m = measurements_[0];
-        m.set.reset();
-        take_mean(m, average_, singles_, analyzer_, options_);
-        if (m.largest_count > 0) warn_of_sizes();
-        save_grid(m.results, 0, false);
+    void finish_averages() {
+        for (std::size_t i = 0; i < groups_.size(); ++i) {
+            Measurement& m = measurements_[i];
+            const Group& group = groups_[i];
+            m.set.reset();
+            take_mean(m, group.average, group.singles, analyzer_, group.options);
+            if (m.largest_count > 0) warn_of_sizes(group);
+            save_grid(m.results, i, groups_.size() > 1);
+        }
+        if (groups_.size() > 1)
+            session_.warn(
+                fmt::format("the sets are of {} kinds, each of which has its own mean; "
+                            "--pool gives one of all",
+                            groups_.size()));
     }
 
     void save_grid(const Report& results, std::size_t number, bool several) {
@@ -568,21 +669,23 @@ class Analysis {
     Session& session_;
     Ranks& ranks_;
     const Analyzer& analyzer_;
-    Values options_;
+    Values asked_;
+    Values options_;  ///< for the next set
     std::vector<std::string> inputs_;
     std::string path_;
     std::string format_;
+    bool pooled_;  ///< sets of all kinds have one mean
     bool averaged_;
+    bool told_of_prefixes_ = false;
     std::string strengths_;  ///< the column of strengths that was asked for
     std::vector<Check> checks_;
     std::vector<Measurement> measurements_;
     std::vector<std::string> unmet_;
-    ReportAverage average_;
-    std::vector<std::string> followed_;  ///< options that the first of averaged sets decided
-    std::vector<Report> singles_;        ///< what was averaged, where it is needed
-    std::vector<FoundSet> waiting_;      ///< to be measured
-    std::size_t numbers_ = 0;            ///< coordinates of these
-    io::Outputs files_;                  ///< the report, and what comes with it
+    std::vector<Group> groups_;  ///< of a measurement each, where these are means
+    std::map<std::string, std::size_t> group_indices_;
+    std::vector<FoundSet> waiting_;  ///< to be measured
+    std::size_t numbers_ = 0;        ///< coordinates of these
+    io::Outputs files_;              ///< the report, and what comes with it
 };
 
 }  // namespace

@@ -107,7 +107,7 @@ Target target_of(const Arguments& arguments) {
     target.meta = arguments.has("meta");
     auto type = arguments.get("output-dtype");
     if (!type) type = arguments.get("dtype");
-    target.single = type ? *type == "f32" : target.path.ends_with(".f32");
+    target.single = type ? *type == "f32" : io::extension_is_single(target.path);
     if (const auto digits = arguments.integer("precision"))
         target.precision = static_cast<int>(*digits);
     target.columns = {.pdf = arguments.has("with-pdf"), .weight = arguments.has("with-weight")};

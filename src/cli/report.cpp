@@ -85,7 +85,7 @@ class Reporter {
         : arguments_(arguments),
           session_(session),
           path_(output_of(arguments)),
-          json_(arguments.has("json") || path_.ends_with(".json")) {
+          json_(arguments.has("json") || io::extension_of(path_) == ".json") {
         if (!json_ && is_terminal(path_))
             fail_with_hint(ErrorKind::usage, "name a file with -o, or pipe it on",
                            "a page is not for terminals");
@@ -97,6 +97,8 @@ class Reporter {
     int go() {
         refuse_generated_options(arguments_);
         keep_inputs();
+        static const std::vector<std::string> known = {".html", ".htm", ".json"};
+        io::require_extension(path_, known, "--json writes JSON under any name");
         io::Output output(path_, session_.run().stop);
         load();
         check_sets();

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <latch>
 #include <memory>
+#include <new>
 #include <semaphore>
 #include <system_error>
 #include <thread>
@@ -20,7 +21,7 @@ namespace {
 void start_one(std::vector<std::thread>& started, std::latch& leave) {
     std::binary_semaphore allocated(0);
     started.emplace_back([&] {
-        ::operator delete(::operator new(64));
+        ::operator delete(::operator new(64, std::nothrow));
         allocated.release();
         leave.wait();
     });

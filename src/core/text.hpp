@@ -46,6 +46,9 @@ std::string join(std::span<const std::string> words, std::string_view between);
 /// The text with a capital letter at its front.
 std::string capitalised(std::string text);
 
+/// The text with the capital letters of ASCII made small.
+std::string lower_case(std::string_view text);
+
 /// The text without white space at its ends.
 std::string_view trim(std::string_view text);
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <utility>
 
 #include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
@@ -50,7 +51,22 @@ Feed::Feed(const std::string& path, RunContext run)
     changed_at_ = change_time(status);
     held_.resize(front_size);
     held_.resize(fetch(held_));
+    if (const auto kind = compression_of_bytes(held_); kind != Compression::none) decompress(kind);
     front_ = held_;
+}
+
+void Feed::decompress(Compression kind) {
+    raw_ = std::move(held_);
+    const auto refill = [this, first = true]() mutable -> std::string_view {
+        if (!std::exchange(first, false)) {
+            raw_.resize(std::size_t{1} << 16);
+            raw_.resize(fetch_raw(raw_));
+        }
+        return raw_;
+    };
+    decompressor_.emplace(kind, refill, name_);
+    held_.resize(front_size);
+    held_.resize(fetch(held_));
 }
 
 Feed::File::~File() {
@@ -58,6 +74,10 @@ Feed::File::~File() {
 }
 
 std::size_t Feed::fetch(std::span<char> bytes) {
+    return decompressor_ ? decompressor_->read(bytes) : fetch_raw(bytes);
+}
+
+std::size_t Feed::fetch_raw(std::span<char> bytes) {
     std::size_t done = 0;
     while (file_.descriptor >= 0 && done < bytes.size()) {
         wait_for_bytes(file_.descriptor, run_);
@@ -90,7 +110,8 @@ std::size_t Feed::read(std::span<char> bytes) {
 
 std::optional<std::uint64_t> Feed::skip(std::uint64_t count) {
     struct stat status {};
-    if (::fstat(file_.descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+    if (decompressor_ || ::fstat(file_.descriptor, &status) != 0 || !S_ISREG(status.st_mode))
+        return std::nullopt;
     const auto ahead = std::min<std::uint64_t>(count, front_.size() - taken_);
     const auto at = ::lseek(file_.descriptor, 0, SEEK_CUR);
     if (at < 0) return std::nullopt;

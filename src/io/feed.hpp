@@ -10,18 +10,20 @@
 #include <string>
 #include <string_view>
 
+#include "core/bytes/compression.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple::io {
 
-/// The bytes of a file or of standard input, in order. The first of them can be looked at before
-/// they are read.
+/// The bytes of a file or of standard input, in order, decompressed where they are compressed. The
+/// first of them can be looked at before they are read.
 class Feed {
   public:
     static constexpr std::size_t front_size = std::size_t{1} << 22;
 
     /// Waits for the front's bytes as long as nobody asks to stop.
-    /// @throws Error(io): missing, a directory, unreadable; Error(cancelled).
+    /// @throws Error(io): missing, a directory, unreadable; Error(input): damaged where it is
+    /// compressed, as also when it is read; Error(cancelled).
     Feed(const std::string& path, RunContext run);
     /// Bytes that are there already, and stay.
     explicit Feed(std::string_view bytes) : front_(bytes) {}
@@ -57,6 +59,8 @@ class Feed {
     };
 
     std::size_t fetch(std::span<char> bytes);
+    std::size_t fetch_raw(std::span<char> bytes);
+    void decompress(Compression kind);
     void check_unchanged() const;
 
     std::string name_ = {};
@@ -67,6 +71,8 @@ class Feed {
     std::string held_;
     std::string_view front_;
     std::size_t taken_ = 0;  ///< bytes of the front that were read
+    std::string raw_;        ///< compressed bytes
+    std::optional<Decompressor> decompressor_;
 };
 
 }  // namespace stipple::io

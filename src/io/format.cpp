@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <numeric>
 
+#include "core/bytes/compression.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "core/text.hpp"
@@ -57,13 +58,6 @@ std::vector<std::string> Layout::columns() const {
 namespace io {
 namespace {
 
-std::string extension_of(std::string_view path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-    return extension;
-}
-
 /// Text that begins with { or [: a value a line, or one value?
 const char* json_or_lines(std::string_view text) {
     const auto end = text.find('\n');
@@ -75,6 +69,20 @@ const char* json_or_lines(std::string_view text) {
 }
 
 }  // namespace
+
+std::string extension_of(std::string_view path) {
+    std::filesystem::path name(path);
+    if (compression_of_name(path) != Compression::none) name.replace_extension();
+    return lower_case(name.extension().string());
+}
+
+void require_extension(std::string_view path, std::span<const std::string> known,
+                       const std::string& hint) {
+    const std::string extension = path.starts_with("/dev/") ? "" : extension_of(path);
+    if (extension.empty() || std::ranges::find(known, extension) != known.end()) return;
+    fail_with_hint(ErrorKind::usage, hint, "--output: unknown extension '{}'; known: {}", extension,
+                   join(known, " "));
+}
 
 const Format& format_named(std::string_view name) {
     const auto it = std::ranges::find(all(), name, &Format::name);

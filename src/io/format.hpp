@@ -132,6 +132,14 @@ const std::vector<Format>& all();
 /// The format called `name`. @throws Error(usage) naming the nearest.
 const Format& format_named(std::string_view name);
 
+/// The extension of a file's name in small letters, ".csv", without that of its compression.
+std::string extension_of(std::string_view path);
+
+/// Refuses the name of an output with an extension other than the known ones, with a hint at what
+/// else to do. @throws Error(usage)
+void require_extension(std::string_view path, std::span<const std::string> known,
+                       const std::string& hint);
+
 /// The format that a file's extension means, if any.
 const Format* format_of_extension(std::string_view path);
 

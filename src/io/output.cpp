@@ -92,6 +92,8 @@ Output::Output(std::string path, std::stop_token stop)
         if (path_ == "-") path_ = "stdout";
         return;
     }
+    if (const auto kind = compression_of_name(path_); kind != Compression::none)
+        compressor_ = std::make_unique<Compressor>(kind);
     if (path_.empty()) fail(ErrorKind::io, "the output's name is empty; expected a file's name");
     FileRules::require_writable(path_);
     struct stat status {};
@@ -169,6 +171,17 @@ bool Output::write(std::string_view bytes) {
         broken_ = broken_ || (!bytes.empty() && !sink_(bytes));
         return !broken_;
     }
+    if (!compressor_) return put(bytes);
+    return compressor_->add(bytes, [this](std::string_view some) { return put(some); });
+}
+
+void Output::finish() {
+    if (const auto compressor = std::move(compressor_))
+        compressor->finish([this](std::string_view some) { return put(some); });
+    if (!temporary_.empty()) close();
+}
+
+bool Output::put(std::string_view bytes) {
     while (!bytes.empty() && !broken_) {
         const auto done = ::write(descriptor_, bytes.data(), bytes.size());
         if (done >= 0) {
@@ -210,6 +223,7 @@ void Output::name_it() {
 }
 
 void Output::commit() {
+    finish();
     if (!target_.empty() && temporary_.empty() && descriptor_ >= 0) name_it();
     close();
     if (temporary_.empty()) return;

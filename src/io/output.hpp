@@ -13,12 +13,14 @@
 #include <string_view>
 #include <utility>
 
+#include "core/bytes/compression.hpp"
 #include "core/bytes/spool.hpp"
 
 namespace stipple::io {
 
 /// A file that comes into being when it is whole, or standard output for "-". Devices and pipes are
-/// written in place; a link's target is replaced, not the link. Until commit() the bytes are in a
+/// written in place; a link's target is replaced, not the link. A name that ends in .gz or .zst gets
+/// compressed bytes. Until commit() the bytes are in a
 /// file without a name, which vanishes with the process, or in a file NAME.part where the file
 /// system has no such files.
 class Output {
@@ -41,9 +43,7 @@ class Output {
     bool write(std::string_view bytes);
 
     /// No more is written: what has a name till commit() needs no descriptor. @throws Error(io)
-    void finish() {
-        if (!temporary_.empty()) close();
-    }
+    void finish();
 
     /// Puts the file in its place. @throws Error(io)
     void commit();
@@ -62,6 +62,7 @@ class Output {
     void open_in_place();
     void open_beside(mode_t mode);
     bool open_unnamed(mode_t mode);
+    bool put(std::string_view bytes);
     void name_it();
     void close();
 
@@ -70,6 +71,7 @@ class Output {
     std::string temporary_;  ///< the name until commit(); empty: none
     std::stop_token stop_;
     Sink sink_;
+    std::unique_ptr<Compressor> compressor_;  ///< of what a name that ends in .gz or .zst gets
     int descriptor_ = -1;
     bool owned_ = false;   ///< the descriptor is ours to close
     bool broken_ = false;  ///< the pipe has no reader

@@ -222,9 +222,8 @@ std::optional<std::string> text_of_png(std::string_view png, std::string_view ke
     std::string wanted(keyword);
     wanted += '\0';
     for (std::size_t at = png_magic.size(); at + 12 <= png.size();) {
-        std::size_t length = 0;
-        for (std::size_t i = 0; i < 4; ++i)
-            length = 256 * length + static_cast<unsigned char>(png[at + i]);
+        const std::size_t length =
+            png_get_uint_32(reinterpret_cast<png_const_bytep>(png.data() + at));
         if (length > png.size() - at - 12) return std::nullopt;
         const auto data = png.substr(at + 8, length);
         const bool ours = data.starts_with(wanted);

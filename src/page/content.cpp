@@ -109,6 +109,11 @@ std::vector<std::string> notes_on(std::span<const Set> sets) {
             "those that do not have their best marked.");
     if (!same_domain(sets))
         notes.emplace_back("The sets live on different domains: nothing is marked as best.");
+    for (std::size_t i = 0; i < sets.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (sets[i].fingerprint && sets[i].fingerprint == sets[j].fingerprint)
+                notes.push_back(fmt::format("{} and {} are the same points in the same order.",
+                                            sets[j].name, sets[i].name));
     return notes;
 }
 

@@ -37,6 +37,7 @@ struct Set {
     std::uint64_t count = 0;
     std::size_t dimension = 0;
     std::string domain = {};
+    std::optional<std::uint64_t> fingerprint = {};  ///< of the coordinates
     Provenance provenance = {};
     std::string command = {};  ///< that makes the points; empty: not known
     std::vector<Measure> measures = {};

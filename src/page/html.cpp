@@ -50,8 +50,10 @@ std::string facts_of(const Set& set) {
 std::string comparison_head(std::span<const Set> sets) {
     std::string out = "<thead><tr><th scope=\"col\">Measure</th>";
     for (std::size_t i = 0; i < sets.size(); ++i)
-        out += fmt::format("<th scope=\"col\" class=\"number\" data-set=\"{}\">{}{}</th>", i,
-                           swatch(i), html_text(sets[i].name));
+        out += fmt::format(
+            "<th scope=\"col\" class=\"number\" data-set=\"{}\" data-count=\"{}\" "
+            "data-domain=\"{}\">{}{}</th>",
+            i, sets[i].count, html_text(sets[i].domain), swatch(i), html_text(sets[i].name));
     return out + "</tr></thead>\n";
 }
 
@@ -61,12 +63,20 @@ std::string cell(std::size_t set, std::string_view text, const char* kind = "",
     return fmt::format("<td class=\"number{}\" data-set=\"{}\"{}>{}</td>", kind, set, more, text);
 }
 
+/// A number as JavaScript reads it.
+std::string script_number(double value) {
+    if (std::isinf(value)) return value > 0 ? "Infinity" : "-Infinity";
+    return format_number(value);
+}
+
 std::string cell_of(const std::optional<Known>& known, bool best, std::size_t set) {
     if (!known) return cell(set, "–", " none");
     std::string exact = format_number(known->lower);
     if (!known->exact()) exact += " to " + format_number(known->upper);
     return cell(set, shown_known(*known), best ? " best" : "",
-                fmt::format(" title=\"{}{}\"", exact, best ? ", best of these" : ""));
+                fmt::format(" title=\"{}{}\" data-low=\"{}\" data-high=\"{}\"", exact,
+                            best ? ", best of these" : "", script_number(known->lower),
+                            script_number(known->upper)));
 }
 
 std::string verdict_row(std::span<const Set> sets, const char* measure, const char* label) {
@@ -86,6 +96,13 @@ std::string arrow_of(Better better) {
     if (better == Better::lower) return "&nbsp;<small title=\"lower is better\">↓</small>";
     if (better == Better::higher) return "&nbsp;<small title=\"higher is better\">↑</small>";
     return {};
+}
+
+/// What the page's script marks a row's best by.
+std::string rule_of(const Key& key) {
+    if (key.better == Better::neither) return {};
+    return fmt::format(" data-better=\"{}\"{}", key.better == Better::lower ? "lower" : "higher",
+                       key.any_count ? " data-any-count" : "");
 }
 
 std::string size_row(std::span<const Set> sets) {
@@ -110,8 +127,8 @@ std::string comparison_of(std::span<const Set> sets) {
                 "<tr class=\"group\"><th colspan=\"{}\" scope=\"colgroup\">{}</th></tr>\n",
                 sets.size() + 1, group);
         }
-        out += fmt::format("<tr data-key=\"{}\"><th scope=\"row\">{}{}</th>", row.key.key,
-                           html_text(row.key.label), arrow_of(row.key.better));
+        out += fmt::format("<tr data-key=\"{}\"{}><th scope=\"row\">{}{}</th>", row.key.key,
+                           rule_of(row.key), html_text(row.key.label), arrow_of(row.key.better));
         for (std::size_t i = 0; i < sets.size(); ++i) out += cell_of(row.values[i], row.best[i], i);
         out += "</tr>\n";
     }
@@ -120,7 +137,8 @@ std::string comparison_of(std::span<const Set> sets) {
     out += "</tbody></table></div>\n";
     if (sets.size() > 1)
         out +=
-            "<p class=\"note\">★ marks what no other set here can be better in; ↓ lower is better, "
+            "<p class=\"note\">★ marks what no other set shown can be better in; ↓ lower is "
+            "better, "
             "↑ higher is better. “a to b” are certain bounds.</p>\n";
     return out + "</section>\n";
 }

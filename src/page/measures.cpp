@@ -7,6 +7,7 @@
 #include <array>
 #include <optional>
 
+#include "core/bytes/fingerprint.hpp"
 #include "core/error.hpp"
 #include "core/spec.hpp"
 #include "page/figures.hpp"
@@ -141,6 +142,7 @@ Set finished_set(Set set, const PointSet& points, const Input& input, std::int64
     set.count = points.count();
     set.dimension = points.dimension();
     set.domain = points.domain->spec();
+    set.fingerprint = fingerprint(points.flat());
     set.measures = measure_set(points, input, work, run);
     if (!with_pictures) return set;
     set.figures = point_figures(points, set, number);

@@ -1,8 +1,27 @@
 (() => {
   'use strict';
   const body = document.body;
+  // As best_of() of content.cpp does, among the sets that are shown.
+  const heads = document.querySelectorAll('#comparison thead th[data-set]');
+  const isShown = element => !body.classList.contains('hide-' + element.dataset.set);
+  const mark = row => {
+    const alike = name => new Set([...heads].filter(isShown).map(head => head.dataset[name])).size < 2;
+    const fair = alike('domain') && ('anyCount' in row.dataset || alike('count'));
+    const noWorse = (a, b) => row.dataset.better === 'lower' ? +a.high <= +b.low : +a.low >= +b.high;
+    const cells = [...row.querySelectorAll('td[data-low]')];
+    const known = cells.filter(isShown);
+    const best = known.filter(a => fair && known.every(b => a === b || noWorse(a.dataset, b.dataset)));
+    for (const cell of cells) {
+      const isBest = known.length > 1 && best.length < known.length && best.includes(cell);
+      cell.classList.toggle('best', isBest);
+      cell.title = cell.title.split(', ')[0] + (isBest ? ', best of these' : '');
+    }
+  };
   for (const box of document.querySelectorAll('nav input')) {
-    box.addEventListener('change', () => body.classList.toggle('hide-' + box.value, !box.checked));
+    box.addEventListener('change', () => {
+      body.classList.toggle('hide-' + box.value, !box.checked);
+      document.querySelectorAll('tr[data-better]').forEach(mark);
+    });
   }
   const show = (figure, box) => {
     for (const group of figure.querySelectorAll('g.box.' + box.dataset.box)) {

@@ -184,9 +184,15 @@ std::vector<double> with_columns(std::span<const double> rows, const Columns& co
 }
 
 const Format& format_of(const Target& target) {
-    const Format* format =
-        target.format != nullptr ? target.format : io::format_of_extension(target.path);
-    return format != nullptr ? *format : io::format_named("csv");
+    if (target.format != nullptr) return *target.format;
+    if (const Format* format = io::format_of_extension(target.path)) return *format;
+    std::vector<std::string> known;
+    for (const Format& format : io::all())
+        known.insert(known.end(), format.extensions.begin(), format.extensions.end());
+    io::require_extension(target.path, known,
+                          "--format names what is written under any name; pictures are drawn by "
+                          "'stipple plot'");
+    return io::format_named("csv");
 }
 
 bool file_per_set(const std::string& path) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
@@ -433,13 +434,34 @@ std::string main_number(const Report& report) {
     return {};
 }
 
-/// What files of one kind have in common: "halton_64.csv" and "halton_256.csv" are of "halton".
-std::string family_of(const std::string& source) {
-    std::string name = file_name(source);
+/// Whether a word of a name tells a count or a seed: 64, n64, seed3.
+bool is_counter(std::string_view word) {
+    constexpr std::array<std::string_view, 8> known = {"",  "n",    "m",   "s",
+                                                       "r", "seed", "set", "run"};
+    const std::string_view letters = word.substr(0, word.find_first_of("0123456789"));
+    return letters.size() < word.size() && std::ranges::find(known, letters) != known.end() &&
+           word.find_first_not_of("0123456789", letters.size()) == std::string_view::npos;
+}
+
+/// What files of one kind have in common: "pmj02_64.csv" of 64 points, "pmj02_256_s3.csv" and
+/// "pmj02-16.csv" are of "pmj02", and "random64.csv" of 64 points is of "random".
+std::string family_of(const Measurement& m) {
+    std::string name = file_name(m.source);
     name.resize(std::min(name.find('.'), name.size()));
-    std::erase_if(name, [](unsigned char c) { return std::isdigit(c) != 0; });
-    const auto last = name.find_last_not_of("-_ ");
-    return last == std::string::npos ? "" : name.substr(0, last + 1);
+    const std::string count = std::to_string(m.count);
+    std::string family;
+    for (std::size_t at = 0; at < name.size();) {
+        const std::size_t end = std::min(name.find_first_of("-_ ", at), name.size());
+        std::string_view word = std::string_view(name).substr(at, end - at);
+        const bool counter = is_counter(word);
+        if (word.ends_with(count)) word.remove_suffix(count.size());
+        if (!word.empty() && !counter) {
+            if (!family.empty()) family += name[at - 1];
+            family += word;
+        }
+        at = end + 1;
+    }
+    return family;
 }
 
 /// Means, with their standard errors, of what sets of one size have; of errors, their root mean square.
@@ -468,7 +490,7 @@ Chart number_over_count(Measurements ms, const std::string& key) {
     for (const Measurement& m : ms) {
         const auto value = number_at(m.results, key);
         if (!value || !std::isfinite(*value)) continue;
-        const std::string family = family_of(m.source);
+        const std::string family = family_of(m);
         if (!found.contains(family)) families.push_back(family);
         found[family][m.count].push_back(*value);
     }

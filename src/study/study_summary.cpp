@@ -148,11 +148,23 @@ std::string StudySummary::comparisons(TableStyle style, const SummaryOptions& op
     };
     const Sample none{};  // where there are no pairs, the table has its names alone
     std::string text = table_head(style, cells_of_pair({&none, &none}));
+    std::map<std::pair<std::string, std::string>, bool> same;  // whether two never differ
     for (const Topic& topic : topics_in_order_) {
         run.check_stop();
-        for (const Pair& pair : pairs_of(topic, options.paired))
+        for (const Pair& pair : pairs_of(topic, options.paired)) {
             text += table_line(style, cells_of_pair(pair));
+            bool& never =
+                same.emplace(std::pair(pair.a->row.generator, pair.b->row.generator), true)
+                    .first->second;
+            never = never && pair.a->values == pair.b->values && pair.a->seeds == pair.b->seeds;
+        }
     }
+    for (const auto& [generators, never] : same)
+        if (never)
+            run.notify(
+                fmt::format("{} and {} have the same values everywhere: their sets may be "
+                            "the same points",
+                            generators.first, generators.second));
     return text;
 }
 

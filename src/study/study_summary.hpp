@@ -45,7 +45,8 @@ class StudySummary {
     [[nodiscard]] std::string means(TableStyle style, const SummaryOptions& options,
                                     const RunContext& run) const;
 
-    /// A row for each pair of generators, if there are two that some set of went well.
+    /// A row for each pair of generators, if there are two that some set of went well. Notifies of
+    /// two that have the same values everywhere.
     /// @throws Error(cancelled)
     [[nodiscard]] std::string comparisons(TableStyle style, const SummaryOptions& options,
                                           const RunContext& run) const;

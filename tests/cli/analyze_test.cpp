@@ -347,7 +347,7 @@ TEST(Analyze, AveragesSetsOfDifferentSizesWhereThatMeansSomething) {
                                                  {"chi-square"},
                                                  {"star-discrepancy"},
                                                  {"t-value"}}) {
-        std::vector<std::string> words{"analyze", "a.csv", "b.csv", "--average"};
+        std::vector<std::string> words{"analyze", "a.csv", "b.csv", "--pool"};
         words.insert(words.begin() + 1, more.begin(), more.end());
         const Outcome outcome = box.run(words);
         EXPECT_EQ(outcome.code, 0) << more[0] << outcome.err;
@@ -506,14 +506,87 @@ TEST(Analyze, WritesDiscrepanciesOfPrefixesAndProjectionsAsTables) {
     EXPECT_EQ(beyond.err, "stipple: stdin: --prefixes: 128 is beyond the set's 64 points\n");
 }
 
-TEST(Analyze, AveragesOnlySetsOfOneDimension) {
+TEST(Analyze, SaysWhatPrefixesAndMixedUnitsTell) {
+    const Sandbox box;
+    const auto notes = [&](const std::string& make, const std::string& analyze) {
+        const Outcome outcome =
+            box.shell("stipple generate " + make + " | stipple analyze " + analyze);
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return outcome.err;
+    };
+    const std::string prefixes = "star-discrepancy --prefixes 16,64";
+    EXPECT_THAT(notes("jittered -n 64 -m 2 --meta", prefixes),
+                HasSubstr("jittered makes whole sets: their prefixes are no sets that it would"));
+    for (const char* make : {"sobol -n 64 --meta", "jittered -n 64",
+                             "poisson-disk -n 64 "
+                             "--order progressive --meta"})
+        EXPECT_EQ(notes(make, prefixes), "") << make;
+    EXPECT_EQ(notes("jittered -n 64 --meta", "star-discrepancy"), "");
+    const std::string make = "random -n 30 --bounds 0..1,0..100";
+    EXPECT_EQ(notes(make, "nearest-neighbor --bounds 0..1,0..100"),
+              "stipple: the sides of --bounds are from 1 to 100 long, and distances add up what is "
+              "measured along them; --rescale measures in the unit cube\n");
+    EXPECT_EQ(notes(make, "nearest-neighbor --bounds 0..100"), "");
+    EXPECT_EQ(notes(make, "star-discrepancy --bounds 0..1,0..100"), "");
+}
+
+TEST(Analyze, AveragesEachKindOfSetsByItself) {
+    const Sandbox box;
+    good(box.run({"generate", "random", "-n", "64", "-m", "2", "--meta", "-o", "a.csv"}));
+    good(box.run({"generate", "random", "-n", "64", "-s", "7", "-o", "b.json"}));
+    good(box.run({"generate", "random", "-n", "80", "--meta", "-o", "c.csv"}));
+    good(box.run({"generate", "sobol", "-n", "64", "--meta", "-o", "d.csv"}));
+    good(box.run({"generate", "sobol:scramble=owen", "-n", "64", "--meta", "-o", "e.csv"}));
+    good(box.run({"generate", "random", "-n", "64", "-w", "disk", "--meta", "-o", "f.csv"}));
+    good(box.run({"generate", "random", "-n", "64", "-d", "3", "--meta", "-o", "g.csv"}));
+    for (const char* analyzer : {"nearest-neighbor", "moments", "periodogram"}) {
+        SCOPED_TRACE(analyzer);
+        const std::string line = std::string("stipple analyze ") + analyzer + " --bounds 0..1 ";
+        const Outcome outcome = box.shell(line + "d.csv a.csv b.json c.csv e.csv g.csv --average");
+        ASSERT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr("the sets are of 5 kinds"));
+        EXPECT_THAT(outcome.err, HasSubstr("--pool gives one of all"));
+        const json means = json::parse(outcome.out);
+        ASSERT_EQ(means.size(), 5U);
+        EXPECT_EQ(means[1]["input"]["sets"], 3);
+        EXPECT_EQ(means[1]["input"]["source"], "a.csv, b.json");
+        EXPECT_EQ(means[1]["results"],
+                  report_of(box.shell(line + "a.csv b.json --average"))["results"]);
+        EXPECT_EQ(means[2]["results"], report_of(box.shell(line + "c.csv"))["results"]);
+        const Outcome pooled = box.shell(line + "d.csv a.csv b.json c.csv e.csv --pool");
+        EXPECT_EQ(json::parse(pooled.out)["input"]["sets"], 6);
+    }
+    const Outcome warped = box.run({"analyze", "moments", "a.csv", "f.csv", "--average"});
+    EXPECT_EQ(json::parse(warped.out).size(), 2U);
+}
+
+// Without provenance the number of points is all there is, but for sets of one file.
+TEST(Analyze, AveragesWhatComesWithoutProvenanceByItsNumberOfPoints) {
+    const Sandbox box;
+    for (const char* analyzer : {"nearest-neighbor", "periodogram"}) {
+        const std::string average = std::string(" | stipple analyze ") + analyzer + " --average";
+        const Outcome one =
+            box.shell("stipple generate poisson-disk --radius 0.1 -m 4 -f csv" + average);
+        EXPECT_EQ(json::parse(one.out)["input"]["sets"], 4);
+        good(
+            box.shell("stipple generate random -n 40 -o a.csv; stipple generate random -n 40 "
+                      "-s 2 -o b.csv; stipple generate random -n 60 -o c.csv"));
+        const Outcome two =
+            box.shell(std::string("stipple analyze ") + analyzer + " a.csv c.csv b.csv --average");
+        const json means = json::parse(two.out);
+        ASSERT_EQ(means.size(), 2U);
+        EXPECT_EQ(means[0]["input"]["source"], "a.csv, b.csv");
+        EXPECT_EQ(means[1]["input"]["count"], 60);
+    }
+}
+
+TEST(Analyze, PoolsOnlySetsOfOneDimension) {
     const Sandbox box;
     const Outcome outcome = box.shell(
         "stipple generate random -n 9 -d 2 -o a.csv && stipple generate random -n 9 -d 3 -o b.csv "
-        "&& stipple analyze nearest-neighbor a.csv b.csv --average");
+        "&& stipple analyze nearest-neighbor a.csv b.csv --pool");
     EXPECT_EQ(outcome.code, 2);
-    EXPECT_THAT(outcome.err,
-                HasSubstr("--average: the sets have points of 2 and of 3 coordinates"));
+    EXPECT_THAT(outcome.err, HasSubstr("--pool: the sets have points of 2 and of 3 coordinates"));
 }
 
 // Distances hold in the box of --bounds as in that of --domain; integrals have its volume.

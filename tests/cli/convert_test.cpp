@@ -34,6 +34,29 @@ TEST(Convert, SaysThatItLeavesRowNamesOut) {
     }
 }
 
+TEST(Convert, SaysWhichColumnCountsTheRows) {
+    const Sandbox box;
+    const auto notes = [&](const std::string& text, const std::string& more = "") {
+        box.write("r.csv", text);
+        const Outcome file = box.shell("stipple convert r.csv -f csv " + more);
+        EXPECT_EQ(file.code, 0);
+        EXPECT_EQ(box.shell("cat r.csv | stipple convert -f csv " + more).err.empty(),
+                  file.err.empty());
+        return file.err;
+    };
+    const std::string note =
+        "stipple: r.csv: the column 'id' counts the rows, and is taken for a coordinate; --column "
+        "picks the others\n";
+    EXPECT_EQ(notes("id,x\n0,0.5\n1,0.25\n2,0.5\n"), note);
+    EXPECT_EQ(notes("id x\n# as in R\n1 0.5\n2 0.25\n\n3 0.5\n4 0.125\n"), note);
+    EXPECT_EQ(notes("id,x\n0,0.5\n1,0.25\n2,0.5\n", "--column x"), "");
+    EXPECT_EQ(notes("id,x\n0,0.5\n1,0.25\n"), "") << "two rows tell nothing";
+    EXPECT_EQ(notes("id,x\n0,0.5\n1,0.25\n3,0.5\n"), "");
+    EXPECT_EQ(notes("id,x\n5,0.5\n6,0.25\n7,0.5\n"), "");
+    EXPECT_EQ(notes("id\n0\n1\n2\n"), "") << "there are no others";
+    EXPECT_EQ(notes("0,0.5\n1,0.25\n2,0.5\n"), "") << "no names";
+}
+
 TEST(Convert, NumberTypesOfInputAndOutputAreToldApart) {
     const Sandbox box;
     good(box.run({"generate", "halton", "-n", "8", "--output-dtype", "f32", "-o", "a.bin"}));
@@ -121,6 +144,52 @@ TEST(Convert, PsaStartsWithTheCount) {
     EXPECT_EQ(box.run({"convert", "-f", "psa"}, "0.5 0.25\n0 0\n").out, "2\n0.5 0.25\n0 0\n");
     EXPECT_EQ(box.run({"convert", "--from", "psa"}, "2\n0.5 0.25\n0 0\n").out,
               "x,y\n0.5,0.25\n0,0\n");
+}
+
+TEST(Convert, CompressedFilesAreThoseOfGzipAndZstandard) {
+    const Sandbox box;
+    good(box.run({"generate", "random", "-n", "3000", "-m", "2", "-o", "p.csv"}));
+    good(box.shell("gzip -k p.csv; mv p.csv.gz theirs"));
+    for (const char* name : {"q.csv.gz", "q.csv.zst", "Q.CSV.GZ"}) {
+        SCOPED_TRACE(name);
+        good(box.run({"convert", "p.csv", "-o", name}));
+        EXPECT_TRUE(good(box.run({"convert", name, "-f", "csv"})) == box.read("p.csv"));
+        EXPECT_TRUE(good(box.run({"convert", "-f", "csv"}, box.read(name))) == box.read("p.csv"));
+        EXPECT_LT(box.read(name).size(), box.read("p.csv").size() / 2);
+        const std::string reader = name[6] == 'z' ? "zstd" : "gzip";
+        EXPECT_TRUE(good(box.shell(reader + " -dc < " + name)) == box.read("p.csv"));
+    }
+    EXPECT_TRUE(good(box.run({"convert", "theirs", "-f", "csv"})) == box.read("p.csv"));
+    for (const std::string name : {"t.npy", "t.json", "t.jsonl", "t.f64", "t.txt", "t.utk"}) {
+        good(box.run({"generate", "random", "-n", "60", "-m", "2", "-o", name}));
+        good(box.run({"generate", "random", "-n", "60", "-m", "2", "-o", name + ".gz"}));
+        const std::string shape = name == "t.f64" ? " --from bin -d 2" : "";
+        EXPECT_EQ(good(box.shell("stipple convert " + name + ".gz -f csv" + shape)),
+                  good(box.shell("stipple convert " + name + " -f csv" + shape)));
+    }
+    good(box.run({"list", "--json", "-o", "l.json.gz"}));
+    EXPECT_NE(good(box.shell("gzip -dc l.json.gz")).find("star-discrepancy"), std::string::npos);
+    good(box.shell("head -c 5000 q.csv.gz > cut.csv.gz"));
+    expect_refusal(box.run({"convert", "cut.csv.gz", "-o", "r.csv"}), 3,
+                   "cut.csv.gz: the compressed bytes end too soon");
+    EXPECT_FALSE(box.exists("r.csv"));
+}
+
+TEST(Convert, RefusesExtensionsOfOtherFormats) {
+    const Sandbox box;
+    good(box.run({"generate", "halton", "-o", "p.csv"}));
+    for (const char* name : {"q.png", "q.pdf", "q.xlsx", "q.parquet", "q.npz", "q.h5", "q.csv.bz2"})
+        for (const char* verb : {"generate halton", "convert p.csv", "warp disk p.csv"})
+            expect_refusal(box.shell("stipple " + std::string(verb) + " -o " + name), 2,
+                           "known: .bin .f64 .f32 .csv .tsv");
+    expect_refusal(box.run({"analyze", "moments", "p.csv", "-o", "q.html"}), 2,
+                   "unknown extension '.html'; known: .json .csv .txt");
+    expect_refusal(box.run({"report", "p.csv", "-o", "q.pdf"}), 2, "known: .html .htm .json");
+    EXPECT_EQ(box.files(), std::vector<std::string>{"p.csv"});
+    good(box.run({"generate", "halton", "-o", "points"}));
+    good(box.run({"generate", "halton", "-f", "csv", "-o", "q.h5"}));
+    EXPECT_EQ(box.read("points"), box.read("p.csv"));
+    EXPECT_EQ(box.read("q.h5"), box.read("p.csv"));
 }
 
 TEST(Convert, PicturesAndMeshesAreWriteOnly) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "places.hpp"
 #include "support/program.hpp"
@@ -76,7 +77,49 @@ TEST(Report, ChromiumShowsItWithoutComplaints) {
     EXPECT_EQ(box.read("a.pdf").substr(0, 5), "%PDF-");
 }
 
-// What the test above relies on: complaints are seen where there are some.
+// The script does as the program: without a set, the page marks what one of the others does.
+TEST(Report, MarksTheBestOfTheSetsThatAreShown) {
+    const Sandbox box;
+    if (!has_browser(box)) GTEST_SKIP() << "chromium is not installed";
+    const std::string others = "--generate random --generate 'sobol:scramble=owen' ";
+    good(box.shell(
+        "stipple generate halton -n 256 -o a.csv; stipple generate halton -n 99 -o b.csv; "
+        "stipple report a.csv " +
+        others +
+        "-n 256 -o three.html; "
+        "stipple report b.csv " +
+        others +
+        "-n 256 -o sizes.html; "
+        "stipple report " +
+        others + "-n 256 -o two.html"));
+    const auto marks = [](const std::string& page) {  // "KEY:.*." of each row that has a key
+        std::vector<std::string> rows;
+        const std::regex part(
+            "data-key=\"([^\"]*)|<td class=\"number( best)?[^\"]*\" data-set|(</tr>)");
+        bool inside = false;
+        for (std::sregex_iterator it(page.begin(), page.end(), part), end; it != end; ++it) {
+            const auto& found = *it;
+            if (found[1].matched) rows.push_back(found[1].str() + ":");
+            if (!found[1].matched && !found[3].matched && inside)
+                rows.back() += found[2].matched ? '*' : '.';
+            inside = found[1].matched || (inside && !found[3].matched);
+        }
+        return rows;
+    };
+    std::vector<std::string> expected = marks(box.read("two.html"));
+    EXPECT_THAT(expected, ::testing::Contains(HasSubstr("*")));
+    for (std::string& row : expected) row.insert(row.find(':') + 1, ".");  // the one that is hidden
+    for (const std::string name : {"three.html", "sizes.html"}) {
+        std::string page = box.read(name);
+        page.insert(page.rfind("</body>"),
+                    "<script>document.querySelector('nav input[value=\"0\"]').click()</script>");
+        EXPECT_NE(marks(page), expected) << name;
+        box.write("hidden.html", page);
+        EXPECT_EQ(marks(browse(box, "--dump-dom", "hidden.html").out), expected) << name;
+    }
+}
+
+// What the tests above rely on: complaints are seen where there are some.
 TEST(Report, ChromiumsComplaintsWouldBeSeen) {
     const Sandbox box;
     if (!has_browser(box)) GTEST_SKIP() << "chromium is not installed";

@@ -76,13 +76,12 @@ TEST(Spectrum, SetsOfDifferentSizesHaveAMeanWhichIsSaid) {
     const Sandbox box;
     box.write("a.csv", box.run({"generate", "random", "-n", "400"}).out);
     box.write("b.csv", box.run({"generate", "random", "-n", "100"}).out);
-    const Outcome mean = box.run({"analyze", "periodogram", "a.csv", "b.csv", "--average"});
+    const Outcome mean = box.run({"analyze", "periodogram", "a.csv", "b.csv", "--pool"});
     EXPECT_EQ(report_of(mean)["results"]["max_frequency"], 40);
     EXPECT_THAT(mean.err, HasSubstr("differ in their number of points; all are measured with "
                                     "--max-frequency 40, as the first\n"));
     EXPECT_THAT(
-        box.run({"analyze", "periodogram", "a.csv", "b.csv", "--average", "--max-frequency", "8"})
-            .err,
+        box.run({"analyze", "periodogram", "a.csv", "b.csv", "--pool", "--max-frequency", "8"}).err,
         HasSubstr("differ in their number of points\n"));
 }
 
@@ -155,7 +154,7 @@ TEST(Spectrum, FilesAreOfTheFormatThatTheyAreNamedFor) {
     };
     expect_error(write({"--image", "p.jpg"}), 2, "--image: writes .png; 'p.jpg' has another name");
     expect_error(write({"--grid", "g.csv"}), 2, "--grid: writes .npy; 'g.csv' has another name");
-    expect_error(write({"--grid", "g.npy", "-o", "g.npy"}), 2, "--grid: --output writes g.npy");
+    expect_error(write({"--grid", "g.npy", "-o", "g.npy", "-f", "json"}), 2, "--grid: --output writes g.npy");
     EXPECT_EQ(box.files(), std::vector<std::string>{});
     report_of(write({"--image", "/dev/null", "--grid", "/dev/null"}));
 }
@@ -164,7 +163,7 @@ TEST(Spectrum, AMeanOverSizesSaysWhichTheyAre) {
     const Sandbox box;
     const auto mean = box.shell(
         "stipple generate random -n 40 -o a.csv && stipple generate random -n 90 -o b.csv && "
-        "stipple analyze periodogram b.csv a.csv --average -o m.json");
+        "stipple analyze periodogram b.csv a.csv --pool -o m.json");
     EXPECT_THAT(mean.err, HasSubstr("differ in their number of points"));
     const json input = json::parse(box.read("m.json")).at("input");
     EXPECT_EQ(input.at("count"), 40);

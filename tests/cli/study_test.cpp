@@ -391,6 +391,18 @@ TEST(Study, ResumeKeepsWhatWaitsInTheJournal) {
     EXPECT_GE(std::stoi(good(box.shell(rows))), before);
 }
 
+TEST(Study, SaysWhichGeneratorsNeverDiffer) {
+    const Sandbox box;
+    const Outcome outcome = box.shell(
+        "stipple study --generators 'sobol;niederreiter:base=2;random;sobol:scramble=owen;pmj02' "
+        "-n "
+        "16,64 --seeds 4 --analyze moments --keys cube.mean --no-seconds --summary -o s.csv");
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_THAT(outcome.err, HasSubstr("sobol and niederreiter have the same values "
+                                       "everywhere: their sets may be the same points"));
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1);
+}
+
 // Rows are all there by then, and stay; so does the journal, which says that a summary is missing.
 TEST(Study, StopsWhileItSumsUp) {
     const Sandbox box;

@@ -110,6 +110,20 @@ TEST(PngPicture, SurvivesAnyChangedByte) {
     EXPECT_GT(refusals, (whole.size() - 8) * 2);
 }
 
+// Lengths take every one of their bytes; libpng checks the sums of the chunks.
+TEST(PngPicture, TextsOfAnyLengthComeBack) {
+    const std::string picture = png_of(9, 5, Samples(9 * 5, 99));
+    for (const std::size_t size : {0U, 1U, 255U, 256U, 65'535U, 70'000U, 20'000'000U}) {
+        const std::string text(size, 'x');
+        const std::string both = png_with_text(png_with_text(picture, "a", text), "bc", "short");
+        EXPECT_EQ(both.size(), picture.size() + 12 + 2 + size + 12 + 3 + 5);
+        EXPECT_TRUE(text_of_png(both, "a") == text) << size;
+        EXPECT_EQ(text_of_png(both, "bc"), "short");
+        EXPECT_EQ(text_of_png(both, "b"), std::nullopt);
+        EXPECT_EQ(read(both).grey, read(picture).grey);
+    }
+}
+
 TEST(PngPicture, RefusesWhatNeedsTooMuchMemory) {
     const std::string bytes = png_of(100, 100, Samples(10'000));
     EXPECT_EQ(error_of([&] { read_png(bytes, "p.png", {.max_memory = 100'000}); }),

@@ -34,13 +34,8 @@ using Compared = std::vector<std::optional<Known>>;
 Known exactly(double x) { return {x, x, x}; }
 
 Set page_set(const std::string& name, const PointSet& points, std::int64_t work = 1'000'000) {
-    Set set{.name = name,
-            .source = name,
-            .count = points.count(),
-            .dimension = points.dimension(),
-            .domain = points.domain->spec()};
-    set.measures = measure_set(points, {.words = name, .bounds = true}, work, {});
-    return set;
+    return finished_set({.name = name, .source = name}, points, {.words = name, .bounds = true},
+                        work, 0, false, {});
 }
 
 Page page_of(std::vector<Set> sets) {
@@ -98,6 +93,13 @@ TEST(Comparison, SetsOfDifferentSizesAreMarkedOnlyWhereThatDoesNotMatter) {
         }
     EXPECT_GT(marked, 0U);
     EXPECT_THAT(notes_on(sets), ElementsAre(HasSubstr("different numbers of points")));
+}
+
+TEST(Comparison, SaysWhichSetsAreTheSamePoints) {
+    const std::vector<Set> sets = {page_set("a", make("halton", points(64, 2))),
+                                   page_set("b", make("sobol", points(64, 2))),
+                                   page_set("c", make("halton", points(64, 2)))};
+    EXPECT_THAT(notes_on(sets), ElementsAre("a and c are the same points in the same order."));
 }
 
 TEST(Comparison, KnowsThatHaltonIsMoreEvenThanChance) {
@@ -315,7 +317,7 @@ TEST(PageHtml, SaysTheSameNumbersAsTheData) {
         for (std::size_t i = 0; i < 2; ++i) {
             const auto& value = row["values"][i];
             if (value.is_null() || row.contains("lower")) continue;
-            const auto at = html.find("<tr data-key=\"" + row["key"].get<std::string>() + "\">");
+            const auto at = html.find("<tr data-key=\"" + row["key"].get<std::string>() + "\"");
             ASSERT_NE(at, std::string::npos) << row["key"];
             const std::string cells = html.substr(at, html.find("</tr>", at) - at);
             std::regex cell("data-set=\"" + std::to_string(i) + "\" title=\"([^\",]*)");

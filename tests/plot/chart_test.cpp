@@ -279,6 +279,22 @@ TEST(ReportCharts, FilesOfOneNameAreOneCurveOfMeans) {
     EXPECT_TRUE(panel.series[1].low.empty());
 }
 
+TEST(ReportCharts, DigitsThatAreNoCountsStayInNames) {
+    const auto names = [](const std::vector<Measurement>& ms) {
+        std::vector<std::string> all;
+        const Chart chart = chart_of(ms);
+        for (const auto& series : chart.panels.at(0).series) all.push_back(series.name);
+        return all;
+    };
+    EXPECT_THAT(names({number(0.5, 16, "pmj02_16.npy"), number(0.4, 64, "pmj02_64.npy"),
+                       number(0.5, 16, "pmj_16.npy"), number(0.4, 64, "pmj_64.npy")}),
+                ElementsAre("pmj02", "pmj"));
+    EXPECT_THAT(names({number(0.5, 16, "rank1-lattice-n16-seed3.csv"),
+                       number(0.4, 64, "rank1-lattice-n64-seed14.csv")}),
+                ElementsAre("rank1-lattice"));
+    EXPECT_THAT(names({number(0.5, 16, "16.csv"), number(0.4, 64, "64.csv")}), ElementsAre(""));
+}
+
 // The root mean square of 3 and -4 is sqrt(12.5).
 TEST(ReportCharts, ErrorsAreDrawnByTheirRootMeanSquare) {
     std::vector<Measurement> ms;

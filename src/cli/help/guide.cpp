@@ -27,12 +27,6 @@ std::string_view text_of(std::string_view name) {
         ->text;
 }
 
-std::string lower(std::string_view text) {
-    std::string out(text);
-    std::ranges::transform(out, out.begin(), [](unsigned char c) { return std::tolower(c); });
-    return out;
-}
-
 /// Whether `word` stands in the text with no letter, digit or underscore beside it.
 bool has_word(std::string_view text, std::string_view word) {
     const auto joins = [&](std::size_t at) {
@@ -74,7 +68,7 @@ const std::vector<Topic>& topics() {
 }
 
 std::string coming_from(std::string_view name) {
-    std::string word = lower(name);
+    std::string word = lower_case(name);
     if (const auto dot = word.rfind('.'); dot != word.npos && word != peers_page)
         word.erase(0, dot + 1);
     const bool is_name = word.size() > 1 && std::isalpha(static_cast<unsigned char>(word[0])) != 0;
@@ -85,10 +79,10 @@ std::string coming_from(std::string_view name) {
     for (const auto line : split(text_of(peers_page), '\n')) {
         if (line.starts_with("## ")) {
             heading = line.substr(3);
-            all = word == peers_page || has_word(lower(heading), word);
+            all = word == peers_page || has_word(lower_case(heading), word);
             if (all) found += heading + "\n";
         } else if (line.starts_with("| `")) {
-            const bool asked = has_word(lower(line.substr(0, line.find("` | `"))), word);
+            const bool asked = has_word(lower_case(line.substr(0, line.find("` | `"))), word);
             if (asked && !all && !heading.empty()) found += std::exchange(heading, "") + "\n";
             if (asked || all) found += row_as_text(std::string(line));
         } else if (all && !line.empty() && !line.starts_with("|") && !line.starts_with("<!--")) {

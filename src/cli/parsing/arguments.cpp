@@ -157,7 +157,10 @@ const std::vector<CommonOption> rows = {
      analyze | plot | report},
     {"--rescale", "", "", "first map the bounding box of the points to the unit cube", analyze},
     {"--average", "", "",
-     "one result, the mean over all sets, with standard errors where they apply", analyze},
+     "one result, the mean over all sets, with standard errors where they apply; one of each kind "
+     "where the sets were made by different generators, options, counts or warps",
+     analyze},
+    {"--pool", "", "", "one mean of all sets, however they were made", analyze},
     {"--check", "[KEY<VALUE]", "",
      "exit with 1 unless it holds; also <= > >= == !=; mean[0] picks one of a list; alone: "
      "valid==true",

@@ -12,7 +12,7 @@
 
 namespace stipple {
 
-Spool::Spool(Buffered buffered) {
+Spool::Spool(Buffered buffered) : buffered_(buffered == Buffered::yes) {
     std::error_code none;
     folder_ = std::filesystem::temp_directory_path(none).string();
     if (none) folder_ = "/tmp";
@@ -22,10 +22,14 @@ Spool::Spool(Buffered buffered) {
     ::unlink(name.c_str());
     file_.reset(::fdopen(descriptor, "w+"));
     if (file_ == nullptr) refuse();
-    if (buffered == Buffered::no) std::setvbuf(file_.get(), nullptr, _IONBF, 0);
 }
 
 void Spool::write(std::string_view bytes) {
+    while (!buffered_ && !bytes.empty()) {
+        const auto written = ::write(::fileno(file_.get()), bytes.data(), bytes.size());
+        if (written < 0 && errno != EINTR) refuse();
+        if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
     if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) refuse();
 }
 

@@ -36,6 +36,7 @@ class Spool {
     };
     [[noreturn]] void refuse() const;
 
+    bool buffered_;
     std::string folder_;
     std::unique_ptr<std::FILE, Close> file_;
 };

@@ -15,13 +15,14 @@
 //
 // Shape   2 dimensions, indices below 2^53.
 // Cost    O(n), no memory.
-// Promise the above, for every seed. The points are those of sobol with nested uniform scrambling,
-//         to the bit.
+// Promise the above, for every seed. The points are those of sobol with nested uniform scrambling
+//         by another seed, a random number that its own gives: at one seed the two are independent.
 // Source  P. Christensen, A. Kensler, C. Kilpatrick, Comput. Graph. Forum 37 (4) (2018) 21-33,
 //         doi:10.1111/cgf.13472 (what the points are); A. B. Owen 1995,
 //         doi:10.1007/978-1-4612-2552-2_19 (scrambling); A. Helmer, P. Christensen, A. Kensler,
 //         EGSR (2021), doi:10.2312/sr.20211287 (that it makes such sequences).
 
+#include "core/rng.hpp"
 #include "generators/digital/sobol_directions.hpp"
 #include "generators/net_sequence.hpp"
 
@@ -29,9 +30,11 @@ namespace stipple::generators::pmj02 {
 namespace {
 
 constexpr std::size_t index_digits = 53;
+constexpr std::uint64_t scrambling_stream = 0x706d6a3032;  // "pmj02"
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values&, const RunContext&) {
-    return owen_sequence(sobol_matrices(2, index_digits), plan.seed);
+    return owen_sequence(sobol_matrices(2, index_digits),
+                         Rng(plan.seed, scrambling_stream).bits(0));
 }
 
 }  // namespace
@@ -43,10 +46,11 @@ Generator unit() {
                 "intervals",
             .source =
                 "Christensen, Kensler, Kilpatrick 2018, doi:10.1111/cgf.13472; made by "
-                "nested uniform scrambling, Owen 1995, doi:10.1007/978-1-4612-2552-2_19: the "
-                "points of sobol:scramble=owen of the same seed",
+                "nested uniform scrambling of Sobol's points, Owen 1995, "
+                "doi:10.1007/978-1-4612-2552-2_19, as sobol:scramble=owen is with other seeds",
             .traits = {.min_dimension = 2, .max_dimension = 2},
             .options = Schema(),
+            .stream_version = 2,
             .sequence = make};
 }
 

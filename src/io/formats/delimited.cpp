@@ -395,6 +395,7 @@ struct TableHead {
     Columns columns;
     bool names = false;          ///< the first line is a header
     bool row_names = false;      ///< the first column, which has no name
+    std::string counter = {};    ///< the first column, taken for a coordinate, that counts the rows
     const char* body = nullptr;  ///< where rows begin
 
     void tell_row_names(const std::string& source, const RunContext& run) const {
@@ -403,8 +404,30 @@ struct TableHead {
                 fmt::format("{}: the first column has no name: it holds row names, and is "
                             "left out; --column picks columns by number",
                             source_name(source)));
+        if (!counter.empty())
+            run.notify(
+                fmt::format("{}: the column '{}' counts the rows, and is taken for a "
+                            "coordinate; --column picks the others",
+                            source_name(source), counter));
     }
 };
+
+/// Whether the first fields of the rows are 0, 1, 2, ... or 1, 2, 3, ..., as far as a thousand of
+/// them tell.
+bool counts_rows(const SourceText& text, const char* body, char separator) {
+    constexpr int few = 3;
+    constexpr int enough = 1000;
+    int rows = 0;
+    double first = 0;
+    for (const char* at = body; at != text.end() && rows < enough; at = next_line(text, at)) {
+        const std::string_view line = line_at(text, at);
+        if (trim(line).empty() || trim(line).starts_with('#')) continue;
+        const auto number = parse_number(fields_of(line, separator).front().text);
+        if (rows == 0) first = number.value_or(-1);
+        if (!number || *number != first + rows++) return false;
+    }
+    return rows >= few && (first == 0 || first == 1);
+}
 
 TableHead read_head(const SourceText& text, const ReadOptions& options) {
     TableHead head{.top = read_top(text), .dialect = {}, .columns = {}};
@@ -422,6 +445,10 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
                                   fmt::format("{}:{}", text.source(), head.dialect.model_line));
     head.top.provenance.density_column = head.columns.density;
     head.body = head.names ? head.top.next : head.top.first;
+    if (head.names && !head.row_names && fields.size() > 1 && options.columns.empty() &&
+        !options.all_columns && names[0] != "set" &&
+        counts_rows(text, head.body, head.dialect.separator))
+        head.counter = names[0];
     return head;
 }
 

@@ -98,7 +98,7 @@ Format unit() {
         .name = "utk",
         .summary = "UTK's binary files: 'UTK!', sets, points, dimension, numbers",
         .source = "UTK, the Uni{corn|form} tool kit",
-        .extensions = {},
+        .extensions = {".utk"},
         .traits = {.binary = true, .equal_sets = true, .counts_first = true, .meta_beside = true},
         .head = head,
         .rows = rows,

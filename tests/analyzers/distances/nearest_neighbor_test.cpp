@@ -185,6 +185,15 @@ TEST(NearestNeighbor, HexagonsInABoxThatFitsThemHaveRelativeRadiusOne) {
     EXPECT_LE(measure(unit, "relative_radius", square), 1);
 }
 
+// On a torus of 100 by 1, two points 50 apart are 1 from their own copies.
+TEST(NearestNeighbor, RelativeRadiusIsAtMostOneOnALongTorus) {
+    PointSet set({0.0, 0.5, 50.0, 0.5}, 2);
+    set.domain = box_domain(Box{{0, 0}, {100, 1}});
+    EXPECT_EQ(measure(unit, "minimum", set), 50);
+    EXPECT_NEAR(measure(unit, "relative_radius", set), 1 / std::sqrt(200 / (2 * std::sqrt(3))),
+                1e-14);
+}
+
 TEST(NearestNeighbor, HasNoRelativeRadiusWhereNoPackingIsKnown) {
     EXPECT_EQ(analyze(unit, make("random", points(9, 9))).find("relative_radius"), nullptr);
 }

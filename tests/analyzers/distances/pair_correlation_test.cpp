@@ -233,6 +233,21 @@ TEST(PairCorrelation, SmoothingIsTheSumOverPairs) {
     }
 }
 
+// On the circle of length 1 distances are uniform in [0, 1/2], so that w has the mean 8 h / 3 and the
+// mean square 32 h / 15 away from 0, and half of both at 0.
+TEST(PairCorrelation, DeviationOfSmoothedDensitiesByHand) {
+    const Report found = report(
+        make("random", points(100, 1)),
+        {{"max-distance", "0.4"}, {"bins", "40"}, {"kernel", "epanechnikov"}, {"bandwidth", "5"}});
+    const double h = 0.05;
+    for (const std::size_t at : {0U, 5U, 17U, 40U}) {
+        const double share = at == 0 ? 0.5 : 1;
+        const double mean = share * 8 * h / 3;
+        const double variance = share * 32 * h / 15 - mean * mean;
+        EXPECT_NEAR(found.curve("deviation")[at], std::sqrt(variance / 4950) / mean, 1e-12) << at;
+    }
+}
+
 TEST(PairCorrelation, UnitsOfTheMeanDistanceFitSetsOfAnySize) {
     const PointSet few = make("random", points(1000, 2));
     const Report plain = report(few, {{"max-distance", "0.1"}});

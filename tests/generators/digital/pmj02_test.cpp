@@ -47,6 +47,22 @@ TEST(Pmj02, EachPointIsUniformOverSeeds) {
     }
 }
 
+// At one seed, as studies compare them. The correlation of two independent uniform numbers over 4000
+// seeds scatters by 1 / sqrt(4000) about 0: false alarms of 5 deviations 6e-7.
+TEST(Pmj02, IsIndependentOfScrambledSobolPoints) {
+    constexpr int seeds = 4000;
+    double covariance = 0;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+        const PointSet one = make("pmj02", points(4, 2), {}, {.seed = seed});
+        const PointSet other = make("sobol", points(4, 2), {{"scramble", "owen"}}, {.seed = seed});
+        EXPECT_FALSE(std::ranges::equal(one.flat(), other.flat()));
+        covariance += 12 * (one[0][0] - 0.5) * (other[0][0] - 0.5) / seeds;
+        const auto last = make("pmj02", points(4, 2), {}, {.seed = seed + 1});
+        EXPECT_FALSE(std::ranges::equal(one.flat(), last.flat()));
+    }
+    EXPECT_LT(std::abs(covariance), 5 / std::sqrt(seeds));
+}
+
 TEST(Pmj02, AnyStretchIsThatOfTheWhole) { EXPECT_TRUE(stretches_agree("pmj02", points(700, 2))); }
 
 TEST(Pmj02, IsOfThePlane) {

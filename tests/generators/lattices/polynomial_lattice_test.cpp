@@ -12,6 +12,7 @@
 #include "support/nets.hpp"
 #include "support/scrambling.hpp"
 #include "support/sequences.hpp"
+#include "support/temporary_file.hpp"
 
 namespace stipple::testing::polynomial_lattice_test {
 namespace {
