@@ -122,7 +122,8 @@ std::string kind_of(const Provenance& made, std::uint64_t count) {
     for (const auto& [name, value] : made.options) kind += fmt::format(" {}={}", name, value);
     for (const std::string& warp : made.warps) kind += " -w " + warp;
     // A count that was not asked for may differ from seed to seed.
-    if (made.command.find(" --count ") != std::string::npos) kind += fmt::format(" -n {}", made.count);
+    if (made.command.find(" --count ") != std::string::npos)
+        kind += fmt::format(" -n {}", made.count);
     return fmt::format("{} {} {} {}", kind, made.start, made.shard, made.bounds);
 }
 

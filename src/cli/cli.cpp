@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <map>
@@ -57,7 +56,7 @@ int dispatch(const Arguments& arguments) {
     try {
         session.tell_warnings();
     } catch (const std::bad_alloc&) {  // the files are in place
-        std::fputs("stipple: out of memory for its warnings\n", stderr);
+        say("stipple: out of memory for its warnings\n");
     }
     return code;
 }
@@ -90,7 +89,7 @@ int run_verb(int argc, char** argv) {
     try {
         if (const auto caught = std::current_exception()) std::rethrow_exception(caught);
     } catch (const std::bad_alloc&) {
-        std::fputs("stipple: out of memory\n", stderr);
+        say("stipple: out of memory\n");
         std::_Exit(exit_code(ErrorKind::limit));
     } catch (...) {
     }

@@ -165,7 +165,7 @@ void say_line(std::string_view sentence) {
     say(fmt::format("stipple: {}\n", printable(cut_short(sentence))));
 }
 
-void say(const std::string& text) {
+void say(std::string_view text) {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
 }

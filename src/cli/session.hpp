@@ -62,7 +62,7 @@ class Session {
 };
 
 /// Text on stderr; a closed or full stderr is no error.
-void say(const std::string& text);
+void say(std::string_view text);
 
 /// A line "stipple: SENTENCE" on stderr, whoever's words are in it.
 void say_line(std::string_view sentence);

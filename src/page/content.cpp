@@ -124,11 +124,12 @@ std::optional<Known> known_under(const Set& set, std::string_view key) {
     const Report* found = set.results(key.substr(0, dot));
     if (found == nullptr || dot == std::string_view::npos) return std::nullopt;
     const std::string_view path = key.substr(dot + 1);
+    const auto lower = path == "value" ? number_at(*found, "lower") : std::nullopt;
     const auto value = number_at(*found, path);
-    if (!value || std::isnan(*value)) return std::nullopt;
-    if (path != "value") return Known{*value, *value, *value};
-    return Known{*value, number_at(*found, "lower").value_or(*value),
-                 number_at(*found, "upper").value_or(*value)};
+    const auto known = value ? value : lower;
+    if (!known || std::isnan(*known)) return std::nullopt;
+    if (!lower) return Known{*known, *known, *known};
+    return Known{*known, *lower, number_at(*found, "upper").value_or(*known)};
 }
 
 std::vector<bool> best_of(std::span<const std::optional<Known>> values, Better better) {

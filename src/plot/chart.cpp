@@ -373,7 +373,8 @@ TitledDrawing titled_drawing(const std::string& title, const std::string& subtit
         y += 1.45 * size;
     };
     put(first, 15, true, style.theme->ink);
-    put(subtitle, 12, false, style.theme->text);
+    const bool untitled = style.title && style.title->empty();
+    if (!untitled) put(subtitle, 12, false, style.theme->text);
     return {std::move(drawing), y == picture_margin ? y : y + 5};
 }
 

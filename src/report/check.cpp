@@ -64,13 +64,15 @@ std::optional<Range> bounds_of(const Check& check, const Report& report) {
                  number_of(check, report, group + "upper" + index)};
 }
 
-/// What a condition on a `value` is about: it must hold for both bounds.
-double bounded(const Check& check, const Report& report, double found) {
+/// What a condition is about: of a `value` between bounds, it must hold for both.
+double bounded(const Check& check, const Report& report) {
+    const bool known = report.find(check.key.substr(0, check.key.find('['))) != nullptr;
+    const double found = known ? number_of(check, report, check.key) : 0;
     const auto range = bounds_of(check, report);
-    if (!range) return found;
+    if (!range || range->lower == range->upper)
+        return known ? found : number_of(check, report, check.key);
     if (check.op[0] == '<') return range->upper;
     if (check.op[0] == '>') return range->lower;
-    if (range->lower == range->upper) return found;
     refuse(check,
            "'{}' is only known to be between {} and {}; compare it with <, <=, > or >=", check.key,
            format_number(range->lower), format_number(range->upper));
@@ -135,7 +137,7 @@ bool Check::holds(const Report& report) const {
             refuse(*this, "'{}' is '{}', a word; compare it with == or !=", key, word);
         return (word == value) == (op == "==");
     }
-    const double found = bounded(*this, report, number_of(*this, report, key));
+    const double found = bounded(*this, report);
     const auto wanted = parse_number(value);
     if (!wanted) refuse(*this, "'{}' is not a number to compare '{}' with", value, key);
     return compare(found, op, *wanted);

@@ -210,7 +210,11 @@ Measured measured(const SweepRequest& request, const Chosen<Analyzer>& measure,
     });
     if (found.failure) return found;
     found.numbers = numbers_of(report, request.keys, request.curves);
-    if (found.numbers.empty())
+    if (found.numbers.empty() && report.find("lower") && report.find("upper"))
+        found.failure = Failure{fmt::format(
+            "its value is not known, but that it is between {} and {}",
+            format_number(report.number("lower")), format_number(report.number("upper")))};
+    else if (found.numbers.empty())
         found.failure = Failure{fmt::format("none of its results is asked for; they are {}",
                                             join(report.keys(), ", "))};
     return found;

@@ -175,7 +175,7 @@ TEST(Analyze, ChecksAndExpectationsSetTheExitCode) {
     const Outcome two = box.run({"analyze", "star-discrepancy", "h.csv", "h.csv", "--method",
                                  "bounds", "--max-work", "1", "--tolerance", "0"});
     EXPECT_EQ(two.code, 0);
-    EXPECT_THAT(two.err, HasSubstr("stipple: h.csv: the star discrepancy is not exact"));
+    EXPECT_THAT(two.err, HasSubstr("stipple: h.csv: the star discrepancy is not known, but"));
 }
 
 TEST(Analyze, SaysWhatTakesPointsOffASurface) {

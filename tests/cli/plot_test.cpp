@@ -77,6 +77,19 @@ TEST(Plot, TakesEveryFormatThatIsRead) {
               box.read("npy.svg").substr(box.read("npy.svg").find("</metadata>")));
 }
 
+TEST(Plot, AnEmptyTitleIsNone) {
+    const Sandbox box;
+    good(box.shell(
+        "stipple generate halton -n 64 -o a.csv; stipple analyze periodogram a.csv -o p.json"));
+    for (const char* input : {"a.csv", "p.json"}) {
+        const std::string told = good(box.run({"plot", input, "-f", "svg"}));
+        const std::string untold = good(box.run({"plot", input, "-f", "svg", "--title", ""}));
+        const char* subtitle = input[0] == 'a' ? ">64 points" : ">n = 64, d = 2";
+        EXPECT_THAT(told, HasSubstr(subtitle)) << input;
+        EXPECT_THAT(untold, ::testing::Not(HasSubstr(subtitle))) << input;
+    }
+}
+
 TEST(Plot, PngHasTheSizeAskedForAndSaysWhereItComesFrom) {
     const Sandbox box;
     good(
@@ -92,7 +105,7 @@ TEST(Plot, PngHasTheSizeAskedForAndSaysWhereItComesFrom) {
 
 TEST(Plot, DrawsReportsOfAnalyzers) {
     const Sandbox box;
-    good(box.shell("stipple generate jittered -n 64 -m 3 -f json -o j.json"));
+    good(box.shell("stipple generate random -n 64 -m 3 -f json -o j.json"));
     good(box.shell("stipple analyze periodogram j.json --average | stipple plot -o power.svg"));
     EXPECT_THAT(xml(box, "power.svg", "text"),
                 HasSubstr("Power spectrum of 3 sets: j.json|n = 64, d = 2 · effective Nyquist"));

@@ -154,7 +154,8 @@ TEST(Spectrum, FilesAreOfTheFormatThatTheyAreNamedFor) {
     };
     expect_error(write({"--image", "p.jpg"}), 2, "--image: writes .png; 'p.jpg' has another name");
     expect_error(write({"--grid", "g.csv"}), 2, "--grid: writes .npy; 'g.csv' has another name");
-    expect_error(write({"--grid", "g.npy", "-o", "g.npy", "-f", "json"}), 2, "--grid: --output writes g.npy");
+    expect_error(write({"--grid", "g.npy", "-o", "g.npy", "-f", "json"}), 2,
+                 "--grid: --output writes g.npy");
     EXPECT_EQ(box.files(), std::vector<std::string>{});
     report_of(write({"--image", "/dev/null", "--grid", "/dev/null"}));
 }

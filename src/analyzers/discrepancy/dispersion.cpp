@@ -73,7 +73,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     Report box;
     box.add("lower_corner", found.worst.corner(&Interval::lower));
     box.add("upper_corner", found.worst.corner(&Interval::upper));
-    return report_of(found, how(d)).add("box", std::move(box));
+    return report_of(found, limits.search.tolerance, how(d)).add("box", std::move(box));
 }
 
 /// A mean of boxes is none.
@@ -91,7 +91,9 @@ Analyzer unit() {
         .traits = {.max_dimension = 1000},
         .options =
             Schema(torus, limit::method, limit::time_limit, limit::tolerance, limit::max_work),
-        .results = {{"value", "volume of the largest empty box that was found"},
+        .results = {{"value",
+                     "volume of the largest empty box: only where it is exact, or the bounds are "
+                     "within --tolerance"},
                     {"lower", "some box is at least so large"},
                     {"upper", "none is larger"},
                     {"exact", "whether the two bounds are the same", true, true_or_false},

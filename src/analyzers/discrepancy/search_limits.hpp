@@ -98,8 +98,9 @@ struct SearchResult {
 SearchResult result_of_sweep(WorstBox worst, bool complete, const SearchLimits& limits,
                              const RunContext& run);
 
-/// The results that every search has: value, lower, upper, exact, method.
-Report report_of(const SearchResult& found, const char* method);
+/// The results that every search has: lower, upper, exact, method; and value, where it is exact or
+/// upper - lower <= tolerance * lower.
+Report report_of(const SearchResult& found, double tolerance, const char* method);
 
 /// Progress of a search for what is between these bounds: how much of the gap is closed, and words
 /// that say where it is. Ticks.

@@ -167,6 +167,18 @@ TEST(PoissonDiskVerification, AnExpectationThatDoesNotHoldSaysWhy) {
                                        "point"});
 }
 
+TEST(PoissonDiskVerification, AMeanOfSetsIsValidWhereAllAre) {
+    const Analyzer& analyzer = find_analyzer(unit);
+    Values options = analyzer.options.defaults();
+    analyzer.options.set(options, "expect", "valid");
+    for (const std::optional<bool> valid : {std::optional<bool>(), {false}, {true}}) {
+        Report mean;
+        if (valid) mean.add("valid", *valid);
+        analyzer.refine(mean, 2, options);
+        EXPECT_EQ(mean.unmet().empty(), valid == true);
+    }
+}
+
 TEST(PoissonDiskVerification, OfASinglePoint) {
     const PointSet lone = points_of({{0.25, 0.25}});
     EXPECT_TRUE(flag(analyze(unit, lone, with(0.75)), "valid"));

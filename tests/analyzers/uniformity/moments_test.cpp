@@ -170,6 +170,22 @@ TEST(Moments, LargestZIsFiniteWhateverThePoints) {
     EXPECT_DOUBLE_EQ(measure("moments", "cube.largest_z", same), 1.5);
 }
 
+// Each in turn is the farthest off: the variance 1/2 of 0 and 1, of standard error
+// sqrt((1/80 + 1/144) / 2) for two points; the covariance 1/8 of two points on the diagonal, of
+// 1/12; the skewness of one point far from three, of sqrt(72 / (35 n)).
+TEST(Moments, LargestZIsThatOfAnyMoment) {
+    const auto largest = [](const PointSet& set) {
+        return measure("moments", "cube.largest_z", set);
+    };
+    EXPECT_NEAR(largest(points_of({{0}, {1}})), (5 / 12.) / std::sqrt(7 / 720.), 1e-13);
+    EXPECT_NEAR(largest(points_of({{0.25, 0.25}, {0.75, 0.75}})), 1.5, 1e-13);
+    EXPECT_NEAR(largest(points_of({{0.25, 0.75}, {0.75, 0.25}})), 1.5, 1e-13);
+    // About the mean 1/2: three at -0.1 and one at 0.3.
+    const double skewness = 0.006 / std::pow(0.03, 1.5);
+    EXPECT_NEAR(largest(points_of({{0.4}, {0.4}, {0.4}, {0.8}})), skewness / std::sqrt(72 / 140.),
+                1e-12);
+}
+
 TEST(Moments, SayWhoseExactValuesTheyAre) {
     const PointSet cube = make("random", {100, 2});
     const Report naive = analyze("moments", warped(*mapping("disk:method=naive"), cube));

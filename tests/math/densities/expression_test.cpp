@@ -171,6 +171,12 @@ TEST(Expression, SaysAtWhichColumnWhatIsExpected) {
         EXPECT_NE(refused(text), "") << text;
 }
 
+TEST(Expression, QuotesTheWholeWordThatItDoesNotKnow) {
+    for (const std::string word : {"foo0bar", "f9", "Az_0", "zZ"})
+        EXPECT_NE(refused("x + " + word + " * y").find("'" + word + "'"), std::string::npos)
+            << word;
+}
+
 TEST(Expression, DropsBlanksFromItsText) {
     EXPECT_EQ(Expression("density", "1 - x * x", 1).text(), "1-x*x");
 }

@@ -11,6 +11,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "core/spec.hpp"
@@ -179,6 +180,18 @@ TEST(Integrands, DependOnTheirSeeds) {
         EXPECT_EQ(exact(3), exact(3)) << kind.name;
         EXPECT_NE(exact(3), exact(4)) << kind.name;
     }
+}
+
+// Half planes lie in all directions, so that either of two corners is in many without the other.
+TEST(Integrands, HalfPlanesLieInAllDirections) {
+    std::map<std::pair<double, double>, int> seen;
+    for (int seed = 1; seed <= 800; ++seed) {
+        const Integrand half = integrand(fmt::format("half-plane-indicator:seed={}", seed), 2);
+        ++seen[{half.value(std::array{0.0, 1.0}), half.value(std::array{1.0, 0.0})}];
+        ++seen[{2 + half.value(std::array{0.0, 0.0}), 2 + half.value(std::array{1.0, 1.0})}];
+    }
+    EXPECT_EQ(seen.size(), 8U);
+    for (const auto& [corners, times] : seen) EXPECT_GT(times, 40) << corners.first;
 }
 
 TEST(Integrands, AreDescribed) {

@@ -82,7 +82,7 @@ struct Found {
     const char* method = "branch-and-bound";
 };
 
-Report report(const Found& found, Family family) {
+Report report(const Found& found, double tolerance, Family family) {
     const WorstBox& worst = found.result.worst;
     Report box;
     if (family >= Family::cube) box.add("lower_corner", worst.corner(&Interval::lower));
@@ -90,7 +90,7 @@ Report report(const Found& found, Family family) {
     box.add("closed", worst.closed());
     box.add("points", worst.points());
     box.add("volume", worst.volume());
-    return report_of(found.result, found.method).add("worst_box", std::move(box));
+    return report_of(found.result, tolerance, found.method).add("worst_box", std::move(box));
 }
 
 Family family_of(const Values& options) {
@@ -153,7 +153,7 @@ Report measure(const star::Member& set, const Values& options, const RunContext&
     const BoxGrid grid = box_grid(points, family, set.peers != nullptr ? unstopped(run) : run);
     const Found found = search(grid, set, run);
     set.limits.judge(found.result, fmt::format("the {} discrepancy", options[kind]), points, run);
-    return report(found, family);
+    return report(found, set.limits.search.tolerance, family);
 }
 
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
@@ -192,7 +192,8 @@ void refine(Report& mean, std::size_t sets, const Values&) {
 
 std::vector<ResultKey> results() {
     std::vector<ResultKey> keys = {
-        {"value", "the star discrepancy; where exact is false, lower"},
+        {"value",
+         "the star discrepancy: only where it is exact, or the bounds are within --tolerance"},
         {"lower", "it is at least this"},
         {"upper", "it is at most this"},
         {"exact", "whether the two bounds are the same", true, true_or_false},
@@ -213,7 +214,8 @@ std::vector<ResultKey> results() {
         {"worst_box.volume", "its volume"},
         {"prefixes.count", "points of each prefix", false}};
     const auto add_columns = [&](const std::string& table) {
-        keys.push_back({table + ".value", "its star discrepancy", false});
+        keys.push_back(
+            {table + ".value", "its star discrepancy, or nothing where it is not known", false});
         keys.push_back({table + ".lower", "which is at least this", false});
         keys.push_back({table + ".upper", "and at most this", false});
         keys.push_back({table + ".exact", "1 where the two are the same, else 0", false});
@@ -230,7 +232,7 @@ std::vector<ResultKey> results() {
          {"projections.worst", "the axes of that one", false},
          {"projections.worst_is_certain",
           "whether the bounds of no other projection reach above its value", false, true_or_false},
-         {"projections.largest.value", "the largest value", false},
+         {"projections.largest.value", "the largest value, where that is certain", false},
          {"projections.largest.lower", "the largest of all is at least this", false},
          {"projections.largest.upper", "and at most this", false}});
     return keys;

@@ -14,12 +14,12 @@
 namespace stipple::discrepancy::star {
 namespace {
 
-/// The columns that every table has.
+/// The columns that every table has. A value that is not known is NaN.
 struct Columns {
     explicit Columns(std::size_t rows) : value(rows), lower(rows), upper(rows) {}
 
     void put(std::size_t row, const Report& found) {
-        value[row] = found.number("value");
+        value[row] = found.find("value") ? found.number("value") : std::nan("");
         lower[row] = found.number("lower");
         upper[row] = found.number("upper");
     }
@@ -43,7 +43,7 @@ struct Columns {
 Report least_known(std::size_t count) {
     const double lower = 0.5 / static_cast<double>(count);
     Report known;
-    known.add("value", lower).add("lower", lower).add("upper", 1.0);
+    known.add("lower", lower).add("upper", 1.0);
     return known;
 }
 
@@ -84,11 +84,11 @@ class Table {
         std::size_t open = 0;
         std::size_t first = 0;
         for (std::size_t row = rows_; row-- > 0;)
-            if (columns.lower[row] < columns.upper[row]) ++open, first = row;
+            if (std::isnan(columns.value[row])) ++open, first = row;
         if (open == 0 || run_.stop.stop_requested()) return;
         run_.notify(fmt::format(
-            "{} of {} discrepancies are not exact, but between bounds, of which the lower is given "
-            "as the value; the first, of {}, is between {} and {}",
+            "{} of {} discrepancies are not known, but that they are between bounds; the first, of "
+            "{}, is between {} and {}",
             open, rows_, name(first), format_number(columns.lower[first]),
             format_number(columns.upper[first])));
     }
@@ -187,7 +187,8 @@ void carry_bounds(const std::vector<std::size_t>& sizes, Columns& columns) {
         const double step = step_between(n, m);
         columns.upper[to] = std::min(columns.upper[to], columns.upper[from] + step);
         columns.lower[to] = std::max(columns.lower[to], columns.lower[from] - step);
-        columns.value[to] = columns.lower[to];
+        if (!std::isnan(columns.value[to]) || columns.lower[to] == columns.upper[to])
+            columns.value[to] = columns.lower[to];
     };
     for (std::size_t row = 1; row < sizes.size(); ++row) carry(row - 1, row);
     for (std::size_t row = sizes.size(); row-- > 1;) carry(row, row - 1);
@@ -230,7 +231,9 @@ void add_largest(Report& table) {
     for (std::size_t row = 0; row < upper.size(); ++row)
         certain = certain && (row == worst || upper[row] <= lower[worst]);
     Report largest;
-    for (const char* name : {"value", "lower", "upper"})
+    const double value = table.curve("value")[worst];
+    if (certain && !std::isnan(value)) largest.add("value", value);
+    for (const char* name : {"lower", "upper"})
         largest.add(name, std::ranges::max(table.curve(name)));
     table.add("worst_is_certain", certain);
     table.add("largest", std::move(largest));
