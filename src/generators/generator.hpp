@@ -38,12 +38,17 @@ class Sequence {
     Sequence(Fill fill, bool random_access, Found found = {})
         : fill_(std::move(fill)), random_access_(random_access), found_(std::move(found)) {}
 
+    /// Files that come with the points.
+    std::vector<SideFile> side_files = {};
+
     /// Writes points first, first + 1, ... until `rows` (a multiple of the dimension) is full;
     /// coordinates in [0, 1). With random_access() several threads may call it at once.
     void fill(std::uint64_t first, std::span<double> rows) const { fill_(first, rows); }
 
     /// False for a sequential engine: going on is cheap, any other step costs a walk to it.
     [[nodiscard]] bool random_access() const { return random_access_; }
+
+    void set_found(Found found) { found_ = std::move(found); }
 
     /// What a search found, by name: a lattice's vector, and how good it is.
     [[nodiscard]] std::vector<std::pair<std::string, std::string>> found() const {
@@ -95,6 +100,9 @@ struct Generator {
         sequence = {};
     /// A set may put what it worked out (a radius) into its provenance's options.
     std::function<PointSet(const Plan&, const Values&, const RunContext&)> set = {};
+
+    /// Writes down what options mean together, for the provenance: a rule that a vector implies.
+    std::function<void(Values&)> settle = {};
 
     /// Whether the points depend on the seed under these options; empty: as traits.seeded says.
     std::function<bool(const Values&)> uses_seed = {};

@@ -104,6 +104,7 @@ GeneratedSets::GeneratedSets(SetsToMake asked, const RunContext& run)
       plan_(plan_for(generator_, asked_.request, asked_.options)),
       chain_(std::make_shared<WarpChain>(asked_.warps, plan_.dimension, ChainSet{}, run)),
       domain_(asked_.request.bounds ? box_domain(*asked_.request.bounds) : chain_->domain()) {
+    if (generator_.settle) generator_.settle(asked_.options);
     auto files = files_of(generator_.options, asked_.options, generator_.writes);
     files.insert(files.end(), chain_->files().begin(), chain_->files().end());
     inputs_ = fingerprints(files);
@@ -166,7 +167,8 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
                           ? points_of(*sequence(set, steady), plan, asked_.request.start, steady)
                           : generator_.set(plan, asked_.options, run);
     auto worked_out = std::move(points.provenance.options);
-    auto side_files = std::move(points.side_files);
+    auto side_files =
+        generator_.traits.sequence ? this->side_files() : std::move(points.side_files);
     double efficiency = 1;
     if (bounds_) scale_into(*bounds_, points.flat());
     if (!chain_->empty()) {
@@ -183,6 +185,10 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
 
 void GeneratedSets::prepare(const RunContext& run) const {
     if (!uses_seed(generator_, asked_.options)) sequence_ = sequence(0, run);
+}
+
+std::vector<SideFile> GeneratedSets::side_files() const {
+    return sequence_ ? sequence_->side_files : std::vector<SideFile>();
 }
 
 Provenance GeneratedSets::provenance(std::uint64_t set, std::uint64_t count) const {

@@ -73,6 +73,9 @@ class GeneratedSets {
     /// what a search found.
     void prepare(const RunContext& run) const;
 
+    /// What comes with the sequence that was made last.
+    [[nodiscard]] std::vector<SideFile> side_files() const;
+
     /// Where a set of so many points comes from.
     [[nodiscard]] Provenance provenance(std::uint64_t set, std::uint64_t count) const;
 

@@ -30,9 +30,9 @@ void keep_common(Provenance& common, const Provenance& other) {
     });
 }
 
-void write_side_files(const PointSet& set, const Target& target, io::Outputs& outputs,
-                      const RunContext& run) {
-    for (const SideFile& file : set.side_files)
+void write_side_files(const std::vector<SideFile>& files, const Target& target,
+                      io::Outputs& outputs, const RunContext& run) {
+    for (const SideFile& file : files)
         if (!target.take) outputs.add(file.path, run.stop).write(file.bytes);
 }
 
@@ -97,7 +97,7 @@ void write_images(const std::vector<PointSet>& images, const WarpChain& chain,
     for (const PointSet& set : images) {
         job.counts.push_back(set.count());
         keep_common(common, set.provenance);
-        write_side_files(set, target, outputs, run);
+        write_side_files(set.side_files, target, outputs, run);
     }
     write_files(job, target, outputs, run);
 }
@@ -123,7 +123,7 @@ void write_made(std::size_t sets, const MakeSet& make, const WarpChain& chain,
         WaitingSets waiting;
         for (std::size_t set = 0; set < sets; ++set) {
             if (set > 0) held[0] = make(set);
-            write_side_files(held[0], target, outputs, run);
+            write_side_files(held[0].side_files, target, outputs, run);
             waiting.add(held[0]);
         }
         held.clear();
@@ -348,7 +348,8 @@ class Producer {
             const auto& item = job_.options.find(option);
             if (!item.given) continue;
             const auto& path = std::get<std::string>(item.value);
-            if (job_.sets > 1 && !file_per_set(path))
+            // All sets of a sequence have one such file.
+            if (job_.sets > 1 && !generator_.traits.sequence && !file_per_set(path))
                 fail(ErrorKind::usage, "--{}: {} sets need a name with {{set}} or {{seed}}", option,
                      job_.sets);
             if (path_of_set(path, 0, seed) == path_of_set(target_.path, 0, seed))
@@ -375,6 +376,7 @@ class Producer {
         const std::uint64_t count = last - first;
         const RunContext run = run_.rising();
         sets_.prepare(run);
+        io::Outputs outputs;
         write_files(
             {.sets = job_.sets,
              .domain = sets_.domain(),
@@ -386,7 +388,9 @@ class Producer {
              .first_seed = sets_.plan().seed,
              .counts = Counts::equal(job_.sets, count),
              .starts = true},
-            target_, run);
+            target_, outputs, run);
+        write_side_files(sets_.side_files(), target_, outputs, run);
+        outputs.commit();
     }
 
     /// One set, made, warped and cut in memory.

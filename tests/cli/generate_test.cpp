@@ -330,6 +330,45 @@ TEST(Warp, TellsItsDensityAtGivenPoints) {
     EXPECT_EQ(at({"power", "--exponent", "-1/2"}, "0\n").code, 3);
 }
 
+// What a search found is read by others, and by --vector-file, and stands in the provenance.
+TEST(Generate, WritesVectorsAsOtherPackagesDo) {
+    const Sandbox box;
+    for (const std::string lattice : {"rank1-lattice --rule cbc", "polynomial-lattice"})
+        for (const std::string form : {"lddata", "latnet-builder"}) {
+            SCOPED_TRACE(lattice + form);
+            const std::string make = "stipple generate " + lattice + " -n 256 -d 4 ";
+            good(box.shell(make + "--vector-output v.txt --vector-format " + form + " -o p.json"));
+            const json meta = json::parse(box.read("p.json"))["meta"];
+            EXPECT_EQ(meta["options"]["rule"], "cbc");
+            std::string vector = meta["found"]["vector"];
+            EXPECT_GT(meta["found"]["squared_error"].get<double>(), 0);
+            std::ranges::replace(vector, ',', '\n');
+            EXPECT_TRUE(box.read("v.txt").ends_with("\n" + vector + "\n")) << box.read("v.txt");
+            const std::string name = lattice.substr(0, lattice.find(' '));
+            const std::string given = "stipple generate " + name + " --vector-file v.txt ";
+            EXPECT_EQ(good(box.shell(given)), good(box.shell(make)));
+            good(box.shell(given + "--vector-output w.txt --vector-format " + form + " -o q.json"));
+            EXPECT_EQ(box.read("w.txt"), box.read("v.txt"));
+            EXPECT_EQ(json::parse(box.read("q.json"))["meta"]["options"]["rule"], "vector");
+            EXPECT_FALSE(json::parse(box.read("q.json"))["meta"].contains("found"));
+        }
+    good(box.shell("stipple generate rank1-lattice --rule fibonacci --vector-output f.txt"));
+    EXPECT_EQ(box.read("f.txt"), "# lattice\n2  # dimensions\n987  # points\n1\n610\n");
+    box.write("i.txt",
+              "# Parameters for a polynomial lattice rule in base 2\n1  # dimensions\n2  # "
+              "Interlacing factor\n2  # Number of components\n3  # m, of 2^m points\n11  # "
+              "modulus\n1\n5\n");
+    const std::string interlaced =
+        "stipple generate polynomial-lattice --vector-file i.txt --vector-output j.txt ";
+    good(box.shell(interlaced + "--vector-format latnet-builder"));
+    EXPECT_EQ(box.read("j.txt"), box.read("i.txt"));
+    expect_refusal(box.shell(interlaced), 2, "lddata has no interlaced lattices");
+    expect_refusal(box.shell("stipple generate rank1-lattice --vector-format lddata"), 2,
+                   "--vector-format is of --vector-output, which is not given");
+    expect_refusal(box.shell("stipple generate rank1-lattice --vector-output p.csv -o p.csv"), 2,
+                   "is where the points go");
+}
+
 TEST(Generate, SinglePrecisionNeverHoldsOne) {
     const Sandbox box;
     good(box.run({"generate", "random", "-n", "1e6", "-d", "1", "-o", "p.f32"}));

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "generators/lattices/lattice_options.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <optional>
 
 #include "core/error.hpp"
 #include "generators/net_sequence.hpp"
+#include "math/digital/gf2.hpp"
 #include "media/token_file.hpp"
 
 namespace stipple {
@@ -69,6 +72,39 @@ VectorFile vector_in_file(const Values& options, bool polynomial) {
         file.refuse_whole(fmt::format("{} components; expected {}", found.vector.size(),
                                       wanted > 0 ? std::to_string(wanted) : "some"));
     return found;
+}
+
+std::vector<SideFile> vector_files(const Values& options, const VectorFile& lattice) {
+    if (!options.given(vector_output)) {
+        if (options.given(vector_format))
+            fail(ErrorKind::usage, "--vector-format is of --vector-output, which is not given");
+        return {};
+    }
+    const bool latnet = options[vector_format] == "latnet-builder";
+    const bool polynomial = lattice.modulus > 0;
+    if (lattice.interlaced > 1 && !latnet)
+        fail(ErrorKind::usage,
+             "--vector-format: lddata has no interlaced lattices; latnet-builder has");
+    std::string text = latnet       ? "# Parameters for a lattice rule\n"
+                       : polynomial ? "# plattice\n2  # base\n"
+                                    : "# lattice\n";
+    if (latnet && polynomial) text = "# Parameters for a polynomial lattice rule in base 2\n";
+    const auto line = [&text](std::uint64_t number, std::string_view what) {
+        text += fmt::format("{}  # {}\n", number, what);
+    };
+    line(lattice.vector.size() / lattice.interlaced, "dimensions");
+    if (lattice.interlaced > 1) {
+        line(lattice.interlaced, interlacing_comment);
+        line(lattice.vector.size(), "Number of components");
+    }
+    if (polynomial) {
+        line(static_cast<std::uint64_t>(gf2::degree(lattice.modulus)), "m, of 2^m points");
+        line(lattice.modulus, "modulus");
+    } else {
+        line(lattice.points, "points");
+    }
+    for (const std::uint64_t component : lattice.vector) text += fmt::format("{}\n", component);
+    return {{options[vector_output], std::move(text)}};
 }
 
 void check_weights(const Values& options, bool searches, std::string_view searching,

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/options.hpp"
+#include "stipple/points.hpp"
 
 namespace stipple {
 
@@ -30,6 +31,16 @@ inline constexpr Param<Path> vector_file{
      .help = "File of a generating vector: a line a coordinate, with its value, or its number from "
              "1 and its value; or as LDData or LatNet Builder write lattices"}};
 
+inline constexpr Param<Path> vector_output{
+    {.name = "vector-output", .help = "Also writes the generating vector to this file"}};
+
+inline constexpr Param<Choice> vector_format{
+    .name = "vector-format",
+    .choices = "lddata|latnet-builder",
+    .help =
+        "Form of --vector-output: that of LDData (the default), or of LatNet Builder; "
+        "--vector-file reads both"};
+
 /// What a file says of a lattice.
 struct VectorFile {
     std::vector<std::uint64_t> vector;
@@ -44,6 +55,9 @@ struct VectorFile {
 /// @throws Error(input) naming file, line and column, also for a lattice of the other kind
 /// Source  github.com/QMCSoftware/LDData, README.md
 VectorFile vector_in_file(const Values& options, bool polynomial);
+
+/// The file that --vector-output asks for; none where it does not.
+std::vector<SideFile> vector_files(const Values& options, const VectorFile& lattice);
 
 /// Refuses both at once, and either where nothing is searched. @throws Error(usage)
 /// @param searching the rules that search, as a message names them

@@ -27,6 +27,7 @@
 #include <bit>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "generators/generator.hpp"
 #include "generators/lattices/lattice_options.hpp"
 #include "generators/lattices/polynomial_search.hpp"
@@ -150,7 +151,18 @@ std::unique_ptr<Sequence> make(const Plan& decided, const Values& options, const
                            gf2::degree(modulus));
     std::vector<DigitMatrix> matrices;
     for (const std::uint64_t q : vector) matrices.push_back(hankel(q, modulus));
-    return net_sequence(2, interlace(std::move(matrices), file.interlaced), decided, options);
+    auto points =
+        net_sequence(2, interlace(std::move(matrices), file.interlaced), decided, options);
+    points->side_files = vector_files(
+        options, {.vector = vector, .interlaced = file.interlaced, .modulus = modulus});
+    if (searches(options))
+        points->set_found([=, weights = weights_of(options, decided.dimension)] {
+            return std::vector{
+                std::pair{std::string("vector"), fmt::format("{}", fmt::join(vector, ","))},
+                std::pair{std::string("squared_error"),
+                          format_number(squared_polynomial_error(modulus, vector, weights))}};
+        });
+    return points;
 }
 
 }  // namespace
@@ -163,9 +175,14 @@ Generator unit() {
                 "Baldeaux et al. 2012, doi:10.1007/s11075-011-9497-y",
             .traits = {.prefix = false},
             .options = Schema(rule, modulus_option, vector_option, vector_file, product_weights,
-                              weight_decay, binary_scramble),
+                              weight_decay, vector_output, vector_format, binary_scramble),
+            .writes = {std::string(vector_output.name)},
             .plan = plan,
             .sequence = make,
+            .settle =
+                [](Values& options) {
+                    if (!searches(options)) options.put(rule.name, std::string("vector"), false);
+                },
             .uses_seed = binary_uses_seed,
             .notes = binary_notes};
 }

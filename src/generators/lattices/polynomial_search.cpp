@@ -17,6 +17,7 @@
 #include "generators/lattices/polynomial_search.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -102,6 +103,31 @@ class Search {
 
 double digital_shift_kernel(double x) {
     return x == 0 ? 1. / 6 : 1. / 6 - std::ldexp(0.5, std::ilogb(x));
+}
+
+double squared_polynomial_error(std::uint64_t modulus, std::span<const std::uint64_t> vector,
+                                std::span<const double> weights) {
+    const int m = gf2::degree(modulus);
+    const auto digits = static_cast<std::size_t>(m);
+    std::vector<double> kernel{omega(0, m)};  // of polynomials of degree j - 1
+    for (int j = 0; j < m; ++j) kernel.push_back(omega(std::uint64_t{1} << j, m));
+    std::vector<std::uint64_t> shifted;  // q x^t mod modulus for each component
+    for (std::uint64_t q : vector)
+        for (int t = 0; t < m; ++t) {
+            shifted.push_back(q);
+            q = q << 1 ^ ((q >> (m - 1) & 1) != 0 ? modulus : 0);
+        }
+    std::vector<std::uint64_t> at(vector.size());  // i q mod modulus, i in the order of Gray's code
+    double sum = 0;
+    for (std::uint64_t i = 0; i < std::uint64_t{1} << m; ++i) {
+        double product = 1;
+        for (std::size_t k = 0; k < at.size(); ++k) {
+            if (i > 0) at[k] ^= shifted[k * digits + static_cast<std::size_t>(std::countr_zero(i))];
+            product *= 1 + weights[k] * kernel[static_cast<std::size_t>(std::bit_width(at[k]))];
+        }
+        sum += product - 1;
+    }
+    return std::ldexp(sum, -m);
 }
 
 std::vector<std::uint64_t> polynomial_components(std::uint64_t modulus,

@@ -30,6 +30,11 @@ inline constexpr int largest_searched_degree = 22;
 /// omega of a coordinate.
 double digital_shift_kernel(double x);
 
+/// The mean square of the worst-case errors of all digitally shifted copies of a polynomial lattice of
+/// all 2^deg(modulus) points, in the space that the weights make.
+double squared_polynomial_error(std::uint64_t modulus, std::span<const std::uint64_t> vector,
+                                std::span<const double> weights);
+
 /// The vector that grows from 1 by the component with the least e^2; of those that are equally good
 /// but for rounding, by the smallest number. One component a weight. The modulus is irreducible, of
 /// degree 1 to largest_searched_degree.

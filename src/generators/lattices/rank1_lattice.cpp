@@ -204,7 +204,9 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
                 std::pair{std::string("squared_error"),
                           format_number(squared_lattice_error(n, z, weight))}};
         };
-    return std::make_unique<Sequence>(multiples(plan.count, z), true, std::move(found));
+    auto points = std::make_unique<Sequence>(multiples(plan.count, z), true, std::move(found));
+    points->side_files = vector_files(options, {.vector = z, .points = plan.count});
+    return points;
 }
 
 std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
@@ -244,10 +246,12 @@ Generator unit() {
             .source = "Nuyens & Cools 2006, doi:10.1090/S0025-5718-06-01785-6; Sloan & Joe 1994",
             .traits = {.prefix = false, .seeded = false},
             .options = Schema(rule, multiplier, effort, vector, vector_file, product_weights,
-                              weight_decay),
+                              weight_decay, vector_output, vector_format),
             .aliases = {"lattice", "rank-1-lattice"},
+            .writes = {std::string(vector_output.name)},
             .plan = plan,
             .sequence = make,
+            .settle = [](Values& options) { options.put(rule.name, rule_of(options), false); },
             .notes = notes};
 }
 

@@ -128,6 +128,24 @@ TEST(PolynomialLattice, InThePlaneTIsThatOfTheContinuedFraction) {
     }
 }
 
+// Against the points themselves; with the lattice that is its own mirror image, and one point.
+TEST(PolynomialLattice, ErrorOfAVectorIsThatOfItsPoints) {
+    const std::vector<double> weights = {1, 0.5, 0.25, 0.7};
+    for (const std::uint64_t modulus : {2ULL, 3ULL, 11ULL, 16ULL, 283ULL, 1033ULL}) {
+        const std::uint64_t n = std::uint64_t{1} << gf2::degree(modulus);
+        const std::vector<std::uint64_t> vector = {1, n - 1, n / 2, n / 3 + 1};
+        const std::span<const double> some(weights);
+        const PointSet set = make("polynomial-lattice", {.count = n}, given(modulus, vector));
+        EXPECT_NEAR(squared_polynomial_error(modulus, vector, some), error_of_points(set, weights),
+                    1e-13)
+            << modulus;
+        EXPECT_NEAR(
+            squared_polynomial_error(modulus, std::vector<std::uint64_t>{1}, some.first(1)),
+            error_of_points(make("polynomial-lattice", {.count = n}, given(modulus, {1})), {1}),
+            1e-13);
+    }
+}
+
 TEST(PolynomialLattice, IsClosedUnderXor) {
     const PointSet set = make("polynomial-lattice", points(64, 3));
     std::set<std::vector<int>> all;
