@@ -25,16 +25,17 @@ Spool::Spool(Buffered buffered) : buffered_(buffered == Buffered::yes) {
 }
 
 void Spool::write(std::string_view bytes) {
+    if (buffered_ && std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size())
+        refuse();
     while (!buffered_ && !bytes.empty()) {
         const auto written = ::write(::fileno(file_.get()), bytes.data(), bytes.size());
         if (written < 0 && errno != EINTR) refuse();
         if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
     }
-    if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) refuse();
 }
 
 void Spool::rewind() {
-    if (std::fflush(file_.get()) != 0) refuse();
+    if (buffered_ && std::fflush(file_.get()) != 0) refuse();
     std::rewind(file_.get());
 }
 
