@@ -188,17 +188,13 @@ class Analysis {
         if (!bounds || !options_.try_find("metric")) return;
         const auto ranges = std::ranges::count(*bounds, ',') + 1;
         const Box box = parse_box(*bounds, static_cast<std::size_t>(ranges));
-        double shortest = box.extent(0);
-        double longest = shortest;
-        for (std::size_t k = 1; k < box.dimension(); ++k) {
-            shortest = std::min(shortest, box.extent(k));
-            longest = std::max(longest, box.extent(k));
-        }
+        std::vector<double> sides;
+        for (std::size_t k = 0; k < box.dimension(); ++k) sides.push_back(box.extent(k));
+        const auto [shortest, longest] = std::ranges::minmax(sides);
         if (longest > shortest)
             session_.warn(
-                fmt::format("the sides of --bounds are from {} to {} long, and distances "
-                            "add up what is measured along them; --rescale measures in "
-                            "the unit cube",
+                fmt::format("the sides of --bounds are between {} and {} long, and distances mix "
+                            "their units; --rescale maps the points to the unit cube first",
                             format_number(shortest), format_number(longest)));
     }
 
@@ -357,27 +353,22 @@ class Analysis {
                 naming(input,
                        [&] { sets[set] = prepared(std::move(sets[set]), analyzer_, arguments_); });
             });
-            std::string kind = kind_of(sets[set].provenance, count);
+            std::string kind = averaged_ ? kind_of(sets[set].provenance, count) : "";
             add({std::move(sets[set]), input, number_of(set, sets.size()), std::move(kind)});
         }
     }
 
     /// Prefixes of sets whose points come in no order, or in that of their places, tell little.
     void warn_of_prefixes(const Provenance& made) {
-        const bool asked =
-            std::ranges::any_of(std::array{"prefixes", "every"}, [&](const char* name) {
-                const auto* option = options_.try_find(name);
-                return option != nullptr && option->given;
-            });
+        if (told_of_prefixes_ || !(text_of("prefixes") || text_of("every"))) return;
         const Generator* generator = generator_named(made.generator);
         const bool progressive =
             std::ranges::find(made.options, std::pair<std::string, std::string>(
                                                 "order", "progressive")) != made.options.end();
-        if (!asked || !generator || generator->traits.prefix || progressive || told_of_prefixes_)
-            return;
+        if (!generator || generator->traits.prefix || progressive) return;
         told_of_prefixes_ = true;
         session_.warn(fmt::format(
-            "{} makes whole sets: their prefixes are no sets that it would make", made.generator));
+            "{} makes sets as a whole: their prefixes are not sets of its kind", made.generator));
     }
 
     /// Takes a set, and measures those that wait when they have become many. Large sets do not
@@ -467,12 +458,12 @@ class Analysis {
                 const Arrival points =
                     arrival_of(*stream, !strengths_.empty(), analyzer_, arguments_, run);
                 const Provenance& made = stream->provenance();
-                if (!made.generator.empty()) kind = kind_of(made, 0);
-                options_ = options_for(kind, points.dimension());
+                if (averaged_ && !made.generator.empty()) kind = kind_of(made, 0);
+                if (averaged_) options_ = options_for(kind, points.dimension());
                 Measurement m = measured_in_blocks(
                     points, within_bounds(read, points, 0, analyzer_, arguments_), input, sets,
                     run);
-                if (kind.empty()) kind = kind_of(made, m.count);
+                if (averaged_ && kind.empty()) kind = kind_of(made, m.count);
                 keep(std::move(m), kind, inputs_.size() > 1 || sets > 0);
             });
         if (sets == 1 && measurements_.size() == before + 1) measurements_.back().set.reset();
@@ -579,8 +570,8 @@ class Analysis {
         }
         if (groups_.size() > 1)
             session_.warn(
-                fmt::format("the sets are of {} kinds, each of which has its own mean; "
-                            "--pool gives one of all",
+                fmt::format("the sets are of {} kinds, and each kind has its own mean; --pool "
+                            "gives one mean of all",
                             groups_.size()));
     }
 

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/bytes/file_bytes.hpp"
@@ -66,14 +65,6 @@ void refuse_without_points(const std::string& name, std::string_view front) {
         {has("<!DOCTYPE html") || has("<html"), "an HTML page, which holds no points", ""}};
     for (const auto& [is_it, what, hint] : others)
         if (is_it) fail_with_hint(ErrorKind::input, hint, "{}: {}", name, what);
-}
-
-/// What a path names, which may be nothing. @throws Error(io) where that cannot be told
-std::filesystem::file_status status_of(const std::string& path) {
-    std::error_code trouble;
-    const auto status = std::filesystem::status(path, trouble);
-    if (!status_known(status)) refuse_file(path, trouble.value());
-    return status;
 }
 
 /// A pipe's bytes, on disk.

@@ -252,11 +252,10 @@ class Reporter {
 
     /// A value may be known by its bounds alone.
     static bool has(const Report& all, const std::string& key) {
-        constexpr std::string_view value = ".value";
         const std::string path = key.substr(0, key.find('['));
-        const bool bounded = path.ends_with(value) && all.find(path) == nullptr;
-        const std::string group = path.substr(0, path.size() - value.size() * bounded);
-        const Report::Item* item = all.find(bounded ? group + ".lower" : path);
+        const Report::Item* item = all.find(path);
+        if (item == nullptr && path.ends_with(".value"))
+            item = all.find(path.substr(0, path.rfind('.')) + ".lower");
         return item != nullptr && !std::holds_alternative<Report>(*item);
     }
 

@@ -2,7 +2,6 @@
 #include "pipeline/chain.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -436,10 +435,7 @@ std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const st
     std::vector<std::pair<std::string, std::string>> all;
     for (const std::string& file : files) {
         // What is read from a pipe can be read once; what is not there, its reader complains of.
-        std::error_code trouble;
-        const auto status = std::filesystem::status(file, trouble);
-        if (!status_known(status)) refuse_file(file, trouble.value());
-        const bool kept = is_regular_file(status);
+        const bool kept = is_regular_file(status_of(file));
         all.emplace_back(
             file, kept ? format_fingerprint(fingerprint(read_file(file))) : std::string(not_kept));
     }

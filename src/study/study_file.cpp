@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -22,20 +21,12 @@ constexpr const char* journal_format = "stipple.study-journal";
 
 std::string journal_of(const std::string& path) { return path + ".journal"; }
 
-/// What the path names; nothing where nothing is there. @throws Error(io) where that cannot be told
-std::optional<struct stat> status_of(const std::string& path) {
-    struct stat status {};
-    if (::stat(path.c_str(), &status) == 0) return status;
-    if (errno != ENOENT && errno != ENOTDIR) refuse_file(path, errno);
-    return std::nullopt;
-}
-
 [[noreturn]] void refuse(const std::string& path) {
     const auto slash = path.rfind('/');
     const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
     if (errno == ENOENT)
         fail(ErrorKind::io, "{}: {}", path,
-             status_of(folder) ? "no file can be made in its folder" : "no such folder");
+             exists(status_of(folder)) ? "no file can be made in its folder" : "no such folder");
     refuse_file(path, errno);
 }
 
@@ -58,8 +49,25 @@ void cut_to(int descriptor, std::uint64_t size, const std::string& path) {
     if (::ftruncate(descriptor, static_cast<off_t>(size)) != 0) refuse(path);
 }
 
+/// Whether the bytes are on the disk. Some file systems have nothing to synchronise, and say so.
+bool is_synchronised(int result) { return result == 0 || errno == EINVAL || errno == ENOTSUP; }
+
+[[noreturn]] void refuse_place(const std::string& path, std::uint64_t line) {
+    fail(ErrorKind::input,
+         "{}:{}: this row is not where the study has it; it was moved or rows are missing", path,
+         line);
+}
+
+std::vector<std::string> keys_of(const std::vector<StudyRow>& rows) {
+    std::vector<std::string> keys;
+    for (const StudyRow& row : rows) keys.push_back(row.key);
+    return keys;
+}
+
+}  // namespace
+
 /// Lines of a file, which may not be there. A read that fails is not its end.
-class Lines {
+class StudyFile::Lines {
   public:
     explicit Lines(const std::string& path) : path_(path), in_(path, std::ios::binary) {
         if (!in_.is_open() && errno != ENOENT) refuse_file(path_, errno);
@@ -86,31 +94,13 @@ class Lines {
     bool empty_ = true;
 };
 
-/// Whether the bytes are on the disk. Some file systems have nothing to synchronise, and say so.
-bool is_synchronised(int result) { return result == 0 || errno == EINVAL || errno == ENOTSUP; }
-
-[[noreturn]] void refuse_place(const std::string& path, std::uint64_t line) {
-    fail(ErrorKind::input,
-         "{}:{}: this row is not where the study has it; it was moved or rows are missing", path,
-         line);
-}
-
-std::vector<std::string> keys_of(const std::vector<StudyRow>& rows) {
-    std::vector<std::string> keys;
-    for (const StudyRow& row : rows) keys.push_back(row.key);
-    return keys;
-}
-
-}  // namespace
-
 StudyFile::StudyFile(std::string path, const Sweep& sweep, const StudyTable& table, Start start,
                      Listener listener, const RunContext& run)
     : path_(std::move(path)), sweep_(sweep), table_(table), listener_(std::move(listener)) {
-    const auto status = path_ == "-" ? std::nullopt : status_of(path_);
-    if (status && S_ISDIR(status->st_mode))
+    const auto status = status_of(path_);
+    if (path_ != "-" && is_directory(status))
         fail(ErrorKind::io, "{}: is a folder, not a file", path_);
-    const bool is_file = path_ != "-" && (!status || S_ISREG(status->st_mode));
-    if (is_file) {
+    if (path_ != "-" && (!exists(status) || is_regular_file(status))) {
         open_file(start, run);
         return;
     }
@@ -133,7 +123,7 @@ void StudyFile::sync() {
 
 void StudyFile::open_file(Start start, const RunContext& run) {
     const bool resume = start == Start::resume;
-    const bool unfinished = status_of(journal_of(path_)).has_value();
+    const bool unfinished = exists(status_of(journal_of(path_)));
     Lines lines(path_);
     std::string first;
     const bool empty = lines.is_empty();
@@ -207,15 +197,14 @@ void StudyFile::read_journal() {
         return begin_journal();
     if (head["study"] != sweep_.fingerprint()) refuse_other(head["settings"]);
     journal_size_ = line.size() + 1;
-    const auto next = [&lines](std::string& text) { return lines.take(text); };
-    while (read_entry(next)) {
+    while (read_entry(lines)) {
     }
     cut_to(journal_, journal_size_, journal_of(path_));
 }
 
-bool StudyFile::read_entry(const NextLine& next) {
+bool StudyFile::read_entry(Lines& lines) {
     std::string line;
-    if (!next(line)) return false;
+    if (!lines.take(line)) return false;
     std::vector<std::uint64_t> numbers;
     for (const auto word : split(line, ' ')) numbers.push_back(parse_unsigned(word).value_or(0));
     if (numbers.empty()) return false;
@@ -223,7 +212,7 @@ bool StudyFile::read_entry(const NextLine& next) {
                     .offset = journal_size_ + line.size() + 1};
     for (std::uint64_t unit = numbers[0]; std::uint64_t left : waiting.bytes) {
         do {  // a crash may have left other bytes than those that were written
-            if (!next(line) || line.size() + 1 > left) return false;
+            if (!lines.take(line) || line.size() + 1 > left) return false;
             const auto row = table_.parse(line);
             if (!row || !is_of(*row, unit)) return false;
             left -= line.size() + 1;

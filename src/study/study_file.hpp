@@ -83,8 +83,8 @@ class StudyFile {
     void open_journal();
     void begin_journal();
     void read_journal();
-    using NextLine = std::function<bool(std::string& line)>;
-    bool read_entry(const NextLine& next);
+    class Lines;
+    bool read_entry(Lines& lines);
     void read_rows(const RunContext& run);
     [[nodiscard]] bool is_of(const StudyRow& row, std::uint64_t unit) const;
     [[noreturn]] void refuse_other(const Json& found) const;

@@ -212,7 +212,7 @@ Measured measured(const SweepRequest& request, const Chosen<Analyzer>& measure,
     found.numbers = numbers_of(report, request.keys, request.curves);
     if (found.numbers.empty() && report.find("lower") && report.find("upper"))
         found.failure = Failure{fmt::format(
-            "its value is not known, but that it is between {} and {}",
+            "its value is not known exactly; it is between {} and {}",
             format_number(report.number("lower")), format_number(report.number("upper")))};
     else if (found.numbers.empty())
         found.failure = Failure{fmt::format("none of its results is asked for; they are {}",

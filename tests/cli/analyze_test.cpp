@@ -175,7 +175,9 @@ TEST(Analyze, ChecksAndExpectationsSetTheExitCode) {
     const Outcome two = box.run({"analyze", "star-discrepancy", "h.csv", "h.csv", "--method",
                                  "bounds", "--max-work", "1", "--tolerance", "0"});
     EXPECT_EQ(two.code, 0);
-    EXPECT_THAT(two.err, HasSubstr("stipple: h.csv: the star discrepancy is not known, but"));
+    EXPECT_THAT(
+        two.err,
+        HasSubstr("stipple: h.csv: the star discrepancy is not known exactly; it is between "));
 }
 
 TEST(Analyze, SaysWhatTakesPointsOffASurface) {
@@ -515,8 +517,9 @@ TEST(Analyze, SaysWhatPrefixesAndMixedUnitsTell) {
         return outcome.err;
     };
     const std::string prefixes = "star-discrepancy --prefixes 16,64";
-    EXPECT_THAT(notes("jittered -n 64 -m 2 --meta", prefixes),
-                HasSubstr("jittered makes whole sets: their prefixes are no sets that it would"));
+    EXPECT_THAT(
+        notes("jittered -n 64 -m 2 --meta", prefixes),
+        HasSubstr("jittered makes sets as a whole: their prefixes are not sets of its kind"));
     for (const char* make : {"sobol -n 64 --meta", "jittered -n 64",
                              "poisson-disk -n 64 "
                              "--order progressive --meta"})
@@ -524,8 +527,8 @@ TEST(Analyze, SaysWhatPrefixesAndMixedUnitsTell) {
     EXPECT_EQ(notes("jittered -n 64 --meta", "star-discrepancy"), "");
     const std::string make = "random -n 30 --bounds 0..1,0..100";
     EXPECT_EQ(notes(make, "nearest-neighbor --bounds 0..1,0..100"),
-              "stipple: the sides of --bounds are from 1 to 100 long, and distances add up what is "
-              "measured along them; --rescale measures in the unit cube\n");
+              "stipple: the sides of --bounds are between 1 and 100 long, and distances mix their "
+              "units; --rescale maps the points to the unit cube first\n");
     EXPECT_EQ(notes(make, "nearest-neighbor --bounds 0..100"), "");
     EXPECT_EQ(notes(make, "star-discrepancy --bounds 0..1,0..100"), "");
 }
@@ -545,7 +548,7 @@ TEST(Analyze, AveragesEachKindOfSetsByItself) {
         const Outcome outcome = box.shell(line + "d.csv a.csv b.json c.csv e.csv g.csv --average");
         ASSERT_EQ(outcome.code, 0) << outcome.err;
         EXPECT_THAT(outcome.err, HasSubstr("the sets are of 5 kinds"));
-        EXPECT_THAT(outcome.err, HasSubstr("--pool gives one of all"));
+        EXPECT_THAT(outcome.err, HasSubstr("--pool gives one mean of all"));
         const json means = json::parse(outcome.out);
         ASSERT_EQ(means.size(), 5U);
         EXPECT_EQ(means[1]["input"]["sets"], 3);

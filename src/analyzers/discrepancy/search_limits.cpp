@@ -26,7 +26,7 @@ SearchResult result_of_sweep(WorstBox worst, bool complete, const SearchLimits& 
 Report report_of(const SearchResult& found, double tolerance, const char* method) {
     const double value = found.worst.value();
     Report results;
-    if (found.upper - value <= tolerance * value) results.add("value", value);
+    if (found.within(tolerance)) results.add("value", value);
     results.add("lower", value).add("upper", found.upper);
     return results.add("exact", found.upper == value).add("method", method);
 }
@@ -87,17 +87,15 @@ void Limits::give_up(const SearchResult& found, const std::string& what,
 
 void Limits::judge(const SearchResult& found, const std::string& what, const PointSet& points,
                    const RunContext& run) const {
-    const double lower = found.worst.value();
-    const bool near = found.upper - lower <= search.tolerance * lower;
     const bool cut = found.ending == Ending::work || found.ending == Ending::time;
     if (exact && (cut || found.ending == Ending::tolerance)) give_up(found, what, points);
-    if (!cut || near) return;
+    if (!cut || found.within(search.tolerance)) return;
     const std::string missed =
         search.tolerance > 0
             ? fmt::format(" (--tolerance {} was not reached)", format_number(search.tolerance))
             : "";
-    run.notify(fmt::format("{} is not known, but that it is between {} and {}{}", what,
-                           format_number(lower), format_number(found.upper), missed));
+    run.notify(fmt::format("{} is not known exactly; it is between {} and {}{}", what,
+                           format_number(found.worst.value()), format_number(found.upper), missed));
 }
 
 }  // namespace stipple::discrepancy

@@ -92,14 +92,19 @@ struct SearchResult {
     WorstBox worst;
     double upper;   ///< no value is above this
     Ending ending;  ///< if `complete`, the worst box is the worst of all
+
+    /// Whether upper - lower <= tolerance * lower.
+    [[nodiscard]] bool within(double tolerance) const {
+        return upper - worst.value() <= tolerance * worst.value();
+    }
 };
 
 /// Of one that found the worst of all, or was cut short, so that any value may be its upper bound.
 SearchResult result_of_sweep(WorstBox worst, bool complete, const SearchLimits& limits,
                              const RunContext& run);
 
-/// The results that every search has: lower, upper, exact, method; and value, where it is exact or
-/// upper - lower <= tolerance * lower.
+/// The results that every search has: lower, upper, exact, method; and value, where these are within
+/// the tolerance.
 Report report_of(const SearchResult& found, double tolerance, const char* method);
 
 /// Progress of a search for what is between these bounds: how much of the gap is closed, and words

@@ -51,6 +51,13 @@ void refuse_file(const std::string& name, int error) {
     fail(kind, "{}: {}", name, file_trouble(error));
 }
 
+std::filesystem::file_status status_of(const std::string& path) {
+    std::error_code trouble;
+    const auto status = std::filesystem::status(path, trouble);
+    if (!status_known(status)) refuse_file(path, trouble.value());
+    return status;
+}
+
 std::string read_file(const std::string& path) {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
         std::fopen(FileRules::readable(path).c_str(), "rb"), &std::fclose);

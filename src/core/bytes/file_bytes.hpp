@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@ namespace stipple {
 /// @param error errno: what went wrong with the file. @throws Error(io) "NAME: what"; Error(limit)
 /// where it was memory
 [[noreturn]] void refuse_file(const std::string& name, int error);
+
+/// What a path names, which may be nothing. @throws Error(io) where that cannot be told
+std::filesystem::file_status status_of(const std::string& path);
 
 /// Reads the file at once. @throws Error(io): missing, a directory, unreadable; Error(limit): larger
 /// than 1 GiB, or what limit_whole_files() said.

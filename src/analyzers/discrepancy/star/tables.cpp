@@ -87,8 +87,7 @@ class Table {
             if (std::isnan(columns.value[row])) ++open, first = row;
         if (open == 0 || run_.stop.stop_requested()) return;
         run_.notify(fmt::format(
-            "{} of {} discrepancies are not known, but that they are between bounds; the first, of "
-            "{}, is between {} and {}",
+            "{} of {} discrepancies are not known exactly; the first, of {}, is between {} and {}",
             open, rows_, name(first), format_number(columns.lower[first]),
             format_number(columns.upper[first])));
     }

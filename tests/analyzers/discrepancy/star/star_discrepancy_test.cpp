@@ -686,7 +686,7 @@ TEST(StarDiscrepancy, ExactOrNothingExceptWhatIsCertain) {
     expect_box_holds(p, bounds);
     ASSERT_EQ(told.size(), 1U);
     EXPECT_EQ(told[0],
-              fmt::format("the star discrepancy is not known, but that it is between {} and {}",
+              fmt::format("the star discrepancy is not known exactly; it is between {} and {}",
                           part.worst.value(), part.upper));
     told.clear();
     analyze("star-discrepancy", p,
@@ -1018,7 +1018,8 @@ TEST(StarDiscrepancy, LimitsAreForAllRowsOfATable) {
     EXPECT_GT(open, 0U);
     EXPECT_LT(open, 8U);
     ASSERT_EQ(told.size(), 1U);
-    EXPECT_THAT(told[0], HasSubstr(fmt::format("{} of 8 discrepancies are not known", open)));
+    EXPECT_THAT(told[0],
+                HasSubstr(fmt::format("{} of 8 discrepancies are not known exactly", open)));
     EXPECT_THAT(told[0], HasSubstr("the first, of the first "));
     const Report again = rows({{"every", "20"}, {"max-work", "4000000"}}, {.threads = 3});
     for (const char* key : {"prefixes.lower", "prefixes.upper"})
