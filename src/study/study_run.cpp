@@ -134,14 +134,23 @@ class Leader {
     void take(const Work& ranges, const WorkDone& result) {
         const std::lock_guard lock(mutex_);
         --running_;
-        left_.finish(ranges, result.seconds);
-        too_large_.insert(too_large_.end(), result.too_large.begin(), result.too_large.end());
-        for (const Segment& segment : result.segments) alive_ = alive_ && file_.put(segment);
-        if (!alive_) stop_all();
+        try {
+            left_.finish(ranges, result.seconds);
+            too_large_.insert(too_large_.end(), result.too_large.begin(), result.too_large.end());
+            for (const Segment& segment : result.segments) alive_ = alive_ && file_.put(segment);
+            if (!alive_) stop_all();
+        } catch (...) {
+            // Still locked: another thread would take the broken file for a pipe nobody reads.
+            stop_for(std::current_exception());
+        }
     }
 
     void give_up(std::exception_ptr error) {
         const std::lock_guard lock(mutex_);
+        stop_for(std::move(error));
+    }
+
+    void stop_for(std::exception_ptr error) {
         if (!error_ && !halted_) error_ = std::move(error);
         stop_all();
     }
