@@ -8,6 +8,7 @@
 #include <stop_token>
 
 #include "pipeline/chain.hpp"
+#include "support/pictures.hpp"
 #include "support/steps.hpp"
 #include "support/warping.hpp"
 
@@ -492,6 +493,27 @@ TEST(ChiSquare, OnePointInAGapIsEnough) {
         points[4][0] = 1.5;
         EXPECT_EQ(analyze("chi-square", points).number("impossible_points"), 1) << spec;
         EXPECT_EQ(verdict(points), "non-uniform") << spec;
+    }
+}
+
+// A bright square in the middle of 3 x 3 pixels: points off its edges by rounding are no gap's.
+TEST(ChiSquare, PointsOnTheEdgesOfPixelsAreInNoGap) {
+    const TemporaryFile file(
+        npy_of<double>("<f8", "(3, 3)", std::vector<double>{0, 0, 0, 0, 1, 0, 0, 0, 0}));
+    const auto map = mapping("image:file=" + file.path());
+    PointSet points = warped(*map, uniform(900, 5));
+    points.domain = map->domain();
+    const double low = std::nextafter(1 / 3.0, 0) - 1e-9;
+    const double high = 2 / 3.0 + 1e-9;
+    points[0][0] = points[4][0] = points[5][0] = low;
+    points[1][0] = points[6][0] = points[7][0] = high;
+    points[2][1] = points[4][1] = points[6][1] = low;
+    points[3][1] = points[5][1] = points[7][1] = high;
+    EXPECT_EQ(analyze("chi-square", points).number("impossible_points"), 0);
+    for (const std::size_t i : {0, 1, 2, 3}) {
+        PointSet far = points;
+        far[i][i / 2] += i % 2 == 0 ? -1e-3 : 1e-3;
+        EXPECT_EQ(analyze("chi-square", far).number("impossible_points"), 1) << i;
     }
 }
 

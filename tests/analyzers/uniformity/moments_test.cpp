@@ -94,6 +94,13 @@ TEST(Moments, DoNotDependOnWhatSumsAreTakenAbout) {
     }
 }
 
+// 1e16 + 1 - 1e16 = 1: what rounding takes from a sum is carried along.
+TEST(Moments, CarryWhatRoundingTakes) {
+    analyzers::MomentSums sums({0.0});
+    for (const double x : {1e16, 1.0, -1e16, 0.0}) sums.add(std::vector{x}, {});
+    EXPECT_EQ(sums.moments().value.mean[0], 0.25);
+}
+
 // 100 sets: each standard error is that of the spread between the sets within 30 %, which 100
 // values miss with a chance of 2e-5.
 TEST(Moments, StandardErrorsAreTheSpreadBetweenSets) {

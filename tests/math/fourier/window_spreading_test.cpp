@@ -128,6 +128,17 @@ TEST(WindowSpreading, SameBitsForEveryWidthOfVectors) {
 }
 
 // 1 - 2^-53 of a cell behind a grid point keeps 52 bits, and does not go on to the next one.
+// A loose tolerance takes the narrowest window, a tight one the widest there is.
+TEST(WindowSpreading, WindowsAreAsWideAsTheirToleranceNeeds) {
+    EXPECT_EQ(window_for(0.5, 0.2).width(), 2U);
+    EXPECT_EQ(window_for(1e-300, 0.2).width(), KaiserBessel::max_width);
+    for (const double tolerance : {1e-2, 1e-5, 1e-9}) {
+        const KaiserBessel window = window_for(tolerance, 0.2);
+        EXPECT_LE(window.error(), tolerance);
+        EXPECT_GT(KaiserBessel(window.width() - 1, 0.2).error(), tolerance);
+    }
+}
+
 TEST(WindowSpreading, PlacesJustBeforeAGridPointStayThere) {
     Plane plane(6, 1);
     for (const Vectors vectors : {Vectors::anywhere, Vectors::fours, Vectors::eights}) {

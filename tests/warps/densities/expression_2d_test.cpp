@@ -80,6 +80,10 @@ TEST(Expression2d, TakesTheLimitWhereTheMarginalIsZero) {
     mapping("expression-2d:density=(1-x)*y")->forward(std::vector{1.0, 0.25}, image, {});
     EXPECT_NEAR(image[0], 1, 2e-8);  // (1 - x)^2 = 2^-53
     EXPECT_NEAR(image[1], 0.5, 1e-15);
+    // At x = 1 itself, where the density is 0, the way back takes the same limit.
+    mapping("expression-2d:density=(1-x)*y")->inverse(std::vector{1.0, 0.5}, image);
+    EXPECT_EQ(image[0], 1);
+    EXPECT_NEAR(image[1], 0.25, 1e-15);
 }
 
 TEST(Expression2d, GoesThereAndBack) {
