@@ -64,6 +64,11 @@ std::vector<std::string> keys_of(const std::vector<StudyRow>& rows) {
     return keys;
 }
 
+/// Whether a row is one of that unit's.
+bool is_of(const Sweep& sweep, const StudyRow& row, std::uint64_t unit) {
+    return unit < sweep.units() && belongs(row, row_of(sweep, sweep.unit(unit)));
+}
+
 }  // namespace
 
 /// Lines of a file, which may not be there. A read that fails is not its end.
@@ -93,6 +98,51 @@ class StudyFile::Lines {
     std::ifstream in_;
     bool empty_ = true;
 };
+
+/// The rows of a table, in order.
+class StudyFile::RowReader {
+  public:
+    RowReader(const std::string& path, const StudyTable& table)
+        : path_(path), table_(table), lines_(path) {
+        if (table.style() == TableStyle::csv) take_line();
+    }
+
+    /// The row that comes next; nothing at the end. @throws Error(input), Error(cancelled)
+    std::optional<StudyRow> take(const RunContext& run) {
+        run.check_stop();
+        if (!take_line()) return std::nullopt;
+        auto row = table_.parse(text_);
+        if (!row) fail(ErrorKind::input, "{}:{}: is no row of a study", path_, line_);
+        return row;
+    }
+
+    /// Number of the line that was taken last, from 1, and its bytes.
+    [[nodiscard]] std::uint64_t line() const { return line_; }
+    [[nodiscard]] std::size_t size() const { return text_.size() + 1; }
+
+    /// At the end: whether the last line had one.
+    [[nodiscard]] bool is_whole() const { return text_.empty(); }
+
+  private:
+    bool take_line() {
+        ++line_;
+        return lines_.take(text_);
+    }
+
+    const std::string& path_;
+    const StudyTable& table_;
+    Lines lines_;
+    std::string text_;
+    std::uint64_t line_ = 0;
+};
+
+Json StudyFile::head_of_journal(Lines& lines, std::string& line) {
+    Json head = lines.take(line) ? try_parse_json(line) : Json();
+    const bool known =
+        head.is_object() && head.contains("study") && head.contains("settings") &&
+        line.starts_with(fmt::format("{{\"format\":\"{}\",\"version\":2,", journal_format));
+    return known ? head : Json();
+}
 
 StudyFile::StudyFile(std::string path, const Sweep& sweep, const StudyTable& table, Start start,
                      Listener listener, const RunContext& run)
@@ -149,10 +199,15 @@ void StudyFile::open_file(Start start, const RunContext& run) {
         write_all(output_, table_.head(), path_);
         return;
     }
-    if (unfinished) read_journal();
-    read_rows(run);
-    if (next_ == sweep_.units()) return;
-    if (!unfinished) begin_journal();
+    if (table_.style() == TableStyle::csv && first + "\n" != table_.head()) refuse_other();
+    if (const auto smaller = smaller_study(run)) {
+        take_over(*smaller, run);
+    } else {
+        if (unfinished) read_journal();
+        read_rows(run);
+        if (next_ == sweep_.units()) return;
+        if (!unfinished) begin_journal();
+    }
     write_waiting();
 }
 
@@ -174,13 +229,17 @@ void StudyFile::begin_journal() {
     journal_size_ = head.size();
 }
 
-void StudyFile::refuse_other(const Json& found) const {
+void StudyFile::refuse_other() const {
+    Lines journal(journal_of(path_));
+    std::string line;
+    const Json head = head_of_journal(journal, line);
     std::string differs;
     for (const auto& [name, value] : sweep_.settings()) {
-        if (!found.is_object() || !found.contains(name) || !found[name].is_string()) continue;
-        if (found[name] == value) continue;
+        const bool known = head.is_object() && head["settings"].is_object() &&
+                           head["settings"].contains(name) && head["settings"][name].is_string();
+        if (!known || head["settings"][name] == value) continue;
         differs = fmt::format(": it has {} '{}', this one '{}'", name,
-                              found[name].get<std::string>(), value);
+                              head["settings"][name].get<std::string>(), value);
         break;
     }
     fail_with_hint(ErrorKind::input, "resume it with its own options, or name another file with -o",
@@ -191,11 +250,9 @@ void StudyFile::read_journal() {
     open_journal();
     Lines lines(journal_of(path_));
     std::string line;
-    const Json head = lines.take(line) ? try_parse_json(line) : Json();
-    if (!head.is_object() || !head.contains("study") || !head.contains("settings") ||
-        !line.starts_with(fmt::format("{{\"format\":\"{}\",\"version\":2,", journal_format)))
-        return begin_journal();
-    if (head["study"] != sweep_.fingerprint()) refuse_other(head["settings"]);
+    const Json head = head_of_journal(lines, line);
+    if (head.is_null()) return begin_journal();
+    if (head["study"] != sweep_.fingerprint()) refuse_other();
     journal_size_ = line.size() + 1;
     while (read_entry(lines)) {
     }
@@ -214,7 +271,7 @@ bool StudyFile::read_entry(Lines& lines) {
         do {  // a crash may have left other bytes than those that were written
             if (!lines.take(line) || line.size() + 1 > left) return false;
             const auto row = table_.parse(line);
-            if (!row || !is_of(*row, unit)) return false;
+            if (!row || !is_of(sweep_, *row, unit)) return false;
             left -= line.size() + 1;
         } while (left > 0);
         ++unit;
@@ -231,51 +288,105 @@ std::vector<UnitRange> StudyFile::done() const {
     return ranges;
 }
 
-bool StudyFile::is_of(const StudyRow& row, std::uint64_t unit) const {
-    return unit < sweep_.units() && belongs(row, row_of(sweep_, sweep_.unit(unit)));
-}
-
 void StudyFile::read_rows(const RunContext& run) {
-    Lines lines(path_);
-    std::string line;
-    std::uint64_t number = 0;
-    std::uint64_t end = 0;       // of the rows read so far
-    std::uint64_t whole = 0;     // of those of whole units
-    std::vector<StudyRow> rows;  // of the unit next_
+    RowReader reader(path_, table_);
+    std::uint64_t end = table_.head().size();  // of the rows read so far
+    std::uint64_t whole = end;                 // of those of whole units
+    std::vector<StudyRow> rows;                // of the unit next_
     std::vector<std::vector<std::string>> keys(sweep_.measures().size());  // of the unit before
     const auto take_unit = [&] {
         for (const StudyRow& row : rows) listener_(row);
         keys[sweep_.unit(next_++).measure] = keys_of(std::exchange(rows, {}));
         whole = end;
     };
-    if (table_.style() == TableStyle::csv) {
-        lines.take(line);
-        if (line + "\n" != table_.head()) refuse_other({});
-        ++number;
-        whole = end = line.size() + 1;
-    }
-    while (lines.take(line)) {
-        run.check_stop();
-        ++number;
-        const auto row = table_.parse(line);
-        if (!row) fail(ErrorKind::input, "{}:{}: is no row of a study", path_, number);
-        if (row->study != sweep_.fingerprint()) refuse_other({});
-        if (!is_of(*row, next_)) {
-            if (rows.empty() || !is_of(*row, next_ + 1)) refuse_place(path_, number);
+    while (const auto row = reader.take(run)) {
+        if (row->study != sweep_.fingerprint()) refuse_other();
+        if (!is_of(sweep_, *row, next_)) {
+            if (rows.empty() || !is_of(sweep_, *row, next_ + 1)) refuse_place(path_, reader.line());
             take_unit();
         }
         rows.push_back(*row);
-        end += line.size() + 1;
+        end += reader.size();
     }
     // How many rows the last unit has, those of a unit before it tell: else it is done again.
-    const bool finished = journal_ < 0 && line.empty() && next_ + 1 == sweep_.units();
+    const bool finished = journal_ < 0 && reader.is_whole() && next_ + 1 == sweep_.units();
     if (finished && !rows.empty() && keys_of(rows) == keys[sweep_.unit(next_).measure]) take_unit();
     cut_to(output_, whole, path_);
 }
 
-bool StudyFile::put(const Segment& segment) {
-    if (broken_) return false;
-    broken_ = true;
+std::optional<Sweep> StudyFile::smaller_study(const RunContext& run) const {
+    SweepRequest request = sweep_.request();
+    for (auto* list : {&request.generators, &request.measures}) list->clear();
+    for (auto* list : {&request.counts, &request.dimensions}) list->clear();
+    const auto add = [](auto& list, const auto& entry) {
+        if (std::ranges::find(list, entry) == list.end()) list.push_back(entry);
+    };
+    std::uint64_t last_seed = 0;
+    request.first_seed = ~std::uint64_t{0};
+    RowReader rows(path_, table_);
+    std::string fingerprint;
+    while (const auto row = rows.take(run)) {
+        if (row->study == sweep_.fingerprint()) return std::nullopt;
+        fingerprint = row->study;
+        add(request.generators, row->generator);
+        add(request.measures, row->measure);
+        add(request.counts, row->count);
+        add(request.dimensions, row->dimension);
+        request.first_seed = std::min(request.first_seed, row->seed);
+        last_seed = std::max(last_seed, row->seed);
+    }
+    if (fingerprint.empty()) return std::nullopt;
+    request.seeds = last_seed - request.first_seed + 1;
+    // The fingerprint vouches for what rows do not show: keys, limits, and that none is missing.
+    std::optional<Sweep> sweep;
+    try {
+        sweep.emplace(std::move(request));
+    } catch (const Error&) {
+        refuse_other();
+    }
+    if (sweep->fingerprint() != fingerprint) refuse_other();
+    if (const std::string lost = sweep_.lacks(*sweep); !lost.empty())
+        fail_with_hint(ErrorKind::input, "name it, too, or name another file with -o",
+                       "{}: --resume: the study there has {}, this one has not", path_, lost);
+    return sweep;
+}
+
+void StudyFile::take_over(const Sweep& smaller, const RunContext& run) {
+    if (journal_ < 0) open_journal();
+    begin_journal();
+    RowReader rows(path_, table_);
+    Segment segment;    // units in a row
+    std::string lines;  // of the one that is read
+    std::size_t bytes = 0;
+    std::uint64_t unit = 0;
+    const auto end_segment = [&] {
+        if (!segment.lines.empty()) keep(std::exchange(segment, {}), true);
+        bytes = 0;
+    };
+    const auto end_unit = [&] {
+        constexpr std::size_t most_bytes = 1 << 20;
+        const std::uint64_t at = sweep_.same_unit(smaller, smaller.unit(unit++));
+        if (at != segment.units.last || bytes > most_bytes) end_segment();
+        if (segment.lines.empty()) segment.units = {at, at};
+        ++segment.units.last;
+        bytes += lines.size();
+        segment.lines.push_back(std::exchange(lines, {}));
+    };
+    while (auto row = rows.take(run)) {
+        if (!is_of(smaller, *row, unit)) {
+            if (lines.empty() || !is_of(smaller, *row, unit + 1)) refuse_place(path_, rows.line());
+            end_unit();
+        }
+        row->study = sweep_.fingerprint();
+        lines += table_.line(*row);
+    }
+    end_segment();  // the last unit is done again: nobody can tell whether it is whole
+    if (!is_synchronised(::fdatasync(journal_))) refuse(journal_of(path_));
+    cut_to(output_, table_.head().size(), path_);
+    if (!is_synchronised(::fdatasync(output_))) refuse(path_);
+}
+
+void StudyFile::keep(const Segment& segment, bool in_journal) {
     Waiting waiting;
     std::string head = std::to_string(segment.units.first);
     for (const auto& lines : segment.lines) {
@@ -283,15 +394,21 @@ bool StudyFile::put(const Segment& segment) {
         waiting.text += lines;
         head += fmt::format(" {}", lines.size());
     }
-    if (segment.units.first > next_ && journal_ >= 0) {
+    if (in_journal) {
         head += '\n';
         write_all(journal_, head + waiting.text, journal_of(path_));
         waiting.offset = journal_size_ + head.size();
         journal_size_ = waiting.offset + waiting.size();
         waiting.text.clear();
     }
-    dirty_ = true;
     waiting_.emplace(segment.units.first, std::move(waiting));
+}
+
+bool StudyFile::put(const Segment& segment) {
+    if (broken_) return false;
+    broken_ = true;
+    keep(segment, segment.units.first > next_ && journal_ >= 0);
+    dirty_ = true;
     broken_ = !write_waiting();
     return !broken_;
 }

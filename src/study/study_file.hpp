@@ -84,10 +84,17 @@ class StudyFile {
     void begin_journal();
     void read_journal();
     class Lines;
+    class RowReader;
+    /// The head of a journal, which stays in `line`; null where it is none.
+    static Json head_of_journal(Lines& lines, std::string& line);
     bool read_entry(Lines& lines);
     void read_rows(const RunContext& run);
-    [[nodiscard]] bool is_of(const StudyRow& row, std::uint64_t unit) const;
-    [[noreturn]] void refuse_other(const Json& found) const;
+    /// The finished study of which the rows are that are there, if this one has all that it has, and
+    /// more; nothing where they are this one's. @throws Error(input) where they are another's
+    [[nodiscard]] std::optional<Sweep> smaller_study(const RunContext& run) const;
+    void take_over(const Sweep& smaller, const RunContext& run);
+    void keep(const Segment& segment, bool in_journal);
+    [[noreturn]] void refuse_other() const;
     bool write_waiting();
     bool write(const std::string& text);
     [[nodiscard]] std::string text_of(const Waiting& waiting) const;

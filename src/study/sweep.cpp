@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "core/bytes/fingerprint.hpp"
 #include "core/error.hpp"
@@ -179,6 +180,49 @@ Unit Sweep::unit(std::uint64_t index) const {
     return {.cell = set / request_.seeds,
             .seed_index = set % request_.seeds,
             .measure = index % measures_.size()};
+}
+
+std::string Sweep::lacks(const Sweep& part) const {
+    const auto& [all, some] = std::pair(request_, part.request_);
+    const auto missing = [](const auto& list, const auto& wanted, auto proj, const auto& text) {
+        for (const auto& entry : wanted)
+            if (std::ranges::find(list, std::invoke(proj, entry), proj) == list.end())
+                return text(entry);
+        return std::string();
+    };
+    const auto spec = [](const char* what) {
+        return [what](const auto& chosen) { return fmt::format("the {} {}", what, chosen.spec); };
+    };
+    const auto number = [](const char* format) {
+        return [format](std::uint64_t n) { return fmt::format(fmt::runtime(format), n); };
+    };
+    const std::string found[] = {
+        missing(generators_, part.generators_, &Chosen<Generator>::spec, spec("generator")),
+        missing(measures_, part.measures_, &Chosen<Analyzer>::spec, spec("measure")),
+        missing(all.counts, some.counts, std::identity(), number("sets of {} points")),
+        missing(all.dimensions, some.dimensions, std::identity(), number("dimension {}"))};
+    for (const std::string& text : found)
+        if (!text.empty()) return text;
+    if (some.first_seed < all.first_seed) return fmt::format("seed {}", some.first_seed);
+    const std::uint64_t last = some.first_seed + (some.seeds - 1);
+    return last > all.first_seed + (all.seeds - 1) ? fmt::format("seed {}", last) : "";
+}
+
+std::uint64_t Sweep::same_unit(const Sweep& part, const Unit& unit) const {
+    const auto place = [](const auto& list, const auto& entry, auto proj) {
+        return static_cast<std::uint64_t>(std::ranges::find(list, entry, proj) - list.begin());
+    };
+    const Cell cell = part.cell(unit.cell);
+    const auto generator =
+        place(generators_, part.generators_[cell.generator].spec, &Chosen<Generator>::spec);
+    const auto measure =
+        place(measures_, part.measures_[unit.measure].spec, &Chosen<Analyzer>::spec);
+    const auto dimension = place(request_.dimensions, cell.dimension, std::identity());
+    const auto count = place(request_.counts, cell.count, std::identity());
+    const std::uint64_t seed = part.request_.first_seed + unit.seed_index - request_.first_seed;
+    const std::uint64_t at =
+        (generator * request_.dimensions.size() + dimension) * request_.counts.size() + count;
+    return (at * request_.seeds + seed) * measures_.size() + measure;
 }
 
 bool Sweep::seeded(std::size_t generator) const {

@@ -83,6 +83,11 @@ class Sweep {
     [[nodiscard]] Cell cell(std::uint64_t index) const;
     [[nodiscard]] Unit unit(std::uint64_t index) const;
     [[nodiscard]] std::uint64_t units_per_cell() const { return request_.seeds * measures_.size(); }
+    /// What a part of this sweep has that it lacks, as "seed 5"; empty: nothing.
+    [[nodiscard]] std::string lacks(const Sweep& part) const;
+    /// The unit here of a unit of a part of this sweep.
+    [[nodiscard]] std::uint64_t same_unit(const Sweep& part, const Unit& unit) const;
+
     /// Whether the sets of a generator differ from seed to seed.
     [[nodiscard]] bool seeded(std::size_t generator) const;
 

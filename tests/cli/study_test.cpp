@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -438,7 +439,7 @@ TEST(Study, ResumeRefusesAnotherStudyAndWhatIsNone) {
     const Sandbox box;
     ASSERT_EQ(good(box.shell(small + std::string("-o study.csv"))), "");
     const std::string whole = box.read("study.csv");
-    Outcome outcome = box.shell(small + std::string("-d 3 -o study.csv --resume"));
+    Outcome outcome = box.shell(small + std::string("--keys value -o study.csv --resume"));
     EXPECT_EQ(outcome.code, 3);
     EXPECT_THAT(outcome.err, HasSubstr("study.csv: --resume: the study there is another one"));
     EXPECT_EQ(box.read("study.csv"), whole);
@@ -453,6 +454,111 @@ TEST(Study, ResumeRefusesAnotherStudyAndWhatIsNone) {
     }
     outcome = box.shell(small + std::string("--resume"));
     EXPECT_EQ(outcome.code, 2);
+}
+
+// More of anything, before what is there, between and behind it: the file is that of a study which
+// had all from the start, and what is there is not made again.
+TEST(Study, ResumeAddsSeedsCountsGeneratorsAndMeasures) {
+    const Sandbox box;
+    const auto command = [](const std::string& generators, const std::string& counts,
+                            const std::string& seeds, const std::string& measures) {
+        return fmt::format(
+            "stipple study --generators '{}' -n {} -d 2,3 {} --analyze '{}' --no-seconds ",
+            generators, counts, seeds, measures);
+    };
+    const std::string before =
+        command("random,halton", "8,32", "-s 3 --seeds 2", "moments,coverage");
+    for (const std::string& more :
+         {command("random,halton", "8,32", "-s 3 --seeds 5", "moments,coverage"),
+          command("random,halton", "8,32", "-s 1 --seeds 4", "moments,coverage"),
+          command("random,halton", "4,8,16,32,64", "-s 3 --seeds 2", "moments,coverage"),
+          command("grid,halton,sobol,random", "8,32", "-s 3 --seeds 2", "moments,coverage"),
+          command("random,halton", "8,32", "-s 3 --seeds 2", "voronoi,coverage,moments"),
+          command("halton,sobol,random", "64,32,8", "-s 2 --seeds 9", "coverage,moments")}) {
+        for (const char* name : {"s.csv", "s.jsonl"}) {
+            const std::string to = fmt::format("-o {} ", name);
+            (void)box.shell(more + to + "--overwrite");  // voronoi fails in three dimensions
+            const std::string whole = box.read(name);
+            good(box.shell(before + to + "--overwrite"));
+            (void)box.shell(more + to + "--resume");
+            EXPECT_TRUE(box.read(name) == whole) << more << to;
+            EXPECT_FALSE(box.exists(name + std::string(".journal")));
+        }
+    }
+    // What is there is taken, not measured once more.
+    good(box.shell(before + "-o s.csv --overwrite"));
+    std::string text = box.read("s.csv");
+    const auto at = text.find(",ok,");
+    text.insert(at, "5");  // a digit more of the first value
+    box.write("s.csv", text);
+    good(box.shell(command("random,halton", "8,32", "-s 3 --seeds 5", "moments,coverage") +
+                   "-o s.csv --resume"));
+    EXPECT_EQ(lines(box.read("s.csv"), 2).substr(0, at + 1), text.substr(0, at + 1));
+}
+
+// Killed while it takes over what is there, before and after the table is cut.
+TEST(Study, ResumeWithMoreSeedsCanBeResumed) {
+    const Sandbox box;
+    const std::string before =
+        "stipple study --generators random,halton -n 8,16 --seeds 30 "
+        "--analyze moments --no-seconds -o s.csv ";
+    const std::string more =
+        "stipple study --generators random,halton -n 8,16 --seeds 40 "
+        "--analyze moments --no-seconds -o s.csv ";
+    good(box.shell(more + "--overwrite"));
+    const std::string whole = box.read("s.csv");
+    const std::string journal = "{\"format\":\"stipple.study-journal\",\"version\":2,";
+    good(box.shell(before + "--overwrite"));
+    const std::string old = box.read("s.csv");
+    for (const char* limit : {"", "600", "2000", "6000"}) {  // blocks of a journal that is cut off
+        box.write("s.csv", old);
+        if (*limit != 0)
+            (void)box.shell(
+                fmt::format("(ulimit -f 3; trap '' XFSZ; {}) 2>/dev/null", more + "--resume"));
+        EXPECT_EQ(box.read("s.csv"), old);
+        if (*limit != 0) {
+            const std::string entries = box.read("s.csv.journal");
+            EXPECT_TRUE(entries.starts_with(journal));
+            box.write("s.csv.journal", entries.substr(0, std::stoul(limit)));
+        }
+        good(box.shell(more + "--resume"));
+        EXPECT_TRUE(box.read("s.csv") == whole) << limit;
+    }
+}
+
+TEST(Study, ResumeRefusesWhatHasLess) {
+    const Sandbox box;
+    const auto refused = [&](const std::string& options, const std::string& has) {
+        const Outcome outcome =
+            box.shell("stipple study --no-seconds -o s.csv --resume " + options);
+        EXPECT_EQ(outcome.code, 3);
+        EXPECT_EQ(outcome.err,
+                  "stipple: s.csv: --resume: the study there has " + has +
+                      ", this one has not; name it, too, or name another file with -o\n");
+    };
+    good(box.shell(
+        "stipple study --generators random,halton -n 8,16 -d 2,3 -s 2 --seeds 3 --analyze "
+        "moments,coverage --no-seconds -o s.csv"));
+    const std::string whole = box.read("s.csv");
+    refused("--generators random,sobol -n 8,16 -d 2,3 -s 2 --seeds 3 --analyze moments,coverage",
+            "the generator halton");
+    refused("--generators random,halton -n 8 -d 2,3 -s 2 --seeds 3 --analyze moments,coverage",
+            "sets of 16 points");
+    refused("--generators random,halton -n 8,16 -d 2 -s 2 --seeds 3 --analyze moments,coverage",
+            "dimension 3");
+    refused("--generators random,halton -n 8,16 -d 2,3 -s 3 --seeds 3 --analyze moments,coverage",
+            "seed 2");
+    refused("--generators random,halton -n 8,16 -d 2,3 -s 2 --seeds 2 --analyze moments,coverage",
+            "seed 4");
+    refused("--generators random,halton -n 8,16 -d 2,3 -s 2 --seeds 3 --analyze moments",
+            "the measure coverage");
+    EXPECT_EQ(box.read("s.csv"), whole);
+    // Rows that are gone.
+    box.write("s.csv", lines(whole, 1) + whole.substr(lines(whole, 12).size()));
+    EXPECT_EQ(box.shell("stipple study --generators random,halton -n 8,16 -d 2,3 -s 2 --seeds 9 "
+                        "--analyze moments,coverage --no-seconds -o s.csv --resume")
+                  .code,
+              3);
 }
 
 TEST(Study, AnUnfinishedStudyIsNotOverwritten) {
