@@ -107,6 +107,9 @@ struct Analyzer {
     std::string name;
     std::string summary;
     std::string source;
+    std::string family = {};  ///< "blue noise"; the registry gives it, by the folder
+    /// Words that lead to it and are no names of it: what it is a kind, a part or a use of.
+    std::vector<std::string> related = {};
     AnalyzerTraits traits;
     Schema options;
     std::vector<ResultKey> results;

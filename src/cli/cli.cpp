@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdlib>
 #include <exception>
@@ -21,15 +23,13 @@ int exit_code(ErrorKind kind) {
     return codes.at(static_cast<std::size_t>(kind));
 }
 
-/// The verb's unit must be named; the hint lists what there is.
+/// The verb's unit must be named.
 void require_unit(const Arguments& arguments) {
     const VerbInfo& info = info_of(*arguments.verb);
     const Kind* kind = units_for(info.name);
     if (!kind || !arguments.unit.empty()) return;
-    std::vector<std::string> names;
-    for (const UnitInfo& unit : kind->units) names.push_back(unit.name);
-    fail_with_hint(ErrorKind::usage, "known: " + join(names, ", "), "{}: name one of the {}",
-                   info.name, kind->name);
+    fail_with_hint(ErrorKind::usage, fmt::format("'stipple list {}' names them", kind->name),
+                   "{}: name one of the {}", info.name, kind->name);
 }
 
 int dispatch(const Arguments& arguments) {
@@ -41,8 +41,10 @@ int dispatch(const Arguments& arguments) {
         write_text("-", help_text(arguments));
         return 0;
     }
-    if (!arguments.verb)
-        fail_with_hint(ErrorKind::usage, "'stipple --help' lists the verbs", "no verb given");
+    if (!arguments.verb) {
+        say(help_text(arguments));
+        return exit_code(ErrorKind::usage);
+    }
     require_unit(arguments);
     if (arguments.verb == Verb::list) return list(arguments);
     if (arguments.verb == Verb::help) return help(arguments);
@@ -101,27 +103,6 @@ int run_verb(int argc, char** argv) {
 void write_text(const std::string& path, const std::string& text) {
     io::Output output(path);
     if (output.write(text)) output.commit();
-}
-
-int list(const Arguments& arguments) {
-    std::vector<Kind> kinds = catalog();
-    if (arguments.inputs.size() > 1)
-        fail(ErrorKind::usage, "list takes one KIND; {} are given", arguments.inputs.size());
-    if (!arguments.inputs.empty()) {
-        const std::string& wanted = arguments.inputs[0];
-        std::erase_if(kinds, [&](const Kind& kind) {
-            return kind.name != wanted && kind.name != wanted + "s";
-        });
-        if (kinds.empty())
-            fail_with_hint(ErrorKind::usage,
-                           "known: generators, scrambles, warps, analyzers, formats",
-                           "unknown kind '{}'", wanted);
-    }
-    write_text(arguments.get("output").value_or("-"), arguments.has("json") ? list_json(kinds)
-                                                      : arguments.has("markdown")
-                                                          ? list_markdown(kinds)
-                                                          : list_text(kinds));
-    return 0;
 }
 
 int run(int argc, char** argv) {

@@ -2,14 +2,13 @@
 //
 // The verb `plot`: points or reports in, a picture out.
 #include <fmt/format.h>
-#include <sys/ioctl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "cli/inputs.hpp"
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "core/bytes/npy_header.hpp"
 #include "core/error.hpp"
@@ -48,16 +47,6 @@ Medium medium_of(const Arguments& arguments, const std::string& path) {
     if (path.ends_with(".svg") || path.starts_with("/dev/")) return Medium::svg;
     fail_with_hint(ErrorKind::usage, "or name the format with -f svg, png or text",
                    "--output: {} has no extension of a picture; expected .svg, .png or .txt", path);
-}
-
-/// Size of the terminal in characters; defaults where it is unknown.
-plot::TextRoom terminal_room() {
-    plot::TextRoom room;
-    winsize size{};
-    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0) return {.columns = 80, .rows = 40};
-    if (size.ws_col > 0) room.columns = size.ws_col;
-    if (size.ws_row > 0) room.rows = size.ws_row;
-    return room;
 }
 
 std::optional<bool> scale_of(const Arguments& arguments, const char* name) {
@@ -154,7 +143,8 @@ class Plot {
         const auto width = arguments_.integer("width", least, most);
         const auto height = arguments_.integer("height", letters ? 8 : 90, most);
         if (letters) {
-            room_ = terminal_room();
+            const TerminalSize terminal = terminal_size();
+            room_ = {.columns = terminal.columns, .rows = terminal.rows};
             if (width) room_.columns = *width;
             if (height) room_.rows = *height;
             return;

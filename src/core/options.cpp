@@ -201,7 +201,7 @@ Value Option::parse(std::string_view text) const {
     if (type == "choice") {
         if (std::ranges::find(choices, text) == choices.end()) {
             fail_with_hint(ErrorKind::usage,
-                           nearest_word(text, choices) ? suggest(text, choices) : "",
+                           nearest_words(text, choices).empty() ? "" : suggest(text, choices),
                            "--{}: '{}' is not one of {}", name, text, join(choices, ", "));
         }
         return std::string(text);

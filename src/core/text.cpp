@@ -179,23 +179,36 @@ std::string_view trim(std::string_view text) {
     return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-std::optional<std::string> nearest_word(std::string_view word, std::span<const std::string> known) {
-    std::size_t best = std::max<std::size_t>(2, word.size() / 3) + 1;
-    std::optional<std::string> nearest;
+std::vector<std::string> nearest_words(std::string_view word, std::span<const std::string> known) {
+    constexpr std::size_t most = 3;
+    const std::string wanted = lower_case(word);
+    const std::size_t limit = std::max<std::size_t>(2, wanted.size() / 3);
+    std::vector<std::pair<std::size_t, std::string>> near;
     for (const std::string& candidate : known) {
-        const bool begins = word.size() >= 3 && candidate.starts_with(word);
-        const std::size_t distance = begins ? 1 : edit_distance(word, candidate);
-        if (distance < best && distance < candidate.size()) {
-            best = distance;
-            nearest = candidate;
-        }
+        const std::string letters = lower_case(candidate);
+        const bool begins = wanted.size() >= 3 && letters.starts_with(wanted);
+        const std::size_t distance = begins ? 1 : edit_distance(wanted, letters);
+        if (distance <= limit && distance < candidate.size())
+            near.emplace_back(distance, candidate);
     }
-    return nearest;
+    std::ranges::stable_sort(near, {}, &std::pair<std::size_t, std::string>::first);
+    std::vector<std::string> words;
+    for (auto& [distance, candidate] : near)
+        if (words.size() < most && distance == near[0].first) words.push_back(candidate);
+    return words;
+}
+
+std::string quoted_list(std::vector<std::string> words, std::string_view last) {
+    for (std::string& word : words) word = "'" + word + "'";
+    if (words.size() < 2) return join(words, "");
+    const std::string end = words.back();
+    words.pop_back();
+    return fmt::format("{} {} {}", join(words, ", "), last, end);
 }
 
 std::string suggest(std::string_view word, std::span<const std::string> known) {
-    if (const auto meant = nearest_word(word, known))
-        return fmt::format("did you mean '{}'?", *meant);
+    if (const auto meant = nearest_words(word, known); !meant.empty())
+        return fmt::format("did you mean {}?", quoted_list(meant, "or"));
     return fmt::format("known: {}", join(known, ", "));
 }
 

@@ -52,10 +52,14 @@ std::string lower_case(std::string_view text);
 /// The text without white space at its ends.
 std::string_view trim(std::string_view text);
 
-/// The word of `known` nearest to `word` in edits, if any is near enough to be meant.
-std::optional<std::string> nearest_word(std::string_view word, std::span<const std::string> known);
+/// The words of `known` that are nearest to `word`, three at most, if they are near enough to be
+/// meant. Capital letters count as small ones.
+std::vector<std::string> nearest_words(std::string_view word, std::span<const std::string> known);
 
-/// "did you mean 'halton'?" for a word near enough to a known one, else a sentence that lists them.
+/// "'a', 'b' or 'c'", the last behind that word.
+std::string quoted_list(std::vector<std::string> words, std::string_view last);
+
+/// "did you mean 'halton'?" for a word near enough to known ones, else a sentence that lists them.
 std::string suggest(std::string_view word, std::span<const std::string> known);
 
 // UTF-8 taken apart and put together, and text from strangers (files, arguments, other programs) as

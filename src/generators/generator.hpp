@@ -81,6 +81,9 @@ struct Generator {
     std::string name;
     std::string summary;
     std::string source;
+    std::string family = {};  ///< "blue noise"; the registry gives it, by the folder
+    /// Words that lead to it and are no names of it: what it is a kind, a part or a use of.
+    std::vector<std::string> related = {};
     GeneratorTraits traits;
     Schema options;
     std::vector<std::string> aliases = {};  ///< other names that users of the field would type

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/units.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -28,18 +34,84 @@ template <class Unit>
 const Unit& find_unit(std::string_view kind, const std::vector<Unit>& units,
                       std::string_view name) {
     if (const Unit* unit = try_unit(units, name)) return *unit;
-    std::vector<std::string> names;
+    refuse_unit(kind, name);
+}
+
+/// What a unit is found by.
+struct Entry {
+    std::string kind;
+    std::string name;
+    std::vector<std::string> names;  ///< its own, and others
+    std::vector<std::string> related;
+};
+
+template <class Unit>
+void add_entries(std::vector<Entry>& all, const char* kind, const std::vector<Unit>& units) {
     for (const Unit& unit : units) {
-        names.push_back(unit.name);
+        Entry entry{.kind = kind, .name = unit.name, .names = {unit.name}, .related = unit.related};
         if constexpr (requires { unit.aliases; })
-            names.insert(names.end(), unit.aliases.begin(), unit.aliases.end());
+            entry.names.insert(entry.names.end(), unit.aliases.begin(), unit.aliases.end());
+        all.push_back(std::move(entry));
     }
-    if constexpr (std::is_same_v<Unit, Warp>)
-        for (const Scramble& scramble : scrambles::all()) names.push_back(scramble.name);
-    fail_with_hint(ErrorKind::usage, suggest(name, names), "unknown {} '{}'", kind, name);
+}
+
+std::vector<Entry> all_entries() {
+    std::vector<Entry> all;
+    add_entries(all, "generator", generators::all());
+    add_entries(all, "warp", warps::all());
+    add_entries(all, "scramble", scrambles::all());
+    add_entries(all, "analyzer", analyzers::all());
+    return all;
+}
+
+/// Names of units that a word as it is typed leads to, one of each: it is related to them, or is
+/// nearly a name of theirs.
+std::vector<std::string> meant_units(std::span<const Entry> entries, std::string_view word,
+                                     bool related) {
+    std::vector<std::string> names;
+    std::map<std::string, std::string> unit_of;
+    for (const Entry& entry : entries)
+        for (const std::string& name : related ? entry.related : entry.names) {
+            if (related && name == word) names.push_back(entry.name);
+            unit_of.emplace(name, entry.name);
+        }
+    if (related) return names;
+    std::vector<std::string> all;
+    for (const auto& [name, unit] : unit_of) all.push_back(name);
+    for (const std::string& near : nearest_words(word, all)) {
+        const std::string& unit = unit_of.at(near);
+        if (std::ranges::none_of(names, [&](const auto& n) { return unit_of.at(n) == unit; }))
+            names.push_back(near);
+    }
+    return names;
 }
 
 }  // namespace
+
+void refuse_unit(std::string_view kind, std::string_view name) {
+    std::vector<Entry> entries = all_entries();
+    std::string word = lower_case(name);
+    std::ranges::replace(word, '_', '-');
+    for (const Entry& entry : entries)
+        if (entry.kind != kind && std::ranges::count(entry.names, word) > 0)
+            fail_with_hint(ErrorKind::usage,
+                           fmt::format("'{}' is the name of a{} {}", word,
+                                       entry.kind == "analyzer" ? "n" : "", entry.kind),
+                           "unknown {} '{}'", kind, name);
+    std::erase_if(entries, [&](const Entry& entry) {
+        return entry.kind != kind && !(kind == "warp" && entry.kind == "scramble");
+    });
+    if (const auto near = meant_units(entries, word, true); !near.empty())
+        fail_with_hint(
+            ErrorKind::usage,
+            fmt::format("nearest {} {}", near.size() == 1 ? "is" : "are", quoted_list(near, "and")),
+            "there is no {} '{}'", kind, name);
+    const auto near = meant_units(entries, word, false);
+    fail_with_hint(ErrorKind::usage,
+                   near.empty() ? fmt::format("'stipple list {}s' names them", kind)
+                                : fmt::format("did you mean {}?", quoted_list(near, "or")),
+                   "unknown {} '{}'", kind, name);
+}
 
 const Generator& find_generator(std::string_view name) {
     return find_unit("generator", generators::all(), name);

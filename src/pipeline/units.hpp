@@ -14,8 +14,12 @@ namespace stipple {
 
 /// The unit of that name. @throws Error(usage) naming the nearest one.
 const Generator& find_generator(std::string_view name);
-const Warp& find_warp(std::string_view name);  ///< suggests scrambles, too
+const Warp& find_warp(std::string_view name);
 const Analyzer& find_analyzer(std::string_view name);
+
+/// Refuses the name of a "generator", "warp" (or scramble) or "analyzer" that there is not, with what
+/// may be meant: units that it is related to, or the nearest names. @throws Error(usage)
+[[noreturn]] void refuse_unit(std::string_view kind, std::string_view name);
 
 /// The unit of that name or alias; nullptr if there is none.
 const Generator* generator_named(std::string_view name);

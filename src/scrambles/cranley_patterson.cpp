@@ -53,6 +53,7 @@ Scramble unit() {
         .name = "cranley-patterson",
         .summary = "Rotation of all points by one vector, random or given, modulo 1; for lattices",
         .source = "Cranley, Patterson 1976, doi:10.1137/0713071",
+        .related = {"toroidal-shift", "modulo-shift"},
         .options = Schema(scramble_seed, shift),
         .aliases = {"rotation", "random-shift", "shift"},
         .make = make};

@@ -59,6 +59,7 @@ Scramble unit() {
                 "Linear matrix scrambling: digits times a random lower triangular matrix, "
                 "and a digital shift",
             .source = "Matousek 1998, doi:10.1006/jcom.1998.0489",
+            .related = {"matousek", "affine"},
             .options = Schema(base, scramble_seed),
             .aliases = {"linear-matrix"},
             .make = digit_scramble<BinaryProduct, BaseMatrix>(base, true)};

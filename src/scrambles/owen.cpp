@@ -26,6 +26,7 @@ Scramble unit() {
     return {.name = "owen",
             .summary = "Nested uniform scrambling: a random permutation of digits for each prefix",
             .source = "Owen 1995, doi:10.1007/978-1-4612-2552-2_19",
+            .related = {"laine-karras", "hash-based-owen"},
             .options = Schema(base, scramble_seed),
             .aliases = {"nested-uniform"},
             .make = digit_scramble<BinaryOwen, BaseOwen>(base, false)};

@@ -103,6 +103,9 @@ struct Warp {
     std::string name;
     std::string summary;
     std::string source;
+    std::string family = {};  ///< "blue noise"; the registry gives it, by the folder
+    /// Words that lead to it and are no names of it: what it is a kind, a part or a use of.
+    std::vector<std::string> related = {};
     std::string strata;  ///< what becomes of each unit coordinate, and whether it is xi or 1 - xi
     WarpTraits traits = {};
     Schema options;

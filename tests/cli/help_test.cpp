@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +10,8 @@
 
 #include "cli/parsing/arguments.hpp"
 #include "cli/parsing/catalog.hpp"
+#include "cli/terminal.hpp"
+#include "core/text.hpp"
 #include "support/program.hpp"
 
 namespace stipple::testing::help_test {
@@ -16,13 +19,19 @@ namespace stipple::testing::help_test {
 using namespace stipple::cli;
 using ::testing::HasSubstr;
 
+namespace {
+
+std::string one_line(const std::string& text) { return filled(text, text.size()); }
+
+}  // namespace
+
 TEST(Help, EveryVerbAndUnitHasItFromTheRecord) {
     const Sandbox box;
     EXPECT_THAT(box.run({"--help"}).out, HasSubstr("generate"));
     for (const VerbInfo& verb : verbs()) {
         const Outcome outcome = box.run({verb.name, "--help"});
         EXPECT_EQ(outcome.code, 0);
-        EXPECT_THAT(outcome.out, HasSubstr(verb.summary));
+        EXPECT_THAT(one_line(outcome.out), HasSubstr(verb.summary));
         EXPECT_THAT(outcome.out, HasSubstr("Examples:"));
     }
     for (const Kind& kind : catalog())
@@ -30,7 +39,7 @@ TEST(Help, EveryVerbAndUnitHasItFromTheRecord) {
             if (kind.verb.empty()) continue;
             const Outcome outcome = box.run({kind.verb, unit.name, "-h"});
             EXPECT_EQ(outcome.code, 0);
-            EXPECT_THAT(outcome.out, HasSubstr(unit.summary));
+            EXPECT_THAT(one_line(outcome.out), HasSubstr(unit.summary));
             for (const auto& option : unit.options)
                 EXPECT_THAT(outcome.out, HasSubstr("--" + option.name)) << unit.name;
         }
@@ -96,15 +105,97 @@ TEST(List, IsTheWholeRegistry) {
             EXPECT_EQ(out[kind.name][i].contains("stream_version"), makes);
         }
         const Outcome one = box.run({"list", kind.name});
-        EXPECT_TRUE(one.out.starts_with(kind.name + "\n")) << one.out;
+        EXPECT_TRUE(one.out.starts_with(kind.name)) << one.out;
+        const std::string all = good(box.run({"list", kind.name, "--long"}));
+        for (const UnitInfo& unit : kind.units) {
+            EXPECT_THAT(one.out,
+                        HasSubstr("\n  " + unit.name + (unit.name.size() < 21 ? " " : "\n")));
+            EXPECT_THAT(all, HasSubstr("\n  " + unit.name + "\n"));
+            for (const Option& option : unit.options)
+                EXPECT_THAT(all, HasSubstr("\n    " + option_usage(option)));
+        }
         EXPECT_EQ(box.run({"list", kind.name.substr(0, kind.name.size() - 1)}).out, one.out);
     }
     EXPECT_EQ(box.run({"list", "nonsense"}).code, 2);
 }
 
+// Also where a tag is long, a word has letters of several bytes, or nothing fits.
+TEST(Help, FillsLines) {
+    EXPECT_EQ(filled("one two\nthree  four", 9), "one two\nthree\nfour");
+    EXPECT_EQ(filled("one two three", 11, 4), "one two\n    three");
+    EXPECT_EQ(filled("\u00e9\u00e9\u00e9 \u00e9\u00e9\u00e9", 7),
+              "\u00e9\u00e9\u00e9 \u00e9\u00e9\u00e9");
+    EXPECT_EQ(filled("unbreakable word", 3), "unbreakable\nword");
+    EXPECT_EQ(filled(" \n ", 9), "");
+    EXPECT_EQ(beside("  -n N", "points in a set", 20, 10),
+              "  -n N    points in\n          a set\n");
+    EXPECT_EQ(beside("  --long-name", "it", 20, 10), "  --long-name\n          it\n");
+    EXPECT_EQ(filled_page("# A title that is long\n\nOne two\nthree.\n- an item\n  of two lines\n"
+                          "12. next\n\n    code  as it is\n| a | table |\nend\n",
+                          14),
+              "# A title that is long\n\nOne two three.\n- an item of\n  two lines\n12. next\n\n"
+              "    code  as it is\n| a | table |\nend\n");
+}
+
+// A terminal of 60 columns; what is piped has 80. Words, commands and examples stay whole.
+TEST(Help, FitsTheTerminal) {
+    const Sandbox box;
+    const auto longest = [](const std::string& text) {
+        std::size_t most = 0;
+        for (const auto line : split(text, '\n'))
+            if (line.find("stipple ") == line.npos) most = std::max(most, code_points(line).size());
+        return most;
+    };
+    for (const char* words : {"list", "list --long", "--help", "generate --help",
+                              "analyze star-discrepancy --help", "help security"}) {
+        const std::string piped = good(box.shell(fmt::format("stipple {} | cat", words)));
+        EXPECT_LE(longest(piped), 80U) << words;
+        const std::string narrow = good(box.shell(
+            fmt::format("script -qec 'stty cols 60; stipple {}' /dev/null | tr -d '\\r'", words)));
+        EXPECT_LE(longest(narrow), 60U) << words;
+        EXPECT_GT(longest(piped), 60U) << words;
+    }
+}
+
+// By letters, whatever their case; by words of the field; by kind.
+TEST(Help, FindsTheUnitThatIsMeant) {
+    const Sandbox box;
+    const auto says = [&](const std::vector<std::string>& words) {
+        const Outcome outcome = box.run(words);
+        EXPECT_EQ(outcome.code, 2);
+        return outcome.err;
+    };
+    EXPECT_EQ(says({"generate", "Halton"}),
+              "stipple: unknown generator 'Halton'; did you mean 'halton'?\n");
+    EXPECT_EQ(says({"generate", "LHS"}), "stipple: unknown generator 'LHS'; did you mean 'lhs'?\n");
+    EXPECT_EQ(says({"generate", "korobov"}),
+              "stipple: there is no generator 'korobov'; nearest is 'rank1-lattice'\n");
+    EXPECT_EQ(says({"generate", "blue_noise"}),
+              "stipple: there is no generator 'blue_noise'; nearest are 'gaussian-blue-noise', "
+              "'poisson-disk' and 'sample-elimination'\n");
+    EXPECT_EQ(says({"analyze", "FFT", "-"}),
+              "stipple: there is no analyzer 'FFT'; nearest is 'periodogram'\n");
+    EXPECT_THAT(says({"analyze", "spectrum"}), HasSubstr("nearest is 'periodogram'"));
+    EXPECT_THAT(says({"analyze", "d-star"}), HasSubstr("nearest is 'star-discrepancy'"));
+    EXPECT_THAT(says({"analyze", "minimum-distance"}), HasSubstr("nearest is 'nearest-neighbor'"));
+    EXPECT_THAT(says({"generate", "maximin"}),
+                HasSubstr("nearest are 'farthest-point' and 'latin-hypercube'"));
+    EXPECT_THAT(says({"generate", "disk"}), HasSubstr("'disk' is the name of a warp"));
+    EXPECT_THAT(says({"warp", "spherical"}),
+                HasSubstr("did you mean 'spherical-cap', 'spherical-rectangle' or "
+                          "'spherical-triangle'?"));
+    EXPECT_THAT(says({"generate", "qqqq"}), HasSubstr("'stipple list generators' names them"));
+    EXPECT_THAT(says({"generate"}), HasSubstr("'stipple list generators' names them"));
+    const Outcome nothing = box.run({});
+    EXPECT_EQ(nothing.code, 2);
+    EXPECT_EQ(nothing.out, "");
+    EXPECT_EQ(nothing.err, good(box.run({"--help"})));
+}
+
 TEST(List, SaysThatLegacyGeneratorsAreSequential) {
     const Sandbox box;
-    EXPECT_THAT(box.run({"list", "generators"}).out, HasSubstr("sequential"));
+    EXPECT_THAT(one_line(box.run({"list", "generators"}).out),
+                HasSubstr("legacy engines are sequential"));
 }
 
 TEST(Help, SaysWhatDomainsAnAnalyzerTakes) {
@@ -115,7 +206,8 @@ TEST(Help, SaysWhatDomainsAnAnalyzerTakes) {
           {"poisson-disk", "takes points of the unit cube or a box"},
           {"nearest-neighbor", "takes any domain"}}) {
         EXPECT_THAT(box.run({"analyze", unit, "--help"}).out, HasSubstr(domains)) << unit;
-        EXPECT_THAT(box.run({"list", "analyzers"}).out, HasSubstr(domains)) << unit;
+        EXPECT_THAT(one_line(box.run({"list", "analyzers", "--long"}).out), HasSubstr(domains))
+            << unit;
     }
     const auto all = nlohmann::json::parse(box.run({"list", "--json"}).out);
     const std::set<std::string> boxed = {"coverage",         "differential", "hyperuniformity",

@@ -8,6 +8,7 @@
 
 #include "cli/help/guide.hpp"
 #include "cli/parsing/arguments.hpp"
+#include "cli/terminal.hpp"
 #include "math/densities/expression.hpp"
 #include "support/program.hpp"
 
@@ -72,7 +73,7 @@ TEST(Topics, AreListedAndFound) {
     EXPECT_EQ(list, good(box.run({"--help"})));
     for (const Topic& topic : topics()) {
         EXPECT_THAT(list, HasSubstr(std::string("  ") + topic.name));
-        EXPECT_EQ(good(box.run({"help", topic.name})), topic.text);
+        EXPECT_EQ(good(box.run({"help", topic.name})), filled_page(topic.text, 80));
     }
     EXPECT_EQ(good(box.run({"help", "generate"})), good(box.run({"generate", "--help"})));
     EXPECT_EQ(good(box.run({"help", "generate", "halton"})),

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "core/text.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
 namespace stipple::testing::text_test {
+
+using ::testing::ElementsAre, ::testing::IsEmpty;
 
 TEST(Text, WholeNumbersInManyWays) {
     EXPECT_EQ(parse_integer("1000"), 1000);
@@ -58,15 +61,24 @@ TEST(Text, SizesInBytes) {
     EXPECT_EQ(format_bytes(1000 * 0x1p20), "0.977 GiB");
 }
 
-TEST(Text, NearestWordIsOneThatCouldBeMeant) {
+TEST(Text, NearestWordsAreThoseThatCouldBeMeant) {
     const std::vector<std::string> known = {"halton", "hammersley", "random"};
-    EXPECT_EQ(nearest_word("haltom", known), "halton");
-    EXPECT_EQ(nearest_word("hamm", known), "hammersley");
-    EXPECT_FALSE(nearest_word("xyz", known));
+    EXPECT_THAT(nearest_words("haltom", known), ElementsAre("halton"));
+    EXPECT_THAT(nearest_words("Halton", known), ElementsAre("halton"));
+    EXPECT_THAT(nearest_words("hamm", known), ElementsAre("hammersley"));
+    EXPECT_THAT(nearest_words("xyz", known), IsEmpty());
     // Two letters in the wrong order are one slip.
-    EXPECT_EQ(nearest_word("owne", std::vector<std::string>{"none", "owen"}), "owen");
-    EXPECT_EQ(nearest_word("sedes", std::vector<std::string>{"seed", "seeds"}), "seeds");
+    EXPECT_THAT(nearest_words("owne", std::vector<std::string>{"none", "owen"}),
+                ElementsAre("owen"));
+    EXPECT_THAT(nearest_words("sedes", std::vector<std::string>{"seed", "seeds"}),
+                ElementsAre("seeds"));
+    // Three at most, all as near.
+    EXPECT_THAT(nearest_words("ab", std::vector<std::string>{"axe", "abd", "abc", "abe", "abf"}),
+                ElementsAre("abd", "abc", "abe"));
+    EXPECT_EQ(suggest("hal", known), "did you mean 'halton'?");
     EXPECT_EQ(suggest("xyz", known), "known: halton, hammersley, random");
+    EXPECT_EQ(quoted_list({"a"}, "or"), "'a'");
+    EXPECT_EQ(quoted_list({"a", "b", "c"}, "and"), "'a', 'b' and 'c'");
 }
 
 TEST(Text, SplitsKeepEmptyParts) {

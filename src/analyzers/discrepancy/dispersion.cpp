@@ -88,6 +88,7 @@ Analyzer unit() {
         .name = "dispersion",
         .summary = "Volume of the largest empty axis-parallel box, and where it is",
         .source = "Naamad, Lee, Hsu 1984, doi:10.1016/0166-218X(84)90124-0",
+        .related = {"largest-empty-box"},
         .traits = {.max_dimension = 1000},
         .options =
             Schema(torus, limit::method, limit::time_limit, limit::tolerance, limit::max_work),

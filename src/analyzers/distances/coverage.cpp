@@ -84,6 +84,7 @@ Analyzer unit() {
     return {.name = "coverage",
             .summary = "Covering radius: the largest empty ball, and where it is",
             .source = "Niederreiter 1992, chapter 6",
+            .related = {"fill-distance", "minimax", "covering-radius", "mesh-norm"},
             .traits = {.max_dimension = 32, .unit_cube = false, .boxed = true},
             .options = Schema(metric, tolerance, max_boxes),
             .results = {{"radius", "of the largest ball in which no point is"},

@@ -418,6 +418,7 @@ Analyzer unit() {
         .name = "hyperuniformity",
         .summary = "Number variance in growing windows, with its exponent",
         .source = "Torquato, Stillinger 2003, doi:10.1103/PhysRevE.68.041113",
+        .related = {"number-variance"},
         .traits = {.max_dimension = 3, .unit_cube = false, .boxed = true},
         .options = Schema(max_radius, min_radius, radius_count, window_count, metric),
         .results =

@@ -110,6 +110,8 @@ Analyzer unit() {
         .name = "nearest-neighbor",
         .summary = "Distances to the nearest other point: minimum, mean, relative radius",
         .source = "Lagae, Dutre 2008, doi:10.1111/j.1467-8659.2007.01100.x (relative radius)",
+        .related = {"minimum-distance", "mindist", "maximin", "separation", "closest-pair",
+                    "distances"},
         .traits = {.unit_cube = false},
         .options = Schema(metric_of_any_norm),
         .results = {{"minimum", "the smallest distance of two points"},

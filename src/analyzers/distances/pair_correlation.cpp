@@ -265,6 +265,7 @@ Analyzer unit() {
     return {.name = "pair-correlation",
             .summary = "Pair correlation function: points at each distance of a point",
             .source = "Chiu, Stoyan, Kendall, Mecke, Stochastic Geometry and its Applications 2013",
+            .related = {"pcf", "rdf", "radial-distribution", "ripley"},
             .traits = {.max_dimension = 3, .unit_cube = false, .boxed = true},
             .options = Schema(max_distance, bin_count, kernel, bandwidth, normalize, metric),
             .results = {{"distance", "middles of the bins (epanechnikov: their rims, from 0)"},

@@ -184,6 +184,7 @@ Analyzer unit() {
         .name = "poisson-disk",
         .summary = "Verifies that a set is a maximal Poisson-disk set of a radius",
         .source = "Ebeida et al. 2012, doi:10.1111/j.1467-8659.2012.03059.x",
+        .related = {"maximality"},
         .traits = {.max_dimension = 32, .unit_cube = false, .boxed = true},
         .options = Schema(radius, metric, tolerance, expect),
         .results = {{"radius", "that was verified"},

@@ -83,6 +83,7 @@ Analyzer unit() {
         .name = "spanning-tree",
         .summary = "Minimum spanning tree: mean and deviation of its edges",
         .source = "Dussert et al. 1986, doi:10.1103/PhysRevB.34.3528",
+        .related = {"mst"},
         .traits = {.unit_cube = false},
         .options = Schema(metric_of_any_norm),
         .results = {{"mean", "length of an edge"},

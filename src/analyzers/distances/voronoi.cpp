@@ -236,6 +236,7 @@ Analyzer unit() {
         .source =
             "Halperin, Nelson 1978, doi:10.1103/PhysRevLett.41.121 (bond order); Balzer, "
             "Schloemer, Deussen 2009, doi:10.1145/1531326.1531392 (capacity error)",
+        .related = {"bond-order", "hexatic"},
         .traits = {.min_dimension = 2, .max_dimension = 2, .unit_cube = false, .boxed = true},
         .options = Schema(shortest_edge, metric),
         .results =

@@ -599,6 +599,7 @@ Analyzer unit() {
     return {.name = "integration",
             .summary = "Integrals of functions with known integrals, and their errors",
             .source = "Genz 1984; Owen 2003",
+            .related = {"convergence", "rmse", "mse", "genz"},
             .traits = {.max_dimension = 10'000, .unit_cube = false, .densities = true},
             .options = Schema(integrand, expression, exact, compare),
             .results = results(),

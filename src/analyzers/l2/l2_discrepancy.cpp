@@ -190,6 +190,8 @@ Analyzer unit() {
         .source =
             "Hickernell 1998, doi:10.1090/S0025-5718-98-00894-1; Heinrich 1996, "
             "doi:10.1090/S0025-5718-96-00756-4",
+        .related = {"discrepancy", "cd2", "wd2", "md2", "l2", "l2-star", "l2-centered", "warnock",
+                    "diaphony", "centered"},
         .traits = {.max_dimension = 10'000},
         .options = Schema(kind, axis_weights),
         .results = {{"KIND.value", "the discrepancy of that kind"},

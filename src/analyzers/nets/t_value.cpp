@@ -274,6 +274,7 @@ Analyzer unit() {
         .name = "t-value",
         .summary = "Quality parameter t of b^m points as a (t,m,d)-net, and of their projections",
         .source = "Niederreiter 1987, doi:10.1007/BF01294651",
+        .related = {"t-parameter", "net-quality", "t-m-s"},
         .traits = {.max_dimension = 10'000},
         .options = Schema(base, projections),
         .results = {{"t", "the least t for which the points are a (t,m,d)-net in base b"},

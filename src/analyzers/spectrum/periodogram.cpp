@@ -544,6 +544,8 @@ Analyzer unit() {
         .summary = "Power spectrum at integer frequencies, its radial mean and anisotropy",
         .source =
             "Ulichney 1988, doi:10.1109/5.3288; Heck, Schloemer, Deussen 2013, ACM TOG 32(3):25",
+        .related = {"spectrum", "fft", "fourier", "power-spectrum", "psd", "structure-factor",
+                    "radial", "radial-mean"},
         .traits = {.min_dimension = 1, .max_dimension = 3, .unit_cube = false, .boxed = true},
         .options = Schema(max_frequency, method, tolerance, normalize, window, weights, grid_file,
                           image_file, image_scale, image_bits, slice, wisdom),

@@ -487,6 +487,7 @@ Analyzer unit() {
     return {.name = "chi-square",
             .summary = "Two-sided test that points follow their domain's density",
             .source = "Pearson 1900, doi:10.1080/14786440009463897",
+            .related = {"chi2", "chisquare", "pearson", "uniformity"},
             .traits = {.unit_cube = false},
             .options = Schema(cells, shifted, combination, level_option, expect_uniformity_option),
             .results = results(),

@@ -232,6 +232,7 @@ Analyzer unit() {
         .name = "kolmogorov-smirnov",
         .summary = "Two-sided test of each coordinate of the domain's cube for uniformity",
         .source = "Kolmogorov 1933; Marsaglia, Tsang, Wang 2003, doi:10.18637/jss.v008.i18",
+        .related = {"ks", "kstest"},
         .traits = {.max_dimension = 10'000, .unit_cube = false},
         .options = Schema(level_option, expect_uniformity_option, exact_points),
         .results = {{"axes", "what they are, where they are not x1, x2, ...", false},

@@ -208,6 +208,7 @@ Analyzer unit() {
     return {.name = "moments",
             .summary = "Mean, variance, skewness and covariances beside the domain's exact values",
             .source = "Kendall, Stuart, The Advanced Theory of Statistics 1",
+            .related = {"statistics", "covariance", "correlation"},
             .traits = {.max_dimension = 1000, .unit_cube = false},
             .options = Schema(),
             .results = results(),

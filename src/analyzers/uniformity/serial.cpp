@@ -189,6 +189,7 @@ Analyzer unit() {
         .name = "serial",
         .summary = "Whether points depend on the ones before: lag correlations and runs",
         .source = "Levene, Wolfowitz 1944, doi:10.1214/aoms/1177731307; Knuth, TAOCP 2, 3.3.2",
+        .related = {"autocorrelation", "runs-test"},
         .traits = {.max_dimension = 10'000, .unit_cube = false},
         .options = Schema(lags, level_option, expect),
         .results = {{"axes", "what they are, where they are not x1, x2, ...", false},

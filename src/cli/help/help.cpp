@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/help/guide.hpp"
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -42,7 +43,7 @@ class HelpPage {
   public:
     enum class Style { text, man };
 
-    explicit HelpPage(Style style) : style_(style) {}
+    explicit HelpPage(Style style) : style_(style), columns_(text_columns()) {}
 
     [[nodiscard]] bool for_man() const { return style_ == Style::man; }
     [[nodiscard]] const std::string& text() const { return text_; }
@@ -51,7 +52,8 @@ class HelpPage {
     void title(const std::string& name, int number, const std::string& summary,
                const std::string& usage = {}) {
         if (!for_man()) {
-            text_ += fmt::format("{}: {}\n\nUsage: {}\n", name, summary, usage);
+            text_ +=
+                fmt::format("{}\n\nUsage: {}\n", filled(name + ": " + summary, columns_), usage);
             return;
         }
         text_ += fmt::format(
@@ -73,17 +75,21 @@ class HelpPage {
     void subsection(const std::string& name) { text_ += fmt::format(".SS {}\n", escaped(name)); }
 
     void paragraph(const std::string& text) {
-        text_ += for_man() ? fmt::format(".P\n{}\n", escaped(text)) : fmt::format("\n{}\n", text);
+        text_ +=
+            for_man() ? fmt::format(".P\n{}\n", escaped(text)) : "\n" + filled_page(text, columns_);
+    }
+
+    /// Sentences, each on lines of its own.
+    void facts(const std::vector<std::string>& sentences) {
+        text_ += "\n";
+        for (const std::string& sentence : sentences) text_ += filled(sentence, columns_, 2) + "\n";
     }
 
     /// An option, a verb or a result with what it is.
     void entry(const std::string& tag, const std::string& help) {
-        if (for_man())
-            text_ += fmt::format(".TP\n.B {}\n{}\n", escaped(trim(tag)), escaped(help));
-        else if (tag.size() <= 26)
-            text_ += fmt::format("  {:<26}  {}\n", tag, help);
-        else
-            text_ += fmt::format("  {}\n  {:<26}  {}\n", tag, "", help);
+        constexpr std::size_t tags = 28;  // columns
+        text_ += for_man() ? fmt::format(".TP\n.B {}\n{}\n", escaped(trim(tag)), escaped(help))
+                           : beside("  " + tag, help, columns_, tags);
     }
 
     /// Lines as they stand.
@@ -108,6 +114,7 @@ class HelpPage {
 
   private:
     Style style_;
+    std::size_t columns_;
     std::string text_;
 };
 
@@ -134,13 +141,14 @@ void add_results(HelpPage& page, const UnitInfo& unit) {
     for (const auto& [key, help] : unit.results) page.entry(key, help);
 }
 
-/// What a unit is, less its options.
-std::string facts_of(const UnitInfo& unit) {
-    std::string text =
-        fmt::format("Source: {}\n{}.", unit.source, capitalised(join(unit.remarks, "; ")));
-    if (!unit.strata.empty()) text += fmt::format("\nStrata: {}.", unit.strata);
-    if (!unit.aliases.empty()) text += fmt::format("\nAlso called {}.", join(unit.aliases, ", "));
-    return text;
+/// What a unit is, less its options: sentences.
+std::vector<std::string> facts_of(const UnitInfo& unit) {
+    std::vector<std::string> facts = {"Source: " + unit.source + ".",
+                                      capitalised(join(unit.remarks, "; ")) + "."};
+    if (!unit.strata.empty()) facts.push_back(fmt::format("Strata: {}.", unit.strata));
+    if (!unit.aliases.empty())
+        facts.push_back(fmt::format("Also called {}.", join(unit.aliases, ", ")));
+    return facts;
 }
 
 HelpPage page_of_program(HelpPage::Style style) {
@@ -159,9 +167,13 @@ HelpPage page_of_program(HelpPage::Style style) {
         "'stipple help TOPIC' explains a topic, 'stipple VERB --help' a verb, and\n"
         "'stipple VERB UNIT --help' a unit. 'stipple --version' names the linked libraries.");
     page.section("Exit status");
-    const std::string codes = std::ranges::find(topics(), "exit-codes", &Topic::name)->text;
-    const auto first = codes.find("\n    ") + 1;
-    page.lines(codes.substr(first, codes.find("\n\n", first) + 1 - first));
+    const std::string_view text = std::ranges::find(topics(), "exit-codes", &Topic::name)->text;
+    const std::string_view codes = text.substr(text.find("\n    ") + 1);
+    for (const auto line : split(codes.substr(0, codes.find("\n\n")), '\n')) {
+        const std::string_view entry = trim(line);
+        const auto blank = entry.find(' ');
+        page.entry(std::string(entry.substr(0, blank)), std::string(trim(entry.substr(blank))));
+    }
     page.see_also("stipple");
     return page;
 }
@@ -169,7 +181,7 @@ HelpPage page_of_program(HelpPage::Style style) {
 /// A unit in the manual page of its verb.
 void add_unit(HelpPage& page, Verb verb, const UnitInfo& unit) {
     page.subsection(unit.name);
-    page.paragraph(capitalised(unit.summary) + ".\n" + facts_of(unit));
+    page.paragraph(capitalised(unit.summary) + ".\n" + join(facts_of(unit), "\n"));
     add_options_of(page, verb, unit);
     if (!unit.results.empty()) page.paragraph("Results:");
     add_results(page, unit);
@@ -205,7 +217,7 @@ HelpPage page_of_unit(const VerbInfo& info, const UnitInfo& unit) {
     usage.replace(word + 1, end - word - 1, unit.name);
     HelpPage page(HelpPage::Style::text);
     page.title(unit.name, 1, unit.summary, usage);
-    page.paragraph(facts_of(unit));
+    page.facts(facts_of(unit));
     if (!own_options(info.verb, unit).empty()) page.section("Options of " + unit.name);
     add_options_of(page, info.verb, unit);
     if (!unit.results.empty()) page.section("Results");
@@ -248,10 +260,10 @@ const Topic* find_topic(const std::string& name) {
     for (const VerbInfo& info : verbs()) known.push_back(info.name);
     for (const Kind& kind : catalog())
         for (std::string& unit : names_of(kind)) known.push_back(std::move(unit));
-    fail_with_hint(
-        ErrorKind::usage,
-        nearest_word(name, known) ? suggest(name, known) : "'stipple help' lists topics and verbs",
-        "help: unknown topic, verb or unit '{}'", name);
+    fail_with_hint(ErrorKind::usage,
+                   nearest_words(name, known).empty() ? "'stipple help' lists topics and verbs"
+                                                      : suggest(name, known),
+                   "help: unknown topic, verb or unit '{}'", name);
 }
 
 /// A unit by its name alone.
@@ -260,7 +272,8 @@ std::string help_of_unit(const std::string& name) {
         const UnitInfo* unit = find_unit(kind, name);
         if (unit == nullptr) continue;
         if (const VerbInfo* info = find_verb(kind.verb)) return page_of_unit(*info, *unit).text();
-        if (const Topic* topic = find_topic(kind.name)) return topic->text;  // csv: formats
+        if (const Topic* topic = find_topic(kind.name))  // csv: formats
+            return filled_page(topic->text, text_columns());
     }
     if (std::string lines = coming_from(name); !lines.empty()) return lines;
     refuse_name(name);
@@ -270,7 +283,7 @@ std::string help_on(const std::vector<std::string>& words) {
     Arguments asked;
     if (words.empty()) return help_text(asked);
     if (const Topic* topic = find_topic(words[0]); topic != nullptr && words.size() == 1)
-        return topic->text;
+        return filled_page(topic->text, text_columns());
     const VerbInfo* info = find_verb(words[0]);
     if (words.size() > 1 && (info == nullptr || !units_for(info->name)))
         fail_with_hint(ErrorKind::usage, fmt::format("'stipple help {}' takes one word", words[0]),

@@ -139,7 +139,11 @@ const std::vector<CommonOption> rows = {
      "compare by Welch's t test, or by paired differences of sets with one seed", study},
     {"--confidence", "C", "0.95", "confidence level of the intervals", study},
     {"--bootstrap", "B", "2000", "bootstrap resamples", study, false, 1, 10'000'000},
-    {"--resume", "", "", "continue the study in the output file; start it if there is none", study},
+    {"--resume", "", "",
+     "continue the study in the output file, also with more seeds, counts, generators, ...; start "
+     "it "
+     "if there is none",
+     study},
     {"--overwrite", "", "", "replace the study that the file holds", study},
     {"--yes", "", "", "start even with more than 10 million rows", study},
     {"--with-pdf", "", "", "add a column with the density of each point", generate | warp},
@@ -220,6 +224,7 @@ const std::vector<CommonOption> rows = {
     {"--no-header", "", "", "omit the header line of csv", writers},
     {"--json", "", "", "as JSON, complete and stable, for programs", list | reproduce},
     {"--json", "", "", "the page's content as JSON; also for -o FILE.json", report},
+    {"--long", "", "", "with the traits and options of every unit", list},
     {"--man", "", "", "as a manual page, for man", help},
     {"-o,--output", "FOLDER", "", "with --man: all manual pages, as files in a folder", help},
     {"--markdown", "", "", "as tables in Markdown", list},

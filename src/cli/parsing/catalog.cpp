@@ -13,6 +13,7 @@
 #include "core/text.hpp"
 #include "generators/generator.hpp"
 #include "io/format.hpp"
+#include "pipeline/units.hpp"
 #include "scrambles/scramble.hpp"
 #include "warps/warp.hpp"
 
@@ -41,6 +42,7 @@ std::shared_ptr<const Json> shared(Json json) {
 template <class Unit>
 UnitInfo base_info(const Unit& unit) {
     UnitInfo out{.name = unit.name, .summary = unit.summary, .source = unit.source};
+    if constexpr (requires { unit.family; }) out.family = unit.family;
     if constexpr (requires { unit.strata; }) out.strata = unit.strata;
     if constexpr (requires { unit.aliases; }) out.aliases = unit.aliases;
     if constexpr (requires { unit.stream_version; }) out.stream_version = unit.stream_version;
@@ -120,34 +122,6 @@ Kind kind_of(std::string name, std::string verb, const std::vector<Unit>& units)
     return kind;
 }
 
-Json value_json(const Value& value) {
-    return std::visit([](const auto& held) -> Json { return held; }, value);
-}
-
-Json option_json(const Option& option) {
-    Json out = {{"name", option.name}, {"type", option.type}};
-    out["default"] = option.optional ? Json(nullptr) : value_json(option.fallback);
-    if (!option.range().empty() && option.type != "choice") out["range"] = option.range();
-    if (!option.choices.empty()) out["choices"] = option.choices;
-    if (!option.unit.empty()) out["unit"] = option.unit;
-    out["help"] = option.help;
-    return out;
-}
-
-Json unit_json(const UnitInfo& unit, std::string_view kind) {
-    Json out = {{"name", unit.name},     {"aliases", unit.aliases}, {"summary", unit.summary},
-                {"source", unit.source}, {"traits", *unit.traits},  {"options", Json::array()}};
-    if (!unit.strata.empty()) out["strata"] = unit.strata;
-    if (unit.stream_version > 0) out["stream_version"] = unit.stream_version;
-    for (const Option& option : unit.options) out["options"].push_back(option_json(option));
-    if (kind == "analyzers") {
-        out["results"] = Json::array();
-        for (const auto& [key, help] : unit.results)
-            out["results"].push_back({{"key", key}, {"help", help}});
-    }
-    return out;
-}
-
 }  // namespace
 
 const std::vector<Kind>& catalog() {
@@ -193,8 +167,7 @@ const UnitInfo& unit_of(std::string_view verb, std::string_view name) {
     const Kind& kind = *units_for(verb);
     if (const UnitInfo* unit = find_unit(kind, name)) return *unit;
     const std::string singular = kind.name.substr(0, kind.name.size() - 1);
-    fail_with_hint(ErrorKind::usage, suggest(name, names_of(kind)), "unknown {} '{}'", singular,
-                   name);
+    refuse_unit(singular, name);
 }
 
 std::string option_usage(const Option& option) {
@@ -218,50 +191,6 @@ std::string option_notes(const Option& option) {
     if (!option.optional && option.type != "flag")
         notes.push_back("default " + format_value(option.fallback));
     return notes.empty() ? "" : " (" + join(notes, "; ") + ")";
-}
-
-std::string list_text(const std::vector<Kind>& kinds) {
-    std::string text;
-    for (const Kind& kind : kinds) {
-        text += fmt::format("{}{}\n", text.empty() ? "" : "\n", kind.name);
-        for (const UnitInfo& unit : kind.units) {
-            text += fmt::format("  {:<18} {}\n", unit.name, unit.summary);
-            text += fmt::format("  {:<18} [{}]\n", "", join(unit.remarks, "; "));
-            if (!unit.aliases.empty())
-                text += fmt::format("  {:<18} also called {}\n", "", join(unit.aliases, ", "));
-            for (const Option& option : unit.options)
-                text += fmt::format("  {:<18} {:<22} {}{}\n", "", option_usage(option), option.help,
-                                    option_notes(option));
-        }
-    }
-    return text;
-}
-
-std::string list_json(const std::vector<Kind>& kinds) {
-    Json out = {{"format", "stipple.list"}, {"version", 1}, {"stipple", STIPPLE_VERSION}};
-    for (const Kind& kind : kinds) {
-        out[kind.name] = Json::array();
-        for (const UnitInfo& unit : kind.units)
-            out[kind.name].push_back(unit_json(unit, kind.name));
-    }
-    return out.dump(2) + "\n";
-}
-
-std::string list_markdown(const std::vector<Kind>& kinds) {
-    std::string text;
-    for (const Kind& kind : kinds) {
-        text += fmt::format("{}| {} | what it is | options |\n|---|---|---|\n",
-                            text.empty() ? "" : "\n", kind.name.substr(0, kind.name.size() - 1));
-        for (const UnitInfo& unit : kind.units) {
-            std::vector<std::string> options;
-            for (const Option& option : unit.options) options.push_back("`--" + option.name + "`");
-            std::vector<std::string> names = {"`" + unit.name + "`"};
-            for (const std::string& alias : unit.aliases) names.push_back("`" + alias + "`");
-            text += fmt::format("| {} | {} ({}) | {} |\n", join(names, ", "), unit.summary,
-                                join(unit.remarks, "; "), join(options, " "));
-        }
-    }
-    return text;
 }
 
 }  // namespace stipple::cli

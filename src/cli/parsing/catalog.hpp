@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// All units of all kinds in one shape, for `list`, help and README's tables.
+// All units of all kinds in one shape, for `list`, help and the guide's tables.
 #pragma once
 
 #include <memory>
@@ -18,6 +18,7 @@ struct UnitInfo {
     std::string name;
     std::string summary;
     std::string source;
+    std::string family = {};           ///< "blue noise"; of formats: none
     std::string strata = {};           ///< of warps: what becomes of the unit coordinates
     std::uint64_t stream_version = 0;  ///< of units that make or move points; else 0
     std::vector<std::string> aliases = {};
@@ -48,10 +49,6 @@ std::vector<std::string> names_of(const Kind& kind);
 
 /// The unit of a verb. @throws Error(usage)
 const UnitInfo& unit_of(std::string_view verb, std::string_view name);
-
-std::string list_text(const std::vector<Kind>& kinds);
-std::string list_json(const std::vector<Kind>& kinds);
-std::string list_markdown(const std::vector<Kind>& kinds);
 
 /// "default 1, in [0, 9], steps": what help says behind an option.
 std::string option_notes(const Option& option);

@@ -107,8 +107,8 @@ std::vector<std::string> known_options(Verb verb, const UnitInfo* unit) {
 
 [[noreturn]] void complain(std::string_view what, const std::string& word,
                            const std::vector<std::string>& known) {
-    const auto meant = nearest_word(word, known);
-    std::string hint = meant            ? fmt::format("did you mean {}?", *meant)
+    const auto meant = nearest_words(word, known);
+    std::string hint = !meant.empty()   ? fmt::format("did you mean {}?", join(meant, " or "))
                        : what == "verb" ? "known: " + join(known, ", ")
                                         : "--help lists the options";
     fail_with_hint(ErrorKind::usage, hint, "unknown {} '{}'", what, word);

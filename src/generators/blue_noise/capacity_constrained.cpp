@@ -131,6 +131,7 @@ Generator unit() {
     return {.name = "capacity-constrained",
             .summary = "Points with cells of equal mass, by optimal transport (blue noise)",
             .source = "de Goes, Breeden, Ostromoukhov, Desbrun 2012, doi:10.1145/2366145.2366190",
+            .related = {"power-diagram"},
             .traits = planar_traits,
             .options = Schema(iterations, crystals, planar::initial, from, density_option,
                               invert_option, torus_option, bounded_option),

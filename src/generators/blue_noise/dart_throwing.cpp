@@ -221,6 +221,7 @@ Generator unit() {
     return {.name = "dart-throwing",
             .summary = "Random points that keep a distance, which shrinks as they become many",
             .source = "McCool, Fiume 1992, Graphics Interface, 94-105",
+            .related = {"hard-disks", "random-sequential-addition", "matern"},
             .traits = {.max_dimension = most_directions, .sequence = false, .boxed = true},
             .options = Schema(radius, misses, shrink, density_option, invert_option, torus_option,
                               bounded_option),

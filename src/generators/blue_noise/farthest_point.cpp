@@ -199,6 +199,7 @@ Generator unit() {
                 "Points moved to the largest gap, one by one: the least distance near its "
                 "bound (blue noise)",
             .source = "Schloemer, Heck, Deussen 2011, doi:10.1145/2018323.2018345",
+            .related = {"maximin"},
             .traits = planar_traits,
             .options = Schema(iterations, initial, planar::from, torus_option, bounded_option),
             .aliases = {"fpo", "farthest-point-optimization"},

@@ -90,6 +90,7 @@ Generator unit() {
     return {.name = "gaussian-blue-noise",
             .summary = "Random points that Gaussian kernels have pushed apart (blue noise)",
             .source = "Ahmed, Ren, Wonka 2022, doi:10.1145/3550454.3555519",
+            .related = {"blue-noise"},
             .traits = {.max_dimension = relaxation_dimensions,
                        .sequence = false,
                        .prefix = false,

@@ -82,6 +82,7 @@ Generator unit() {
     return {.name = "lloyd",
             .summary = "Centroidal Voronoi relaxation: every point in the middle of its cell",
             .source = "Lloyd 1982, doi:10.1109/TIT.1982.1056489",
+            .related = {"voronoi-relaxation", "relaxation", "k-means"},
             .traits = planar_traits,
             .options = Schema(iterations, planar::initial, from, density_option, invert_option,
                               torus_option, bounded_option),

@@ -275,6 +275,7 @@ Generator unit() {
     return {.name = "sample-elimination",
             .summary = "Random points less those that are crowded most (blue noise, exact count)",
             .source = "Yuksel 2015, doi:10.1111/cgf.12538",
+            .related = {"blue-noise"},
             .traits = {.max_dimension = most_directions,
                        .sequence = false,
                        .prefix = false,

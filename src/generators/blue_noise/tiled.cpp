@@ -260,6 +260,7 @@ Generator unit() {
     return {.name = "tiled",
             .summary = "One tile of blue noise, repeated and thinned to any number of points",
             .source = "Cohen, Shade, Hiller, Deussen 2003, doi:10.1145/882262.882265",
+            .related = {"tiles", "polyominoes", "wang-tiles"},
             .traits = {.min_dimension = 2, .max_dimension = 2, .prefix = false},
             .options = Schema(tile_points, iterations, density_option, invert_option),
             .plan = plan,

@@ -215,6 +215,7 @@ Generator unit() {
     return {.name = "void-and-cluster",
             .summary = "Cells of a torus in the order of void and cluster, and its dither mask",
             .source = "Ulichney 1993, doi:10.1117/12.152707",
+            .related = {"blue-noise-mask", "ordered-dither", "dithering"},
             .traits = planar_traits,
             .options = Schema(size, cell, density_option, invert_option, mask_image),
             .aliases = {"dither"},

@@ -311,6 +311,7 @@ Generator unit() {
             .source =
                 "Niederreiter 1992, doi:10.1137/1.9781611970081; "
                 "Dick 2008, doi:10.1137/060666639",
+            .related = {"niederreiter-xing", "generating-matrices", "net"},
             .traits = {},
             .options =
                 Schema(matrices_option, layout_option, base_option, interlacing, binary_scramble),

@@ -150,6 +150,7 @@ Generator unit() {
     return {.name = "niederreiter",
             .summary = "Niederreiter sequence in base 2 or another prime, plain or scrambled",
             .source = "Bratley, Fox, Niederreiter 1992, doi:10.1145/146382.146385",
+            .related = {"niederreiter-xing"},
             .traits = {.max_dimension = 1000, .max_index = std::uint64_t{1} << binary_digits},
             .options = Schema(base_option, binary_order, binary_scramble),
             .plan = plan,

@@ -46,6 +46,7 @@ Generator unit() {
             .source =
                 "Sobol' 1967, doi:10.1016/0041-5553(67)90144-9; Joe and Kuo 2008, "
                 "doi:10.1137/070709359",
+            .related = {"quasi-random", "low-discrepancy", "joe-kuo", "sobolset"},
             .traits = {.max_dimension = sobol_table_dimensions,
                        .max_index = std::uint64_t{1} << binary_digits,
                        .more_dimensions = std::string(directions.name)},

@@ -49,6 +49,7 @@ Generator unit() {
     return {.name = "hexagonal",
             .summary = "Hexagonal lattice: n points farthest apart on the torus",
             .source = "Standard construction; the densest lattice of n points, by search",
+            .related = {"honeycomb"},
             .traits = {.min_dimension = 2,
                        .max_dimension = 2,
                        .prefix = false,

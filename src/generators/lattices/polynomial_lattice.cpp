@@ -173,6 +173,7 @@ Generator unit() {
             .source =
                 "Niederreiter 1992, doi:10.1137/1.9781611970081; "
                 "Baldeaux et al. 2012, doi:10.1007/s11075-011-9497-y",
+            .related = {"cbc"},
             .traits = {.prefix = false},
             .options = Schema(rule, modulus_option, vector_option, vector_file, product_weights,
                               weight_decay, vector_output, vector_format, binary_scramble),

@@ -244,6 +244,7 @@ Generator unit() {
                 "Rank-1 lattice: multiples of one vector modulo 1; Fibonacci, Korobov, "
                 "component by component, or given",
             .source = "Nuyens & Cools 2006, doi:10.1090/S0025-5718-06-01785-6; Sloan & Joe 1994",
+            .related = {"korobov", "fibonacci", "good-lattice-points", "cbc", "lattice-rule"},
             .traits = {.prefix = false, .seeded = false},
             .options = Schema(rule, multiplier, effort, vector, vector_file, product_weights,
                               weight_decay, vector_output, vector_format),

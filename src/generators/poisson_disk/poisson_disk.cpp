@@ -276,6 +276,8 @@ Generator unit() {
             .source =
                 "Cook 1986, doi:10.1145/7529.8927; Ebeida et al. 2012, "
                 "doi:10.1111/j.1467-8659.2012.03059.x",
+            .related = {"blue-noise", "maximal-poisson-disk", "bridson", "minimum-distance",
+                        "hard-core"},
             .traits = {.min_dimension = 2,
                        .max_dimension = 6,
                        .sequence = false,

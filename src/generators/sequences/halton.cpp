@@ -114,6 +114,7 @@ Generator unit() {
     return {.name = "halton",
             .summary = "Halton sequence: radical inverses in the first primes, also scrambled",
             .source = "Halton 1960, doi:10.1007/BF01386213",
+            .related = {"generalized-halton", "leaped-halton", "quasi-random", "low-discrepancy"},
             .traits = {.max_dimension = primes.size()},
             .options = Schema(scramble, leap),
             .plan = plan,

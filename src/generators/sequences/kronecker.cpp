@@ -179,6 +179,7 @@ Generator unit() {
         .name = "kronecker",
         .summary = "Kronecker sequence: multiples of a vector modulo 1; R_d unless one is given",
         .source = "Roberts 2018, extremelearning.com.au; Kuipers & Niederreiter 1974",
+        .related = {"golden-ratio", "plastic-number", "richtmyer"},
         .traits = {.seeded = false},
         .options = Schema(alpha, offset),
         .aliases = {"additive-recurrence", "r2", "rd", "weyl"},

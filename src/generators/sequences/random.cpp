@@ -80,14 +80,16 @@ std::uint64_t max_seed(const Values& options) {
 }  // namespace
 
 Generator unit() {
-    return {.name = "random",
-            .summary = "Independent uniform random points; legacy engines are sequential",
-            .source = "Salmon et al. 2011, doi:10.1145/2063384.2063405",
-            .traits = {.independent = true},
-            .options = Schema(engine),
-            .aliases = {"uniform", "independent", "white-noise"},
-            .sequence = make,
-            .max_seed = max_seed};
+    return {
+        .name = "random",
+        .summary = "Independent uniform random points; legacy engines are sequential",
+        .source = "Salmon et al. 2011, doi:10.1145/2063384.2063405",
+        .related = {"monte-carlo", "pseudorandom", "mersenne-twister", "mt19937", "white", "rand"},
+        .traits = {.independent = true},
+        .options = Schema(engine),
+        .aliases = {"uniform", "independent", "white-noise"},
+        .sequence = make,
+        .max_seed = max_seed};
 }
 
 }  // namespace stipple::generators::random

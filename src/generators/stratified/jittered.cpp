@@ -111,6 +111,7 @@ Generator unit() {
     return {.name = "jittered",
             .summary = "Jittered points: one at random in each of n cells of equal volume",
             .source = "Cook 1986, doi:10.1145/7529.8927",
+            .related = {"jitter", "jittered-grid"},
             .traits = {.prefix = false},
             .options = Schema(shape, cell),
             .aliases = {"stratified"},

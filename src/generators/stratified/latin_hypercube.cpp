@@ -67,6 +67,7 @@ Generator unit() {
             .source =
                 "McKay, Beckman, Conover 1979, doi:10.1080/00401706.1979.10489755; strength "
                 "2: Tang 1993, doi:10.1080/01621459.1993.10476423",
+            .related = {"latin", "maximin", "lhd", "lhsdesign"},
             .traits = {.prefix = false},
             .options = Schema(centered_option, strength),
             .aliases = {"lhs", "n-rooks", "nrooks"},

@@ -87,6 +87,7 @@ Generator unit() {
             .source =
                 "Jarosz et al. 2019, doi:10.1111/cgf.13777; Bose 1938; Bush 1952, "
                 "doi:10.1214/aoms/1177729387",
+            .related = {"taguchi", "bush", "bose", "oa-lhs"},
             .traits = {.prefix = false},
             .options = Schema(construction, strength, substrata, centered_option, order_option),
             .aliases = {"oa"},

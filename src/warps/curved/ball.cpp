@@ -126,6 +126,7 @@ Warp unit() {
     return {.name = "ball",
             .summary = "Ball in space, uniform by volume",
             .source = "Devroye 1986, doi:10.1007/978-1-4613-8643-8, chapter V.4",
+            .related = {"unit-ball"},
             .strata =
                 "xi1 is the share of the volume within the radius, xi2 falls from the north "
                 "to the south pole, xi3 is the longitude; all as they are",

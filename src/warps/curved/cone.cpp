@@ -147,6 +147,7 @@ Warp unit() {
     return {.name = "cone",
             .summary = "Directions within an angle of an axis, uniform in solid angle",
             .source = "Devroye 1986, doi:10.1007/978-1-4613-8643-8, chapter V.4",
+            .related = {"cap"},
             .strata =
                 "xi1 falls from the axis to the rim, as the share of the solid angle; xi2 is "
                 "the longitude; both as they are",

@@ -170,6 +170,7 @@ Warp unit() {
             .source =
                 "Shirley, Chiu 1997, doi:10.1080/10867651.1997.10487479 (concentric); Malley "
                 "1988 (cosine from a disk)",
+            .related = {"cosine-hemisphere", "lambert", "cosine"},
             .strata =
                 "xi1 falls from the axis to the horizon, as the share of the density; xi2 is "
                 "the longitude; with --disk concentric squares about the centre become rings; "

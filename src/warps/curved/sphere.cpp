@@ -146,6 +146,7 @@ Warp unit() {
     return {.name = "sphere",
             .summary = "Sphere, uniform by area (but naive-lat-long: biased, to show its bias)",
             .source = "Marsaglia 1972, doi:10.1214/aoms/1177692644 (rejection)",
+            .related = {"unit-sphere", "marsaglia"},
             .strata =
                 "xi1 falls from the north pole z = R to the south pole, as the share of the "
                 "area; xi2 is the longitude; both as they are",

@@ -118,6 +118,7 @@ Warp unit() {
     return {.name = "von-mises-fisher",
             .summary = "Directions by the distribution of von Mises and Fisher, about an axis",
             .source = "Fisher 1953, doi:10.1098/rspa.1953.0064",
+            .related = {"fisher"},
             .strata =
                 "xi1 is the probability of the cone about the axis, 0 on it; xi2 turns about it; "
                 "both as they are",

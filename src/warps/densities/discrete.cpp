@@ -212,6 +212,7 @@ Warp unit() {
     return {.name = "discrete",
             .summary = "Outcomes with given probabilities, on each coordinate",
             .source = "Walker 1977, doi:10.1145/355744.355749; Vose 1991 (alias)",
+            .related = {"categorical", "alias-method"},
             .strata =
                 "inversion: outcomes lie side by side in their order, xi as it is; alias: strata "
                 "are kept only within a slot",

@@ -135,6 +135,7 @@ Warp unit() {
             .source =
                 "Inversion of a tabulated distribution function: L. Devroye, Non-Uniform "
                 "Random Variate Generation (1986), ch. II and VIII",
+            .related = {"density"},
             .strata = "xi1 is the share of the mass below x, as it is",
             .options = Schema(density, range, breaks, tolerance),
             .aliases = {"formula-1d"},

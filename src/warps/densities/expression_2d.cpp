@@ -88,6 +88,7 @@ Warp unit() {
             .source =
                 "Marginal, then conditional: M. Rosenblatt 1952, "
                 "doi:10.1214/aoms/1177729394",
+            .related = {"density"},
             .strata =
                 "xi1 is the share of the mass left of x, xi2 the share below y of what is "
                 "at that x, both as they are",

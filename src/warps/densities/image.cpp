@@ -315,6 +315,7 @@ Warp unit() {
         .source =
             "Shirley, Wang, Zimmerman 1996, doi:10.1145/226150.226151 (marginal, then "
             "conditional)",
+        .related = {"environment-map", "envmap"},
         .strata =
             "xi2 is the share of the mass below y, xi1 the share of that row's mass left "
             "of x, both as they are",

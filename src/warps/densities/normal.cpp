@@ -264,6 +264,7 @@ Warp unit() {
     return {.name = "normal",
             .summary = "Normal distribution with any mean and covariance, by inversion",
             .source = "Rosenblatt 1952, doi:10.1214/aoms/1177729394; quantiles: Wichura 1988",
+            .related = {"box-muller", "gauss"},
             .strata =
                 "xi_k is the probability below x_k given those before it, as it is: small xi is "
                 "far below the mean",

@@ -309,6 +309,7 @@ Warp unit() {
     return {.name = "power",
             .summary = "Density x^k on an interval, on each coordinate, by inversion",
             .source = "Inverse of the distribution function, a power or a logarithm",
+            .related = {"power-law"},
             .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
             .options = Schema(exponent, range),
             .mapping = make};

@@ -98,6 +98,7 @@ Warp unit() {
     return {.name = "rejection",
             .summary = "Box with any density that a formula gives, by dropping points",
             .source = "von Neumann 1951, NBS Applied Mathematics Series 12, 36-38",
+            .related = {"accept-reject"},
             .strata =
                 "coordinates stay as they are, less the points dropped; one more decides "
                 "which",

@@ -141,6 +141,7 @@ Warp unit() {
     return {.name = "table-1d",
             .summary = "Density from a table, on each coordinate, by exact inversion",
             .source = "Inverse of a distribution function of straight or parabolic pieces",
+            .related = {"histogram", "inverse-cdf", "empirical", "piecewise-constant"},
             .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
             .options = Schema(rows, file, interpolation),
             .stream_version = 2,

@@ -99,6 +99,7 @@ Warp unit() {
     return {.name = "tent",
             .summary = "Box with the tent density, the triangle filter, in any dimension",
             .source = "the inverse of the distribution function of the triangle density",
+            .related = {"pixel-filter"},
             .strata = "each xi is the share of the tent on the left, as it is; strata become boxes",
             .options = Schema(radius, center),
             .aliases = {"triangle-filter"},

@@ -99,6 +99,7 @@ Warp unit() {
     return {.name = "disk",
             .summary = "Disk, uniform by area (but method naive: biased, kept to show its bias)",
             .source = "Shirley, Chiu 1997, doi:10.1080/10867651.1997.10487479 (concentric)",
+            .related = {"concentric", "shirley", "unit-disk"},
             .strata =
                 "polar: xi1 is the share of the area within the radius, xi2 the angle, both as "
                 "they are; concentric: squares about the centre become rings, left stays left",

@@ -97,6 +97,7 @@ Warp unit() {
     return {.name = "pixel",
             .summary = "Image of WxH pixels, or one pixel of it, in pixels: antialiasing patterns",
             .source = "Cook, Porter, Carpenter 1984, doi:10.1145/800031.808590 (its use)",
+            .related = {"antialiasing"},
             .strata =
                 "xi1 is the place along the rows, xi2 along the columns, both as they are; "
                 "an N W x N H grid of strata is N x N in each pixel",

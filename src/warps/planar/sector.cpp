@@ -76,6 +76,7 @@ Warp unit() {
     return {.name = "sector",
             .summary = "Sector of a disk or an annulus, uniform by area",
             .source = "the polar map r = sqrt(q^2 + xi1 (R^2 - q^2)) between two angles",
+            .related = {"wedge", "pie"},
             .strata =
                 "xi1 is the share of the area within the radius, xi2 the place between the "
                 "two angles, both as they are",

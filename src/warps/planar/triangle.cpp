@@ -168,6 +168,7 @@ Warp unit() {
             .source =
                 "Turk 1990, in: Graphics Gems (sqrt); Heitz 2019, HAL hal-02073696 "
                 "(low-distortion)",
+            .related = {"simplex", "barycentric"},
             .strata =
                 "sqrt: xi1 is the share of the area between the first vertex and a parallel of the "
                 "opposite side, xi2 the place along it, both as they are; low-distortion: the "

@@ -244,6 +244,7 @@ Analyzer unit() {
     return {.name = "star-discrepancy",
             .summary = "Star discrepancy, exact or between bounds, with the worst box",
             .source = "Doerr, Gnewuch, Wahlstroem 2014, arXiv:1405.1653",
+            .related = {"d-star", "discrepancy", "kuipers-niederreiter"},
             .traits = {.max_dimension = 10'000},
             .options = Schema(kind, boxes, limit::method, limit::time_limit, limit::tolerance,
                               limit::max_work, star::prefixes, star::every, star::projections),

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+//
+// The verb `list`: all units as text, JSON or Markdown.
+#include <fmt/format.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "cli/terminal.hpp"
+#include "cli/verbs.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace stipple::cli {
+namespace {
+
+Json value_json(const Value& value) {
+    return std::visit([](const auto& held) -> Json { return held; }, value);
+}
+
+Json option_json(const Option& option) {
+    Json out = {{"name", option.name}, {"type", option.type}};
+    out["default"] = option.optional ? Json(nullptr) : value_json(option.fallback);
+    if (!option.range().empty() && option.type != "choice") out["range"] = option.range();
+    if (!option.choices.empty()) out["choices"] = option.choices;
+    if (!option.unit.empty()) out["unit"] = option.unit;
+    out["help"] = option.help;
+    return out;
+}
+
+Json unit_json(const UnitInfo& unit, std::string_view kind) {
+    Json out = {{"name", unit.name},     {"aliases", unit.aliases}, {"summary", unit.summary},
+                {"source", unit.source}, {"traits", *unit.traits},  {"options", Json::array()}};
+    if (!unit.family.empty()) out["family"] = unit.family;
+    if (!unit.strata.empty()) out["strata"] = unit.strata;
+    if (unit.stream_version > 0) out["stream_version"] = unit.stream_version;
+    for (const Option& option : unit.options) out["options"].push_back(option_json(option));
+    if (kind == "analyzers") {
+        out["results"] = Json::array();
+        for (const auto& [key, help] : unit.results)
+            out["results"].push_back({{"key", key}, {"help", help}});
+    }
+    return out;
+}
+
+/// Each unit in a line or two, by families.
+std::string list_text(const std::vector<Kind>& kinds) {
+    constexpr std::size_t names = 24;  // columns, blanks around them, too
+    const std::size_t columns = text_columns();
+    std::string text;
+    for (const Kind& kind : kinds) {
+        std::map<std::string, std::string> families;
+        for (const UnitInfo& unit : kind.units)
+            families[unit.family] += beside("  " + unit.name, unit.summary, columns, names);
+        for (const auto& [family, lines] : families)
+            text += fmt::format("{}{}{}{}\n{}", text.empty() ? "" : "\n", kind.name,
+                                family.empty() ? "" : ": ", family, lines);
+    }
+    return text + "\n'stipple help UNIT' tells all of one, 'stipple list --long' all options.\n";
+}
+
+/// Each unit with its traits and options.
+std::string list_long(const std::vector<Kind>& kinds) {
+    constexpr std::size_t options = 27;  // columns in front of what an option does
+    const std::size_t columns = text_columns();
+    std::string text;
+    for (const Kind& kind : kinds) {
+        text += fmt::format("{}{}\n", text.empty() ? "" : "\n", kind.name);
+        for (const UnitInfo& unit : kind.units) {
+            const auto add = [&](const std::string& sentence) {
+                text += fmt::format("    {}\n", filled(sentence, columns, 4));
+            };
+            text += fmt::format("  {}\n", unit.name);
+            add(unit.summary);
+            add(fmt::format("[{}]", join(unit.remarks, "; ")));
+            if (!unit.aliases.empty()) add("also called " + join(unit.aliases, ", "));
+            for (const Option& option : unit.options)
+                text += beside("    " + option_usage(option), option.help + option_notes(option),
+                               columns, options);
+        }
+    }
+    return text;
+}
+
+std::string list_json(const std::vector<Kind>& kinds) {
+    Json out = {{"format", "stipple.list"}, {"version", 1}, {"stipple", STIPPLE_VERSION}};
+    for (const Kind& kind : kinds) {
+        out[kind.name] = Json::array();
+        for (const UnitInfo& unit : kind.units)
+            out[kind.name].push_back(unit_json(unit, kind.name));
+    }
+    return out.dump(2) + "\n";
+}
+
+std::string list_markdown(const std::vector<Kind>& kinds) {
+    std::string text;
+    for (const Kind& kind : kinds) {
+        text += fmt::format("{}| {} | what it is | options |\n|---|---|---|\n",
+                            text.empty() ? "" : "\n", kind.name.substr(0, kind.name.size() - 1));
+        for (const UnitInfo& unit : kind.units) {
+            std::vector<std::string> options;
+            for (const Option& option : unit.options) options.push_back("`--" + option.name + "`");
+            std::vector<std::string> names = {"`" + unit.name + "`"};
+            for (const std::string& alias : unit.aliases) names.push_back("`" + alias + "`");
+            text += fmt::format("| {} | {} ({}) | {} |\n", join(names, ", "), unit.summary,
+                                join(unit.remarks, "; "), join(options, " "));
+        }
+    }
+    return text;
+}
+
+}  // namespace
+
+int list(const Arguments& arguments) {
+    std::vector<Kind> kinds = catalog();
+    if (arguments.inputs.size() > 1)
+        fail(ErrorKind::usage, "list takes one KIND; {} are given", arguments.inputs.size());
+    if (!arguments.inputs.empty()) {
+        const std::string& wanted = arguments.inputs[0];
+        std::erase_if(kinds, [&](const Kind& kind) {
+            return kind.name != wanted && kind.name != wanted + "s";
+        });
+        if (kinds.empty())
+            fail_with_hint(ErrorKind::usage,
+                           "known: generators, scrambles, warps, analyzers, formats",
+                           "unknown kind '{}'", wanted);
+    }
+    write_text(arguments.get("output").value_or("-"), arguments.has("json") ? list_json(kinds)
+                                                      : arguments.has("markdown")
+                                                          ? list_markdown(kinds)
+                                                      : arguments.has("long") ? list_long(kinds)
+                                                                              : list_text(kinds));
+    return 0;
+}
+
+}  // namespace stipple::cli
