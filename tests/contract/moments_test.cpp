@@ -201,6 +201,10 @@ TEST(MomentsOfParts, OfMeshesGoWithTheirAttributes) {
 
 TEST(MomentsOfParts, KeepTheirDigitsWhereLawsAreThin) {
     const auto of = [](const char* spec) { return *mapping(spec)->domain()->moments(); };
+    // What does not vary is not skew.
+    const Moments level = of("triangle:vertices=[0,0,1 1,0,1 0,1,1]");
+    EXPECT_EQ(level.covariance[8], 0);
+    EXPECT_EQ(level.skewness[2], 0);
     // Nearly normal about the axis, of variance 1 / kappa; 1 - z is nearly exponential.
     const Moments thin = of("von-mises-fisher:kappa=1e8");
     EXPECT_NEAR(thin.covariance[0] * 1e8, 1, 1e-7);

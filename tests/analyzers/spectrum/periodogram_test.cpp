@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <map>
@@ -337,6 +338,21 @@ TEST(Periodogram, OscillationIsCompleteWhereItsWindowIs) {
     EXPECT_FALSE(complete(21, 0.9)) << "it never begins";
 }
 
+// Windows and distances of other sizes have no mean either.
+TEST(Periodogram, NorHaveOtherAnalyzersOverOtherLengths) {
+    for (const char* name : {"pair-correlation", "hyperuniformity"}) {
+        const Analyzer& unit = find_analyzer(name);
+        const auto refusal = [&](std::uint64_t n) {
+            const std::vector<Report> sets = {analyze(name, make("random", points(100, 2))),
+                                              analyze(name, make("random", points(n, 2)))};
+            Report mean;
+            return error_of([&] { unit.combine(mean, sets, unit.options.defaults()); });
+        };
+        EXPECT_EQ(refusal(100), "") << name;
+        EXPECT_TRUE(refusal(110).starts_with("usage: --average: the sets ")) << name;
+    }
+}
+
 // Frequencies over n^(1/d) of sets of different n are different ones.
 TEST(Periodogram, NormalizedFrequenciesOfOtherSizesHaveNoMean) {
     const Analyzer& unit = find_analyzer("periodogram");
@@ -650,6 +666,31 @@ TEST(Periodogram, HannWindowIsTheDefinitionAndLeavesNoiseWhite) {
         for (std::size_t i = 0; i < 25; ++i) means[i] += grid_of(one).values[i] / 2000;
     }
     for (std::size_t i = 0; i < 12; ++i) EXPECT_NEAR(means[i], 1, 5.5 / std::sqrt(2000)) << i;
+}
+
+// The same in space, at frequencies along one axis and along two.
+TEST(Periodogram, HannWindowIsTheDefinitionInSpace) {
+    const PointSet set = make("random", points(40, 3));
+    const Report report = spectrum(set, {{"window", "hann"}, {"max-frequency", "2"}});
+    for (const std::array<int, 3> f :
+         {std::array{0, 0, 1}, {1, 0, 0}, {0, -1, 0}, {1, 0, 1}, {0, 0, 2}}) {
+        std::complex<double> sum;
+        double shape = 1;
+        for (const int k : f) shape *= k == 0 ? 0.5 : std::abs(k) == 1 ? -0.25 : 0;
+        for (std::size_t i = 0; i < 40; ++i) {
+            double w = 1;
+            double turns = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                w *= (1 - std::cos(2 * std::numbers::pi * set[i][k])) / 2;
+                turns += f[k] * set[i][k];
+            }
+            sum += std::polar(w, -2 * std::numbers::pi * turns);
+        }
+        const double expected =
+            std::norm(sum - 40 * shape) / 40 / (std::pow(0.375, 3) - shape * shape);
+        const int at = ((f[2] + 2) * 5 + f[1] + 2) * 5 + f[0] + 2;
+        EXPECT_NEAR(grid_of(report).values[static_cast<std::size_t>(at)], expected, 1e-7) << at;
+    }
 }
 
 // A box is stretched onto the cube: frequencies are cycles a side.

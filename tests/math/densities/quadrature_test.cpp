@@ -42,6 +42,11 @@ TEST(Quadrature, TellsWhatItDidNotReach) {
         integrate_interval([](double x) { return 1 / (std::abs(x - 0.37) + 1e-12); }, 0, 1,
                            {.tolerance = 1e-12, .most = 20});
     EXPECT_GT(pole.error, 0.01);
+    // Of the outer of two integrals nothing is amiss, but of the inner one.
+    const auto inner = [](std::span<const double> p) {
+        return 1 / (std::abs(p[1] - 0.37) + 1e-12);
+    };
+    EXPECT_GT(integrate_box(inner, {{0, 0}, {1, 1}}, {.tolerance = 1e-12, .most = 20}).error, 0.01);
 }
 
 }  // namespace stipple::testing::quadrature_test

@@ -78,6 +78,7 @@ TEST(Integrands, OfSmoothFunctionsHaveTheIntegralOfQuadrature) {
         }
     const Integrand uneven = integrand("sobol-g:a=[0.5,3]", 2);
     EXPECT_NEAR(uneven.exact / smooth_integral(uneven, 2), 1, 1e-12);
+    EXPECT_DOUBLE_EQ(uneven.value(std::vector{1.0, 0.0}), 2.5 / 1.5 * 5 / 4);
     for (const std::string name : {"zone-plate", "zone-plate:phase=0", "zone-plate:phase=37"}) {
         const Integrand one = integrand(name, 2);
         EXPECT_NEAR(one.exact, smooth_integral(one, 2), 1e-13) << name;
