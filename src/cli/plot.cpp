@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The verb `plot`: points or reports in, a picture out.
+// The verb `plot`: points, reports or a study in, a picture out.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -22,6 +23,7 @@
 #include "plot/points_picture.hpp"
 #include "plot/report_charts.hpp"
 #include "plot/spectral_table.hpp"
+#include "plot/study_chart.hpp"
 #include "plot/text_picture.hpp"
 #include "report/average.hpp"
 #include "report/document.hpp"
@@ -122,10 +124,13 @@ class Plot {
 
     int go() {
         for (const std::string& input : input_names(arguments_)) read(input);
-        if (!reports_.empty() && !sets_.empty())
-            fail(ErrorKind::input, "points and reports are not drawn in one picture");
+        if (!reports_.empty() + !sets_.empty() + !means_.empty() > 1)
+            fail(ErrorKind::input,
+                 "of points, reports and studies, one kind is drawn in one picture");
         pick_set();
-        const std::string bytes = reports_.empty() ? picture_of_points() : picture_of_reports();
+        const std::string bytes = !means_.empty()    ? picture_of_study()
+                                  : reports_.empty() ? picture_of_points()
+                                                     : picture_of_reports();
         session_.run().check_stop();
         write_text(path_, bytes);
         return 0;
@@ -166,6 +171,11 @@ class Plot {
     void read(const std::string& input) {
         const RunContext& run = session_.run();
         const std::string bytes = io::read_bytes(input, run);
+        if (!arguments_.has("from"))
+            if (auto means = read_means(bytes, io::source_name(input), run)) {
+                add_study(*std::move(means), input);
+                return;
+            }
         if (!arguments_.has("from") && looks_like_reports(bytes)) {
             for (Measurement& m : read_reports(bytes, io::source_name(input)))
                 reports_.push_back(std::move(m));
@@ -173,7 +183,7 @@ class Plot {
         }
         auto sets = naming(
             input, [&] { return read_input(bytes, input, arguments_, run); },
-            "plot takes points, or the JSON of 'stipple analyze'");
+            "plot takes points, the JSON of 'stipple analyze', or the table of a study");
         for (std::size_t i = 0; i < sets.size(); ++i) {
             require_width(sets[i], input);
             naming(input, [&] { take_domain(sets[i], arguments_); });
@@ -184,8 +194,18 @@ class Plot {
         }
     }
 
+    /// Generators of several studies are told apart by their files.
+    void add_study(std::vector<MeanRow> means, const std::string& input) {
+        if (means.empty()) fail(ErrorKind::input, "{}: the study has no rows", input);
+        if (input_names(arguments_).size() > 1)
+            for (MeanRow& row : means)
+                row.generator = fmt::format("{}: {}", io::source_name(input), row.generator);
+        std::ranges::move(means, std::back_inserter(means_));
+    }
+
     /// --set: one of several, from 0 as the files number them.
     void pick_set() {
+        if (!means_.empty()) return;
         const std::size_t there = std::max(sets_.size(), reports_.size());
         const auto wanted = arguments_.integer("set", 0, there - 1);
         if (!wanted) return;
@@ -198,6 +218,16 @@ class Plot {
     }
 
     // ---------------------------------------------------------------- pictures
+
+    std::string picture_of_study() {
+        arguments_.refuse({"chart", "set"}, "is not for the table of a study");
+        const plot::StudyChart found =
+            plot::study_chart(means_, arguments_.get("key").value_or(""));
+        if (!found.left_out.empty())
+            session_.warn(fmt::format("{} results are drawn; --key picks one: {}",
+                                      found.chart.panels.size(), join(found.left_out, "; ")));
+        return drawn(found.chart);
+    }
 
     std::string picture_of_reports() {
         if (!chart_.empty())
@@ -431,6 +461,7 @@ class Plot {
     double scale_ = 1;
     std::vector<Loaded> sets_;
     std::vector<Measurement> reports_;
+    std::vector<MeanRow> means_;
 };
 
 }  // namespace

@@ -53,6 +53,21 @@ void widen(Axis& axis, double share, bool keep_low = false) {
     axis.high += more;
 }
 
+/// Whether all curves have values at powers of two alone, two or more.
+bool only_powers_of_two(const std::vector<ChartPanel>& panels) {
+    double low = HUGE_VAL;
+    double high = 0;
+    for (const ChartPanel& panel : panels)
+        for (const Series& series : panel.series)
+            for (const double x : series.x) {
+                int exponent = 0;
+                if (std::frexp(x, &exponent) != 0.5) return false;
+                low = std::min(low, x);
+                high = std::max(high, x);
+            }
+    return low < high;
+}
+
 Axis x_axis(const std::vector<ChartPanel>& panels, const PictureStyle& style) {
     const ChartPanel& last = panels.back();
     Span span{.log = style.log_x.value_or(last.log_x)};
@@ -64,6 +79,7 @@ Axis x_axis(const std::vector<ChartPanel>& panels, const PictureStyle& style) {
     Axis axis{.low = span.low,
               .high = span.high,
               .log = span.log,
+              .binary = span.log && only_powers_of_two(panels),
               .whole = last.whole_x,
               .name = last.x_name};
     // What begins next to zero begins there.
@@ -322,6 +338,30 @@ std::vector<Position> legend_places(const std::vector<LegendEntry>& entries, dou
 }
 
 }  // namespace
+
+std::string words_of(std::string name) {
+    std::ranges::replace(name, '_', ' ');
+    std::ranges::replace(name, '-', ' ');
+    std::ranges::replace(name, '.', ' ');
+    return name;
+}
+
+std::vector<Guide> falling_guides(const Series& series) {
+    const auto first = std::ranges::find_if(series.y, [](double y) { return y > 0; });
+    if (first == series.y.end() || series.x.size() < 3) return {};
+    const double n = series.x[static_cast<std::size_t>(first - series.y.begin())];
+    if (!(n > 0)) return {};
+    std::vector<Guide> guides;
+    for (const double power : {0.5, 1.0}) {
+        Guide guide{.name = guides.empty() ? "falling as 1/√n and as 1/n" : ""};
+        for (const double x : {n, series.x.back()}) {
+            guide.x.push_back(x);
+            guide.y.push_back(*first * std::pow(n / x, power));
+        }
+        guides.push_back(std::move(guide));
+    }
+    return guides;
+}
 
 double legend_height(const std::vector<LegendEntry>& entries, double width) {
     return entries.empty() ? 0 : legend_places(entries, width).back().y + legend_row + 5;

@@ -104,6 +104,12 @@ struct LegendEntry {
     double width = 2;  ///< of a line
 };
 
+/// A result's name as an axis has it: "radial power" of "radial.power".
+std::string words_of(std::string name);
+
+/// Lines through the first value of a curve above 0 that fall as n^(-1/2) and n^(-1).
+std::vector<Guide> falling_guides(const Series& series);
+
 /// Height of a legend in rows as wide as `width`.
 double legend_height(const std::vector<LegendEntry>& entries, double width);
 void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Position top_left,

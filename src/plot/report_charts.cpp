@@ -269,32 +269,6 @@ bool accompanies(const CurveGroup& group, const std::string& y) {
     return y == "mean" && has(group, "variance");
 }
 
-std::string words_of(std::string name) {
-    std::ranges::replace(name, '_', ' ');
-    std::ranges::replace(name, '-', ' ');
-    std::ranges::replace(name, '.', ' ');
-    return name;
-}
-
-/// Lines through the first value that fall as n^(-1/2) and n^(-1).
-std::vector<Guide> slopes(const std::vector<Series>& all) {
-    const Series& series = all[0];
-    const auto first = std::ranges::find_if(series.y, [](double y) { return y > 0; });
-    if (first == series.y.end() || series.x.size() < 3) return {};
-    const double n = series.x[static_cast<std::size_t>(first - series.y.begin())];
-    if (!(n > 0)) return {};
-    std::vector<Guide> guides;
-    for (const double power : {0.5, 1.0}) {
-        Guide guide{.name = guides.empty() ? "falling as 1/√n and as 1/n" : ""};
-        for (const double x : {n, series.x.back()}) {
-            guide.x.push_back(x);
-            guide.y.push_back(*first * std::pow(n / x, power));
-        }
-        guides.push_back(std::move(guide));
-    }
-    return guides;
-}
-
 /// What independent points have, where it is the same for all.
 std::vector<Guide> references(Measurements ms, const CurveGroup& group, const std::string& y) {
     if (y == "density" || y == "power" || y == "dispersion")
@@ -390,7 +364,8 @@ ChartPanel curve_panel(Measurements ms, const CurveGroup& group, const std::stri
     const bool steep = counts || y == "variance" || high > 10 * low;
     panel.log_y = panel.log_x && steep && low > 0;
     for (Series& series : panel.series) series.marks = series.x.size() <= 40;
-    if (counts && panel.log_y && !panel.series.empty()) panel.guides = slopes(panel.series);
+    if (counts && panel.log_y && !panel.series.empty())
+        panel.guides = falling_guides(panel.series[0]);
     if (group.x == "neighbors" && !panel.series.empty()) make_bars(panel);
     return panel;
 }
@@ -501,7 +476,7 @@ Chart number_over_count(Measurements ms, const std::string& key) {
     for (const std::string& family : families)
         panel.series.push_back(series_over_count(family, errors, found[family]));
     panel.log_y = range_of(panel.series).first > 0;
-    if (panel.log_y) panel.guides = slopes(panel.series);
+    if (panel.log_y) panel.guides = falling_guides(panel.series[0]);
     Chart chart = titled(capitalised(words_of(ms[0].analyzer)), ms);
     chart.panels.push_back(std::move(panel));
     return chart;

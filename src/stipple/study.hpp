@@ -52,6 +52,7 @@ struct StudyMean {
     double mean = 0;
     double low = 0;
     double high = 0;
+    double rms = 0;  ///< the root of the mean of the squares, as of errors
 };
 
 /// @param confidence in (0, 1)

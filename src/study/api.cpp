@@ -3,7 +3,6 @@
 // Studies in memory, for the public API.
 #include "core/error.hpp"
 #include "stipple/study.hpp"
-#include "study/statistics.hpp"
 #include "study/study_summary.hpp"
 #include "study/study_table.hpp"
 #include "study/sweep.hpp"
@@ -47,12 +46,10 @@ std::vector<StudyMean> means_of(std::span<const StudyValue> values, double confi
                          .key = v.key,
                          .value = v.value});
     std::vector<StudyMean> means;
-    for (const auto& [row, seeds, sample] : summary.samples()) {
-        const SampleSummary of = summarize(sample);
-        const auto [low, high] = t_interval(of, confidence);
-        means.push_back({row.generator, row.measure, row.dimension, row.count, row.key, of.count,
-                         of.mean, low, high});
-    }
+    for (const MeanRow& row :
+         summary.mean_rows({.confidence = confidence, .resamples = 0}, RunContext()))
+        means.push_back({row.generator, row.measure, row.dimension, row.count, row.key, row.sets,
+                         row.mean, row.t_low, row.t_high, row.rms});
     return means;
 }
 

@@ -2,6 +2,7 @@
 #include "study/statistics.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
@@ -64,6 +65,22 @@ Interval t_interval(const SampleSummary& sample, double confidence) {
         boost::math::quantile(boost::math::complement(distribution, (1 - confidence) / 2)) *
         sample.standard_error;
     return {sample.mean - reach, sample.mean + reach};
+}
+
+double root_mean_square(std::span<const double> sample) {
+    double squares = 0;
+    for (const double x : sample) squares += x * x;
+    return std::sqrt(squares / static_cast<double>(sample.size()));
+}
+
+Interval rms_interval(std::span<const double> sample, double confidence) {
+    if (sample.size() < 2 || !(summarize(sample).deviation > 0)) return {not_known, not_known};
+    const auto r = static_cast<double>(sample.size());
+    const boost::math::chi_squared_distribution distribution(r);
+    const double tail = (1 - confidence) / 2;
+    const double rms = root_mean_square(sample);
+    return {rms * std::sqrt(r / boost::math::quantile(boost::math::complement(distribution, tail))),
+            rms * std::sqrt(r / boost::math::quantile(distribution, tail))};
 }
 
 Interval bootstrap_interval(std::span<const double> sample, double confidence,

@@ -4,6 +4,7 @@
 //
 //     mean, s^2 = sum (x - mean)^2 / (r - 1), standard error s / sqrt(r)
 //     t interval: mean -+ t(r - 1) s / sqrt(r)
+//     root mean square: q = sqrt(sum x^2 / r); its interval from q sqrt(r / chi^2(r)) at both tails
 //     bootstrap interval: quantiles of the means of B samples of r drawn with replacement
 //     Welch: t = (mean_a - mean_b) / sqrt(s_a^2 / r_a + s_b^2 / r_b), with Satterthwaite's degrees
 //     paired: the t test of the differences x_a - x_b
@@ -45,6 +46,12 @@ SampleSummary summarize(std::span<const double> sample);
 
 /// Student's interval for the mean.
 Interval t_interval(const SampleSummary& sample, double confidence);
+
+double root_mean_square(std::span<const double> sample);
+
+/// Interval for the root mean square of independent normal numbers of mean 0; not known of numbers
+/// that do not vary.
+Interval rms_interval(std::span<const double> sample, double confidence);
 
 /// Percentile interval for the mean; `stream` separates samples that share a seed.
 /// @throws Error(cancelled)

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "study/study_summary.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/text.hpp"
+#include "study/table_columns.hpp"
 
 namespace stipple {
 namespace {
@@ -16,29 +19,64 @@ TableCell real(const char* name, double value) {
     return {name, std::isnan(value) ? "" : format_number(value), true};
 }
 
-std::vector<TableCell> mean_cells(const StudyRow& row, const SampleSummary& s,
-                                  std::uint64_t failures, double confidence, const Interval& t,
-                                  const Interval& boot) {
-    return {word("table", "mean"),
-            word("generator", row.generator),
-            whole("dimension", row.dimension),
-            word("warps", row.warps),
-            whole("count", row.count),
-            word("measure", row.measure),
-            word("domain", row.domain),
-            word("key", row.key),
-            whole("sets", s.count),
-            whole("failed", failures),
-            real("mean", s.mean),
-            real("standard_error", s.standard_error),
-            real("median", s.median),
-            real("standard_deviation", s.deviation),
-            real("confidence", confidence),
-            real("t_low", t.low),
-            real("t_high", t.high),
-            real("bootstrap_low", boot.low),
-            real("bootstrap_high", boot.high),
-            word("study", row.study)};
+/// The columns of a row of means in order: their names, and the fields that they show.
+template <class Row, class Visit>
+void for_each_column(Row& row, const Visit& visit) {
+    visit("table", row.table);
+    visit("generator", row.generator);
+    visit("dimension", row.dimension);
+    visit("warps", row.warps);
+    visit("count", row.count);
+    visit("measure", row.measure);
+    visit("domain", row.domain);
+    visit("key", row.key);
+    visit("sets", row.sets);
+    visit("failed", row.failed);
+    visit("mean", row.mean);
+    visit("standard_error", row.standard_error);
+    visit("median", row.median);
+    visit("standard_deviation", row.standard_deviation);
+    visit("rms", row.rms);
+    visit("rms_low", row.rms_low);
+    visit("rms_high", row.rms_high);
+    visit("confidence", row.confidence);
+    visit("t_low", row.t_low);
+    visit("t_high", row.t_high);
+    visit("bootstrap_low", row.bootstrap_low);
+    visit("bootstrap_high", row.bootstrap_high);
+    visit("study", row.study);
+}
+
+std::vector<TableCell> cells_of(const MeanRow& row) {
+    return columns::cells_of([&](const auto& visit) { for_each_column(row, visit); });
+}
+
+MeanRow mean_of(const StudyRow& first, std::span<const double> values, std::uint64_t failed,
+                double confidence) {
+    const SampleSummary s = summarize(values);
+    const Interval t = t_interval(s, confidence);
+    MeanRow row{.generator = first.generator,
+                .dimension = first.dimension,
+                .warps = first.warps,
+                .count = first.count,
+                .measure = first.measure,
+                .domain = first.domain,
+                .key = first.key,
+                .sets = s.count,
+                .failed = failed,
+                .mean = s.mean,
+                .standard_error = s.standard_error,
+                .median = s.median,
+                .standard_deviation = s.deviation,
+                .confidence = confidence,
+                .t_low = t.low,
+                .t_high = t.high,
+                .study = first.study};
+    row.rms = root_mean_square(values);
+    const Interval rms = rms_interval(values, confidence);
+    row.rms_low = rms.low;
+    row.rms_high = rms.high;
+    return row;
 }
 
 /// Values of the seeds that both samples have.
@@ -82,23 +120,31 @@ void StudySummary::add(const StudyRow& row) {
     sample.values.push_back(row.value.value_or(std::nan("")));
 }
 
-std::string StudySummary::means(TableStyle style, const SummaryOptions& options,
-                                const RunContext& run) const {
-    std::string text;
-    const auto add = [&](const StudyRow& row, std::span<const double> values,
+std::vector<MeanRow> StudySummary::mean_rows(const SummaryOptions& options,
+                                             const RunContext& run) const {
+    std::vector<MeanRow> rows;
+    const auto add = [&](const StudyRow& first, std::span<const double> values,
                          std::uint64_t stream) {
-        const SampleSummary s = summarize(values);
+        const auto& failed =
+            failed_.at({first.generator, first.dimension, first.count, first.measure});
+        MeanRow& row = rows.emplace_back(mean_of(first, values, failed.sets, options.confidence));
+        if (options.resamples == 0) return;
         const auto boot = bootstrap_interval(values, options.confidence, options.resamples,
                                              options.seed, stream, run);
-        const auto& failed = failed_.at({row.generator, row.dimension, row.count, row.measure});
-        const auto cells = mean_cells(row, s, failed.sets, options.confidence,
-                                      t_interval(s, options.confidence), boot);
-        if (text.empty()) text = table_head(style, cells);
-        text += table_line(style, cells);
+        row.bootstrap_low = boot.low;
+        row.bootstrap_high = boot.high;
     };
     for (std::size_t i = 0; i < samples_.size(); ++i) add(samples_[i].row, samples_[i].values, i);
     for (const auto& [cell, failed] : failed_)
         if (!failed.some_went_well) add(failed.row, {}, 0);
+    return rows;
+}
+
+std::string StudySummary::means(TableStyle style, const SummaryOptions& options,
+                                const RunContext& run) const {
+    const auto rows = mean_rows(options, run);
+    std::string text = rows.empty() ? "" : table_head(style, cells_of(MeanRow()));
+    for (const MeanRow& row : rows) text += table_line(style, cells_of(row));
     return text;
 }
 
@@ -166,6 +212,53 @@ std::string StudySummary::comparisons(TableStyle style, const SummaryOptions& op
                             "the same points",
                             generators.first, generators.second));
     return text;
+}
+
+namespace {
+
+/// The rows of a study's table; a summary may follow them.
+std::vector<MeanRow> means_of_rows(std::span<const std::string_view> lines, const StudyTable& table,
+                                   const std::string& source, const RunContext& run) {
+    StudySummary summary;
+    for (std::size_t i = table.head().empty() ? 0 : 1; i < lines.size(); ++i) {
+        run.check_stop();
+        if (lines[i].empty() || lines[i].starts_with("{\"table\":")) break;
+        const auto row = table.parse(lines[i]);
+        if (!row) fail(ErrorKind::input, "{}:{}: is no row of a study", source, i + 1);
+        summary.add(*row);
+    }
+    return summary.mean_rows({.resamples = 0}, run);
+}
+
+std::vector<MeanRow> means_in_summary(std::span<const std::string_view> lines, TableStyle style,
+                                      const std::string& source) {
+    const auto columns = cells_of(MeanRow());
+    std::vector<MeanRow> rows;
+    for (std::size_t i = style == TableStyle::csv ? 1 : 0; i < lines.size(); ++i) {
+        const auto cells = parse_table_line(style, lines[i], columns);
+        MeanRow& row = rows.emplace_back();
+        const bool whole = cells && columns::read_cells(*cells, [&](const auto& visit) {
+                               for_each_column(row, visit);
+                           });
+        if (!whole) fail(ErrorKind::input, "{}:{}: is no row of a study's summary", source, i + 1);
+    }
+    return rows;
+}
+
+}  // namespace
+
+std::optional<std::vector<MeanRow>> read_means(std::string_view bytes, const std::string& source,
+                                               const RunContext& run) {
+    const std::string_view first = bytes.substr(0, bytes.find('\n'));
+    const bool csv = !first.starts_with('{');
+    const TableStyle style = csv ? TableStyle::csv : TableStyle::jsonl;
+    const bool summary = csv ? std::string(first) + "\n" == table_head(style, cells_of(MeanRow()))
+                             : first.starts_with("{\"table\":\"mean\"");
+    if (!summary && !StudyTable(style, true).is_head(first)) return std::nullopt;
+    const auto lines = split(bytes.substr(0, bytes.find_last_not_of('\n') + 1), '\n');
+    if (summary) return means_in_summary(lines, style, source);
+    const bool seconds = first.find("generate_seconds") != first.npos;
+    return means_of_rows(lines, StudyTable(style, seconds), source, run);
 }
 
 }  // namespace stipple

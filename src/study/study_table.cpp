@@ -3,10 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <type_traits>
-
-#include "core/text.hpp"
+#include "study/table_columns.hpp"
 
 namespace stipple {
 namespace {
@@ -41,49 +38,14 @@ void for_each_column(Row& row, bool seconds, const Visit& visit) {
     visit("seconds", row.seconds);
 }
 
-std::string cell_text(const std::string& text) { return text; }
-std::string cell_text(std::uint64_t number) { return std::to_string(number); }
-std::string cell_text(double number) { return format_number(number); }
-template <class T>
-std::string cell_text(const std::optional<T>& field) {
-    return field ? cell_text(*field) : "";
-}
-
 std::vector<TableCell> cells_of(const StudyRow& row, bool seconds) {
-    std::vector<TableCell> cells;
-    for_each_column(row, seconds, [&]<class Field>(const char* name, const Field& field) {
-        cells.push_back({name, cell_text(field), !std::is_same_v<Field, std::string>});
-    });
-    return cells;
-}
-
-/// Reads a field from its cell. False: it is none.
-bool read_cell(const std::string& text, std::string& field) {
-    field = text;
-    return true;
-}
-bool read_cell(const std::string& text, std::optional<std::uint64_t>& field) {
-    field = parse_unsigned(text);
-    return field || text.empty();
-}
-bool read_cell(const std::string& text, std::uint64_t& field) {
-    const auto number = parse_unsigned(text);
-    field = number.value_or(0);
-    return number.has_value();
-}
-bool read_cell(const std::string& text, std::optional<double>& field) {
-    if (text.empty()) return true;
-    field = std::nan("");
-    const char* end = text.data() + text.size();
-    return std::from_chars(text.data(), end, *field).ptr == end;
+    return columns::cells_of([&](const auto& visit) { for_each_column(row, seconds, visit); });
 }
 
 std::optional<StudyRow> row_from(const std::vector<std::string>& cells, bool seconds) {
     StudyRow row;
-    bool whole = true;
-    auto cell = cells.begin();
-    for_each_column(row, seconds,
-                    [&](const char*, auto& field) { whole = read_cell(*cell++, field) && whole; });
+    bool whole = columns::read_cells(
+        cells, [&](const auto& visit) { for_each_column(row, seconds, visit); });
     whole = whole && (row.status == "ok" || row.status == "failed") && row.study.size() == 16;
     return whole ? std::optional(std::move(row)) : std::nullopt;
 }

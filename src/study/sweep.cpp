@@ -46,25 +46,12 @@ void refuse_twice(const std::vector<Chosen<Unit>>& list, std::string_view who) {
                 fail(ErrorKind::usage, "{}: '{}' stands twice", who, list[i].spec);
 }
 
-/// Whether a result's name, or a part of it between dots, is meant; parts in capitals stand for
-/// any.
-bool has_part(const std::string& result, std::string_view wanted) {
-    const auto parts = split(result, '.');
-    const auto asked = split(wanted.substr(0, wanted.find('[')), '.');
-    const auto alike = [](std::string_view part, std::string_view word) {
-        const bool any = !part.empty() &&
-                         part.find_first_of("abcdefghijklmnopqrstuvwxyz") == std::string_view::npos;
-        return any || part == word;
-    };
-    return !std::ranges::search(parts, asked, alike).empty();
-}
-
 /// @throws Error(usage) for keys that no measure has, and measures that have none of them
 void check_keys(const std::vector<std::string>& wanted,
                 const std::vector<Chosen<Analyzer>>& measures) {
     const auto has = [](const Chosen<Analyzer>& measure, const std::string& key) {
         return std::ranges::any_of(measure.unit->results,
-                                   [&](const ResultKey& r) { return has_part(r.key, key); });
+                                   [&](const ResultKey& r) { return names_result(r.key, key); });
     };
     std::vector<std::string> known;
     for (const auto& measure : measures)
@@ -92,6 +79,17 @@ std::string names_of(const std::vector<Chosen<Unit>>& list) {
 }
 
 }  // namespace
+
+bool names_result(const std::string& result, std::string_view wanted) {
+    const auto parts = split(result, '.');
+    const auto asked = split(wanted.substr(0, wanted.find('[')), '.');
+    const auto alike = [](std::string_view part, std::string_view word) {
+        const bool any = !part.empty() &&
+                         part.find_first_of("abcdefghijklmnopqrstuvwxyz") == std::string_view::npos;
+        return any || part == word;
+    };
+    return !std::ranges::search(parts, asked, alike).empty();
+}
 
 Sweep::Sweep(SweepRequest request) : request_(std::move(request)) {
     choose();

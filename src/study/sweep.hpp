@@ -14,6 +14,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -60,6 +61,9 @@ struct Unit {
     std::uint64_t seed_index = 0;
     std::size_t measure = 0;
 };
+
+/// Whether a result's name, or a part of it between dots, is meant; parts in capitals stand for any.
+bool names_result(const std::string& result, std::string_view wanted);
 
 class Sweep {
   public:

@@ -57,6 +57,46 @@ TEST(Plot, WritesSvgToAPipeWithAMarkForEachPoint) {
     EXPECT_THAT(box.read("p.svg"), HasSubstr("\"command\":\"stipple generate random --count 200"));
 }
 
+// The table, as CSV and as JSON lines, from a pipe with the summary behind it, and the summary alone.
+TEST(Plot, DrawsStudies) {
+    const Sandbox box;
+    const std::string study =
+        "stipple study --generators 'random;halton' -n 16..256*4 --seeds 4 --analyze "
+        "star-discrepancy "
+        "--no-seconds --keys value ";
+    good(box.shell(study + "--summary -o s.csv && stipple plot s.csv -o s.svg"));
+    good(box.shell(study + "-o s.jsonl && stipple plot s.jsonl -o j.svg"));
+    good(box.shell(study + "--summary | stipple plot -o p.svg"));
+    good(box.shell("stipple plot s.summary.csv -o m.svg && stipple plot s.csv -o s.png"));
+    const std::string texts = xml(box, "s.svg", "text");
+    EXPECT_THAT(texts, HasSubstr("Star discrepancy|d = 2 · means of 4 sets, with 95 % intervals|"));
+    EXPECT_THAT(texts, HasSubstr("|64|"));
+    EXPECT_THAT(texts, ::testing::ContainsRegex("random .slope −0\\.[34567]"));
+    EXPECT_THAT(texts, ::testing::ContainsRegex("halton .slope −0\\.[789]"));
+    for (const char* same : {"j.svg", "p.svg", "m.svg"}) EXPECT_EQ(xml(box, same, "text"), texts);
+    EXPECT_EQ(xml(box, "s.svg", "circle"), "6\n");
+    EXPECT_TRUE(png(box, "s.png").starts_with("1440 "));
+    EXPECT_THAT(good(box.shell("stipple plot s.csv -f text")), HasSubstr("Star discrepancy"));
+    // Two studies.
+    good(box.shell("cp s.csv t.csv && stipple plot s.csv t.csv -o two.svg"));
+    EXPECT_THAT(xml(box, "two.svg", "text"), HasSubstr("t.csv: halton (slope"));
+}
+
+TEST(Plot, RefusesStudiesThatItCannotDraw) {
+    const Sandbox box;
+    good(box.shell(
+        "stipple study --generators random -n 16 --analyze moments --no-seconds -o s.csv"));
+    expect_refusal(box.shell("stipple plot s.csv --key nonsense"), 2,
+                   "--key: the study has no result 'nonsense'");
+    expect_refusal(box.shell("stipple plot s.csv --chart radial"), 2,
+                   "--chart: is not for the table");
+    expect_refusal(box.shell("head -n 1 s.csv | stipple plot"), 3, "the study has no rows");
+    expect_refusal(box.shell("(cat s.csv; echo nonsense) | stipple plot"), 3,
+                   "is no row of a study");
+    expect_refusal(box.shell("stipple generate random | stipple plot s.csv -"), 3,
+                   "one kind is drawn in one picture");
+}
+
 TEST(Plot, NotesTheCommandAsAShellTakesIt) {
     const Sandbox box;
     box.write("my points.csv", "0.5,0.25\n");
@@ -253,7 +293,8 @@ TEST(Plot, RefusesWhatIsNoPictureAndLeavesNoFile) {
     expect_refusal(box.run({"plot", "none.json", "-o", "e.svg"}), 3, "none.json");
     expect_refusal(box.run({"plot", "chi.json", "-o", "c.svg"}), 3, "nothing to draw");
     expect_refusal(box.run({"plot", "moments.json", "-o", "c.svg"}), 3, "nothing to draw");
-    expect_refusal(box.run({"plot", "chi.json", "p.csv", "-o", "c.svg"}), 3, "points and reports");
+    expect_refusal(box.run({"plot", "chi.json", "p.csv", "-o", "c.svg"}), 3,
+                   "one kind is drawn in one picture");
     expect_refusal(box.run({"plot", "chi.json", "nearest.json", "-o", "c.svg"}), 3,
                    "reports of chi-square and of nearest-neighbor");
     expect_refusal(box.run({"plot", "chi.json", "--chart", "points"}), 2, "--chart");

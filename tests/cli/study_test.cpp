@@ -249,6 +249,13 @@ TEST(Study, SummaryHasMeansIntervalsAndComparisons) {
     EXPECT_NEAR(std::stod(first.at("standard_error")), error, 1e-14);
     EXPECT_NEAR(std::stod(first.at("t_high")), mean + 3.182446305284263 * error, 1e-13);
     EXPECT_LT(std::stod(first.at("bootstrap_low")), mean);
+    double mean_square = 0;
+    for (const double x : values) mean_square += x * x / 4;
+    const double rms = std::sqrt(mean_square);
+    EXPECT_NEAR(std::stod(first.at("rms")), rms, 1e-14);
+    // chi-square with 4 degrees: 0.4844185571 and 11.1432867819
+    EXPECT_NEAR(std::stod(first.at("rms_high")), rms * std::sqrt(4 / 0.4844185571), 1e-9);
+    EXPECT_NEAR(std::stod(first.at("rms_low")), rms * std::sqrt(4 / 11.1432867819), 1e-9);
     const auto pairs = rows_of(box.read("study.comparisons.csv"));
     EXPECT_EQ(pairs.size(), 3U * 3 * 2);  // of generators, for each count and measure
     for (const Row& row : pairs) {

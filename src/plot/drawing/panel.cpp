@@ -60,7 +60,9 @@ Ticks Axis::ticks(double length, bool upright) const {
     const double room = upright ? 34 : 44;
     auto most = static_cast<std::size_t>(std::clamp(length / room, 2.0, 11.0));
     for (;; --most) {
-        Ticks found = log ? log_ticks(low, high, most) : linear_ticks(low, high, most, whole);
+        Ticks found = log && binary ? binary_ticks(low, high, most)
+                      : log         ? log_ticks(low, high, most)
+                                    : linear_ticks(low, high, most, whole);
         if (upright || most <= 2 || fit(*this, found, length)) return found;
     }
 }

@@ -20,6 +20,7 @@ struct Axis {
     double low = 0;
     double high = 1;
     bool log = false;
+    bool binary = false;    ///< logarithmic, with numbers at powers of two
     bool whole = false;     ///< numbers are whole
     std::string name = {};  ///< empty: none
     bool numbers = true;    ///< false: marks only, where the panel below has them

@@ -17,6 +17,15 @@ std::string with_minus(std::string text) {
     return text;
 }
 
+std::string raised(int exponent) {
+    constexpr std::array<const char*, 10> digits = {"⁰", "¹", "²", "³", "⁴",
+                                                    "⁵", "⁶", "⁷", "⁸", "⁹"};
+    std::string text;
+    for (const char c : std::to_string(exponent))
+        text += c == '-' ? "⁻" : digits[static_cast<std::size_t>(c - '0')];
+    return text;
+}
+
 /// 10 to a whole power, the double nearest to it.
 double ten_to(int exponent) {
     return exponent >= 0 ? std::pow(10.0, exponent) : 1 / std::pow(10.0, -exponent);
@@ -116,14 +125,7 @@ std::string rounded(double value, int digits) {
     return with_minus(fmt::format("{:.{}g}", value, digits));
 }
 
-std::string power_of_ten(int exponent) {
-    constexpr std::array<const char*, 10> raised = {"⁰", "¹", "²", "³", "⁴",
-                                                    "⁵", "⁶", "⁷", "⁸", "⁹"};
-    std::string text = "10";
-    for (const char c : std::to_string(exponent))
-        text += c == '-' ? "⁻" : raised[static_cast<std::size_t>(c - '0')];
-    return text;
-}
+std::string power_of_ten(int exponent) { return "10" + raised(exponent); }
 
 Ticks linear_ticks(double low, double high, std::size_t most, bool whole) {
     most = std::max<std::size_t>(most, 2);
@@ -149,6 +151,24 @@ Ticks linear_ticks(double low, double high, std::size_t most, bool whole) {
         const double value = k * step.value();
         if (numbered(k))
             ticks.numbers.push_back({value, printed(value / ten_to(ticks.exponent), digits)});
+    }
+    return ticks;
+}
+
+Ticks binary_ticks(double low, double high, std::size_t most) {
+    constexpr int plain = 16;  // 65536
+    const double first = std::ceil(std::log2(low) - 1e-9);
+    const double last = std::floor(std::log2(high) + 1e-9);
+    const Numbered numbered = spread(first, last, most);
+    Ticks ticks;
+    for (double k = first; k <= last; ++k) {
+        const int exponent = static_cast<int>(k);
+        if (!numbered(k))
+            ticks.minor.push_back(std::exp2(k));
+        else
+            ticks.numbers.push_back({std::exp2(k), k >= 0 && last <= plain
+                                                       ? printed(std::exp2(k), 0)
+                                                       : "2" + raised(exponent)});
     }
     return ticks;
 }

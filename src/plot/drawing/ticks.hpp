@@ -27,6 +27,9 @@ Ticks linear_ticks(double low, double high, std::size_t most, bool whole = false
 /// The same on a logarithmic axis, 0 < low < high.
 Ticks log_ticks(double low, double high, std::size_t most);
 
+/// Powers of two in [low, high], 0 < low < high, so that at most `most` have numbers.
+Ticks binary_ticks(double low, double high, std::size_t most);
+
 /// "10⁻³"
 std::string power_of_ten(int exponent);
 

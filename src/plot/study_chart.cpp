@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "plot/study_chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "plot/drawing/ticks.hpp"
+#include "study/sweep.hpp"
+
+namespace stipple::plot {
+namespace {
+
+/// What one panel shows.
+struct Topic {
+    std::string measure;
+    std::string key;
+    std::uint64_t dimension;
+    friend bool operator==(const Topic&, const Topic&) = default;
+};
+
+Topic topic_of(const MeanRow& row) { return {row.measure, row.key, row.dimension}; }
+
+std::string_view last_part(std::string_view key) { return key.substr(key.rfind('.') + 1); }
+
+/// Whether what counts is how far results are from 0.
+bool is_error(const Topic& topic, std::span<const MeanRow> means) {
+    if (last_part(topic.key) == "error") return true;
+    return std::ranges::any_of(
+        means, [&](const MeanRow& row) { return topic_of(row) == topic && row.mean < 0; });
+}
+
+/// The exponent of n by which a curve falls; nothing where that says nothing.
+std::optional<double> slope_of(const Series& series) {
+    if (series.x.size() < 3) return std::nullopt;
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+        if (!(series.y[i] > 0)) return std::nullopt;
+        const double u = std::log(series.x[i]);
+        const double v = std::log(series.y[i]);
+        n += 1;
+        x += u;
+        y += v;
+        xx += u * u;
+        xy += u * v;
+    }
+    const double spread = n * xx - x * x;
+    return spread > 0 ? std::optional((n * xy - x * y) / spread) : std::nullopt;
+}
+
+Series series_of(const std::string& generator, const Topic& topic, bool errors,
+                 std::span<const MeanRow> means) {
+    std::vector<const MeanRow*> rows;
+    for (const MeanRow& row : means)
+        if (row.generator == generator && topic_of(row) == topic && std::isfinite(row.mean))
+            rows.push_back(&row);
+    std::ranges::sort(rows, {}, [](const MeanRow* row) { return row->count; });
+    Series series{.name = generator, .marks = true};
+    for (const MeanRow* row : rows) {
+        series.x.push_back(static_cast<double>(row->count));
+        series.y.push_back(errors ? row->rms : row->mean);
+        series.low.push_back(errors ? row->rms_low : row->t_low);
+        series.high.push_back(errors ? row->rms_high : row->t_high);
+    }
+    if (const auto slope = slope_of(series))
+        series.name += fmt::format(" (slope {})", printed(*slope, 2));
+    return series;
+}
+
+/// Different texts in the order in which they come.
+template <class Text>
+std::vector<std::string> distinct(std::span<const MeanRow> means, const Text& text) {
+    std::vector<std::string> found;
+    std::set<std::string> known;
+    for (const MeanRow& row : means)
+        if (known.insert(text(row)).second) found.push_back(text(row));
+    return found;
+}
+
+std::string unit_of(const Topic& topic) { return topic.measure.substr(0, topic.measure.find(':')); }
+
+/// "cube error" or, where the key is "value", the measure's name.
+std::string key_of(const Topic& topic) {
+    std::string_view key = topic.key;
+    if (last_part(key) == "value") key.remove_suffix(std::min<std::size_t>(6, key.size()));
+    return words_of(key.empty() ? unit_of(topic) : std::string(key));
+}
+
+/// "centered (l2 discrepancy), d = 2": the key with what else tells the topics apart.
+std::string name_of(const Topic& topic, std::span<const Topic> all) {
+    const auto differ = [&](const auto& property) {
+        return std::ranges::any_of(
+            all, [&](const Topic& other) { return property(other) != property(topic); });
+    };
+    const std::string unit = words_of(unit_of(topic));
+    std::string name = key_of(topic);
+    if (differ(unit_of) && name != unit) name += fmt::format(" ({})", unit);
+    const bool options = std::ranges::any_of(all, [&](const Topic& other) {
+        return other.measure != topic.measure && unit_of(other) == unit_of(topic);
+    });
+    if (options) name += topic.measure.substr(unit_of(topic).size());
+    if (differ([](const Topic& t) { return t.dimension; }))
+        name += fmt::format(", d = {}", topic.dimension);
+    return name;
+}
+
+/// What is drawn: topics under the key.
+std::vector<Topic> topics_of(std::span<const MeanRow> means, const std::string& key) {
+    const bool values = std::ranges::any_of(
+        means, [](const MeanRow& row) { return last_part(row.key) == "value"; });
+    std::vector<Topic> topics;
+    for (const MeanRow& row : means) {
+        const bool wanted = key.empty() ? !values || last_part(row.key) == "value"
+                                        : row.key == key || names_result(row.key, key);
+        if (!wanted || !std::isfinite(row.mean)) continue;
+        if (std::ranges::find(topics, topic_of(row)) == topics.end())
+            topics.push_back(topic_of(row));
+    }
+    return topics;
+}
+
+ChartPanel panel_of(const Topic& topic, const std::string& name, std::span<const MeanRow> means) {
+    const bool errors = is_error(topic, means);
+    ChartPanel panel{
+        .x_name = "points n", .y_name = (errors ? "RMS of " : "") + name, .log_x = true};
+    double low = HUGE_VAL;
+    double high = 0;
+    for (const auto& generator : distinct(means, [](const auto& row) { return row.generator; })) {
+        Series series = series_of(generator, topic, errors, means);
+        for (const double y : series.y) {
+            low = std::min(low, y);
+            high = std::max(high, y);
+        }
+        if (!series.x.empty()) panel.series.push_back(std::move(series));
+    }
+    panel.log_y = low > 0 && high > 3 * low;
+    if (panel.log_y) panel.guides = falling_guides(panel.series[0]);
+    return panel;
+}
+
+/// How many sets a mean is of, and what bands are.
+std::string notes_of(std::span<const MeanRow> means) {
+    const auto [least, most] =
+        std::ranges::minmax(means, {}, [](const MeanRow& row) { return row.sets; });
+    if (most.sets < 2) return {};
+    std::string text = fmt::format("means of {} sets", most.sets);
+    if (least.sets != most.sets) text = fmt::format("means of up to {} sets", most.sets);
+    if (std::isfinite(most.confidence))
+        text += fmt::format(", with {} % intervals", rounded(100 * most.confidence));
+    return text;
+}
+
+}  // namespace
+
+StudyChart study_chart(std::span<const MeanRow> means, const std::string& key) {
+    constexpr std::size_t most_panels = 4;
+    const auto keys = distinct(means, [](const auto& row) { return row.key; });
+    const auto topics = topics_of(means, key);
+    if (topics.empty() && !key.empty())
+        fail_with_hint(ErrorKind::usage, suggest(key, keys), "--key: the study has no result '{}'",
+                       key);
+    if (topics.empty()) fail(ErrorKind::input, "the study has no numbers to draw");
+    StudyChart found;
+    for (const Topic& topic : topics) {
+        const std::string name = name_of(topic, topics);
+        if (found.chart.panels.size() < most_panels)
+            found.chart.panels.push_back(panel_of(topic, name, means));
+        else
+            found.left_out.push_back(name);
+    }
+    const auto alike = [&](const auto& property) {
+        return std::ranges::all_of(
+            topics, [&](const Topic& t) { return property(t) == property(topics[0]); });
+    };
+    found.chart.title = alike(unit_of) ? capitalised(words_of(unit_of(topics[0]))) : "Study";
+    found.chart.subtitle = notes_of(means);
+    if (alike([](const Topic& t) { return t.dimension; }))
+        found.chart.subtitle =
+            fmt::format("d = {}{}{}", topics[0].dimension,
+                        found.chart.subtitle.empty() ? "" : " · ", found.chart.subtitle);
+    return found;
+}
+
+}  // namespace stipple::plot

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+//
+// Rows as structures: their fields become the cells of a table, and cells become fields. A row is
+// given by for_each(visit), which calls visit(name, field) for every column in order.
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "core/text.hpp"
+#include "report/table_line.hpp"
+
+namespace stipple::columns {
+
+inline std::string text_of(const std::string& text) { return text; }
+inline std::string text_of(std::uint64_t number) { return std::to_string(number); }
+/// What is not known is a NaN, and an empty cell.
+inline std::string text_of(double number) {
+    return std::isnan(number) ? "" : format_number(number);
+}
+/// A NaN that was found is one.
+inline std::string text_of(const std::optional<double>& field) {
+    return field ? format_number(*field) : "";
+}
+inline std::string text_of(const std::optional<std::uint64_t>& field) {
+    return field ? std::to_string(*field) : "";
+}
+
+// Reads a field from its cell. False: it is none.
+inline bool read(const std::string& text, std::string& field) {
+    field = text;
+    return true;
+}
+inline bool read(const std::string& text, std::optional<std::uint64_t>& field) {
+    field = parse_unsigned(text);
+    return field || text.empty();
+}
+inline bool read(const std::string& text, std::uint64_t& field) {
+    const auto number = parse_unsigned(text);
+    field = number.value_or(0);
+    return number.has_value();
+}
+inline bool read(const std::string& text, double& field) {
+    field = std::nan("");
+    const char* end = text.data() + text.size();
+    return text.empty() || std::from_chars(text.data(), end, field).ptr == end;
+}
+inline bool read(const std::string& text, std::optional<double>& field) {
+    return text.empty() || read(text, field.emplace());
+}
+
+template <class ForEach>
+std::vector<TableCell> cells_of(const ForEach& for_each) {
+    std::vector<TableCell> cells;
+    for_each([&]<class Field>(const char* name, const Field& field) {
+        cells.push_back({name, text_of(field), !std::is_same_v<Field, std::string>});
+    });
+    return cells;
+}
+
+/// False: some cell is no such field.
+template <class ForEach>
+bool read_cells(const std::vector<std::string>& cells, const ForEach& for_each) {
+    bool whole = true;
+    auto cell = cells.begin();
+    for_each([&](const char*, auto& field) { whole = read(*cell++, field) && whole; });
+    return whole;
+}
+
+}  // namespace stipple::columns
