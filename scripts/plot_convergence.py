@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Draws the error of integrals against the number of points, log-log, a curve for each generator.
 
-Reads reports of `stipple analyze integration` (JSON, also many end to end, or CSV). A curve's name
-is the part of the measured file's name before the number: sobol_1024.csv belongs to 'sobol'. What
+Reads reports of `stipple analyze integration` (JSON, also many end to end, or CSV), or the table of a
+study (CSV). A curve's name is the generator of a study, or the part of the measured file's name
+before the number: sobol_1024.csv belongs to 'sobol'. What
 is drawn at n is the root mean square of the errors of all sets of n points. A curve's slope is that
 of the straight line fitted to it by least squares, with its standard error. Its band holds the true
 RMS error at each n with probability 0.95, where errors of sets are independent and normal.
@@ -40,7 +41,7 @@ def arguments():
 
 def reports_of(options):
     """Pairs of a label and a report of integration, in the order of the files."""
-    pairs = read_all(options)
+    pairs = read_all(options, "integration")
     for _, report in pairs:
         if report.analyzer != "integration":
             name = io.name_of(report.file)

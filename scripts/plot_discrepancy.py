@@ -59,13 +59,18 @@ def label_of(source):
     return SUFFIX.sub("", stem) or stem
 
 
-def read_all(options):
-    """Pairs of a label and a report, in the order of the files."""
+def read_all(options, analyzer=None):
+    """Pairs of a label and a report, in the order of the files; of studies, only that analyzer's."""
     pairs = []
     for k, path in enumerate(options.input):
         labels = options.label or []
         given = labels[min(k, len(labels) - 1)] if labels else None
-        pairs += [(given or label_of(report.source), report) for report in io.read_reports(path)]
+        for report in io.read_reports(path):
+            label = given or (report.source if report.study else label_of(report.source))
+            if analyzer is None or not report.study or report.analyzer == analyzer:
+                pairs.append((label, report))
+    if not pairs:
+        raise io.input_error(f"{io.name_of(options.input[0])}: the study does not measure {analyzer}")
     analyzers = list(dict.fromkeys(report.analyzer for _, report in pairs))
     if len(analyzers) > 1:
         raise io.input_error(f"reports of {' and '.join(analyzers)}; expected one analyzer's")

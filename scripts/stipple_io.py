@@ -149,6 +149,7 @@ class Report:
     errors: dict
     file: str
     number: int = None  # of the set in its file
+    study: bool = False  # it is from the table of a study
 
     def find(self, key, errors=False):
         group = self.errors if errors else self.results
@@ -189,6 +190,8 @@ def read_reports(path):
         for document in json_documents(text, name):
             documents += document if isinstance(document, list) else [document]
         reports = [json_report(document, path) for document in documents]
+    elif text.startswith("generator,generator_options,"):
+        reports = study_reports(text, path)
     else:
         reports = csv_reports(text, path)
     if not reports:
@@ -239,6 +242,27 @@ def csv_reports(text, path):
         for word, cell in zip(header[6:], row[6:]):
             reports[-1].results[word].append(cell or None)
     return reports
+
+
+def study_reports(text, path):
+    """Reports from the table of a study: one for each measure of a set, with the generator as its source."""
+    name, reports, dimensions = name_of(path), {}, set()
+    for at, row in enumerate(csv.DictReader(text.splitlines()), 2):
+        try:
+            count, words = int(row["count"]), (row["generator"], row["dimension"], row["measure"], row["seed"])
+            key, value = row["key"], row["value"]
+        except (KeyError, TypeError, ValueError):
+            raise input_error(f"{name}:{at}: is no row of a study") from None
+        analyzer = words[2].partition(":")[0]
+        report = Report(analyzer, words[0], count, 1, {}, {}, path, study=True)
+        report = reports.setdefault((words, count), report)
+        dimensions.add(words[1])
+        if value:
+            report.results[key] = value
+    for (words, _), report in reports.items():
+        if len(dimensions) > 1:
+            report.source += f" in {words[1]}-D"
+    return list(reports.values())
 
 
 # ---------------------------------------------------------------- pictures

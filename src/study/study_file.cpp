@@ -21,12 +21,16 @@ constexpr const char* journal_format = "stipple.study-journal";
 
 std::string journal_of(const std::string& path) { return path + ".journal"; }
 
-[[noreturn]] void refuse(const std::string& path) {
+std::string folder_of(const std::string& path) {
     const auto slash = path.rfind('/');
-    const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+    return slash == std::string::npos ? "." : path.substr(0, slash + 1);
+}
+
+[[noreturn]] void refuse(const std::string& path) {
     if (errno == ENOENT)
         fail(ErrorKind::io, "{}: {}", path,
-             exists(status_of(folder)) ? "no file can be made in its folder" : "no such folder");
+             exists(status_of(folder_of(path))) ? "no file can be made in its folder"
+                                                : "no such folder");
     refuse_file(path, errno);
 }
 
@@ -51,6 +55,16 @@ void cut_to(int descriptor, std::uint64_t size, const std::string& path) {
 
 /// Whether the bytes are on the disk. Some file systems have nothing to synchronise, and say so.
 bool is_synchronised(int result) { return result == 0 || errno == EINVAL || errno == ENOTSUP; }
+
+/// Has a file that is new on the disk, its name in the folder, too.
+void synchronise_new(int descriptor, const std::string& path) {
+    if (!is_synchronised(::fsync(descriptor))) refuse(path);
+    const int folder = ::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const bool done = folder >= 0 && is_synchronised(::fsync(folder));
+    const int error = errno;
+    if (folder >= 0) ::close(folder);
+    if (!done) refuse_file(path, error);
+}
 
 [[noreturn]] void refuse_place(const std::string& path, std::uint64_t line) {
     fail(ErrorKind::input,
@@ -381,7 +395,7 @@ void StudyFile::take_over(const Sweep& smaller, const RunContext& run) {
         lines += table_.line(*row);
     }
     end_segment();  // the last unit is done again: nobody can tell whether it is whole
-    if (!is_synchronised(::fdatasync(journal_))) refuse(journal_of(path_));
+    synchronise_new(journal_, journal_of(path_));
     cut_to(output_, table_.head().size(), path_);
     if (!is_synchronised(::fdatasync(output_))) refuse(path_);
 }

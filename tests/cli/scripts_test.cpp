@@ -125,6 +125,25 @@ TEST(PlotConvergence, DrawsACurveForEachGeneratorWithItsSlope) {
     EXPECT_THAT(texts(box.read("c.svg")), HasSubstr("$x &amp; y$\n"));
 }
 
+// The table of a study has all that reports have.
+TEST(PlotConvergence, DrawsStudies) {
+    const Sandbox box;
+    expect_quiet(run(box,
+                     "stipple study --generators 'random;pmj02' -n 16..256*4 --seeds 3 --analyze "
+                     "'integration:integrand=owen;moments' --no-seconds -o s.csv && "
+                     "plot_convergence.py s.csv -o s.svg"));
+    const std::string words = texts(box.read("s.svg"));
+    for (const char* word :
+         {"Integration of owen\n", "pmj02, ", "random, ", "RMS error of 3 sets\n"})
+        EXPECT_THAT(words, HasSubstr(word));
+    expect_quiet(run(box, "grep -v integration s.csv > m.csv"));
+    expect_refusal(run(box, "plot_convergence.py m.csv -o m.svg"), 3,
+                   "the study does not measure integration", "plot_convergence.py");
+    expect_quiet(run(box, "(head -n 1 s.csv; echo nonsense) > n.csv"));
+    expect_refusal(run(box, "plot_convergence.py n.csv -o n.svg"), 3,
+                   "n.csv:2: is no row of a study", "plot_convergence.py");
+}
+
 TEST(PlotConvergence, RefusesBadInputInOneLine) {
     const Sandbox box;
     expect_quiet(run(box,
