@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -64,26 +65,25 @@ std::vector<Entry> all_entries() {
     return all;
 }
 
-/// Names of units that a word as it is typed leads to, one of each: it is related to them, or is
-/// nearly a name of theirs.
-std::vector<std::string> meant_units(std::span<const Entry> entries, std::string_view word,
-                                     bool related) {
-    std::vector<std::string> names;
+/// The units that a word leads to without being a name of theirs.
+std::vector<std::string> related_units(std::span<const Entry> entries, std::string_view word) {
+    std::vector<std::string> units;
+    for (const Entry& entry : entries)
+        if (std::ranges::count(entry.related, word) > 0) units.push_back(entry.name);
+    return units;
+}
+
+/// The names nearest to a word, one of each unit.
+std::vector<std::string> near_names(std::span<const Entry> entries, std::string_view word) {
     std::map<std::string, std::string> unit_of;
     for (const Entry& entry : entries)
-        for (const std::string& name : related ? entry.related : entry.names) {
-            if (related && name == word) names.push_back(entry.name);
-            unit_of.emplace(name, entry.name);
-        }
-    if (related) return names;
+        for (const std::string& name : entry.names) unit_of.emplace(name, entry.name);
     std::vector<std::string> all;
     for (const auto& [name, unit] : unit_of) all.push_back(name);
-    for (const std::string& near : nearest_words(word, all)) {
-        const std::string& unit = unit_of.at(near);
-        if (std::ranges::none_of(names, [&](const auto& n) { return unit_of.at(n) == unit; }))
-            names.push_back(near);
-    }
-    return names;
+    std::vector<std::string> near = nearest_words(word, all);
+    std::set<std::string> units;
+    std::erase_if(near, [&](const auto& name) { return !units.insert(unit_of.at(name)).second; });
+    return near;
 }
 
 }  // namespace
@@ -101,12 +101,12 @@ void refuse_unit(std::string_view kind, std::string_view name) {
     std::erase_if(entries, [&](const Entry& entry) {
         return entry.kind != kind && !(kind == "warp" && entry.kind == "scramble");
     });
-    if (const auto near = meant_units(entries, word, true); !near.empty())
-        fail_with_hint(
-            ErrorKind::usage,
-            fmt::format("nearest {} {}", near.size() == 1 ? "is" : "are", quoted_list(near, "and")),
-            "there is no {} '{}'", kind, name);
-    const auto near = meant_units(entries, word, false);
+    if (const auto units = related_units(entries, word); !units.empty())
+        fail_with_hint(ErrorKind::usage,
+                       fmt::format("nearest {} {}", units.size() == 1 ? "is" : "are",
+                                   quoted_list(units, "and")),
+                       "there is no {} '{}'", kind, name);
+    const auto near = near_names(entries, word);
     fail_with_hint(ErrorKind::usage,
                    near.empty() ? fmt::format("'stipple list {}s' names them", kind)
                                 : fmt::format("did you mean {}?", quoted_list(near, "or")),
