@@ -132,8 +132,8 @@ const std::vector<CommonOption> rows = {
     {"--no-seconds", "", "", "omit the timing columns, so that every run gives the same bytes",
      study},
     {"--summary", "", "",
-     "means with standard errors, t and bootstrap intervals, medians, and pairwise "
-     "comparisons of generators with Holm-corrected p-values",
+     "means with standard errors, t and bootstrap intervals, medians, root mean squares, and "
+     "pairwise comparisons of generators with Holm-corrected p-values",
      study},
     {"--pairs", "welch|paired", "welch",
      "compare by Welch's t test, or by paired differences of sets with one seed", study},
