@@ -25,12 +25,23 @@ struct Reading {
     const Format* format = nullptr;  ///< as named; else by its name or its bytes
 };
 
+/// Those that `analyze` names; of other verbs none.
+std::vector<const Analyzer*> analyzers_of(const Arguments& arguments) {
+    std::vector<const Analyzer*> named;
+    if (arguments.verb != Verb::analyze) return named;
+    for (const std::string& spec : arguments.specs)
+        named.push_back(&find_analyzer(parse_spec(spec).name));
+    if (named.empty()) named.push_back(&find_analyzer(arguments.unit));
+    return named;
+}
+
 Reading reading_of(const std::string& path, const Arguments& arguments) {
     ReadOptions options{.source = path};
     std::string from = arguments.get("from").value_or("");
     options.single = from == "f32";
-    options.densities =
-        arguments.verb == Verb::analyze && find_analyzer(arguments.unit).traits.densities;
+    options.densities = std::ranges::any_of(analyzers_of(arguments), [](const Analyzer* analyzer) {
+        return analyzer->traits.densities;
+    });
     auto type = arguments.get("input-dtype");
     if (!type && arguments.verb != Verb::convert) type = arguments.get("dtype");
     if (type) options.single = *type == "f32";
@@ -74,6 +85,7 @@ std::vector<PointSet> named(std::vector<PointSet> sets, const Arguments& argumen
 }  // namespace
 
 std::vector<std::string> input_names(const Arguments& arguments) {
+    if (arguments.inputs.empty() && arguments.has("generate")) return {};
     const auto files = named_files(arguments);
     return arguments.has("concat") ? std::vector{join(files, ", ")} : files;
 }
@@ -323,10 +335,13 @@ GeneratedSets generated_sets(const std::string& spec, std::uint64_t seed,
     return {std::move(asked), run};
 }
 
-void refuse_generated_options(const Arguments& arguments) {
+void require_options_of_sources(const Arguments& arguments) {
     if (!arguments.has("generate"))
         arguments.refuse({"count", "seed", "sets", "warp", "start"},
                          "is of --generate, which names a generator");
+    else if (arguments.inputs.empty())
+        arguments.refuse({"bounds", "rescale", "domain", "column", "from", "dtype", "input-dtype"},
+                         "is of points from files, not of --generate");
 }
 
 }  // namespace stipple::cli

@@ -18,7 +18,8 @@
 
 namespace stipple::cli {
 
-/// The inputs that are named, or standard input; those that --concat joins are one.
+/// The inputs that are named or, without --generate, standard input; those that --concat joins are
+/// one.
 /// @throws Error(usage) when standard input is named twice
 std::vector<std::string> input_names(const Arguments& arguments);
 
@@ -105,7 +106,8 @@ SetsToMake sets_asked(const Generator& generator, Values options, const Argument
 GeneratedSets generated_sets(const std::string& spec, std::uint64_t seed,
                              const Arguments& arguments, const RunContext& run);
 
-/// @throws Error(usage) for options of --generate where it is not given
-void refuse_generated_options(const Arguments& arguments);
+/// @throws Error(usage) for options of --generate where it is not given, and for those of files where
+/// only it is
+void require_options_of_sources(const Arguments& arguments);
 
 }  // namespace stipple::cli

@@ -18,6 +18,7 @@
 #include "io/provenance.hpp"
 #include "io/source_text.hpp"
 #include "pipeline/chain.hpp"
+#include "pipeline/generated.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/units.hpp"
 #include "plot/points_picture.hpp"
@@ -123,7 +124,9 @@ class Plot {
     }
 
     int go() {
+        require_options_of_sources(arguments_);
         for (const std::string& input : input_names(arguments_)) read(input);
+        add_generated();
         if (!reports_.empty() + !sets_.empty() + !means_.empty() > 1)
             fail(ErrorKind::input,
                  "of points, reports and studies, one kind is drawn in one picture");
@@ -191,6 +194,22 @@ class Plot {
             sets_.push_back({std::move(sets[i]), input,
                              sets.size() > 1 ? std::optional(i) : std::nullopt,
                              bytes.starts_with(npy_magic), title});
+        }
+    }
+
+    void add_generated() {
+        const auto specs = arguments_.all("generate");
+        if (specs.empty()) return;
+        seed_ = seed_for(arguments_, specs, session_);
+        for (const std::string& spec : specs) {
+            const GeneratedSets sets = generated_sets(spec, seed_, arguments_, session_.run());
+            for (std::uint64_t set = 0; set < sets.sets(); ++set) {
+                PointSet points = sets.made(set, session_.run());
+                std::string title = title_of_points(points.provenance, spec);
+                sets_.push_back({std::move(points), spec,
+                                 sets.sets() > 1 ? std::optional(set) : std::nullopt, false,
+                                 std::move(title)});
+            }
         }
     }
 
@@ -440,11 +459,15 @@ class Plot {
 
     // ---------------------------------------------------------------- where it comes from
 
+    [[nodiscard]] std::string command() const {
+        std::string text = "stipple plot" + command_text(arguments_, {"seed"});
+        if (arguments_.has("seed")) text += typed_option("seed", std::to_string(seed_), false);
+        return text;
+    }
+
     /// With the command that draws this, less what cannot change it.
     [[nodiscard]] plot::PictureNotes notes_of() const {
-        Json note = {{"tool", "stipple"},
-                     {"version", STIPPLE_VERSION},
-                     {"command", "stipple plot" + command_text(arguments_)}};
+        Json note = {{"tool", "stipple"}, {"version", STIPPLE_VERSION}, {"command", command()}};
         if (sets_.size() == 1 && !sets_[0].points.provenance.generator.empty())
             note["meta"] = io::to_json(sets_[0].points.provenance);
         return {{"Software", fmt::format("stipple {}", STIPPLE_VERSION)},
@@ -462,6 +485,7 @@ class Plot {
     std::vector<Loaded> sets_;
     std::vector<Measurement> reports_;
     std::vector<MeanRow> means_;
+    std::uint64_t seed_ = 1;  ///< of --generate
 };
 
 }  // namespace

@@ -46,15 +46,15 @@ std::vector<std::string> keys_of(const std::string& measure, const Analyzer& ana
     return keys;
 }
 
-/// A condition of --fail-on, with its whole key: the name of a measure alone is its value.
+/// A condition with its whole key: the name of a measure alone is its value.
 /// @throws Error(usage) for what no page has, and for what can never hold
-Check condition_of(const std::string& text) {
-    Check check = parse_check(text, "--fail-on");
+Check condition_of(const std::string& text, const std::string& option) {
+    Check check = parse_check(text, option);
     const std::string measure = check.key.substr(0, check.key.find_first_of(".["));
     const Analyzer* analyzer = page::analyzer_of(measure);
     if (analyzer == nullptr)
         fail_with_hint(ErrorKind::usage, suggest(measure, page::measure_names()),
-                       "--fail-on: '{}' does not begin with the name of a measure", check.key);
+                       "{}: '{}' does not begin with the name of a measure", option, check.key);
     const bool alone = check.key == measure;
     if (alone) check.key += ".value";
     const std::string path = check.key.substr(0, check.key.find('['));
@@ -64,7 +64,7 @@ Check condition_of(const std::string& text) {
         const auto keys = keys_of(measure, *analyzer);
         fail_with_hint(ErrorKind::usage,
                        alone ? "its keys are " + join(keys, ", ") : suggest(check.key, keys),
-                       "--fail-on: there is no '{}'", check.key);
+                       "{}: there is no '{}'", option, check.key);
     }
     require_sense(check, *result);
     return check;
@@ -85,20 +85,29 @@ class Reporter {
         : arguments_(arguments),
           session_(session),
           path_(output_of(arguments)),
-          json_(arguments.has("json") || io::extension_of(path_) == ".json") {
+          json_(arguments.get("format").value_or(
+                    io::extension_of(path_) == ".json" ? "json" : "html") == "json") {
         if (!json_ && is_terminal(path_))
             fail_with_hint(ErrorKind::usage, "name a file with -o, or pipe it on",
                            "a page is not for terminals");
         if (const auto work = arguments.integer("max-work"))
             work_ = static_cast<std::int64_t>(*work);
-        for (const auto& text : arguments.all("fail-on")) conditions_.push_back(condition_of(text));
+        for (const auto& text : arguments.all("check"))
+            conditions_.push_back(condition_of(text, "--check"));
+        for (const auto& text : arguments.all("fail-on")) {
+            const Check check = opposite_of(condition_of(text, "--fail-on"));
+            session.warn(fmt::format("--fail-on {} is, in the form of all verbs, --check {}", text,
+                                     shell_word(check.key + check.op + check.value)));
+            conditions_.push_back(check);
+        }
     }
 
     int go() {
-        refuse_generated_options(arguments_);
+        require_options_of_sources(arguments_);
         keep_inputs();
         static const std::vector<std::string> known = {".html", ".htm", ".json"};
-        io::require_extension(path_, known, "--json writes JSON under any name");
+        if (!arguments_.has("format"))
+            io::require_extension(path_, known, "--format names what is written under any name");
         io::Output output(path_, session_.run().stop);
         load();
         check_sets();
@@ -125,8 +134,7 @@ class Reporter {
     }
 
     void load() {
-        if (!arguments_.inputs.empty() || !arguments_.has("generate"))
-            for (const std::string& input : input_names(arguments_)) add_file(input);
+        for (const std::string& input : input_names(arguments_)) add_file(input);
         const auto specs = arguments_.all("generate");
         if (!specs.empty()) seed_ = seed_for(arguments_, specs, session_);
         for (const std::string& spec : specs) add_generated(spec);
@@ -232,18 +240,18 @@ class Reporter {
                                   part_of_run(session_.run(), i, pending_.size()));
     }
 
-    /// Whether no condition of --fail-on holds, or may hold: also of a set that was not measured.
+    /// Whether all conditions are certain to hold, also of sets that were not measured.
     bool judge(const std::vector<page::Set>& sets) const {
         bool fine = true;
         for (const Check& check : conditions_) {
-            require_known(check.key, sets);
+            require_known(check, sets);
             for (const page::Set& set : sets) {
                 const Report all = set.all_results();
                 const bool there = has(all, check.key);
-                if (there && opposite_of(check).holds(all)) continue;
-                say_line(fmt::format("{}: {} is {}, and --fail-on is {}{}{}", set.name, check.key,
-                                     there ? check.found(all) : why_not(set, check.key), check.key,
-                                     check.op, check.value));
+                if (there && check.holds(all)) continue;
+                say_line(fmt::format("{}: {}{}{} does not hold: it is {}", set.name, check.key,
+                                     check.op, check.value,
+                                     there ? check.found(all) : why_not(set, check.key)));
                 fine = false;
             }
         }
@@ -270,19 +278,21 @@ class Reporter {
     }
 
     /// @throws Error(usage) for a key that the measure does not have
-    static void require_known(const std::string& key, const std::vector<page::Set>& sets) {
+    static void require_known(const Check& check, const std::vector<page::Set>& sets) {
+        const std::string& key = check.key;
         std::string hint;
         for (const page::Set& set : sets) {
             const Report all = set.all_results();
             if (has(all, key) || !measure_of(set, key).results) return;
             hint = suggest(key, all.keys());
         }
-        fail_with_hint(ErrorKind::usage, hint, "--fail-on: no set has '{}'", key);
+        fail_with_hint(ErrorKind::usage, hint, "{}: no set has '{}'", check.option, key);
     }
 
     /// The command that makes this page, less what cannot change it.
     [[nodiscard]] std::string command() const {
-        std::string text = "stipple report" + command_text(arguments_, {"json", "fail-on", "seed"});
+        std::string text =
+            "stipple report" + command_text(arguments_, {"format", "check", "fail-on", "seed"});
         if (arguments_.has("seed")) text += fmt::format(" --seed {}", seed_);
         return text + (json_ ? " --json" : " -o report.html");
     }

@@ -425,7 +425,7 @@ int say(const Original& original, const Verdict& verdict, const std::string& cha
     if (!verdict.identical && changed.empty() && version != STIPPLE_VERSION)
         sentence += fmt::format(" (made by stipple {}; this is {})", version, STIPPLE_VERSION);
     std::string text = printable(fmt::format("{}: {}", original.name, sentence)) + "\n";
-    if (arguments.has("json")) {
+    if (arguments.get("format") == "json") {
         Json out{{"format", "stipple.reproduction"}, {"version", 1}, {"file", original.name}};
         out["identical"] = verdict.identical;
         out["rules_changed"] = !changed.empty();

@@ -609,4 +609,75 @@ TEST(Analyze, BoundsAreWhatThePointsLiveOn) {
     }
 }
 
+// In one pass over the sets: what each finds alone.
+TEST(Analyze, MeasuresBySeveralAnalyzers) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -n 90 -m 3 -o a.json"));
+    good(box.shell("stipple generate halton -n 90 -o b.csv"));
+    const std::string both = "'star-discrepancy:kind=extreme,moments,periodogram:max-frequency=4'";
+    const std::vector<std::string> alone = {"star-discrepancy --kind extreme", "moments",
+                                            "periodogram --max-frequency 4"};
+    const auto without_seconds = [](json report) {
+        report.erase("seconds");
+        return report;
+    };
+    for (const std::string more : {"", " --average --quiet", " --threads 1"}) {
+        const json all =
+            json::parse(good(box.shell("stipple analyze " + both + " a.json b.csv" + more)));
+        const std::size_t sets = more.starts_with(" --average") ? 2 : 4;
+        ASSERT_EQ(all.size(), 3 * sets);
+        for (std::size_t i = 0; i < alone.size(); ++i) {
+            const json own = json::parse(
+                good(box.shell("stipple analyze " + alone[i] + " a.json b.csv" + more)));
+            for (std::size_t set = 0; set < sets; ++set)
+                EXPECT_EQ(without_seconds(all[3 * set + i]), without_seconds(own[set])) << more;
+        }
+    }
+    const json piped = json::parse(good(box.shell(
+        "cat b.csv | stipple analyze 'star-discrepancy;moments' --json -o r.txt; cat r.txt")));
+    ASSERT_EQ(piped.size(), 2U);
+    EXPECT_EQ(piped[1]["analyzer"], "moments");
+}
+
+TEST(Analyze, ChecksResultsOfSeveralAnalyzersByTheirNames) {
+    const Sandbox box;
+    good(box.shell("stipple generate halton -n 90 -o b.csv"));
+    const std::string call =
+        "stipple analyze star-discrepancy,moments,poisson-disk:radius=0.5 b.csv ";
+    EXPECT_EQ(box.shell(call + "--check 'star-discrepancy<0.1' --check 'moments.mean[0]<0.6'").code,
+              0);
+    const auto refused = [&](const std::string& words, int code, const char* why) {
+        expect_refusal(box.shell(call + words), code, why);
+    };
+    refused("--check 'star-discrepancy<0.01' -o r.json", 1,
+            "b.csv: star-discrepancy.value<0.01 does not hold: it is 0.0");
+    refused("--check -o r.json", 1, "b.csv: poisson-disk.valid==true does not hold");
+    refused("--check 'mean[0]<0.6'", 2, "such as star-discrepancy.mean[0] or moments.mean[0]");
+    refused("--radius 0.1", 2, "options stand behind their names; such as poisson-disk:radius=");
+    expect_refusal(box.shell("stipple analyze moments,momnets b.csv"), 2,
+                   "unknown analyzer 'momnets'; did you mean 'moments'?");
+    expect_refusal(box.shell("stipple analyze moments,t-value b.csv"), 3, "b.csv: t-value");
+    EXPECT_EQ(
+        box.shell("stipple analyze star-discrepancy b.csv --check 'star-discrepancy<0.1'").code, 0);
+}
+
+TEST(Analyze, TakesGeneratorsBehindFiles) {
+    const Sandbox box;
+    good(box.shell("stipple generate halton -n 90 -o b.csv"));
+    const json all = json::parse(good(box.shell(
+        "stipple analyze moments b.csv --generate halton --generate random -n 90 -m 2 --seed 7 "
+        "--quiet")));
+    ASSERT_EQ(all.size(), 5U);
+    EXPECT_EQ(all[0]["results"], all[1]["results"]);
+    EXPECT_EQ(all[2]["input"], json::parse(R"({"source": "halton", "set": 1, "count": 90,
+                                              "dimension": 2, "domain": "unit-cube"})"));
+    good(box.shell("stipple generate random -n 90 -s 8 -o c.csv"));
+    const json last = json::parse(good(box.shell("stipple analyze moments c.csv")));
+    EXPECT_EQ(all[4]["results"], last["results"]);
+    const Outcome means = box.shell(
+        "stipple analyze moments --generate halton --generate random --average -m 2 -n 9");
+    EXPECT_EQ(json::parse(means.out).size(), 2U);
+    EXPECT_EQ(means.err, "stipple: halton does not use the seed: all 2 sets are the same\n");
+}
+
 }  // namespace stipple::testing::analyze_test

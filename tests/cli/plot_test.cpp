@@ -82,6 +82,21 @@ TEST(Plot, DrawsStudies) {
     EXPECT_THAT(xml(box, "two.svg", "text"), HasSubstr("t.csv: halton (slope"));
 }
 
+TEST(Plot, DrawsGeneratedPoints) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -n 50 -s 4 -o a.json && stipple plot a.json -o a.svg"));
+    good(box.shell("stipple plot --generate random -n 50 -s 4 -o b.svg"));
+    const auto marks = [&](const char* file) {
+        const std::string svg = box.read(file);
+        return svg.substr(svg.find("</metadata>"));
+    };
+    EXPECT_TRUE(marks("a.svg") == marks("b.svg"));
+    EXPECT_THAT(box.read("b.svg"), HasSubstr("plot --generate random --count 50 --seed 4"));
+    expect_refusal(box.shell("stipple plot --generate random --column 1"), 2,
+                   "--column: is of points from files, not of --generate");
+    expect_refusal(box.shell("stipple plot a.json -n 3"), 2, "--count: is of --generate");
+}
+
 TEST(Plot, RefusesStudiesThatItCannotDraw) {
     const Sandbox box;
     good(box.shell(

@@ -161,28 +161,44 @@ TEST(Report, ItsCommandsMeasureTheSameNumbers) {
     EXPECT_GE(checked, 30U);
 }
 
-TEST(Report, FailsOnWhatItIsToldTo) {
+TEST(Report, ChecksWhatItIsToldTo) {
+    const Sandbox box;
+    good(box.shell("stipple generate halton -n 100 -o a.csv"));
+    const std::string report = "stipple report a.csv -o r.html --check ";
+    EXPECT_EQ(box.shell(report + "'star-discrepancy.value<=0.5'").code, 0);
+    EXPECT_EQ(box.shell(report + "'star-discrepancy<=0.5'").code, 0);
+    const Outcome failed = box.shell(report + "'star-discrepancy<=0.001'");
+    expect_refusal(failed, 1, "a.csv: star-discrepancy.value<=0.001 does not hold: it is 0.");
+    EXPECT_TRUE(box.exists("r.html"));
+    EXPECT_EQ(box.shell(report + "'chi-square.verdict!=non-uniform'").code, 0);
+    EXPECT_EQ(box.shell(report + "'chi-square.verdict==uniform' --check 'dispersion<=1'").code, 1);
+    EXPECT_EQ(box.shell(report + "'kolmogorov-smirnov.statistic[1]<0.9'").code, 0);
+}
+
+// The older form of the same.
+TEST(Report, FailsOnTheOppositeAndSaysSo) {
     const Sandbox box;
     good(box.shell("stipple generate halton -n 100 -o a.csv"));
     const std::string report = "stipple report a.csv -o r.html --fail-on ";
-    EXPECT_EQ(box.shell(report + "'star-discrepancy.value>0.5'").code, 0);
-    EXPECT_EQ(box.shell(report + "'star-discrepancy>0.5'").code, 0);
-    const Outcome failed = box.shell(report + "'star-discrepancy>0.001'");
-    expect_refusal(failed, 1, "a.csv: star-discrepancy.value is 0.");
-    EXPECT_TRUE(box.exists("r.html"));
-    EXPECT_EQ(box.shell(report + "'chi-square.verdict==non-uniform'").code, 0);
+    const Outcome fine = box.shell(report + "'star-discrepancy>0.5'");
+    EXPECT_EQ(fine.code, 0);
+    EXPECT_EQ(fine.err,
+              "stipple: --fail-on star-discrepancy>0.5 is, in the form of all verbs, --check "
+              "'star-discrepancy.value<=0.5'\n");
+    const Outcome failed = box.shell(report + "'star-discrepancy>0.001' --quiet");
+    expect_refusal(failed, 1, "a.csv: star-discrepancy.value<=0.001 does not hold: it is 0.");
     EXPECT_EQ(box.shell(report + "'chi-square.verdict!=uniform' --fail-on 'dispersion>1'").code, 1);
-    EXPECT_EQ(box.shell(report + "'kolmogorov-smirnov.statistic[1]>0.9'").code, 0);
+    EXPECT_EQ(box.shell(report + "'chi-square.verdict==non-uniform'").code, 0);
 }
 
 // Bounds that leave it open are no pass.
 TEST(Report, FailsWhereBoundsLeaveItOpen) {
     const Sandbox box;
     const std::string report =
-        "stipple report --generate random -n 200 -d 6 --max-work 20000 -o r.html --fail-on ";
-    const Outcome open = box.shell(report + "'star-discrepancy>0.3'");
+        "stipple report --generate random -n 200 -d 6 --max-work 20000 -o r.html --check ";
+    const Outcome open = box.shell(report + "'star-discrepancy<=0.3'");
     expect_refusal(open, 1, "is between");
-    EXPECT_EQ(box.shell(report + "'star-discrepancy>1'").code, 0);
+    EXPECT_EQ(box.shell(report + "'star-discrepancy<=1'").code, 0);
 }
 
 // Before anything is measured.
@@ -190,9 +206,12 @@ TEST(Report, RefusesConditionsThatNeverHold) {
     const Sandbox box;
     good(box.shell("stipple generate halton -n 20 -d 5 -o a.csv"));
     const auto expect = [&](const char* condition, const char* words) {
-        expect_refusal(box.run({"report", "a.csv", "--max-work", "1000", "--fail-on", condition,
-                                "-o", "r.html"}),
-                       2, words);
+        for (const char* option : {"--check", "--fail-on"}) {
+            const Outcome outcome = box.run(
+                {"report", "a.csv", "--max-work", "1000", option, condition, "-o", "r.html"});
+            expect_refusal(outcome, 2, words);
+            EXPECT_THAT(outcome.err, HasSubstr(option));
+        }
     };
     expect("chi-square.verdict==foo", "it is uniform, non-uniform or stratified");
     expect("star-discrepancy.exact==1", "it is true or false");
@@ -213,8 +232,9 @@ TEST(Report, FailsWhereAMeasureWasLeftOut) {
     box.write("out.csv", "0.5,1.5\n0.2,0.3\n0.7,0.1\n");
     for (const char* sets : {"a.csv out.csv", "out.csv"}) {
         const Outcome outcome = box.shell(std::string("stipple report ") + sets +
-                                          " -o r.html --fail-on 'star-discrepancy>0.9'");
-        expect_refusal(outcome, 1, "out.csv: star-discrepancy.value is not known (");
+                                          " -o r.html --check 'star-discrepancy<=0.9'");
+        expect_refusal(outcome, 1,
+                       "out.csv: star-discrepancy.value<=0.9 does not hold: it is not known (");
         EXPECT_THAT(outcome.err, Not(HasSubstr("a.csv: ")));
         EXPECT_TRUE(box.exists("r.html"));
     }
@@ -235,12 +255,12 @@ TEST(Report, RefusesWhatItCannotReportOn) {
                    "scramble");
     expect_refusal(box.run({"report", "a.csv", "-n", "5", "-o", "r.html"}), 2, "--generate");
     expect_refusal(box.run({"report", "-", "-", "-o", "r.html"}), 2, "twice");
-    expect_refusal(box.run({"report", "a.csv", "--fail-on", "value", "-o", "r.html"}), 2,
-                   "--fail-on: 'value' is not KEY<VALUE");
-    expect_refusal(box.run({"report", "a.csv", "--fail-on", "star-discrepncy>1", "-o", "r.html"}),
-                   2, "did you mean 'star-discrepancy'?");
-    expect_refusal(box.run({"report", "a.csv", "--fail-on", "dispersion.method>1", "-o", "r.html"}),
-                   2, "--fail-on");
+    expect_refusal(box.run({"report", "a.csv", "--check", "value", "-o", "r.html"}), 2,
+                   "--check: 'value' is not KEY<VALUE");
+    expect_refusal(box.run({"report", "a.csv", "--check", "star-discrepncy>1", "-o", "r.html"}), 2,
+                   "did you mean 'star-discrepancy'?");
+    expect_refusal(box.run({"report", "a.csv", "--check", "dispersion.method>1", "-o", "r.html"}),
+                   2, "--check");
     expect_refusal(box.run({"report", "a.csv", "-o", "no/such/r.html"}), 4, "no/such");
     expect_refusal(box.run({"report", "a.csv", "-o", "/proc/r.html"}), 4,
                    "/proc/r.html: no file can be made in its folder");

@@ -193,7 +193,7 @@ TEST(Spectrum, RefusesWhatDoesNotGoTogether) {
         expect_error(box.shell("stipple analyze periodogram " + words + " < /dev/null"), code, why);
     };
     refused("-n 100", 2, "--count: is of --generate, which names a generator");
-    refused("--generate random p.csv", 2, "--generate takes no INPUT; 'p.csv' is given");
+    refused("--generate random p.csv", 4, "p.csv");
     refused("--generate random --bounds 0..1", 2, "--bounds: is of points from files");
     refused("--generate randon", 2, "unknown generator 'randon'");
     refused("--generate random -n 1", 3, "periodogram needs at least 2 points; there is 1");

@@ -1,11 +1,23 @@
 # bash completion for stipple: asks the program.
 _stipple() {
-    local current=${COMP_WORDS[COMP_CWORD]}
-    mapfile -t COMPREPLY < <("${COMP_WORDS[0]/#\~/$HOME}" complete "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null)
+    local i words=() current=${COMP_WORDS[COMP_CWORD]}
+    for ((i = 1; i <= COMP_CWORD; i++)); do
+        # bash parts --option=value and unit:option=value at these
+        if ((${#words[@]})) && [[ ${COMP_WORDS[i]} == [:=]* || ${COMP_WORDS[i - 1]} == *[:=] ]]; then
+            words[-1]+=${COMP_WORDS[i]}
+        else
+            words+=("${COMP_WORDS[i]}")
+        fi
+    done
+    [[ $current == [:=] ]] && current=
+    mapfile -t COMPREPLY < <("${COMP_WORDS[0]/#\~/$HOME}" complete "${words[@]}" 2>/dev/null)
     COMPREPLY=("${COMPREPLY[@]%%$'\t'*}")
     if [[ ${COMPREPLY[0]} == @files ]]; then
         compopt -o filenames 2>/dev/null
-        mapfile -t COMPREPLY < <(compgen -f -- "${current#=}")
+        mapfile -t COMPREPLY < <(compgen -f -- "$current")
+    else
+        [[ ${COMPREPLY[0]} == *= ]] && compopt -o nospace 2>/dev/null
+        COMPREPLY=("${COMPREPLY[@]#"${words[-1]%"$current"}"}")
     fi
 }
 

@@ -7,9 +7,11 @@ _stipple() {
         compset -P '*='
         _files
     elif [[ -n $found[1] ]]; then
+        local -a suffix
+        [[ ${found[1]%%$'\t'*} == *= ]] && suffix=(-S '')
         found=("${(@)found//:/\\:}")
         found=("${(@)found//$'\t'/:}")
-        _describe stipple found
+        _describe stipple found $suffix
     fi
 }
 

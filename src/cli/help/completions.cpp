@@ -46,8 +46,8 @@ Candidates words_of(const std::vector<std::string>& words) {
     return found;
 }
 
-Candidates units_of(std::string_view name) {
-    return with_summaries(std::ranges::find(catalog(), name, &Kind::name)->units);
+const std::vector<UnitInfo>& units_of(std::string_view name) {
+    return std::ranges::find(catalog(), name, &Kind::name)->units;
 }
 
 Candidates joined(Candidates one, const Candidates& two) {
@@ -61,14 +61,44 @@ Candidates values_of(const Option& option) {
     return words_of(option.choices);
 }
 
-Candidates values_of(const CommonOption& common) {
+/// What may stand at the end of a spec, or of a list of these: "halton,sobol:scramble=ow".
+Candidates in_spec(const std::vector<UnitInfo>& units, const std::string& current, bool list) {
+    const auto cut = current.find_last_of(",;:=");
+    if (cut == std::string::npos) return with_summaries(units);
+    const std::string head = current.substr(0, cut + 1);
+    const auto colon = current.rfind(':', cut);
+    const auto begin = colon == 0 ? 0 : current.find_last_of(",;", colon - 1) + 1;
+    const UnitInfo* unit = nullptr;
+    if (colon != std::string::npos && current.find(';', colon) == std::string::npos)
+        for (const UnitInfo& each : units)
+            if (each.name == current.substr(begin, colon - begin)) unit = &each;
+    Candidates found;
+    if (current[cut] == '=') {
+        const auto name = current.find_last_of(":,", cut) + 1;
+        for (const Option& option : unit ? unit->options : std::vector<Option>())
+            if (option.name == current.substr(name, cut - name)) found = values_of(option);
+        std::erase_if(found, [](const Candidate& value) { return value.word == files.word; });
+    } else {
+        for (const Option& option : unit ? unit->options : std::vector<Option>())
+            found.push_back({option.name + "=", option.help});
+        if (list && current[cut] != ':') found = joined(std::move(found), with_summaries(units));
+    }
+    for (Candidate& candidate : found) candidate.word = head + candidate.word;
+    return found;
+}
+
+/// @param current what is typed of the value
+Candidates values_of(const CommonOption& common, const std::string& current) {
     const std::string_view value = common.value;
-    if (value == "FORMAT") return units_of("formats");
+    const auto spec = [&](std::string_view kind) {
+        return in_spec(units_of(kind), current, value == "SPECS");
+    };
+    if (value == "FORMAT") return with_summaries(units_of("formats"));
     if (value == "SPECS" || value.starts_with("GENERATOR"))
-        return units_of(common.option.name == "analyze" ? "analyzers" : "generators");
+        return spec(common.option.name == "analyze" ? "analyzers" : "generators");
     if (value == "S") return {{"random"}};
-    if (value.starts_with("NAME[")) return joined(units_of("warps"), units_of("scrambles"));
-    if (value == "SPEC") return joined({{"unit-cube"}}, units_of("warps"));
+    if (value.starts_with("NAME[")) return joined(spec("warps"), spec("scrambles"));
+    if (value == "SPEC") return joined({{"unit-cube"}}, spec("warps"));
     return values_of(common.option);
 }
 
@@ -84,7 +114,8 @@ Candidates operands_of(Verb verb) {
         case Verb::help:
             found = joined(with_summaries(topics()), with_summaries(verbs()));
             for (const Kind& kind : catalog())
-                if (!kind.verb.empty()) found = joined(std::move(found), units_of(kind.name));
+                if (!kind.verb.empty())
+                    found = joined(std::move(found), with_summaries(kind.units));
             return found;
         case Verb::completions:
             return words_of({"bash", "zsh", "fish"});
@@ -105,11 +136,11 @@ Candidates option_names(Verb verb, const UnitInfo* unit) {
 }
 
 /// The values of the option that stands before; nothing where that is none, or a flag.
-std::optional<Candidates> values_behind(const std::string& before, Verb verb,
-                                        const UnitInfo* unit) {
+std::optional<Candidates> values_behind(const std::string& before, const std::string& current,
+                                        Verb verb, const UnitInfo* unit) {
     if (const CommonOption* common = find_common(before, verb)) {
         if (common->option.type == "flag") return std::nullopt;
-        return values_of(*common);
+        return values_of(*common, current);
     }
     if (unit != nullptr)
         for (const Option& option : own_options(verb, *unit))
@@ -117,8 +148,10 @@ std::optional<Candidates> values_behind(const std::string& before, Verb verb,
     return std::nullopt;
 }
 
-/// Candidates for the last of the words; `before` is the option that it may belong to.
-Candidates candidates(const std::vector<std::string>& words, const std::string& before) {
+/// Candidates for the last of the words, or `current` in it; `before` is the option that it may
+/// belong to.
+Candidates candidates(const std::vector<std::string>& words, const std::string& before,
+                      const std::string& current) {
     if (words.size() < 2) return joined(with_summaries(verbs()), words_of({"--help", "--version"}));
     const VerbInfo* info = find_verb(words[0]);
     if (info == nullptr) return {};
@@ -126,11 +159,11 @@ Candidates candidates(const std::vector<std::string>& words, const std::string& 
     const std::vector<std::string> typed(words.begin() + 1, words.end() - 1);
     const std::string* named = kind ? word_of_unit(typed, *kind, info->verb) : nullptr;
     const UnitInfo* unit =
-        named ? find_unit(*kind, named->substr(0, named->find_first_of("@:"))) : nullptr;
-    if (const auto values = values_behind(before, info->verb, unit)) return *values;
+        named ? find_unit(*kind, named->substr(0, named->find_first_of("@:,;"))) : nullptr;
+    if (const auto values = values_behind(before, current, info->verb, unit)) return *values;
     if (words.back().starts_with('-') && words.back() != "-") return option_names(info->verb, unit);
     if (!kind || unit != nullptr) return operands_of(info->verb);
-    return with_summaries(kind->units);
+    return in_spec(kind->units, current, info->verb == Verb::analyze);
 }
 
 }  // namespace
@@ -140,19 +173,15 @@ std::string complete(std::vector<std::string> words) {
     std::string before = words.size() > 1 ? words[words.size() - 2] : "";
     std::string current = words.back();
     std::string prefix;
-    if (current == "=") {  // bash splits --option=value into three words
-        current.clear();
-    } else if (before == "=" && words.size() > 2) {
-        before = words[words.size() - 3];
-    } else if (const auto equals = current.find('=');
-               current.starts_with("--") && equals != std::string::npos) {
+    const auto equals = current.find('=');
+    if (current.starts_with("--") && equals != std::string::npos) {
         prefix = current.substr(0, equals + 1);
         before = current.substr(0, equals);
         current.erase(0, equals + 1);
     }
     std::string text;
     std::set<std::string> seen;
-    for (const auto& [word, help] : candidates(words, before))
+    for (const auto& [word, help] : candidates(words, before, current))
         if ((word.starts_with('@') || word.starts_with(current)) && seen.insert(word).second)
             text += fmt::format("{}{}{}{}\n", word.starts_with('@') ? "" : prefix, word,
                                 help.empty() ? "" : "\t", help);

@@ -125,9 +125,9 @@ int list(const Arguments& arguments) {
                            "known: generators, scrambles, warps, analyzers, formats",
                            "unknown kind '{}'", wanted);
     }
-    write_text(arguments.get("output").value_or("-"), arguments.has("json") ? list_json(kinds)
-                                                      : arguments.has("markdown")
-                                                          ? list_markdown(kinds)
+    const std::string format = arguments.get("format").value_or("text");
+    write_text(arguments.get("output").value_or("-"), format == "json"        ? list_json(kinds)
+                                                      : format == "markdown"  ? list_markdown(kinds)
                                                       : arguments.has("long") ? list_long(kinds)
                                                                               : list_text(kinds));
     return 0;

@@ -78,7 +78,8 @@ inline constexpr std::string_view bare_check = "valid";
 
 struct Arguments {
     std::optional<Verb> verb;
-    std::string unit;  ///< empty: none named
+    std::string unit;                     ///< empty: none named
+    std::vector<std::string> specs = {};  ///< of analyzers, where several are named
     std::vector<std::string> inputs;
     std::vector<std::pair<std::string, std::string>> common;    ///< long name, text
     std::vector<std::pair<std::string, std::string>> settings;  ///< the unit's own

@@ -138,6 +138,42 @@ void check_rest(const std::vector<std::string>& rest, const VerbInfo& verb, cons
     fail(ErrorKind::usage, "unexpected argument '{}'", rest.front());
 }
 
+/// "star-discrepancy,periodogram:window=hann": the specs of several analyzers; of one, nothing.
+std::vector<std::string> several_specs(const std::string& word, Verb verb) {
+    if (verb != Verb::analyze || word.find('@') != std::string::npos) return {};
+    auto specs = split_specs(word, "analyze");
+    if (specs.size() < 2) specs.clear();
+    return specs;
+}
+
+/// @throws Error(usage) for an option of one of several analyzers that stands alone
+void refuse_loose_options(const std::vector<std::string>& rest, const Arguments& arguments,
+                          const Kind& kind) {
+    for (const std::string& word : rest)
+        for (const std::string& text : arguments.specs) {
+            const std::string name = parse_spec(text).name;
+            const UnitInfo* unit = find_unit(kind, name);
+            if (unit == nullptr || !word.starts_with("--")) continue;
+            const std::string option = word.substr(2, word.find('=') - 2);
+            if (std::ranges::find(unit->options, option, &Option::name) != unit->options.end())
+                fail_with_hint(ErrorKind::usage, fmt::format("such as {}:{}=...", name, option),
+                               "--{}: of several analyzers, options stand behind their names",
+                               option);
+        }
+}
+
+/// --json and --markdown are short for --format.
+void settle_format(Arguments& arguments) {
+    for (const char* name : {"json", "markdown"}) {
+        if (!arguments.has(name)) continue;
+        const auto format = arguments.get("format");
+        if (format && *format != name)
+            fail(ErrorKind::usage, "--{} and --format {}: give one of them", name, *format);
+        std::erase_if(arguments.common, [&](const auto& given) { return given.first == name; });
+        if (!format) arguments.common.emplace_back("format", name);
+    }
+}
+
 /// Adds what the unit's own word sets: `warp disk@4,5` means `warp disk --coordinates 4,5`,
 /// `generate sobol:scramble=owen` the same as with --scramble owen. @throws Error(usage) where an
 /// option sets it, too
@@ -184,7 +220,7 @@ const std::string* word_of_unit(const std::vector<std::string>& words, const Kin
         const CommonOption* common = find_common(words[i], verb);
         if (common != nullptr && common->option.type != "flag")
             ++i;  // to its value
-        else if (find_unit(kind, words[i].substr(0, words[i].find_first_of("@:"))) != nullptr)
+        else if (find_unit(kind, words[i].substr(0, words[i].find_first_of("@:,;"))) != nullptr)
             return &words[i];
     }
     return nullptr;
@@ -202,23 +238,32 @@ Arguments parse_arguments(int argc, const char* const* argv) {
     const Kind* kind = units_for(info->name);
     if (verb == Verb::analyze) complete_checks(words);
     const UnitInfo* unit = nullptr;
+    UnitInfo without_options;
     Spec spec;
+    Arguments arguments{.verb = verb, .unit = {}, .inputs = {}, .common = {}, .settings = {}};
     if (const std::string* named = kind ? word_of_unit(words, *kind, verb) : nullptr) {
         std::string& word = words[static_cast<std::size_t>(named - words.data())];
         if (find_unit(*kind, word) == nullptr) {
-            spec = parse_spec(word);
+            arguments.specs = several_specs(word, verb);
+            spec = parse_spec(arguments.specs.empty() ? word : arguments.specs.front());
             word = spec.name;
         }
         unit = find_unit(*kind, word);
+        if (!arguments.specs.empty() && unit != nullptr) {
+            without_options = *unit;
+            without_options.options.clear();
+            unit = &without_options;
+        }
     }
-    Arguments arguments{.verb = verb, .unit = {}, .inputs = {}, .common = {}, .settings = {}};
     const auto rest = take_words(std::move(words), kind != nullptr, unit, arguments);
     if (verb == Verb::generate && inputs.size() > 1)
         fail(ErrorKind::usage, "unexpected argument '{}'", inputs[1]);
     if (!inputs.empty())
         arguments.inputs.insert(arguments.inputs.end(), inputs.begin() + 1, inputs.end());
+    if (!arguments.help && !arguments.specs.empty()) refuse_loose_options(rest, arguments, *kind);
     if (!arguments.help) check_rest(rest, *info, kind, arguments.unit.empty() ? nullptr : unit);
-    if (!spec.name.empty()) take_spec(spec, *unit, arguments);
+    if (!spec.name.empty() && arguments.specs.empty()) take_spec(spec, *unit, arguments);
+    settle_format(arguments);
     if (!arguments.help) check_choices(arguments);
     return arguments;
 }

@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: MIT
+#include "cli/analysis.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "cli/inputs.hpp"
+#include "cli/verbs.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/spec.hpp"
+#include "core/text.hpp"
+#include "io/source_text.hpp"
+#include "math/fourier/transform.hpp"
+#include "pipeline/chain.hpp"
+#include "report/grid_files.hpp"
+
+namespace stipple::cli {
+namespace {
+
+/// An option of an analyzer that names a file to be written beside its report.
+struct FileOption {
+    const char* option;
+    const char* extension;  ///< of the one format that is written; empty: any
+};
+constexpr std::array<FileOption, 3> file_options = {
+    {{"grid", ".npy"}, {"image", ".png"}, {"wisdom", ""}}};
+
+// Sets wait to be measured side by side, a few megabytes at a time.
+constexpr std::size_t large = std::size_t{1} << 18;     // coordinates of a set that does not
+constexpr std::size_t together = std::size_t{1} << 20;  // of all that wait
+constexpr std::size_t most_waiting = std::size_t{1} << 12;
+
+/// Adds to what a mean says of its sets.
+void add_to(Measurement& mean, const Measurement& m) {
+    mean.seconds += m.seconds;
+    if (mean.source != m.source) mean.source += ", " + m.source;
+    const std::uint64_t largest = std::max({mean.count, mean.largest_count, m.count});
+    mean.count = std::min(mean.count, m.count);
+    if (mean.count != largest) mean.largest_count = largest;
+}
+
+/// How the options say that a grid is drawn.
+PowerPicture picture_of(const Report& results, const Values& options) {
+    PowerPicture picture;
+    if (const auto* reach = results.find("max_distance"))
+        picture.differences = std::get<double>(*reach);
+    if (const auto* scale = options.try_find("image-scale"))
+        picture.scale = std::get<std::string>(scale->value);
+    if (const auto* bits = options.try_find("image-bits"))
+        picture.bits = std::get<std::string>(bits->value) == "16" ? 16 : 8;
+    if (const auto* slice = options.try_find("slice"))
+        picture.slice = std::get<std::int64_t>(slice->value);
+    return picture;
+}
+
+}  // namespace
+
+std::string kind_of(const Provenance& made, std::uint64_t count) {
+    if (made.generator.empty()) return fmt::format("{} points", count);
+    std::string kind = made.generator;
+    for (const auto& [name, value] : made.options) kind += fmt::format(" {}={}", name, value);
+    for (const std::string& warp : made.warps) kind += " -w " + warp;
+    // A count that was not asked for may differ from seed to seed.
+    if (made.command.find(" --count ") != std::string::npos)
+        kind += fmt::format(" -n {}", made.count);
+    return fmt::format("{} {} {} {}", kind, made.start, made.shard, made.bounds);
+}
+
+Analysis::Analysis(const Analyzer& analyzer, Values options, const Arguments& arguments,
+                   Session& session, io::Outputs& files, bool one_of_several)
+    : analyzer_(analyzer),
+      arguments_(arguments),
+      session_(session),
+      files_(files),
+      one_of_several_(one_of_several),
+      asked_(std::move(options)),
+      pooled_(arguments.has("pool")),
+      averaged_(arguments.has("average") || pooled_) {}
+
+std::optional<std::string> Analysis::text_of(std::string_view name) const {
+    const auto* option = asked_.try_find(name);
+    if (option == nullptr || !option->given) return std::nullopt;
+    return format_value(option->value);
+}
+
+// ---------------------------------------------------------------- what was asked for
+
+void Analysis::check_arguments(const std::string& output) const {
+    check_domain();
+    check_side_files(output);
+    warn_of_units();
+}
+
+void Analysis::check_domain() const {
+    for (const char* other : {"rescale", "domain"})
+        if (arguments_.has("bounds") && arguments_.has(other))
+            fail(ErrorKind::usage, "--bounds and --{}: give one of them", other);
+    const auto named = arguments_.get("domain");
+    const bool moved = arguments_.has("bounds") || arguments_.has("rescale");
+    if (!named || *named == "unit-cube" || moved || !analyzer_.traits.unit_cube) return;
+    fail_with_hint(ErrorKind::usage, "--rescale or --bounds lo..hi moves points into the cube",
+                   "--domain: {} measures points against the unit cube, not against {}",
+                   analyzer_.name, *named);
+}
+
+void Analysis::check_side_files(const std::string& output) const {
+    std::vector<std::pair<std::string, std::string>> taken = {{"output", output}};
+    for (const FileOption& file : file_options) {
+        const auto* option = asked_.try_find(file.option);
+        if (option == nullptr || !option->given) continue;
+        const auto& path = std::get<std::string>(option->value);
+        if (path.starts_with("/dev/")) continue;
+        if (!path.ends_with(file.extension))
+            fail(ErrorKind::usage, "--{}: writes {}; '{}' has another name", file.option,
+                 file.extension, path);
+        for (const auto& [other, name] : taken)
+            if (name == path)
+                fail(ErrorKind::usage, "--{}: --{} writes {}, too", file.option, other, path);
+        taken.emplace_back(file.option, path);
+    }
+}
+
+/// Distances in a box whose sides measure different things mean little.
+void Analysis::warn_of_units() const {
+    const auto bounds = arguments_.get("bounds");
+    if (!bounds || !asked_.try_find("metric")) return;
+    const auto ranges = std::ranges::count(*bounds, ',') + 1;
+    const Box box = parse_box(*bounds, static_cast<std::size_t>(ranges));
+    std::vector<double> sides;
+    for (std::size_t k = 0; k < box.dimension(); ++k) sides.push_back(box.extent(k));
+    const auto [shortest, longest] = std::ranges::minmax(sides);
+    if (longest > shortest)
+        session_.warn(
+            fmt::format("the sides of --bounds are between {} and {} long, and distances mix "
+                        "their units; --rescale maps the points to the unit cube first",
+                        format_number(shortest), format_number(longest)));
+}
+
+/// Prefixes of sets whose points come in no order, or in that of their places, tell little.
+void Analysis::warn_of_prefixes(const Provenance& made) {
+    if (told_of_prefixes_ || !(text_of("prefixes") || text_of("every"))) return;
+    const Generator* generator = generator_named(made.generator);
+    const bool progressive =
+        std::ranges::find(made.options, std::pair<std::string, std::string>(
+                                            "order", "progressive")) != made.options.end();
+    if (!generator || generator->traits.prefix || progressive) return;
+    told_of_prefixes_ = true;
+    session_.warn(fmt::format("{} makes sets as a whole: their prefixes are not sets of its kind",
+                              made.generator));
+}
+
+// ---------------------------------------------------------------- sets
+
+void Analysis::add(PointSet points, SetOrigin origin) {
+    warn_of_prefixes(points.provenance);
+    const std::size_t numbers = points.flat().size();
+    // The first set of a kind may decide how the others are measured.
+    const bool decides = averaged_ && analyzer_.follow && is_first(origin.kind, points.dimension());
+    if (numbers >= large || decides) measure_waiting();
+    waiting_.push_back({std::move(points), std::move(origin)});
+    numbers_ += numbers;
+    if (decides || numbers >= large || numbers_ >= together || waiting_.size() >= most_waiting)
+        measure_waiting();
+}
+
+void Analysis::add(const Arrival& arrival, const NextRows& next, SetOrigin& origin,
+                   const Provenance& made, const RunContext& run) {
+    const Values options = options_for(origin.kind, arrival.dimension());
+    Measurement m = timed(origin, arrival.domain, options,
+                          [&] { return stipple::analyze(analyzer_, arrival, next, options, run); });
+    if (averaged_ && origin.kind.empty()) origin.kind = kind_of(made, m.count);
+    keep(std::move(m), origin);
+}
+
+Measurement Analysis::timed(const SetOrigin& origin, const DomainPtr& domain, const Values& options,
+                            const std::function<Found()>& work) const {
+    const auto start = std::chrono::steady_clock::now();
+    Found found = work();
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    return {.analyzer = analyzer_.name,
+            .source = origin.source,
+            .set = origin.number,
+            .count = found.count,
+            .dimension = domain->dimension(),
+            .domain = domain->spec(),
+            .options = typed_settings(options, analyzer_.options),
+            .results = std::move(found.report),
+            .seconds = seconds.count()};
+}
+
+void Analysis::measure_waiting() {
+    numbers_ = 0;
+    const std::vector<Waiting> sets = std::exchange(waiting_, {});
+    const RunContext& run = session_.run();
+    const std::size_t threads = run.thread_count();
+    // The last ones, too few for a thread each, are measured by all threads one after the other.
+    const std::size_t spread = threads > 1 ? sets.size() - sets.size() % threads : 0;
+    std::vector<Outcome> outcomes(spread);
+    // A set that has begun may come to a result when a stop is requested.
+    for_each_block(unstopped(run), spread, 1, [&](const Block& block) {
+        if (!interrupted())
+            outcomes[block.index] = measured_alone(sets[block.index], run.share_of_memory(threads));
+    });
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+        const bool again = i >= spread || outcomes[i].over_limit;
+        if (again && interrupted()) continue;
+        if (again) {
+            keep(measured(sets[i], run), sets[i].origin);
+            continue;
+        }
+        for (const auto& sentence : outcomes[i].warnings) run.notify(sentence);
+        if (outcomes[i].error) std::rethrow_exception(outcomes[i].error);
+        if (outcomes[i].measurement) keep(std::move(*outcomes[i].measurement), sets[i].origin);
+    }
+}
+
+/// Measures a set by one thread, beside others.
+Analysis::Outcome Analysis::measured_alone(const Waiting& set, RunContext one) const {
+    Outcome outcome;
+    one.threads = 1;
+    one.progress = {};
+    one.warn = [&outcome](const std::string& text) { outcome.warnings.push_back(text); };
+    try {
+        outcome.measurement = measured(set, one);
+    } catch (const Error& e) {
+        outcome.error = std::current_exception();
+        outcome.over_limit = e.kind() == ErrorKind::limit;
+    } catch (...) {
+        outcome.error = std::current_exception();
+    }
+    return outcome;
+}
+
+Measurement Analysis::measured(const Waiting& set, const RunContext& run) const {
+    const RunContext named = naming_set(set.origin, run);
+    const Values options = options_for(set.origin.kind, set.points.dimension());
+    const auto found = [&] {
+        return naming(set.origin.source, [&] {
+            return Found{stipple::analyze(analyzer_, set.points, options, named),
+                         set.points.count()};
+        });
+    };
+    return timed(set.origin, set.points.domain, options, [&]() -> Found {
+        if (!one_of_several_) return found();
+        try {
+            return found();
+        } catch (const Error& e) {
+            const std::string what = e.what();
+            if (what.find(analyzer_.name) != std::string::npos) throw;
+            throw Error(e.kind(), fmt::format("{}: {}", analyzer_.name, what), e.hint());
+        }
+    });
+}
+
+/// The run, its warnings with the set in front where there are others.
+RunContext Analysis::naming_set(const SetOrigin& origin, const RunContext& run) const {
+    RunContext named = run;
+    if (!origin.several) return named;
+    std::string name = io::source_name(origin.source);
+    if (origin.number) name += fmt::format(", set {}", *origin.number);
+    named.warn = [&run, name](const std::string& sentence) {
+        run.notify(fmt::format("{}: {}", name, sentence));
+    };
+    return named;
+}
+
+// ---------------------------------------------------------------- means
+
+/// What the group of a kind is called; sets of different dimensions are never of one kind.
+std::string Analysis::group_name(const std::string& kind, std::size_t dimension) const {
+    return pooled_ ? "" : fmt::format("{} {}", dimension, kind);
+}
+
+bool Analysis::is_first(const std::string& kind, std::size_t dimension) const {
+    return !group_indices_.contains(group_name(kind, dimension));
+}
+
+/// What the next set is measured with: where others of its kind came before it, as these.
+Values Analysis::options_for(const std::string& kind, std::size_t dimension) const {
+    const auto it = group_indices_.find(group_name(kind, dimension));
+    return it == group_indices_.end() ? asked_ : groups_[it->second].options;
+}
+
+/// The group of a kind, which begins where there is none.
+std::size_t Analysis::group_of(const std::string& kind, std::size_t dimension) {
+    const auto [it, is_new] = group_indices_.emplace(group_name(kind, dimension), groups_.size());
+    if (is_new) groups_.push_back({asked_});
+    return it->second;
+}
+
+void Analysis::keep(Measurement m, const SetOrigin& origin) {
+    if (!averaged_) {
+        save_grid(m.results, measurements_.size(), origin.several);
+        measurements_.push_back(std::move(m));
+        return;
+    }
+    const std::size_t index = group_of(origin.kind, m.dimension);
+    Group& group = groups_[index];
+    if (index < measurements_.size() && measurements_[index].dimension != m.dimension)
+        fail(ErrorKind::usage, "--pool: the sets have points of {} and of {} coordinates",
+             measurements_[index].dimension, m.dimension);
+    group.average.add(m.results);
+    if (analyzer_.combine) group.singles.push_back(numbers_only(m.results));
+    if (group.average.count() > 1) return add_to(measurements_[index], m);
+    if (analyzer_.follow) analyzer_.follow(m.results, group.options);
+    measurements_.push_back(std::move(m));
+}
+
+void Analysis::warn_of_sizes(const Group& group) const {
+    std::vector<std::string> followed;  // options that the first set decided
+    for (const auto& item : group.options.items())
+        if (item != asked_.find(item.name))
+            followed.push_back(fmt::format("--{} {}", item.name, format_value(item.value)));
+    std::string text = "the sets that were averaged differ in their number of points";
+    if (!followed.empty())
+        text += fmt::format("; all are measured with {}, as the first", join(followed, " "));
+    session_.warn(text);
+}
+
+void Analysis::finish_averages() {
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+        Measurement& m = measurements_[i];
+        const Group& group = groups_[i];
+        m.set.reset();
+        take_mean(m, group.average, group.singles, analyzer_, group.options);
+        if (m.largest_count > 0) warn_of_sizes(group);
+        save_grid(m.results, i, groups_.size() > 1);
+    }
+}
+
+void Analysis::finish() {
+    if (averaged_) finish_averages();
+    if (const auto path = text_of("wisdom")) save_beside(*path, wisdom_text());
+}
+
+// ---------------------------------------------------------------- files and checks
+
+void Analysis::save_grid(const Report& results, std::size_t number, bool several) {
+    const auto* grid = std::get_if<Grid>(results.find("grid"));
+    for (const std::string name : {"grid", "image"}) {
+        auto path = text_of(name);
+        if (!path) continue;
+        if (grid == nullptr)
+            fail(ErrorKind::input, "--{}: there is no grid for points of this dimension", name);
+        if (several && path->find("{set}") == std::string::npos)
+            fail(ErrorKind::usage, "--{}: several sets need a name with {{set}}, or --average",
+                 name);
+        replace_all(*path, "{set}", std::to_string(number));
+        save_beside(*path, name == "grid" ? npy_bytes(*grid)
+                                          : png_bytes(*grid, picture_of(results, asked_)));
+    }
+}
+
+/// Files that come with the report are put in their places with it.
+void Analysis::save_beside(const std::string& path, const std::string& bytes) {
+    files_.add(path, session_.run().stop).write(bytes);
+}
+
+std::optional<std::string> Analysis::broken(const Check& check, const Report& results) const {
+    // What averaged sets disagree on is not in their mean, and holds for none of it.
+    if (averaged_ && !results.find(check.key) && find_result(analyzer_, check.key))
+        return "not the same for all sets";
+    if (check.holds(results)) return std::nullopt;
+    return check.found(results);
+}
+
+void take_mean(Measurement& m, const ReportAverage& average, std::span<const Report> sets,
+               const Analyzer& analyzer, const Values& options) {
+    m.sets = average.count();
+    m.results = average.mean();
+    if (analyzer.refine) analyzer.refine(m.results, average.count(), options);
+    if (analyzer.combine) analyzer.combine(m.results, sets, options);
+    if (average.count() > 1) m.standard_error = average.standard_error(m.results);
+}
+
+}  // namespace stipple::cli
