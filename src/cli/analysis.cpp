@@ -40,6 +40,7 @@ constexpr std::size_t most_waiting = std::size_t{1} << 12;
 void add_to(Measurement& mean, const Measurement& m) {
     mean.seconds += m.seconds;
     if (mean.source != m.source) mean.source += ", " + m.source;
+    if (mean.columns != m.columns) mean.columns.clear();
     const std::uint64_t largest = std::max({mean.count, mean.largest_count, m.count});
     mean.count = std::min(mean.count, m.count);
     if (mean.count != largest) mean.largest_count = largest;
@@ -189,6 +190,7 @@ Measurement Analysis::timed(const SetOrigin& origin, const DomainPtr& domain, co
             .count = found.count,
             .dimension = domain->dimension(),
             .domain = domain->spec(),
+            .columns = origin.columns,
             .options = typed_settings(options, analyzer_.options),
             .results = std::move(found.report),
             .seconds = seconds.count()};

@@ -27,6 +27,7 @@ struct SetOrigin {
     std::string source;                      ///< a file, or the spec of a generator
     std::optional<std::size_t> number = {};  ///< of several there
     std::string kind = {};                   ///< sets of one kind have a mean; empty: not known yet
+    std::vector<std::string> columns = {};   ///< names of the coordinates, where they have any
     bool several = false;                    ///< there are other sets
 };
 

@@ -134,11 +134,15 @@ class AnalyzeCall {
         std::vector<PointSet> sets;
         before_errors([&] { sets = read_input(input, arguments_, session_.run()); });
         const std::uint64_t count = sets.empty() ? 0 : sets[0].count();
-        for (std::size_t set = 0; set < sets.size() && !interrupted(); ++set)
-            add_to_all(std::move(sets[set]), {.source = input,
-                                              .number = number_of(set, sets.size()),
-                                              .kind = kind_of(sets[set].provenance, count),
-                                              .several = several_sources() || sets.size() > 1});
+        for (std::size_t set = 0; set < sets.size() && !interrupted(); ++set) {
+            const Provenance& made = sets[set].provenance;
+            const SetOrigin origin{.source = input,
+                                   .number = number_of(set, sets.size()),
+                                   .kind = kind_of(made, count),
+                                   .columns = made.columns,
+                                   .several = several_sources() || sets.size() > 1};
+            add_to_all(std::move(sets[set]), origin);
+        }
     }
 
     /// Gives a set to every analysis, in the unit cube where that measures there.
@@ -192,6 +196,7 @@ class AnalyzeCall {
                     arrival_of(*stream, !strengths().empty(), analysis.analyzer(), arguments_, run);
                 const Provenance& made = stream->provenance();
                 if (!made.generator.empty()) origin.kind = kind_of(made, 0);
+                origin.columns = made.columns;
                 origin.number = sets;
                 origin.several = several_sources() || sets > 0;
                 analysis.add(points,
@@ -423,7 +428,7 @@ class AnalyzeCall {
         files_.add(path_, std::stop_token())
             .write(format_ == "json"  ? to_json(all)
                    : format_ == "csv" ? to_csv(all)
-                                      : to_text(all));
+                                      : to_text(all, arguments_.has("full")));
     }
 
     const Arguments& arguments_;

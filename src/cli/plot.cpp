@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -14,6 +16,7 @@
 #include "core/bytes/npy_header.hpp"
 #include "core/error.hpp"
 #include "core/spec.hpp"
+#include "core/text.hpp"
 #include "io/files.hpp"
 #include "io/provenance.hpp"
 #include "io/source_text.hpp"
@@ -21,6 +24,8 @@
 #include "pipeline/generated.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/units.hpp"
+#include "plot/drawing/sheet.hpp"
+#include "plot/drawing/ticks.hpp"
 #include "plot/points_picture.hpp"
 #include "plot/report_charts.hpp"
 #include "plot/spectral_table.hpp"
@@ -34,7 +39,8 @@ namespace {
 
 enum class Medium { svg, png, text };
 
-constexpr std::size_t most_sets = 7;  ///< of points, in one picture: as many as there are colours
+constexpr std::size_t most_overlaid = 7;  ///< sets in one frame: as many as there are colours
+constexpr std::size_t most_frames = 12;   ///< of sets, on one sheet
 
 Medium medium_of(const Arguments& arguments, const std::string& path) {
     const bool terminal = is_terminal(path);
@@ -103,12 +109,17 @@ std::string subtitle_of(const Loaded& set) {
             constexpr std::size_t readable = 40;
             const auto& [name, value] = setting;
             const bool is_default = std::ranges::find(defaults, setting) != defaults.end();
+            const auto number = parse_number(value);
             if (!is_default && value.size() <= readable)
-                text += fmt::format(", {}={}", name, value);
+                text += fmt::format(", {}={}", name, number ? plot::rounded(*number, 5) : value);
         }
     }
-    if (set.number) text += fmt::format(" (set {})", *set.number);
     return text;
+}
+
+/// " (set 2)" of several.
+std::string number_of(const Loaded& set) {
+    return set.number ? fmt::format(" (set {})", *set.number) : "";
 }
 
 /// One call: the sets or reports that were read, and their picture.
@@ -152,7 +163,9 @@ class Plot {
         const auto height = arguments_.integer("height", letters ? 8 : 90, most);
         if (letters) {
             const TerminalSize terminal = terminal_size();
-            room_ = {.columns = terminal.columns, .rows = terminal.rows};
+            room_ = {.columns = terminal.columns,
+                     .rows = terminal.rows,
+                     .coloured = is_terminal(path_) && colours_wanted()};
             if (width) room_.columns = *width;
             if (height) room_.rows = *height;
             return;
@@ -268,13 +281,86 @@ class Plot {
                 return saved(*found);
             }
         if (table) return spectrum();
-        check_dimensions();
+        const bool frames = has_frames();
+        if (!frames) require_one_dimension();
+        keep_few_sets(frames ? most_frames : most_overlaid);
         if (chart_ == "distances") return distances();
         if (chart_ != "histogram") refuse_scales("points");
+        if (frames) return sheet_of_points();
         const plot::PointsPicture picture = points_picture();
         if (chart_ == "histogram") return drawn(plot::histogram_chart(picture));
         if (medium_ == Medium::text) return plot::points_as_text(picture, room_);
         return finished(plot::draw_points(picture, style_, session_.run()));
+    }
+
+    /// A frame for each set.
+    std::string sheet_of_points() {
+        const auto frame_of = [this](std::size_t i) {
+            plot::PointsPicture picture = points_picture();
+            picture.sets = {picture.sets[i]};
+            picture.title = sets_[i].title + number_of(sets_[i]);
+            picture.names = {picture.title};
+            picture.subtitle = subtitle_of(sets_[i]);
+            return picture;
+        };
+        if (medium_ == Medium::text)
+            return in_letters(sets_.size(), [&](std::size_t i, const plot::TextRoom& room) {
+                return plot::points_as_text(frame_of(i), room);
+            });
+        return on_sheet(sets_.size(), 0, [&](std::size_t i, plot::PictureStyle style) {
+            const bool histogram = sets_[i].points.dimension() == 1;
+            if (histogram && style.height <= 0) style.height = style.width;
+            return plot::draw_points(frame_of(i), style, session_.run());
+        });
+    }
+
+    using DrawPart = std::function<plot::Drawing(std::size_t part, const plot::PictureStyle&)>;
+    using WritePart = std::function<std::string(std::size_t part, const plot::TextRoom&)>;
+
+    /// Parts beside and below each other, under the title that was given.
+    /// @param more width of the last in each row
+    std::string on_sheet(std::size_t parts, double more, const DrawPart& draw) {
+        const std::size_t columns = plot::sheet_columns(parts);
+        const double usual = columns == 2 ? 400 : columns == 3 ? 330 : 280;
+        const auto across = static_cast<double>(columns);
+        fit_to(usual * across + more);
+        auto [drawing, top] = plot::titled_drawing("", "", style_, usual * across + more);
+        if (style_.title.value_or("").empty()) top = 0;
+        const double rows = std::ceil(static_cast<double>(parts) / across);
+        const double width = std::floor((drawing.width - more) / across);
+        std::vector<plot::Drawing> drawn;
+        for (std::size_t i = 0; i < parts; ++i) {
+            plot::PictureStyle style = style_;
+            style.title.reset();
+            style.width = width + (is_last_in_row(i, parts) ? more : 0);
+            if (style_.height > 0) style.height = std::floor((style_.height - top) / rows);
+            drawn.push_back(draw(i, style));
+        }
+        plot::add_rows(drawing, std::move(drawn), top);
+        return finished(drawing);
+    }
+
+    /// Chooses the scale so that a sheet has so many units in the width that is asked for.
+    void fit_to(double width) {
+        const double pixels = style_.width * scale_;
+        if (!(pixels > 0)) return;
+        constexpr double least = 0.6;  // what letters can be read at
+        const double height = style_.height * scale_;
+        scale_ = std::max(least, pixels / width);
+        style_.width = pixels / scale_;
+        style_.height = height / scale_;
+    }
+
+    static bool is_last_in_row(std::size_t part, std::size_t parts) {
+        return part + 1 == parts || (part + 1) % plot::sheet_columns(parts) == 0;
+    }
+
+    std::string in_letters(std::size_t parts, const WritePart& write) const {
+        const std::string title = arguments_.get("title").value_or("");
+        std::vector<std::string> written;
+        for (std::size_t i = 0; i < parts; ++i)
+            written.push_back(write(i, plot::shared_room(room_, parts)));
+        return (title.empty() ? "" : printable(title) + "\n") + plot::side_by_side(written, room_);
     }
 
     /// @throws Error(usage) for a logarithmic axis of what lies where it is
@@ -334,11 +420,37 @@ class Plot {
     std::string spectrum() {
         const bool differences = chart_ == "differential";
         refuse_scales(differences ? "differences" : "a spectrum");
-        const Report found = analyzed_table();
+        const std::vector<Measurement> found = analyzed_tables();
+        if (found.size() > 1) return sheet_of_tables(found);
         const std::string what = differences ? "Pair differences" : "Power spectrum";
         const std::string title = arguments_.get("title").value_or(what + " of " + sets_[0].title);
-        return drawn_table(std::get<Grid>(*found.find("grid")), title, subtitle_of(sets_[0]),
-                           differences ? names_of(found.number("pixel")) : plot::TableNames());
+        return drawn_table(grid_of(found[0]), title, subtitle_of(sets_[0]) + number_of(sets_[0]),
+                           names_of(found[0]));
+    }
+
+    static const Grid& grid_of(const Measurement& m) {
+        return std::get<Grid>(*m.results.find("grid"));
+    }
+
+    [[nodiscard]] plot::TableNames names_of(const Measurement& m) const {
+        return chart_ == "differential" ? names_of(m.results.number("pixel")) : plot::TableNames();
+    }
+
+    /// A frame for each, and a bar for the shades of all at the end of each row.
+    std::string sheet_of_tables(const std::vector<Measurement>& found) {
+        if (medium_ == Medium::text)
+            return in_letters(found.size(), [&](std::size_t i, const plot::TextRoom& room) {
+                return plot::spectrum_as_text(grid_of(found[i]), found[i].source, room);
+            });
+        const double bar = plot::colour_bar_room - plot::picture_margin / 2;
+        return on_sheet(found.size(), bar, [&](std::size_t i, const plot::PictureStyle& style) {
+            const std::string points = fmt::format(
+                "{} points{}", found[i].count,
+                found[i].sets > 1 ? fmt::format(", mean of {} sets", found[i].sets) : "");
+            plot::TableNames names = names_of(found[i]);
+            names.bar = is_last_in_row(i, found.size());
+            return plot::draw_spectrum(grid_of(found[i]), found[i].source, points, style, names);
+        });
     }
 
     std::string drawn_table(const Grid& table, const std::string& title,
@@ -347,19 +459,21 @@ class Plot {
         return finished(plot::draw_spectrum(table, title, subtitle, style_, names));
     }
 
-    /// What an analyzer finds of the one input, a table among it.
-    Report analyzed_table() {
+    /// What an analyzer finds of each input, a table among it.
+    std::vector<Measurement> analyzed_tables() {
         auto found = analyzed(chart_ == "differential" ? "differential" : "periodogram");
-        if (found.size() > 1)
-            fail_with_hint(ErrorKind::usage, "draw one at a time, or --chart radial",
-                           "--chart: one {} makes a picture; there are {} inputs", chart_,
-                           found.size());
-        if (found[0].dimension != 2)
-            fail_with_hint(ErrorKind::input, "--chart radial draws its radial mean",
-                           "--chart: a {} in the plane needs points of 2 coordinates; these have "
-                           "{}",
-                           chart_, found[0].dimension);
-        return std::move(found[0].results);
+        if (found.size() > most_frames) {
+            session_.warn(
+                fmt::format("the first {} of {} inputs are drawn", most_frames, found.size()));
+            found.resize(most_frames);
+        }
+        for (const Measurement& m : found)
+            if (m.dimension != 2)
+                fail_with_hint(
+                    ErrorKind::input, "--chart radial draws its radial mean",
+                    "--chart: a {} in the plane needs points of 2 coordinates; these have {}",
+                    chart_, m.dimension);
+        return found;
     }
 
     std::string distances() {
@@ -367,7 +481,7 @@ class Plot {
         for (const Loaded& set : sets_) sets.push_back(&set.points);
         plot::Chart chart = plot::distance_chart(sets, names(), session_.run());
         if (!different_titles()) chart.title += " of " + sets_[0].title;
-        if (sets_.size() == 1) chart.subtitle = subtitle_of(sets_[0]);
+        if (sets_.size() == 1) chart.subtitle = subtitle_of(sets_[0]) + number_of(sets_[0]);
         return drawn(chart);
     }
 
@@ -410,16 +524,27 @@ class Plot {
         return m;
     }
 
-    void check_dimensions() {
+    /// Whether each set of points is drawn in a frame of its own.
+    [[nodiscard]] bool has_frames() const {
+        return sets_.size() > 1 && chart_ != "histogram" && chart_ != "distances" &&
+               !arguments_.has("overlay") && std::ranges::any_of(sets_, [](const Loaded& set) {
+                   return set.points.dimension() > 1;
+               });
+    }
+
+    void require_one_dimension() const {
         for (const Loaded& set : sets_)
             if (set.points.dimension() != sets_[0].points.dimension())
                 fail(ErrorKind::input,
-                     "points of {} and of {} coordinates are not drawn in one picture",
+                     "points of {} and of {} coordinates are not drawn in one frame",
                      sets_[0].points.dimension(), set.points.dimension());
-        if (sets_.size() > most_sets) {
-            session_.warn(fmt::format("the first {} of {} sets are drawn; --set picks one",
-                                      most_sets, sets_.size()));
-            sets_.resize(most_sets);
+    }
+
+    void keep_few_sets(std::size_t most) {
+        if (sets_.size() > most) {
+            session_.warn(fmt::format("the first {} of {} sets are drawn; --set picks one", most,
+                                      sets_.size()));
+            sets_.resize(most);
         }
     }
 
@@ -436,7 +561,7 @@ class Plot {
         if (chart_ == "density") picture.marking = plot::Marking::density;
         picture.title = arguments_.get("title").value_or(sets_[0].title);
         if (sets_.size() > 1 && different_titles()) picture.title = "points";
-        picture.subtitle = subtitle_of(sets_[0]);
+        picture.subtitle = subtitle_of(sets_[0]) + number_of(sets_[0]);
         if (sets_.size() > 1) picture.subtitle.clear();
         return picture;
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string_view>
 
 #include "cli/inputs.hpp"
@@ -20,6 +21,7 @@
 #include "pipeline/generated.hpp"
 #include "pipeline/set_writer.hpp"
 #include "report/check.hpp"
+#include "report/document.hpp"
 
 namespace stipple::cli {
 namespace {
@@ -29,6 +31,7 @@ struct PendingSet {
     PointSet points;
     page::Set set;
     page::Input input;
+    std::shared_ptr<const GeneratedSets> others = {};  ///< of which it is the first
 };
 
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
@@ -169,9 +172,11 @@ class Reporter {
     }
 
     void add_generated(const std::string& text) {
+        const auto sets = std::make_shared<const GeneratedSets>(
+            generated_sets(text, seed_, arguments_, session_.run()));
         PendingSet next;
-        next.points =
-            generated_sets(text, seed_, arguments_, session_.run()).made(0, session_.run());
+        next.points = sets->made(0, session_.run());
+        if (sets->sets() > 1) next.others = sets;
         next.set.source = text;
         next.set.command = fmt::format("stipple generate {}{}", shell_word(text), of_generated());
         next.set.provenance = next.points.provenance;
@@ -183,7 +188,7 @@ class Reporter {
     /// The options that all generated sets share, as they are typed.
     [[nodiscard]] std::string of_generated() const {
         std::string words;
-        for (const char* name : {"count", "dimension", "start", "warp"})
+        for (const char* name : {"count", "dimension", "start", "warp"})  // of the first set
             for (const auto& text : arguments_.all(name)) words += typed_option(name, text, false);
         if (arguments_.has("seed")) words += fmt::format(" --seed {}", seed_);
         return words;
@@ -196,7 +201,7 @@ class Reporter {
                            "a report compares at most {} sets; these are {}", page::most_sets,
                            pending_.size());
         const PendingSet& first = pending_.front();
-        for (const auto& [points, set, input] : pending_)
+        for (const auto& [points, set, input, others] : pending_)
             if (points.dimension() != first.points.dimension())
                 fail_with_hint(ErrorKind::input, "make a report for each dimension",
                                "{}: points of {} coordinates are not compared with those of {}, "
@@ -208,7 +213,7 @@ class Reporter {
     /// Short, distinct names.
     void name_sets() {
         std::map<std::string, int> seen;
-        for (auto& [points, set, input] : pending_) {
+        for (auto& [points, set, input, others] : pending_) {
             const std::string last = file_name(set.source);
             const bool one_file =
                 std::ranges::all_of(pending_, [&, &source = set.source](const PendingSet& other) {
@@ -234,10 +239,33 @@ class Reporter {
 
     /// Measures a set and draws it; its points are not needed any more then.
     page::Set finished(std::size_t i) {
-        auto [points, set, input] = std::move(pending_[i]);
+        auto [points, set, input, others] = std::move(pending_[i]);
         pending_[i].points = {};
-        return page::finished_set(std::move(set), points, input, work_, i, !json_,
-                                  part_of_run(session_.run(), i, pending_.size()));
+        const RunContext run = part_of_run(session_.run(), i, pending_.size());
+        page::Set whole = page::finished_set(std::move(set), points, input, work_, i, !json_, run);
+        for (std::uint64_t r = 1; others && r < others->sets(); ++r) {
+            page::Set next;
+            next.measures =
+                page::measure_set(others->made(r, session_.run()), input, work_,
+                                  part_of_run(run, static_cast<std::size_t>(r),
+                                              static_cast<std::size_t>(others->sets())));
+            whole.replications.push_back(without_curves(next.all_results()));
+        }
+        return whole;
+    }
+
+    /// The report less its grids and long lists: what conditions and means are of.
+    static Report without_curves(const Report& report) {
+        constexpr std::size_t few = 64;
+        Report kept;
+        for (const auto& [name, value, unit] : report.entries()) {
+            const auto list = list_at(report, name);
+            if (const auto* group = std::get_if<Report>(&value))
+                kept.add(name, without_curves(*group));
+            else if (!std::holds_alternative<Grid>(value) && (!list || list->size() <= few))
+                kept.entries().push_back({name, value, unit});
+        }
+        return kept;
     }
 
     /// Whether all conditions are certain to hold, also of sets that were not measured.
@@ -246,16 +274,23 @@ class Reporter {
         for (const Check& check : conditions_) {
             require_known(check, sets);
             for (const page::Set& set : sets) {
-                const Report all = set.all_results();
-                const bool there = has(all, check.key);
-                if (there && check.holds(all)) continue;
-                say_line(fmt::format("{}: {}{}{} does not hold: it is {}", set.name, check.key,
-                                     check.op, check.value,
-                                     there ? check.found(all) : why_not(set, check.key)));
-                fine = false;
+                fine = judge(check, set, set.all_results(), set.name) && fine;
+                for (std::size_t r = 0; r < set.replications.size(); ++r)
+                    fine = judge(check, set, set.replications[r],
+                                 fmt::format("{}, seed {}", set.name, seed_ + r + 1)) &&
+                           fine;
             }
         }
         return fine;
+    }
+
+    static bool judge(const Check& check, const page::Set& set, const Report& all,
+                      const std::string& name) {
+        const bool there = has(all, check.key);
+        if (there && check.holds(all)) return true;
+        say_line(fmt::format("{}: {}{}{} does not hold: it is {}", name, check.key, check.op,
+                             check.value, there ? check.found(all) : why_not(set, check.key)));
+        return false;
     }
 
     /// A value may be known by its bounds alone.

@@ -269,7 +269,7 @@ class Reproducer {
 
     /// Those of coordinates, and what stands behind them.
     [[nodiscard]] std::vector<std::string> column_names(std::size_t dimension) const {
-        auto names = coordinate_names(dimension);
+        auto names = coordinate_names(dimension, original_.meta);
         for (const auto& extra : written_.columns.names()) names.push_back(extra);
         return names;
     }

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "core/text.hpp"
 
@@ -32,6 +33,13 @@ TerminalSize terminal_size() {
     if (found.ws_col > 0) size.columns = found.ws_col;
     if (found.ws_row > 0) size.rows = found.ws_row;
     return size;
+}
+
+bool colours_wanted() {
+    const char* const none = std::getenv("NO_COLOR");
+    const char* const terminal = std::getenv("TERM");
+    return (none == nullptr || *none == '\0') &&
+           (terminal == nullptr || std::string_view(terminal) != "dumb");
 }
 
 std::size_t text_columns() {

@@ -17,6 +17,9 @@ struct TerminalSize {
 /// The size of the terminal in letters; the defaults where standard output is none.
 TerminalSize terminal_size();
 
+/// Whether the environment lets programs write in colours: NO_COLOR is not set.
+bool colours_wanted();
+
 /// Columns of running text: the terminal's, but no more than can be read well.
 std::size_t text_columns();
 

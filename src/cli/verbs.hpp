@@ -38,6 +38,9 @@ std::string complete(std::vector<std::string> words);
 /// What --help says for the program, a verb, or a unit of a verb; made from the records.
 std::string help_text(const Arguments& arguments);
 
+/// Points of a generator, or of the image of a warp, in letters; empty where there are none to show.
+std::string picture_in_letters(Verb verb, const UnitInfo& unit);
+
 /// stipple and the libraries it is linked with.
 std::string version_text();
 

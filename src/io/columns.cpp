@@ -5,11 +5,23 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "io/decimal.hpp"
 
 namespace stipple::io {
 namespace {
 
 bool measures_points(const std::string& name) { return name == "pdf" || name == "weight"; }
+
+/// Whether a header's field with this name reads back as such.
+bool is_name(const std::string& name) {
+    constexpr std::size_t longest = 200;
+    double number = 0;
+    const char* const last = name.data() + name.size();
+    return !name.empty() && name.size() <= longest && name == printable(name) &&
+           name == trim(name) && name.find('"') == std::string::npos &&
+           std::string_view("#[{").find(name[0]) == std::string_view::npos && name != "set" &&
+           !measures_points(name) && read_number(name.data(), last, number) != last;
+}
 
 std::size_t find_column(const std::string& wanted, const std::vector<std::string>& names,
                         const std::string& place, const char* option = "column") {
@@ -62,7 +74,8 @@ bool Columns::has(std::size_t wanted) const {
 Columns choose_columns(std::vector<std::string> names, std::size_t width,
                        const ReadOptions& options, const std::string& place) {
     Columns columns{.role = std::vector<std::size_t>(width, Columns::skipped)};
-    if (names.empty()) names = coordinate_names(width);
+    const bool named = !names.empty();
+    if (!named) names = coordinate_names(width);
     if (names[0] == "set") columns.role[0] = Columns::set_number;
     const bool strong = !options.strengths.empty();
     const std::size_t strength =
@@ -77,6 +90,9 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
             else if (columns.role[c] != Columns::set_number)
                 columns.role[c] = columns.dimension++;
     }
+    if (named) columns.names.resize(columns.dimension);
+    for (std::size_t c = 0; named && c < width; ++c)
+        if (columns.role[c] < columns.dimension) columns.names[columns.role[c]] = names[c];
     if (columns.dimension == 0)
         fail_with_hint(ErrorKind::input, "--column picks columns by name or number",
                        "{}: no column holds coordinates; the columns are {}", place,
@@ -92,6 +108,11 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
     if (strong) columns.role[strength] = columns.dimension++;
     if (options.densities && options.columns.empty()) add_density(columns, names);
     return columns;
+}
+
+std::vector<std::string> kept_names(std::vector<std::string> names) {
+    if (names == coordinate_names(names.size()) || !std::ranges::all_of(names, is_name)) return {};
+    return names;
 }
 
 void take_densities(PointSet& set) {

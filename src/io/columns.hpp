@@ -22,6 +22,8 @@ struct Columns {
 
     std::vector<std::size_t> role;
     std::size_t dimension = 0;
+    std::vector<std::string> names =
+        {};                    ///< of the coordinates, in their order, where there are any
     std::string density = {};  ///< name of the column behind the coordinates, where it tells it
 
     [[nodiscard]] std::size_t width() const { return role.size(); }
@@ -29,6 +31,10 @@ struct Columns {
     [[nodiscard]] bool plain() const;
     [[nodiscard]] bool has(std::size_t wanted) const;
 };
+
+/// Names of coordinates as a provenance keeps them: none where they are x, y, ..., or where a header
+/// with them would not be read as one.
+std::vector<std::string> kept_names(std::vector<std::string> names);
 
 /// Decides what the columns are. Without names they are called x, y, ... (see coordinate_names).
 /// Columns called pdf or weight are coordinates only when picked, or all are; so is a first one

@@ -23,6 +23,11 @@ std::vector<std::string> coordinate_names(std::size_t dimension) {
     return names;
 }
 
+std::vector<std::string> coordinate_names(std::size_t dimension, const Provenance& provenance) {
+    const auto& kept = provenance.columns;
+    return kept.size() == dimension ? kept : coordinate_names(dimension);
+}
+
 Counts Counts::equal(std::uint64_t sets, std::uint64_t each) {
     Counts counts;
     counts.sets_ = sets;
@@ -50,7 +55,7 @@ Counts Counts::part(std::uint64_t first, std::uint64_t last) const {
 }
 
 std::vector<std::string> Layout::columns() const {
-    std::vector<std::string> names = coordinate_names(dimension);
+    std::vector<std::string> names = coordinate_names(dimension, provenance);
     names.insert(names.end(), extras.begin(), extras.end());
     return names;
 }
@@ -63,7 +68,9 @@ const char* json_or_lines(std::string_view text) {
     const auto end = text.find('\n');
     const std::string_view line = trim(text.substr(0, end));
     const bool whole = json_extent(line).size == line.size();
-    if (whole && line.front() == '[' && !trim(line.substr(1)).starts_with('[')) return "jsonl";
+    const std::string_view inner = trim(line.substr(1));
+    const bool nested = inner.starts_with('[') || inner.starts_with('{');
+    if (whole && line.front() == '[' && !nested) return "jsonl";
     const bool more = end != std::string_view::npos && !trim(text.substr(end)).empty();
     return more && whole ? "jsonl" : "json";
 }

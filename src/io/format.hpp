@@ -60,12 +60,15 @@ struct Layout {
 
     [[nodiscard]] std::size_t width() const { return dimension + extras.size(); }
     [[nodiscard]] bool many_sets() const { return counts.size() > 1; }
-    /// x / x,y / x,y,z / x1..xd, then the extras.
+    /// The names of the coordinates, then the extras.
     [[nodiscard]] std::vector<std::string> columns() const;
 };
 
 /// Names of coordinates: x / x,y / x,y,z / x1..xd.
 std::vector<std::string> coordinate_names(std::size_t dimension);
+
+/// Those that a provenance keeps, if they are as many; else the names above.
+std::vector<std::string> coordinate_names(std::size_t dimension, const Provenance& provenance);
 
 namespace io {
 class Feed;

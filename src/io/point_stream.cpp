@@ -250,6 +250,7 @@ class JoinedStream final : public PointStream {
         meta.domain = whole_.domain;
         if (same_warps_) meta.warps = whole_.warps;
         meta.density_column = whole_.density_column;
+        meta.columns = whole_.columns;
         if (shards_ && at_ + 1 == paths_.size()) meta = unsharded(whole_);
         meta.count = count_;
         meta.dimension = dimension();

@@ -9,6 +9,7 @@
 
 #include "core/json.hpp"
 #include "core/text.hpp"
+#include "io/columns.hpp"
 
 namespace stipple::io {
 namespace {
@@ -58,6 +59,13 @@ bool take(const Json& value, std::vector<std::string>& texts) {
     return true;
 }
 
+/// Names that no header could have are as good as none.
+bool take_columns(const Json& value, std::vector<std::string>& names) {
+    const bool texts = take(value, names);
+    names = kept_names(std::move(names));
+    return texts;
+}
+
 bool take_precision(const Json& value, std::optional<int>& digits) {
     constexpr std::int64_t most = 1000;
     const auto whole = value.is_number_integer() ? value.get<std::int64_t>() : -1;
@@ -94,6 +102,7 @@ std::optional<bool> take_value(std::string_view key, const Json& value, Provenan
     if (key == "seed") return take_whole(value, to.seed);
     if (key == "count") return take_whole(value, to.count);
     if (key == "dimension") return take_whole(value, to.dimension);
+    if (key == "columns") return take_columns(value, to.columns);
     if (key == "start") return take_whole(value, to.start);
     if (key == "domain") return take(value, to.domain);
     if (key == "bounds") return take(value, to.bounds);
@@ -127,6 +136,7 @@ Json to_json(const Provenance& provenance) {
     meta["seed"] = provenance.seed;
     meta["count"] = provenance.count;
     meta["dimension"] = provenance.dimension;
+    if (!provenance.columns.empty()) meta["columns"] = provenance.columns;
     meta["start"] = provenance.start;
     meta["warps"] = provenance.warps;
     meta["domain"] = provenance.domain;

@@ -39,13 +39,27 @@ constexpr std::array keys = {
     Key{"periodogram.relative_nyquist", "Relative Nyquist frequency", "Spectrum", Better::higher,
         true},
     Key{"periodogram.oscillation", "Oscillation", "Spectrum", Better::lower, true},
-    Key{"chi-square.p_value", "χ² p-value", "Uniformity", Better::neither, true},
-    Key{"kolmogorov-smirnov.combined_p_value", "Kolmogorov–Smirnov p-value", "Uniformity",
+    Key{"integration.genz-gaussian.error", "Error of a smooth integrand", "Integration",
+        Better::lower, false, true},
+    Key{"integration.genz-continuous.error", "Error of one with a kink", "Integration",
+        Better::lower, false, true},
+    Key{"integration.genz-discontinuous.error", "Error of one with a jump", "Integration",
+        Better::lower, false, true},
+    Key{"chi-square.p_value", "χ² p‑value", "Uniformity", Better::neither, true},
+    Key{"kolmogorov-smirnov.combined_p_value", "Kolmogorov–Smirnov p‑value", "Uniformity",
         Better::neither, true}};
+
+constexpr double least_probability = 1e-16;  ///< below, p-values say no more
+
+/// Whether a key is that of a p-value: p_value, combined_p_upper[1]; not p_method.
+bool is_probability(std::string_view key) {
+    key = key.substr(0, key.find('['));
+    return key.ends_with("p_value") || key.ends_with("p_upper") || key.ends_with("p_lower");
+}
 
 /// The p-value of the tail that decided.
 std::string probability(double p) {
-    return p < 1e-300 ? "p below 10⁻³⁰⁰" : fmt::format("p = {}", rounded(p, 2));
+    return p < least_probability ? "p < 1e-16" : fmt::format("p = {}", rounded(p, 2));
 }
 
 std::string chi_square_words(const Report& found) {
@@ -119,17 +133,60 @@ std::vector<std::string> notes_on(std::span<const Set> sets) {
 
 std::span<const Key> compared_keys() { return keys; }
 
-std::optional<Known> known_under(const Set& set, std::string_view key) {
-    const auto dot = key.find('.');
-    const Report* found = set.results(key.substr(0, dot));
-    if (found == nullptr || dot == std::string_view::npos) return std::nullopt;
-    const std::string_view path = key.substr(dot + 1);
-    const auto lower = path == "value" ? number_at(*found, "lower") : std::nullopt;
-    const auto value = number_at(*found, path);
-    const auto known = value ? value : lower;
+namespace {
+
+/// The number under a key of all results of one set.
+std::optional<Known> known_in(const Report& all, const Key& key) {
+    const std::string path = key.key;
+    const std::string measure = path.substr(0, path.find('.') + 1);
+    const bool bounded = path == measure + "value";
+    const auto lower = bounded ? number_at(all, measure + "lower") : std::nullopt;
+    const auto value = number_at(all, path);
+    auto known = value ? value : lower;
     if (!known || std::isnan(*known)) return std::nullopt;
+    if (key.magnitude) known = std::abs(*known);
     if (!lower) return Known{*known, *known, *known};
-    return Known{*known, *lower, number_at(*found, "upper").value_or(*known)};
+    return Known{*known, *lower, number_at(all, measure + "upper").value_or(*known)};
+}
+
+/// The mean of all, with its error; of magnitudes the root of the mean square.
+Known mean_of(const std::vector<Known>& all, bool magnitude) {
+    const auto n = static_cast<double>(all.size());
+    // Sums of differences from the first: what is the same for all has no error.
+    const auto mean = [&](const auto& number) {
+        double sum = 0;
+        for (const Known& one : all) sum += number(one) - number(all[0]);
+        return number(all[0]) + sum / n;
+    };
+    const auto error = [&](const auto& number) {
+        const double middle = mean(number);
+        double sum = 0;
+        for (const Known& one : all) sum += std::pow(number(one) - middle, 2);
+        return std::sqrt(sum / (n - 1) / n);
+    };
+    const auto value = [](const Known& one) { return one.value; };
+    if (!magnitude)
+        return {mean(value), mean([](const Known& one) { return one.lower; }),
+                mean([](const Known& one) { return one.upper; }), error(value)};
+    const auto square = [](const Known& one) { return one.value * one.value; };
+    const double root = std::sqrt(mean(square));
+    // By the delta method: the error of the mean square over twice its root.
+    return {root, root, root, root > 0 ? error(square) / (2 * root) : 0};
+}
+
+}  // namespace
+
+std::optional<Known> known_under(const Set& set, const Key& key) {
+    std::vector<Known> all;
+    const auto take = [&](const Report& results) {
+        const auto known = known_in(results, key);
+        if (known) all.push_back(*known);
+        return known.has_value();
+    };
+    if (!take(set.all_results())) return std::nullopt;
+    if (set.replications.empty() || key.better == Better::neither) return all[0];
+    if (!std::ranges::all_of(set.replications, take)) return std::nullopt;
+    return mean_of(all, key.magnitude);
 }
 
 std::vector<bool> best_of(std::span<const std::optional<Known>> values, Better better) {
@@ -137,7 +194,7 @@ std::vector<bool> best_of(std::span<const std::optional<Known>> values, Better b
     const auto there = std::ranges::count_if(values, [](const auto& v) { return v.has_value(); });
     if (better == Better::neither || there < 2) return none;
     const auto no_worse = [better](const Known& a, const Known& b) {
-        return better == Better::lower ? a.upper <= b.lower : a.lower >= b.upper;
+        return better == Better::lower ? a.most() <= b.least() : a.least() >= b.most();
     };
     std::vector<bool> best = none;
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -153,7 +210,7 @@ std::vector<Row> compare_sets(std::span<const Set> sets) {
     std::vector<Row> rows;
     for (const Key& key : keys) {
         Row row{.key = key};
-        for (const Set& set : sets) row.values.push_back(known_under(set, key.key));
+        for (const Set& set : sets) row.values.push_back(known_under(set, key));
         if (std::ranges::none_of(row.values, [](const auto& v) { return v.has_value(); })) continue;
         const bool fair = one_domain && (one_count || key.any_count);
         row.best = best_of(row.values, fair ? key.better : Better::neither);
@@ -169,13 +226,16 @@ std::string verdict_in_words(const Measure& measure) {
     return {};
 }
 
-std::string shown_number(double value) {
+std::string shown_number(double value, std::string_view key) {
+    if (value < least_probability && is_probability(key)) return "< 1e-16";
     if (std::isinf(value)) return value > 0 ? "∞" : "−∞";
     return rounded(value, 4);
 }
 
-std::string shown_known(const Known& known) {
-    if (known.exact()) return shown_number(known.value);
+std::string shown_known(const Known& known, std::string_view key) {
+    if (known.exact() && known.error > 0)
+        return fmt::format("{} ±\u00a0{}", shown_number(known.value), rounded(known.error, 2));
+    if (known.exact()) return shown_number(known.value, key);
     return fmt::format("{} to {}", shown_number(known.lower), shown_number(known.upper));
 }
 

@@ -42,6 +42,9 @@ struct Set {
     std::string command = {};  ///< that makes the points; empty: not known
     std::vector<Measure> measures = {};
     std::vector<std::string> figures = {};  ///< HTML
+    /// What was found of other sets of the same kind, as all_results() has it: the comparison is then
+    /// of means.
+    std::vector<Report> replications = {};
 
     /// The measure of that name; nullptr if there is none, or nothing came of it.
     [[nodiscard]] const Report* results(std::string_view measure) const;
@@ -73,17 +76,23 @@ struct Key {
     const char* group;
     Better better = Better::lower;
     bool any_count = false;  ///< sets of different n can be compared by it
+    bool magnitude = false;  ///< its sign does not matter: of several sets, the root mean square
 };
 
 /// All numbers that are compared, in the order of the table.
 std::span<const Key> compared_keys();
 
-/// What is known of a number: a point, or bounds.
+/// What is known of a number: a point, or bounds; or of the mean of several.
 struct Known {
     double value = 0;
     double lower = 0;
     double upper = 0;
+    double error = 0;  ///< standard error of a mean
     [[nodiscard]] bool exact() const { return lower == upper; }
+
+    /// What it is taken to be between where it is compared: a mean by two standard errors.
+    [[nodiscard]] double least() const { return lower - 2 * error; }
+    [[nodiscard]] double most() const { return upper + 2 * error; }
 };
 
 /// A row of the comparison.
@@ -93,8 +102,9 @@ struct Row {
     std::vector<bool> best = {};                    ///< no other set can be better; several may tie
 };
 
-/// The number under a key of a set's results, with the bounds beside it where there are some.
-std::optional<Known> known_under(const Set& set, std::string_view key);
+/// The number under a key of a set's results, with the bounds beside it where there are some; of
+/// several sets their mean.
+std::optional<Known> known_under(const Set& set, const Key& key);
 
 /// Marks what no other one can be better than: bounds must be apart, or both sets be best.
 /// Nothing is best where there is one number only, or all are the same.
@@ -106,9 +116,9 @@ std::vector<Row> compare_sets(std::span<const Set> sets);
 /// What a test of uniformity found, in a sentence; empty for what is no such test.
 std::string verdict_in_words(const Measure& measure);
 
-/// A number as a table shows it.
-std::string shown_number(double value);
-/// The same with its bounds, where it is not exact: "0.036 to 0.159".
-std::string shown_known(const Known& known);
+/// A number as a table shows it; of a p-value that is too small to tell, "< 1e-16".
+std::string shown_number(double value, std::string_view key = {});
+/// The same with its bounds, where it is not exact, or its error: "0.036 to 0.159", "0.1 ± 0.02".
+std::string shown_known(const Known& known, std::string_view key = {});
 
 }  // namespace stipple::page

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "core/json.hpp"
@@ -128,6 +129,7 @@ std::string numbers_of(std::span<const Set> sets, const Chart& chart, const Area
                       {"top", frame.top},
                       {"bottom", frame.bottom()},
                       {"width", chart_width},
+                      {"log", x.log},
                       {"from", x.low},
                       {"to", x.high},
                       {"curves", curves}};
@@ -145,7 +147,8 @@ std::string chart_figure(std::span<const Set> sets, std::span<const std::size_t>
     for (const std::size_t i : which) {
         const Report* results = sets[i].results(measure);
         if (results == nullptr || results->find(curve) == nullptr) continue;
-        found.push_back({.analyzer = measure,
+        const auto& of = *std::ranges::find(sets[i].measures, measure, &Measure::name);
+        found.push_back({.analyzer = of.analyzer,
                          .source = sets[i].name,
                          .count = sets[i].count,
                          .dimension = sets[i].dimension,
@@ -272,7 +275,9 @@ std::string curve_figures(std::span<const Set> sets, std::span<const std::size_t
     return chart_figure(sets, which, "periodogram", "radial.power", "radial power",
                         "Radial power over frequency; white noise has 1") +
            chart_figure(sets, which, "pair-correlation", "density", "pair correlation",
-                        "Pair correlation over distance; independent points have 1");
+                        "Pair correlation over distance; independent points have 1") +
+           chart_figure(sets, which, "convergence", "prefixes.value", "star discrepancy",
+                        "Star discrepancy of the first points, over their number");
 }
 
 }  // namespace stipple::page

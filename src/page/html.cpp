@@ -17,6 +17,19 @@ using plot::html_text;
 
 namespace {
 
+/// A name, which may be parted behind its signs, but within no word.
+std::string name_of(const std::string& name) {
+    std::string out;
+    std::string part;
+    for (const char c : name) {
+        part += c;
+        if (std::string_view(":,=/_@").find(c) == std::string_view::npos) continue;
+        out += html_text(part) + "<wbr>";
+        part.clear();
+    }
+    return out + html_text(part);
+}
+
 /// The mark of a set's colour.
 std::string swatch(std::size_t set) {
     return fmt::format("<span class=\"swatch\" style=\"--c:var(--c{})\"></span>", set);
@@ -42,6 +55,9 @@ std::string facts_of(const Set& set) {
                     plural(set.dimension, "dimension", "dimensions"), domain_in_words(set.domain));
     if (set.source != set.name) text += fmt::format(" · from {}", source_of(set));
     if (set.number) text += fmt::format(" (set {})", *set.number);
+    if (!set.replications.empty())
+        text += fmt::format(" · the first of {} sets, of which the comparison has the means",
+                            set.replications.size() + 1);
     return html_text(text);
 }
 
@@ -53,7 +69,7 @@ std::string comparison_head(std::span<const Set> sets) {
         out += fmt::format(
             "<th scope=\"col\" class=\"number\" data-set=\"{}\" data-count=\"{}\" "
             "data-domain=\"{}\">{}{}</th>",
-            i, sets[i].count, html_text(sets[i].domain), swatch(i), html_text(sets[i].name));
+            i, sets[i].count, html_text(sets[i].domain), swatch(i), name_of(sets[i].name));
     return out + "</tr></thead>\n";
 }
 
@@ -69,14 +85,17 @@ std::string script_number(double value) {
     return format_number(value);
 }
 
-std::string cell_of(const std::optional<Known>& known, bool best, std::size_t set) {
+std::string cell_of(const Row& row, std::size_t set) {
+    const auto& known = row.values[set];
+    const bool best = row.best[set];
     if (!known) return cell(set, "–", " none");
     std::string exact = format_number(known->lower);
     if (!known->exact()) exact += " to " + format_number(known->upper);
-    return cell(set, shown_known(*known), best ? " best" : "",
+    if (known->error > 0) exact += " ± " + format_number(known->error);
+    return cell(set, html_text(shown_known(*known, row.key.key)), best ? " best" : "",
                 fmt::format(" title=\"{}{}\" data-low=\"{}\" data-high=\"{}\"", exact,
-                            best ? ", best of these" : "", script_number(known->lower),
-                            script_number(known->upper)));
+                            best ? ", best of these" : "", script_number(known->least()),
+                            script_number(known->most())));
 }
 
 std::string verdict_row(std::span<const Set> sets, const char* measure, const char* label) {
@@ -129,7 +148,7 @@ std::string comparison_of(std::span<const Set> sets) {
         }
         out += fmt::format("<tr data-key=\"{}\"{}><th scope=\"row\">{}{}</th>", row.key.key,
                            rule_of(row.key), html_text(row.key.label), arrow_of(row.key.better));
-        for (std::size_t i = 0; i < sets.size(); ++i) out += cell_of(row.values[i], row.best[i], i);
+        for (std::size_t i = 0; i < sets.size(); ++i) out += cell_of(row, i);
         out += "</tr>\n";
     }
     out += verdict_row(sets, "chi-square", "χ² verdict") +
@@ -139,7 +158,10 @@ std::string comparison_of(std::span<const Set> sets) {
         out +=
             "<p class=\"note\">★ marks what no other set shown can be better in; ↓ lower is "
             "better, "
-            "↑ higher is better. “a to b” are certain bounds.</p>\n";
+            "↑ higher is better. “a to b” are certain bounds of what is not known exactly; “a ± b” "
+            "is the mean of several sets with its standard error, and means are told apart by two "
+            "of these. Errors of integrands are without their sign, of several sets the root mean "
+            "square.</p>\n";
     return out + "</section>\n";
 }
 
@@ -152,10 +174,10 @@ std::string row_of(const std::string& key, const Report& results) {
     std::string whole;
     if (const auto list = list_at(results, key)) {
         std::vector<std::string> numbers;
-        for (const double x : *list) numbers.push_back(shown_number(x));
+        for (const double x : *list) numbers.push_back(shown_number(x, key));
         shown = list->size() > most_listed ? "" : join(numbers, ", ");
     } else if (const auto* number = std::get_if<double>(results.find(key))) {
-        shown = shown_number(*number);
+        shown = shown_number(*number, key);
         whole = fmt::format(" title=\"{}\"", format_number(*number));
     }
     if (shown.empty()) return {};
@@ -226,7 +248,7 @@ std::string section_of(std::span<const Set> sets, std::size_t i) {
     std::string out = fmt::format(
         "<section class=\"set\" id=\"set-{0}\" data-set=\"{0}\">\n<h2>{1}{2}</h2>\n<p "
         "class=\"facts\">{3}</p>\n<div class=\"figures\">\n",
-        i, swatch(i), html_text(set.name), facts_of(set));
+        i, swatch(i), name_of(set.name), facts_of(set));
     for (const std::string& figure : set.figures) out += figure;
     out +=
         curve_figures(sets, which) + "</div>\n" + verdicts_of(set) + "<div class=\"measures\">\n";

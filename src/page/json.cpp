@@ -28,6 +28,7 @@ Json json_of(const Measure& measure) {
 Json json_of(const Set& set) {
     Json object = {{"name", set.name}, {"source", set.source}};
     if (set.number) object["set"] = *set.number;
+    if (!set.replications.empty()) object["sets"] = set.replications.size() + 1;
     object["count"] = set.count;
     object["dimension"] = set.dimension;
     object["domain"] = set.domain;
@@ -49,12 +50,16 @@ Json json_of(const Row& row) {
                    {"values", Json::array()},
                    {"best", Json::array()}};
     bool bounds = false;
+    bool means = false;
     for (std::size_t i = 0; i < row.values.size(); ++i) {
         const auto& known = row.values[i];
         bounds = bounds || (known && !known->exact());
+        means = means || (known && known->error > 0);
         object["values"].push_back(known ? Json(known->value) : Json());
         if (row.best[i]) object["best"].push_back(i);
     }
+    for (const auto& known : row.values)
+        if (means) object["standard_error"].push_back(known ? Json(known->error) : Json());
     if (!bounds) return object;
     for (const auto& known : row.values) {
         object["lower"].push_back(known ? Json(known->lower) : Json());

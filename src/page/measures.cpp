@@ -23,10 +23,13 @@ struct Planned {
     const char* analyzer;
     const char* kind = "";  ///< of star-discrepancy
     bool searches = false;  ///< takes a limit of work
+    bool prefixes = false;  ///< measures prefixes
+    const char* integrands = "";
 };
 
 constexpr std::array plans = {
     Planned{"star-discrepancy", "Star discrepancy", "star-discrepancy", "", true},
+    Planned{"convergence", "Star discrepancy of prefixes", "star-discrepancy", "", true, true},
     Planned{"extreme-discrepancy", "Extreme discrepancy", "star-discrepancy", "extreme", true},
     Planned{"periodic-discrepancy", "Periodic discrepancy", "star-discrepancy", "periodic", true},
     Planned{"l2-discrepancy", "L2 discrepancies", "l2-discrepancy"},
@@ -35,6 +38,8 @@ constexpr std::array plans = {
     Planned{"nearest-neighbor", "Nearest neighbours", "nearest-neighbor"},
     Planned{"periodogram", "Power spectrum", "periodogram"},
     Planned{"pair-correlation", "Pair correlation", "pair-correlation"},
+    Planned{"integration", "Integration", "integration", "", false, false,
+            "genz-gaussian,genz-continuous,genz-discontinuous"},
     Planned{"chi-square", "χ² test", "chi-square"},
     Planned{"kolmogorov-smirnov", "Kolmogorov–Smirnov test", "kolmogorov-smirnov"}};
 
@@ -62,7 +67,28 @@ std::int64_t work_for(const Planned& plan, std::size_t count, std::int64_t work)
     return *plan.kind != '\0' && count > many ? std::max<std::int64_t>(1, work / 8) : work;
 }
 
-Measure described(const Planned& plan, const Input& input, std::int64_t work, Values& values) {
+/// 16, 32, 64, ..., and all.
+std::string prefixes_of(std::size_t count) {
+    std::string text;
+    for (std::size_t n = 16; n < count; n *= 2) text += fmt::format("{},", n);
+    return text + std::to_string(count);
+}
+
+/// Curves of prefixes are for sequences, and where every point is found at once.
+/// @throws Error(limit), Error(input)
+void need_prefixes(const PointSet& points) {
+    constexpr std::size_t fewest = 32;
+    constexpr std::size_t most = 100'000;
+    if (points.dimension() > 2 || points.count() < fewest || points.count() > most)
+        fail(ErrorKind::limit, "it is for {} to {} points in one and two dimensions", fewest, most);
+    const Generator* generator = generator_named(points.provenance.generator);
+    if (generator != nullptr && !generator->traits.prefix)
+        fail(ErrorKind::input, "{} makes sets as a whole: their prefixes are not sets of its kind",
+             generator->name);
+}
+
+Measure described(const Planned& plan, const PointSet& points, const Input& input,
+                  std::int64_t work, Values& values) {
     const Analyzer& analyzer = find_analyzer(plan.analyzer);
     Measure measure{.name = plan.name, .title = plan.title, .analyzer = plan.analyzer};
     measure.command = fmt::format("stipple analyze {} {}", plan.analyzer, input.words);
@@ -72,6 +98,8 @@ Measure described(const Planned& plan, const Input& input, std::int64_t work, Va
     };
     if (*plan.kind != '\0') set("kind", plan.kind);
     if (plan.searches) set("max-work", std::to_string(work));
+    if (plan.prefixes) set("prefixes", prefixes_of(points.count()));
+    if (*plan.integrands != '\0') set("integrand", plan.integrands);
     measure.options = typed_settings(values, analyzer.options);
     return measure;
 }
@@ -98,7 +126,7 @@ Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube,
                  std::int64_t work, const RunContext& run) {
     const Analyzer& analyzer = find_analyzer(plan.analyzer);
     Values values = analyzer.options.defaults();
-    Measure measure = described(plan, input, work_for(plan, points.count(), work), values);
+    Measure measure = described(plan, points, input, work_for(plan, points.count(), work), values);
     const PointSet* shown = &points;
     if (analyzer.traits.unit_cube && cube.points) {
         shown = &*cube.points;
@@ -113,6 +141,7 @@ Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube,
     }
     try {
         need_few_pairs(plan, points, work);
+        if (plan.prefixes) need_prefixes(points);
         measure.results = analyze(analyzer, *shown, values, run);
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::cancelled || e.kind() == ErrorKind::io) throw;

@@ -65,7 +65,9 @@
     const move = event => {
       const box = svg.getBoundingClientRect();
       const at = (event.clientX - box.left) / box.width * data.width;
-      const x = data.from + (at - data.left) / (data.right - data.left) * (data.to - data.from);
+      const share = (at - data.left) / (data.right - data.left);
+      const x = data.log ? data.from * (data.to / data.from) ** share
+                         : data.from + share * (data.to - data.from);
       const seen = data.curves.filter(c => !body.classList.contains('hide-' + c.set));
       if (at < data.left || at > data.right || !seen.length) return hide();
       tip.replaceChildren();
@@ -80,8 +82,9 @@
         text(tip, (curve.x[i] === shown ? y : y + ' at ' + curve.x[i]) + '  ' + curve.name,
              'var(--c' + curve.set + ')');
       }
-      const share = (shown - data.from) / (data.to - data.from);
-      const place = data.left + share * (data.right - data.left);
+      const part = data.log ? Math.log(shown / data.from) / Math.log(data.to / data.from)
+                            : (shown - data.from) / (data.to - data.from);
+      const place = data.left + part * (data.right - data.left);
       rule.setAttribute('transform', 'translate(' + place + ' 0)');
       rule.style.visibility = 'visible';
       tip.hidden = false;
@@ -92,6 +95,49 @@
     svg.addEventListener('pointermove', move);
     svg.addEventListener('pointerdown', move);
     svg.addEventListener('pointerleave', hide);
+  }
+  // A picture as it looks, as a file of its own.
+  const inherited = ['fill', 'fill-opacity', 'stroke', 'stroke-width', 'stroke-dasharray', 'font-family',
+    'font-size', 'font-weight', 'text-anchor'];
+  const saved = svg => {
+    const copy = svg.cloneNode(true);
+    const from = [svg, ...svg.querySelectorAll('*')];
+    [copy, ...copy.querySelectorAll('*')].forEach((element, i) => {
+      const looks = getComputedStyle(from[i]);
+      const above = i > 0 ? getComputedStyle(from[i].parentNode) : null;
+      element.removeAttribute('style');
+      for (const name of inherited) {
+        const value = looks.getPropertyValue(name);
+        const plain = above ? value === above.getPropertyValue(name) : false;
+        if (!plain) element.style.setProperty(name, value);
+      }
+      if (looks.display === 'none' || looks.filter !== 'none') {
+        element.style.display = looks.display;
+        element.style.filter = looks.filter;
+      }
+    });
+    copy.querySelectorAll('.rule').forEach(rule => rule.remove());
+    copy.style.background = getComputedStyle(body).backgroundColor;
+    const [, , width, height] = svg.getAttribute('viewBox').split(' ');
+    copy.setAttribute('width', width);
+    copy.setAttribute('height', height);
+    return new XMLSerializer().serializeToString(copy);
+  };
+  for (const figure of document.querySelectorAll('figure')) {
+    const svg = figure.querySelector('svg');
+    if (!svg) continue;
+    const button = document.createElement('button');
+    button.type = 'button';
+    button.className = 'save';
+    button.textContent = 'Save as SVG';
+    button.addEventListener('click', () => {
+      const link = document.createElement('a');
+      link.href = URL.createObjectURL(new Blob([saved(svg)], {type: 'image/svg+xml'}));
+      link.download = (svg.getAttribute('aria-label') || 'picture').replace(/[^\w.-]+/g, '-') + '.svg';
+      link.click();
+      URL.revokeObjectURL(link.href);
+    });
+    figure.prepend(button);
   }
   addEventListener('beforeprint', () => {
     for (const part of document.querySelectorAll('details')) part.open = true;

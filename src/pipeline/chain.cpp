@@ -12,6 +12,7 @@
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"
+#include "io/format.hpp"
 #include "pipeline/units.hpp"
 
 namespace stipple {
@@ -375,6 +376,27 @@ std::vector<double> WarpChain::mapped(std::span<const double> rows, bool back, s
     return all;
 }
 
+std::vector<std::string> WarpChain::names(std::vector<std::string> before, bool back) const {
+    if (before.size() != (back ? dimension_out_ : dimension_in_)) return {};
+    const auto pass = [&](const Step& step) {
+        if (!step.mapping) return;
+        std::vector<std::string> after(back ? step.width_in : step.width_out);
+        const auto& from = back ? step.others : step.rest;
+        const auto& to = back ? step.rest : step.others;
+        for (std::size_t i = 0; i < from.size(); ++i) after[to[i]] = std::move(before[from[i]]);
+        before = std::move(after);
+    };
+    if (back)
+        for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) pass(*step);
+    else
+        std::ranges::for_each(steps_, pass);
+    if (std::ranges::all_of(before, &std::string::empty)) return {};
+    const auto usual = coordinate_names(before.size());
+    for (std::size_t k = 0; k < before.size(); ++k)
+        if (before[k].empty()) before[k] = usual[k];
+    return before;
+}
+
 PointSet WarpChain::image(const PointSet& points, const RunContext& run,
                           std::uint64_t start) const {
     if (points.dimension() != dimension_in_)
@@ -384,6 +406,7 @@ PointSet WarpChain::image(const PointSet& points, const RunContext& run,
     tell_kept(points.count(), image.count(), run);
     image.domain = domain_;
     image.provenance = points.provenance;
+    image.provenance.columns = names(points.provenance.columns, false);
     image.provenance.efficiency *=
         static_cast<double>(image.count()) / static_cast<double>(points.count());
     return image;
@@ -396,6 +419,7 @@ PointSet WarpChain::preimage(const PointSet& points, const RunContext& run) cons
     PointSet before(mapped(points.flat(), true, 0, run), dimension_in_);
     before.domain = domain_before(points.domain, run);
     before.provenance = points.provenance;
+    before.provenance.columns = names(points.provenance.columns, true);
     return before;
 }
 

@@ -68,6 +68,10 @@ class WarpChain {
     /// Error(input) for points off the domain.
     [[nodiscard]] std::vector<double> inverse(std::vector<double> rows) const;
 
+    /// Names of the coordinates of images of points whose coordinates have these or, with `back`, of
+    /// what they are the images of. What a warp gives has the usual names.
+    [[nodiscard]] std::vector<std::string> names(std::vector<std::string> before, bool back) const;
+
     /// What forward() or, with `back`, inverse() gives, on all threads; the first row is row `first`
     /// of the set. @throws as these do; Error(cancelled), Error(limit)
     [[nodiscard]] std::vector<double> mapped(std::span<const double> rows, bool back,

@@ -271,6 +271,7 @@ struct DensityAt {
 /// What is known of points that have a column which nothing of their making tells of.
 Provenance without_making(const Provenance& meta) {
     Provenance known;
+    known.columns = meta.columns;
     known.count = meta.count;
     known.dimension = meta.dimension;
     known.domain = meta.domain;
@@ -488,7 +489,12 @@ void write_warped(io::PointStream& stream, const DomainPtr& on, const Spec& warp
                          stream.next_set();
                          return warped_rows(stream, warping, wide, run);
                      },
-                 .provenance = [&](std::size_t) { return stream.provenance(); },
+                 .provenance =
+                     [&](std::size_t) {
+                         Provenance meta = stream.provenance();
+                         meta.columns = chain->names(std::move(meta.columns), inverse);
+                         return meta;
+                     },
                  .counts = Counts::equal(sets, 0)},
                 target, run);
 }

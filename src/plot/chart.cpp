@@ -298,7 +298,7 @@ void draw_panel(Drawing& drawing, const ChartPanel& content, const Panel& panel,
                 const Theme& theme) {
     panel.draw_grid(drawing, theme);
     const Area& f = panel.frame();
-    drawing.add(ClipWindow{.area = {f.left, f.top - 3, f.width + 3, f.height + 3}});
+    drawing.add(ClipWindow{.area = f});
     for (const Series& band : content.bands)
         draw_band(drawing, panel, band.x, band.low, band.high, theme.band, 1);
     const bool several = content.bars.size() > 1;
@@ -311,6 +311,7 @@ void draw_panel(Drawing& drawing, const ChartPanel& content, const Panel& panel,
                   0.25);
     });
     for (const Guide& guide : content.guides) draw_guide(drawing, panel, guide, theme.guide);
+    drawing.add(ClipWindow{.area = {f.left, f.top - 3, f.width + 3, f.height + 3}});
     draw_rug(drawing, panel, content.rug, theme.ink);
     for_each_series(drawing, content, [&](const Series& series, std::size_t colour) {
         draw_series(drawing, panel, series, theme.series_colour(colour), dash_of(colour, theme));
@@ -325,8 +326,9 @@ std::vector<Position> legend_places(const std::vector<LegendEntry>& entries, dou
     double x = 0;
     double y = 0;
     for (const LegendEntry& entry : entries) {
+        constexpr double wider = 1.12;  // letters of the fonts that stand in for Helvetica
         const double wide =
-            swatch + 6 + std::min(text_width(entry.name, legend_size), width - swatch - 6);
+            swatch + 6 + std::min(wider * text_width(entry.name, legend_size), width - swatch - 6);
         if (x > 0 && x + wide > width) {
             x = 0;
             y += legend_row;

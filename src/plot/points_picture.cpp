@@ -14,6 +14,11 @@
 namespace stipple::plot {
 namespace {
 
+std::vector<std::string> names_of(const PointsPicture& picture) {
+    const PointSet& first = *picture.sets[0];
+    return coordinate_names(first.dimension(), first.provenance);
+}
+
 std::size_t points_of(const PointsPicture& picture) {
     std::size_t sum = 0;
     for (const PointSet* set : picture.sets) sum += set->count();
@@ -309,7 +314,8 @@ void draw_edges(Drawing& drawing, const Scene& scene, const Theme& theme, bool f
 }
 
 /// Names, and the numbers at the ends, of the three edges that are free to the outside.
-void draw_ends(Drawing& drawing, const Scene& scene, const Theme& theme) {
+void draw_ends(Drawing& drawing, const Scene& scene, const std::vector<std::string>& names,
+               const Theme& theme) {
     const auto put = [&](Position at, double dx, double dy, const std::string& text, Anchor anchor,
                          bool name) {
         drawing.add(Label{.text = text,
@@ -324,13 +330,13 @@ void draw_ends(Drawing& drawing, const Scene& scene, const Theme& theme) {
     };
     put(scene.at(0.08, 0, 0), -2, 18, end(0, false), Anchor::end, false);
     put(scene.at(0.95, 0, 0), -2, 18, end(0, true), Anchor::end, false);
-    put(scene.at(0.5, 0, 0), -8, 24, "x", Anchor::end, true);
+    put(scene.at(0.5, 0, 0), -8, 24, names[0], Anchor::end, true);
     put(scene.at(1, 0.08, 0), 10, 16, end(1, false), Anchor::start, false);
     put(scene.at(1, 0.95, 0), 10, 16, end(1, true), Anchor::start, false);
-    put(scene.at(1, 0.5, 0), 14, 22, "y", Anchor::start, true);
+    put(scene.at(1, 0.5, 0), 14, 22, names[1], Anchor::start, true);
     put(scene.at(0, 0, 0.04), -8, 4, end(2, false), Anchor::end, false);
     put(scene.at(0, 0, 0.98), -8, 4, end(2, true), Anchor::end, false);
-    put(scene.at(0, 0, 0.5), -14, 4, "z", Anchor::end, true);
+    put(scene.at(0, 0, 0.5), -14, 4, names[2], Anchor::end, true);
 }
 
 /// Disks in layers from far to near: paler and smaller behind.
@@ -392,7 +398,7 @@ Drawing draw_space(const PointsPicture& picture, const PictureStyle& style, cons
         draw_edges(drawing, scene, theme, false);
     }
     draw_edges(drawing, scene, theme, true);
-    draw_ends(drawing, scene, theme);
+    draw_ends(drawing, scene, names_of(picture), theme);
     return std::move(page.drawing);
 }
 
@@ -409,7 +415,7 @@ class PairSheet {
           marks_(picture, style, run),
           page_(picture, style, plane_ ? 640 : 800),
           box_(shown_box(picture.sets)),
-          names_(coordinate_names(picture.sets[0]->dimension())),
+          names_(names_of(picture)),
           shown_(std::min(box_.dimension(), picture.most_coordinates)) {
         if (!frame_is_outline(picture)) widen(box_, 0.03);
         const double tall = style.height > 0 ? style.height : page_.width;
@@ -454,8 +460,10 @@ class PairSheet {
         const double high = given > 0 ? (given - top_ - below - gaps) / columns : 0;
         if (plane_)
             std::tie(width_, height_) = frame_size(box_, wide, high);
-        else
-            width_ = height_ = std::max(std::floor(given > 0 ? std::min(wide, high) : wide), 30.0);
+        else  // coordinates of pairs may measure different things
+            std::tie(width_, height_) =
+                std::pair{std::max(std::floor(wide), 30.0),
+                          std::max(std::floor(given > 0 ? high : wide), 30.0)};
         if (given <= 0) page_.drawing.height = std::ceil(top_ + columns * height_ + gaps + below);
     }
 
@@ -509,8 +517,7 @@ std::size_t bins_of(std::size_t n) {
 }
 
 ChartPanel histogram_panel(const PointsPicture& picture, const Box& box, std::size_t k) {
-    const auto names = coordinate_names(box.dimension());
-    ChartPanel panel{.x_name = names[k], .y_name = "density", .from_zero = true};
+    ChartPanel panel{.x_name = names_of(picture)[k], .y_name = "density", .from_zero = true};
     for (std::size_t s = 0; s < picture.sets.size(); ++s) {
         const PointSet& set = *picture.sets[s];
         panel.bars.push_back(

@@ -113,15 +113,17 @@ Drawing draw_spectrum(const Grid& power, const std::string& title, const std::st
     auto [drawing, top] = titled_drawing(title, subtitle, style, 640);
     const double left = std::ceil(picture_margin / 2 + Panel::room_left(y, 500));
     const double below = Panel::room_below(x) + picture_margin;
-    double side = std::floor(drawing.width - left - colour_bar_room - picture_margin);
+    const double beside = names.bar ? colour_bar_room : picture_margin / 2;
+    double side = std::floor(drawing.width - left - beside - picture_margin);
     if (style.height > 0) side = std::min(side, std::floor(style.height - top - below - 14));
     side = std::max(side, 60.0);
     if (style.height <= 0) drawing.height = std::ceil(top + 14 + side + below);
     const Area frame{left, std::ceil(top) + 14, side, side};
     drawing.add(picture_of(power, frame));
     Panel(frame, x, y).draw_axes(drawing, theme, true);
-    draw_colour_bar(drawing, {frame.right() + 14, frame.top, 14, side}, names.shade, theme, grey,
-                    {{0, "0"}, {0.2, "1/4"}, {0.5, "1"}, {0.8, "4"}, {1, "∞"}});
+    if (names.bar)
+        draw_colour_bar(drawing, {frame.right() + 14, frame.top, 14, side}, names.shade, theme,
+                        grey, {{0, "0"}, {0.2, "1/4"}, {0.5, "1"}, {0.8, "4"}, {1, "∞"}});
     return std::move(drawing);
 }
 

@@ -42,6 +42,7 @@ struct TableNames {
     std::string y = "frequency fy";
     std::string shade = "power";
     double cell = 1;  ///< side of a cell of the table, as the axes have it
+    bool bar = true;  ///< says beside the table what its shades mean
 };
 
 /// @throws Error(input) for what is not square, of an odd side, and without negative numbers.

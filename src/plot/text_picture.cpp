@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include "core/text.hpp"
 #include "io/format.hpp"
@@ -44,22 +45,46 @@ DotMatrix field_for(const TextRoom& room, const TextFrame& frame, double ratio) 
     return {std::clamp(narrow, least_columns, columns), rows};
 }
 
-std::string plane_as_text(const PointsPicture& picture, const TextRoom& room) {
+/// Two coordinates; those of a plane have lengths that compare.
+std::string plane_as_text(const PointsPicture& picture, const TextRoom& room, std::size_t i = 0,
+                          std::size_t j = 1) {
     const Box box = shown_box(picture.sets);
-    const auto names = coordinate_names(box.dimension());
-    const TextFrame frame{.title = picture.title,
-                          .low_x = rounded(box.low[0]),
-                          .high_x = rounded(box.high[0]),
-                          .name_x = names[0],
-                          .low_y = rounded(box.low[1]),
-                          .high_y = rounded(box.high[1]),
-                          .name_y = names[1]};
-    DotMatrix dots = field_for(room, frame, std::clamp(box.extent(1) / box.extent(0), 0.05, 20.0));
-    for (const PointSet* set : picture.sets)
-        for (std::size_t i = 0; i < set->count(); ++i)
-            dots.set(((*set)[i][0] - box.low[0]) / box.extent(0),
-                     ((*set)[i][1] - box.low[1]) / box.extent(1));
+    const bool plane = box.dimension() == 2;
+    const auto names = coordinate_names(box.dimension(), picture.sets[0]->provenance);
+    const TextFrame frame{.title = plane ? picture.title : "",
+                          .low_x = rounded(box.low[i]),
+                          .high_x = rounded(box.high[i]),
+                          .name_x = printable(names[i]),
+                          .low_y = rounded(box.low[j]),
+                          .high_y = rounded(box.high[j]),
+                          .name_y = printable(names[j]),
+                          .coloured = room.coloured};
+    const double ratio = plane ? std::clamp(box.extent(1) / box.extent(0), 0.05, 20.0) : 1;
+    DotMatrix dots = field_for(room, frame, ratio);
+    for (std::size_t s = 0; s < picture.sets.size(); ++s) {
+        dots.take_pen(s);
+        const PointSet& set = *picture.sets[s];
+        for (std::size_t k = 0; k < set.count(); ++k)
+            dots.set((set[k][i] - box.low[i]) / box.extent(i),
+                     (set[k][j] - box.low[j]) / box.extent(j));
+    }
     return framed(dots, frame);
+}
+
+std::string pairs_as_text(const PointsPicture& picture, const TextRoom& room) {
+    constexpr std::size_t least = 24;  // columns of a pair
+    const std::size_t d = picture.sets[0]->dimension();
+    const std::size_t shown = std::min(d, std::max<std::size_t>(3, 1 + room.columns / least));
+    TextRoom part = room;
+    part.columns = room.columns / (shown - 1) - 1;
+    std::string text = printable(picture.title) + "\n";
+    for (std::size_t j = 1; j < shown; ++j) {
+        std::vector<std::string> row;
+        for (std::size_t i = 0; i < j; ++i) row.push_back(plane_as_text(picture, part, i, j));
+        text += side_by_side(row, room);
+    }
+    if (shown == d) return text;
+    return text + fmt::format("the first {} of {} coordinates\n", shown, d);
 }
 
 std::string space_as_text(const PointsPicture& picture, const TextRoom& room) {
@@ -68,12 +93,18 @@ std::string space_as_text(const PointsPicture& picture, const TextRoom& room) {
     const double across = high.right - low.right;
     const double upward = high.up - low.up;
     DotMatrix dots = field_for(room, {}, upward / across);
-    for (const PointSet* set : picture.sets)
-        for (std::size_t i = 0; i < set->count(); ++i) {
-            const Projected projected = project(box, (*set)[i]);
+    for (std::size_t s = 0; s < picture.sets.size(); ++s) {
+        dots.take_pen(s);
+        for (std::size_t i = 0; i < picture.sets[s]->count(); ++i) {
+            const Projected projected = project(box, (*picture.sets[s])[i]);
             dots.set((projected.right - low.right) / across, (projected.up - low.up) / upward);
         }
-    return framed(dots, {.title = picture.title, .name_x = "x and y to the right, z upward"});
+    }
+    const auto names = coordinate_names(3, picture.sets[0]->provenance);
+    return framed(dots, {.title = picture.title,
+                         .name_x = printable(fmt::format("{} and {} to the right, {} upward",
+                                                         names[0], names[1], names[2])),
+                         .coloured = room.coloured});
 }
 
 void draw_bars(DotMatrix& dots, const Bars& bars, const Axis& x, const Axis& y) {
@@ -87,38 +118,157 @@ void draw_bars(DotMatrix& dots, const Bars& bars, const Axis& x, const Axis& y) 
     }
 }
 
+/// A curve's letter: a, b, ..., z, A, ...
+std::string letter_of(std::size_t curve) {
+    constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+    return std::string(1, letters[curve % letters.size()]);
+}
+
+/// Letters and names of curves, or squares and names of bars, in lines.
+std::string legend_as_text(const ChartPanel& panel, const TextRoom& room) {
+    std::vector<std::string> names;
+    for (const Bars& bars : panel.bars) names.push_back(bars.name);
+    for (const Series& series : panel.series) names.push_back(series.name);
+    if (names.size() < 2) return {};
+    std::string text;
+    std::size_t used = 0;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const std::string name = " " + printable(names[i]);
+        const std::size_t width = 1 + code_points(name).size();
+        const bool fits = used > 0 && used + 3 + width <= room.columns;
+        text += fits ? "   " : used > 0 ? "\n" : "";
+        used = fits ? used + 3 + width : width;
+        const std::size_t bars = panel.bars.size();
+        text += in_colour(i < bars ? "■" : letter_of(i - bars), i, room.coloured) + name;
+    }
+    return text + "\n";
+}
+
+void draw_curve(DotMatrix& dots, const Series& series, const Axis& x, const Axis& y) {
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+        const double right = x.share(series.x[i]);
+        const double up = y.share(series.y[i]);
+        if (i > 0 && std::isfinite(series.y[i - 1]))
+            dots.draw(x.share(series.x[i - 1]), y.share(series.y[i - 1]), right, up);
+        else
+            dots.set(right, up);
+    }
+}
+
+/// Letters of the curves beside the rows in which they end.
+std::vector<std::string> ends_of(const ChartPanel& panel, const DotMatrix& dots, const Axis& y,
+                                 bool coloured) {
+    const std::size_t rows = dots.height() / 4;
+    std::vector<std::string> ends(rows);
+    for (std::size_t s = 0; s < panel.series.size(); ++s) {
+        const auto& values = panel.series[s].y;
+        const auto last = std::find_if(values.rbegin(), values.rend(),
+                                       [](double value) { return std::isfinite(value); });
+        if (last == values.rend()) continue;
+        const double down = (1 - std::clamp(y.share(*last), 0.0, 1.0)) * static_cast<double>(rows);
+        std::string& end = ends[std::min(static_cast<std::size_t>(down), rows - 1)];
+        if (end.empty()) end = " ";
+        end += in_colour(letter_of(s), s, coloured);
+    }
+    return ends;
+}
+
+/// The number at the upper end of a panel's y axis.
+std::string upper_end(const Chart& chart, std::size_t number, const PictureStyle& style) {
+    return rounded(chart_axes(chart, number, style).second.high, 3);
+}
+
+/// One panel in its frame, the numbers along x below the last alone.
+/// @param side letters of the numbers beside all panels
+std::string panel_as_text(const Chart& chart, std::size_t number, const PictureStyle& style,
+                          std::size_t side, const TextRoom& room) {
+    const auto [x, y] = chart_axes(chart, number, style);
+    const ChartPanel& panel = chart.panels[number];
+    const bool last = number + 1 == chart.panels.size();
+    const auto scale = [](const Axis& axis) { return axis.log ? " (logarithmic)" : ""; };
+    TextFrame frame{.low_x = last ? rounded(x.low) : "",
+                    .high_x = last ? rounded(x.high) : "",
+                    .name_x = last ? panel.x_name + scale(x) : "",
+                    .low_y = rounded(y.low, 3),
+                    .high_y = upper_end(chart, number, style),
+                    .name_y = panel.y_name + scale(y),
+                    .coloured = room.coloured};
+    frame.high_y.insert(0, side - std::min(side, code_points(frame.high_y).size()), ' ');
+    const bool several = panel.series.size() > 1;
+    const std::size_t letters = several ? std::min<std::size_t>(1 + panel.series.size(), 5) : 0;
+    const std::size_t columns = columns_for(room, frame);
+    DotMatrix dots(columns > letters + least_columns ? columns - letters : columns,
+                   inner(room.rows, frame_rows, least_rows));
+    std::size_t pen = 0;
+    for (const Bars& bars : panel.bars) {
+        dots.take_pen(pen++);
+        draw_bars(dots, bars, x, y);
+    }
+    for (const Series& series : panel.series) {
+        dots.take_pen(pen++);
+        draw_curve(dots, series, x, y);
+    }
+    if (several) frame.beside = ends_of(panel, dots, y, room.coloured);
+    return framed(dots, frame);
+}
+
 }  // namespace
 
 std::string chart_as_text(const Chart& chart, const PictureStyle& style, const TextRoom& room) {
-    const auto [x, y] = chart_axes(chart, 0, style);
-    const ChartPanel& panel = chart.panels[0];
-    const auto scale = [](const Axis& axis) { return axis.log ? " (logarithmic)" : ""; };
-    const TextFrame frame{.title = style.title.value_or(chart.title),
-                          .low_x = rounded(x.low),
-                          .high_x = rounded(x.high),
-                          .name_x = chart.panels.back().x_name + scale(x),
-                          .low_y = rounded(y.low, 3),
-                          .high_y = rounded(y.high, 3),
-                          .name_y = panel.y_name + scale(y)};
-    DotMatrix dots(columns_for(room, frame), inner(room.rows, frame_rows, least_rows));
-    for (const Bars& bars : panel.bars) draw_bars(dots, bars, x, y);
-    for (const Series& series : panel.series)
-        for (std::size_t i = 0; i < series.x.size(); ++i) {
-            const double right = x.share(series.x[i]);
-            const double up = y.share(series.y[i]);
-            const bool joined = i > 0 && std::isfinite(series.y[i - 1]);
-            if (joined)
-                dots.draw(x.share(series.x[i - 1]), y.share(series.y[i - 1]), right, up);
-            else
-                dots.set(right, up);
-        }
-    return framed(dots, frame);
+    const std::string title = printable(style.title.value_or(chart.title));
+    std::string text = title.empty() ? "" : title + "\n";
+    text += legend_as_text(chart.panels[0], room);
+    TextRoom part = room;
+    part.rows = std::max(room.rows / chart.panels.size(), frame_rows + 2 * least_rows);
+    std::size_t side = 0;
+    for (std::size_t number = 0; number < chart.panels.size(); ++number)
+        for (const std::string& end : {upper_end(chart, number, style),
+                                       rounded(chart_axes(chart, number, style).second.low, 3)})
+            side = std::max(side, code_points(end).size());
+    for (std::size_t number = 0; number < chart.panels.size(); ++number)
+        text += panel_as_text(chart, number, style, side, part);
+    return text;
 }
 
 std::string points_as_text(const PointsPicture& picture, const TextRoom& room) {
     const std::size_t d = picture.sets[0]->dimension();
     if (d == 1) return chart_as_text(histogram_chart(picture), {}, room);
+    if (d > 3) return pairs_as_text(picture, room);
     return d == 3 ? space_as_text(picture, room) : plane_as_text(picture, room);
+}
+
+TextRoom shared_room(const TextRoom& room, std::size_t pictures) {
+    constexpr std::size_t least = 32;  // columns of a picture
+    TextRoom part = room;
+    const std::size_t beside =
+        std::clamp<std::size_t>(room.columns / least, 1, std::max<std::size_t>(pictures, 1));
+    part.columns = room.columns / beside - (beside > 1 ? 1 : 0);
+    return part;
+}
+
+std::string side_by_side(const std::vector<std::string>& pictures, const TextRoom& room) {
+    std::string text;
+    for (std::size_t first = 0; first < pictures.size();) {
+        std::vector<std::string> lines;
+        std::size_t used = 0;
+        std::size_t at = first;
+        for (; at < pictures.size(); ++at) {
+            std::size_t width = 0;
+            std::vector<std::string_view> own = split(pictures[at], '\n');
+            if (own.back().empty()) own.pop_back();
+            for (const auto line : own) width = std::max(width, shown_width(line));
+            if (at > first && used + width > room.columns) break;
+            lines.resize(std::max(lines.size(), own.size()));
+            for (std::size_t i = 0; i < own.size(); ++i) {
+                lines[i].append(used - std::min(used, shown_width(lines[i])), ' ');
+                lines[i] += own[i];
+            }
+            used += width + 1;
+        }
+        text += join(lines, "\n") + "\n";
+        first = at;
+    }
+    return text;
 }
 
 std::string spectrum_as_text(const Grid& power, const std::string& title, const TextRoom& room) {

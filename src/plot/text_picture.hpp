@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "plot/chart.hpp"
 #include "plot/points_picture.hpp"
@@ -15,16 +16,24 @@ namespace stipple::plot {
 struct TextRoom {
     std::size_t columns = 80;
     std::size_t rows = 24;
+    bool coloured = false;  ///< by a terminal's codes
 };
 
 /// Points of one coordinate: their histogram; of two: where they are; of three: seen from a fixed
-/// place; of more: the first two coordinates.
+/// place; of more: as many of the first pairs as the columns have room for.
 std::string points_as_text(const PointsPicture& picture, const TextRoom& room);
 
-/// All curves and bars of the first panel.
+/// All curves and bars, panel below panel. Where there are several, each has a letter, which stands
+/// where it ends, on the right.
 std::string chart_as_text(const Chart& chart, const PictureStyle& style, const TextRoom& room);
 
 /// A spectrum in five shades.
 std::string spectrum_as_text(const Grid& power, const std::string& title, const TextRoom& room);
+
+/// Room for each of several pictures.
+TextRoom shared_room(const TextRoom& room, std::size_t pictures);
+
+/// Pictures that were made for such a room, side by side.
+std::string side_by_side(const std::vector<std::string>& pictures, const TextRoom& room);
 
 }  // namespace stipple::plot

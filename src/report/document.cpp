@@ -33,6 +33,7 @@ Json measurement_json(const Measurement& m) {
     if (m.largest_count > 0) input["largest_count"] = m.largest_count;
     input["dimension"] = m.dimension;
     input["domain"] = m.domain;
+    if (!m.columns.empty()) input["columns"] = m.columns;
     Json object = {{"format", "stipple.report"},    {"version", 1},
                    {"analyzer", m.analyzer},        {"input", input},
                    {"options", json_of(m.options)}, {"results", json_of(m.results)}};
@@ -41,9 +42,10 @@ Json measurement_json(const Measurement& m) {
     return object;
 }
 
+constexpr std::size_t most_shown = 6;  ///< numbers of a list on a line
+
 std::string shortened(const Report::Curve& curve) {
-    constexpr std::size_t shown = 6;
-    const std::size_t some = std::min(curve.size(), shown);
+    const std::size_t some = std::min(curve.size(), most_shown);
     std::string text = fmt::format("{:.6g}", fmt::join(std::span(curve).first(some), " "));
     if (curve.size() > some) text += fmt::format(" ... ({} values)", curve.size());
     return text;
@@ -67,15 +69,49 @@ std::string source_of(const Measurement& m) {
     return source;
 }
 
-std::string to_text(const Measurement& m) {
+/// Lists that are too long for a line as tables, with their names above.
+std::string tables_of(const Report& report) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> tables;  // group and length, keys
+    for (const auto& key : report.keys()) {
+        const auto list = list_at(report, key);
+        if (!list || list->size() <= most_shown) continue;
+        const std::string name =
+            fmt::format("{} {}", key.substr(0, key.rfind('.') + 1), list->size());
+        auto it = std::ranges::find(tables, name, [](const auto& table) { return table.first; });
+        if (it == tables.end()) it = tables.insert(it, {name, {}});
+        it->second.push_back(key);
+    }
+    std::string text;
+    for (const auto& [name, keys] : tables) {
+        text += "\n ";
+        std::vector<Report::Curve> lists;
+        for (const auto& key : keys) {
+            lists.push_back(*list_at(report, key));
+            text += fmt::format(" {:>12}", key);
+        }
+        for (std::size_t i = 0; i < lists[0].size(); ++i) {
+            text += "\n ";
+            for (std::size_t k = 0; k < keys.size(); ++k)
+                text += fmt::format(" {:>{}.6g}", lists[k][i],
+                                    std::max<std::size_t>(keys[k].size(), 12));
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+std::string to_text(const Measurement& m, bool full = false) {
     const std::string most = m.largest_count > 0 ? fmt::format(" to {}", m.largest_count) : "";
-    std::string text = fmt::format("{} of {} ({}{} points, dimension {}, {})\n", m.analyzer,
-                                   source_of(m), m.count, most, m.dimension, m.domain);
+    const std::string of = m.columns.empty() ? "" : ": " + join(m.columns, ", ");
+    std::string text = fmt::format("{} of {} ({}{} points, dimension {}{}, {})\n", m.analyzer,
+                                   source_of(m), m.count, most, m.dimension, of, m.domain);
     const auto keys = m.results.keys();
     std::size_t width = 0;
     for (const auto& key : keys) width = std::max(width, key.size());
     for (const auto& key : keys) {
         const Report::Item* item = m.results.find(key);
+        const auto list = full ? list_at(m.results, key) : std::nullopt;
+        if (list && list->size() > most_shown) continue;
         std::string line = fmt::format("  {:<{}}  {}", key, width, text_of(*item));
         const Report::Item* error = m.standard_error ? m.standard_error->find(key) : nullptr;
         if (const auto* number = std::get_if<double>(error))
@@ -83,7 +119,7 @@ std::string to_text(const Measurement& m) {
         const std::string unit = unit_of(m.results, item);
         text += unit.empty() ? line + "\n" : fmt::format("{} {}\n", line, unit);
     }
-    return text;
+    return full ? text + tables_of(m.results) : text;
 }
 
 // ---------------------------------------------------------------- the way back
@@ -220,9 +256,9 @@ std::string to_json(std::span<const Measurement> measurements) {
     return json_text(array, 2) + "\n";
 }
 
-std::string to_text(std::span<const Measurement> measurements) {
+std::string to_text(std::span<const Measurement> measurements, bool full) {
     std::string text;
-    for (const Measurement& m : measurements) text += to_text(m);
+    for (const Measurement& m : measurements) text += to_text(m, full);
     return text;
 }
 

@@ -27,6 +27,7 @@ struct Measurement {
     std::uint64_t largest_count = 0;  ///< of such a mean; else 0
     std::size_t dimension = 0;
     std::string domain;
+    std::vector<std::string> columns = {};  ///< names of the coordinates, where they have any
     std::vector<std::pair<std::string, std::string>> options = {};
     Report results = {};
     std::optional<Report> standard_error = {};  ///< of a mean
@@ -51,8 +52,9 @@ Json json_of(const std::vector<std::pair<std::string, std::string>>& options);
 /// One object for one measurement, an array for several; ends with a newline.
 std::string to_json(std::span<const Measurement> measurements);
 
-/// Names, values and units in aligned columns; long curves are cut short and say so.
-std::string to_text(std::span<const Measurement> measurements);
+/// Names, values and units in aligned columns; long curves are cut short and say so or, with `full`,
+/// stand in tables below, those of one group and length side by side.
+std::string to_text(std::span<const Measurement> measurements, bool full = false);
 
 /// Whether the bytes are JSON of reports as far as their front tells: an object, or an array of
 /// objects, that names the format.

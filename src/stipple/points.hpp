@@ -74,6 +74,8 @@ struct Provenance {
     std::size_t dimension = 0;
     std::uint64_t start = 0;
     std::vector<std::string> warps;  ///< specs, in order
+    /// Names of the coordinates, where a file gave them others than x, y, ...
+    std::vector<std::string> columns = {};
     std::string domain = "unit-cube";
     std::string bounds;     ///< empty: none
     std::string shard;      ///< "I/K"; empty: the whole

@@ -680,4 +680,18 @@ TEST(Analyze, TakesGeneratorsBehindFiles) {
     EXPECT_EQ(means.err, "stipple: halton does not use the seed: all 2 sets are the same\n");
 }
 
+TEST(Analyze, TextHasAllNumbersOfListsWhereItIsAsked) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -n 90 -o a.csv"));
+    const std::string analyze = "stipple analyze periodogram a.csv --max-frequency 9 -f ";
+    EXPECT_THAT(good(box.shell(analyze + "text")), HasSubstr("... (9 values)"));
+    const std::string full = good(box.shell(analyze + "text --full"));
+    EXPECT_THAT(full, ::testing::Not(HasSubstr("...")));
+    const json report = json::parse(good(box.shell(analyze + "json")));
+    const double last = report["results"]["radial"]["power"][8];
+    EXPECT_THAT(full,
+                HasSubstr("radial.frequency radial.power radial.anisotropy_db radial.cells\n"));
+    EXPECT_THAT(full, HasSubstr(fmt::format(" 9 {:>12.6g} ", last)));
+}
+
 }  // namespace stipple::testing::analyze_test

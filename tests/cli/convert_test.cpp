@@ -203,4 +203,30 @@ TEST(Convert, PicturesAndMeshesAreWriteOnly) {
     EXPECT_THAT(outcome.err, HasSubstr("ply"));
 }
 
+// Through every verb that keeps points, and every format that has a place for them.
+TEST(Convert, KeepsTheNamesOfColumns) {
+    const Sandbox box;
+    box.write("a.csv", "age,income,size\n0.1,0.2,0.3\n0.4,0.5,0.6\n");
+    const auto head = [](const std::string& text) { return text.substr(0, text.find('\n')); };
+    good(
+        box.shell("stipple convert a.csv -o a.json && stipple convert a.json -o b.jsonl && "
+                  "stipple convert b.jsonl --meta -o c.txt && stipple convert c.txt -o d.csv"));
+    EXPECT_EQ(box.read("d.csv"), box.read("a.csv"));
+    EXPECT_EQ(head(good(box.shell("stipple convert b.jsonl --column size,age"))), "size,age");
+    EXPECT_EQ(head(good(box.shell("stipple warp disk@1,3 a.csv"))), "x,income,z");
+    EXPECT_EQ(head(good(box.shell("stipple warp owen a.csv"))), "age,income,size");
+    EXPECT_EQ(head(good(box.shell("stipple warp disk@1,3 a.csv --density-at"))),
+              "age,income,size,pdf");
+    EXPECT_EQ(
+        head(good(box.shell("stipple warp disk@1,3 d.csv | stipple warp disk@1,3 --inverse"))),
+        "x,income,z");
+    const std::string text = good(box.shell("stipple analyze moments a.csv -f text"));
+    EXPECT_EQ(head(text), "moments of a.csv (2 points, dimension 3: age, income, size, unit-cube)");
+    EXPECT_THAT(good(box.shell("stipple analyze moments a.csv")),
+                HasSubstr("\"columns\": [\n      \"age\""));
+    for (const char* more : {"", " --column size,income"})
+        EXPECT_THAT(good(box.shell("stipple plot a.csv -f svg" + std::string(more))),
+                    HasSubstr(">income<"));
+}
+
 }  // namespace stipple::testing::convert_test

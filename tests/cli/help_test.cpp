@@ -217,4 +217,21 @@ TEST(Help, SaysWhatDomainsAnAnalyzerTakes) {
         EXPECT_EQ(unit["traits"]["boxed"], boxed.contains(unit["name"])) << unit["name"];
 }
 
+// A picture of what it makes, unless that needs a file.
+TEST(Help, ShowsPointsInLetters) {
+    const Sandbox box;
+    const auto dots = [&](const std::string& unit) {
+        const std::string help = good(box.run({"help", unit}));
+        const auto at = help.find("Picture:\n");
+        return at == std::string::npos ? std::string()
+                                       : help.substr(at, help.find("Options of", at) - at);
+    };
+    EXPECT_THAT(dots("halton"), HasSubstr("⠄"));
+    EXPECT_NE(dots("halton"), dots("random"));
+    EXPECT_THAT(dots("sphere"), HasSubstr("z upward"));
+    EXPECT_EQ(dots("image"), "");
+    EXPECT_EQ(dots("owen"), "");
+    EXPECT_EQ(dots("moments"), "");
+}
+
 }  // namespace stipple::testing::help_test

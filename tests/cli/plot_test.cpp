@@ -336,10 +336,59 @@ TEST(Plot, DrawsOnePointAndEqualPoints) {
                    "no nearest neighbour");
 }
 
+// A frame for each set, with its own points; --overlay has one for all.
+TEST(Plot, SeveralSetsStandSideBySide) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -n 5 -m 4 -f json -o p.json"));
+    good(box.shell("stipple plot p.json -o p.svg"));
+    EXPECT_EQ(xml(box, "p.svg", "circle"), "20\n");
+    for (const char* name : {"set 0", "set 1", "set 2", "set 3"})
+        EXPECT_THAT(xml(box, "p.svg", "text"), HasSubstr(name));
+    good(box.shell("stipple plot p.json -o p.svg --overlay"));
+    EXPECT_EQ(xml(box, "p.svg", "circle"), "24\n");  // 4 in the legend
+    good(box.shell("stipple generate random -n 5 -m 13 -f json -o many.json"));
+    const Outcome outcome = box.run({"plot", "many.json", "-o", "p.svg"});
+    EXPECT_THAT(outcome.err, HasSubstr("the first 12 of 13 sets"));
+    EXPECT_EQ(xml(box, "p.svg", "circle"), "60\n");
+    const std::string text = good(box.shell("stipple plot p.json -f text --width 100 --height 20"));
+    EXPECT_THAT(text, HasSubstr("set 2"));
+    const auto first = text.substr(0, text.find('\n'));
+    EXPECT_THAT(first, ::testing::AllOf(HasSubstr("set 0"), HasSubstr("set 1")));
+}
+
+TEST(Plot, SeveralSpectraStandSideBySide) {
+    const Sandbox box;
+    const std::string plot =
+        "stipple plot --generate random --generate halton -n 64 --chart spectrum ";
+    good(box.shell(plot + "-o s.svg"));
+    EXPECT_THAT(xml(box, "s.svg", "text"), HasSubstr("halton"));
+    EXPECT_EQ(xml(box, "s.svg", "image"), "3\n");  // with the bar of shades
+    const std::string text = good(box.shell(plot + "-f text --width 80 --height 30"));
+    EXPECT_THAT(text.substr(0, text.find('\n')), HasSubstr("halton"));
+}
+
+TEST(Plot, LettersHaveALegendAllPanelsAndPairs) {
+    const Sandbox box;
+    good(box.shell(
+        "stipple generate random -n 50 -o a.csv && stipple generate halton -n 90 -o b.csv "
+        "&& stipple generate random -n 50 -d 5 -o c.csv"));
+    const std::string curves =
+        good(box.shell("stipple analyze periodogram a.csv b.csv | stipple plot -f text"));
+    EXPECT_THAT(curves, HasSubstr("a a.csv   b b.csv\n"));
+    EXPECT_THAT(curves, HasSubstr("radial power"));
+    EXPECT_THAT(curves, HasSubstr("anisotropy (dB)"));
+    EXPECT_THAT(curves, ::testing::ContainsRegex("│ b"));
+    EXPECT_THAT(curves, Not(HasSubstr("\x1b")));  // of colours, on terminals alone
+    const std::string pairs = good(box.shell("stipple plot c.csv -f text --width 100 --height 20"));
+    for (const char* name : {"x1", "x2", "x3", "x4", "x5"}) EXPECT_THAT(pairs, HasSubstr(name));
+    EXPECT_THAT(good(box.shell("stipple plot c.csv -f text --width 60 --height 20")),
+                HasSubstr("the first 3 of 5 coordinates\n"));
+}
+
 TEST(Plot, MoreSetsThanColoursAreCutWithAWord) {
     const Sandbox box;
     good(box.shell("stipple generate random -n 5 -m 9 -f json -o p.json"));
-    const Outcome outcome = box.run({"plot", "p.json", "-o", "p.svg"});
+    const Outcome outcome = box.run({"plot", "p.json", "-o", "p.svg", "--overlay"});
     EXPECT_EQ(outcome.code, 0);
     EXPECT_THAT(outcome.err, HasSubstr("the first 7 of 9 sets"));
     EXPECT_EQ(xml(box, "p.svg", "circle"), "42\n");  // 35 points and 7 in the legend

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "cli/parsing/catalog.hpp"
 #include "places.hpp"
 #include "support/program.hpp"
 
@@ -72,6 +73,22 @@ TEST(Guide, TablesAreTheRegistry) {
         EXPECT_TRUE(text.find(box.run({"list", kind, "--markdown"}).out) != std::string::npos)
             << "data/guide/units.md is not as 'stipple list " << kind
             << " --markdown': run scripts/update_guide";
+}
+
+TEST(Guide, GalleryHasAllGeneratorsAndWarps) {
+    const std::string text = page("data/guide/gallery.md");
+    for (const auto& kind : cli::catalog()) {
+        if (kind.name != "generators" && kind.name != "warps") continue;
+        for (const auto& unit : kind.units)
+            EXPECT_THAT(text, HasSubstr("- `" + unit.name + "`: ")) << "run scripts/gallery";
+    }
+    std::size_t pictures = 0;
+    for (auto at = text.find("](../"); at != std::string::npos; at = text.find("](../", at + 1)) {
+        const std::string file = text.substr(at + 5, text.find(')', at) - at - 5);
+        EXPECT_TRUE(std::filesystem::exists(STIPPLE_SOURCE_DIR "/data/" + file)) << file;
+        ++pictures;
+    }
+    EXPECT_GT(pictures, 10U);
 }
 
 // What other packages print, by scripts/peers, which must find a wrong number, too.

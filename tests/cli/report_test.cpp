@@ -315,4 +315,54 @@ TEST(Report, StaysSmallForLargeSets) {
     EXPECT_LT(box.read("r.html").size(), 1'000'000U);  // 10 of them: 5 MB
 }
 
+// Means, their errors and root mean squares as analyze has them.
+TEST(Report, ComparesMeansOfSeveralSets) {
+    const Sandbox box;
+    const std::string sets = " --generate random -n 64 -m 5 ";
+    const auto page = data_of(box.shell("stipple report" + sets + "--json"));
+    const auto star = data_of(box.shell("stipple analyze star-discrepancy --average" + sets));
+    const auto errors = data_of(box.shell("stipple analyze integration --average" + sets));
+    const auto& row = page["comparison"][0];
+    EXPECT_EQ(row["key"], "star-discrepancy.value");
+    EXPECT_NEAR(row["values"][0], star["results"]["value"], 1e-15);
+    EXPECT_NEAR(row["standard_error"][0], star["standard_error"]["value"], 1e-15);
+    EXPECT_EQ(page["sets"][0]["sets"], 5);
+    int integrands = 0;
+    for (const auto& compared : page["comparison"]) {
+        const std::string key = compared["key"];
+        if (!key.starts_with("integration.")) continue;
+        const std::string integrand = key.substr(12, key.find(".error") - 12);
+        EXPECT_NEAR(compared["values"][0], errors["results"][integrand]["rms_error"], 1e-15) << key;
+        ++integrands;
+    }
+    EXPECT_EQ(integrands, 3);
+    // A condition is for each of the sets.
+    const double worst = page["sets"][0]["measures"][0]["results"]["value"];
+    const std::string check = "--check 'star-discrepancy<" + std::to_string(worst + 1e-9) + "' ";
+    EXPECT_EQ(box.shell("stipple report --generate random -n 64 -o r.html " + check).code, 0);
+    const Outcome failed = box.shell("stipple report" + sets + "-o r.html " + check);
+    EXPECT_EQ(failed.code, 1);
+    EXPECT_THAT(failed.err, HasSubstr("random, seed "));
+    const std::string html = box.read("r.html");
+    EXPECT_THAT(html, HasSubstr("the first of 5 sets"));
+    EXPECT_THAT(html, HasSubstr("Star discrepancy of the first points"));
+}
+
+TEST(Report, SavesPicturesAsTheyLook) {
+    const Sandbox box;
+    if (!has_browser(box)) GTEST_SKIP() << "chromium is not installed";
+    good(box.shell("stipple report --generate halton -n 32 -o r.html"));
+    std::string page = box.read("r.html");
+    const std::string end = "</body>";
+    page.insert(page.rfind(end),
+                "<script>URL.createObjectURL = blob => { blob.text().then(text => "
+                "document.documentElement.dataset.saved = text); return '#'; };"
+                "HTMLAnchorElement.prototype.click = () => {};"
+                "document.querySelector('.save').click();</script>");
+    box.write("r.html", page);
+    const Outcome outcome = browse(box, "--dump-dom", "r.html");
+    EXPECT_THAT(outcome.out, HasSubstr("data-saved=\"&lt;svg xmlns="));
+    EXPECT_THAT(outcome.out, HasSubstr("rgb(0, 114, 178)"));
+}
+
 }  // namespace stipple::testing::report_test

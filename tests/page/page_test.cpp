@@ -115,12 +115,47 @@ TEST(Comparison, KnowsThatHaltonIsMoreEvenThanChance) {
     EXPECT_EQ(verdict_in_words(measure_of(sets[0], "dispersion")), "");
 }
 
+// The mean and its error; the same number for all has none, however it is rounded.
+TEST(Comparison, MeansHaveErrors) {
+    const auto set_of = [](const std::vector<double>& values) {
+        Set set;
+        const auto report = [](double value) {
+            return Report().add("value", value).add("error", -value);
+        };
+        set.measures.push_back(
+            {.name = "m", .title = "", .analyzer = "", .results = report(values[0])});
+        for (std::size_t i = 1; i < values.size(); ++i)
+            set.replications.push_back(Report().add("m", report(values[i])));
+        return set;
+    };
+    const auto mean = *known_under(set_of({1, 2, 6}), {"m.value", "", ""});
+    EXPECT_DOUBLE_EQ(mean.value, 3);
+    EXPECT_DOUBLE_EQ(mean.error, std::sqrt(7.0 / 3));  // variance (4 + 1 + 9) / 2
+    const auto root = *known_under(set_of({3, 4}), {"m.error", "", "", Better::lower, false, true});
+    EXPECT_DOUBLE_EQ(root.value, std::sqrt(12.5));
+    EXPECT_DOUBLE_EQ(root.error, 3.5 / (2 * std::sqrt(12.5)));
+    EXPECT_EQ(known_under(set_of({0.1, 0.1, 0.1}), {"m.value", "", ""})->error, 0);
+    EXPECT_EQ(known_under(set_of({1, NAN}), {"m.value", "", ""}), std::nullopt);
+    // Two standard errors tell means apart.
+    EXPECT_THAT(best_of(Compared{Known{1, 1, 1, 0.1}, Known{1.3, 1.3, 1.3, 0.1}}, Better::lower),
+                ElementsAre(false, false));
+    EXPECT_THAT(best_of(Compared{Known{1, 1, 1, 0.1}, Known{1.5, 1.5, 1.5, 0.1}}, Better::lower),
+                ElementsAre(true, false));
+}
+
+TEST(Comparison, PValuesTooSmallToTellAreSaidToBe) {
+    EXPECT_EQ(shown_number(1e-40, "chi-square.p_value"), "< 1e-16");
+    EXPECT_EQ(shown_number(1e-40, "kolmogorov-smirnov.p_lower[1]"), "< 1e-16");
+    EXPECT_EQ(shown_number(0.25, "chi-square.p_value"), "0.25");
+    EXPECT_NE(shown_number(1e-40, "star-discrepancy.value"), "< 1e-16");
+}
+
 TEST(Comparison, EveryKeyIsOneOfTheMeasures) {
     const Set set = page_set("a", make("sobol", points(64, 2)));
-    for (const Key& key : compared_keys()) EXPECT_TRUE(known_under(set, key.key)) << key.key;
-    EXPECT_FALSE(known_under(set, "star-discrepancy"));
-    EXPECT_FALSE(known_under(set, "star-discrepancy.method"));
-    EXPECT_FALSE(known_under(set, "nonsense.value"));
+    for (const Key& key : compared_keys()) EXPECT_TRUE(known_under(set, key)) << key.key;
+    EXPECT_FALSE(known_under(set, {"star-discrepancy", "", ""}));
+    EXPECT_FALSE(known_under(set, {"star-discrepancy.method", "", ""}));
+    EXPECT_FALSE(known_under(set, {"nonsense.value", "", ""}));
 }
 
 // The commands name the analyzer, the input and every option that is not the default.
@@ -160,7 +195,7 @@ TEST(Measures, MapABoxToTheUnitCube) {
 
 TEST(Measures, LimitedSearchesGiveCertainBounds) {
     const Set set = page_set("a", make("random", points(300, 6)), 20000);
-    const auto known = known_under(set, "star-discrepancy.value");
+    const auto known = known_under(set, {"star-discrepancy.value", "", ""});
     ASSERT_TRUE(known);
     EXPECT_LT(known->lower, known->upper);
     EXPECT_THAT(shown_known(*known), HasSubstr(" to "));

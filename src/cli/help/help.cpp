@@ -222,6 +222,10 @@ HelpPage page_of_unit(const VerbInfo& info, const UnitInfo& unit) {
     add_options_of(page, info.verb, unit);
     if (!unit.results.empty()) page.section("Results");
     add_results(page, unit);
+    if (const std::string picture = picture_in_letters(info.verb, unit); !picture.empty()) {
+        page.section("Picture");
+        page.lines(picture);
+    }
     page.section("Options of " + info.name);
     add_common_options(page, info.verb);
     page.paragraph(info.text);

@@ -27,7 +27,10 @@ void head(const Layout& layout, std::string& out) {
     if (layout.meta) out += to_comment_lines(layout.provenance);
     if (!layout.header) return;
     if (layout.many_sets()) out += "set,";
-    out += join(layout.columns(), ",") + "\n";
+    std::vector<std::string> names = layout.columns();
+    for (std::string& name : names)
+        if (name.find_first_of(",;") != std::string::npos) name = "\"" + name + "\"";
+    out += join(names, ",") + "\n";
 }
 
 void rows(const Layout& layout, std::size_t set, std::uint64_t, std::span<const double> numbers,

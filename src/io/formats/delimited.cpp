@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -107,13 +108,34 @@ bool take_number(const Field& field, double& value) {
     return read_number(field.text.data(), last, value) == last && std::isfinite(value);
 }
 
+/// A number such as 0,5 with a point in place of its one comma; empty: it is none, or has both.
+std::string with_point(std::string_view text) {
+    const auto comma = text.find(',');
+    if (comma == std::string_view::npos || text.find('.') != std::string_view::npos) return {};
+    std::string number(text);
+    number[comma] = '.';
+    return is_number(number) ? number : "";
+}
+
+/// The same of a file that has decimal commas.
+bool take_number_with_comma(const Field& field, double& value) {
+    if (field.text.find('.') != std::string_view::npos) return false;
+    if (field.text.find(',') == std::string_view::npos) return take_number(field, value);
+    const std::string number = with_point(field.text);
+    return !number.empty() && take_number({number, field.at}, value);
+}
+
 /// What is wrong with a field that does not hold one.
-std::string trouble_with(const Field& field) {
+std::string trouble_with(const Field& field, bool decimal_comma) {
     if (field.text.empty()) return "an empty field; expected a number";
+    if (decimal_comma && field.text.find('.') != std::string_view::npos)
+        return shown(field.text) + " has a point; expected a decimal comma, as in the rows above";
     if (!is_number(field.text)) {
-        const bool comma = std::ranges::count(field.text, ',') == 1;
+        const bool comma = !decimal_comma && std::ranges::count(field.text, ',') == 1;
         return shown(field.text) + " is not a number; expected " +
-               (comma ? "a decimal point, as in 0.5" : "one such as 0.5 or 1e-3");
+               (comma           ? "a decimal point, as in 0.5"
+                : decimal_comma ? "one such as 0,5"
+                                : "one such as 0.5 or 1e-3");
     }
     const bool digits =
         std::ranges::any_of(field.text, [](char c) { return c >= '0' && c <= '9'; });
@@ -181,7 +203,9 @@ class RowReader {
             if (count == columns_.width()) surplus = field.at;
             if (count >= columns_.width() || columns_.role[count] == Columns::skipped) continue;
             double value = 0;
-            if (!take_number(field, value)) refuse(line, field.at, trouble_with(field));
+            const bool taken =
+                dialect_.comma ? take_number_with_comma(field, value) : take_number(field, value);
+            if (!taken) refuse(line, field.at, trouble_with(field, dialect_.comma));
             if (!store(count, value, row, set))
                 refuse(line, field.at,
                        shown(field.text) + " is not the number of a set; expected 0, 1, 2...");
@@ -272,12 +296,27 @@ Rows close_gaps(std::vector<Piece>& pieces, std::vector<double> numbers, std::si
 }
 
 bool is_header(const std::vector<Field>& fields) {
-    return std::ranges::none_of(fields, [](const Field& f) { return is_number(f.text); }) &&
+    return std::ranges::none_of(
+               fields,
+               [](const Field& f) { return is_number(f.text) || !with_point(f.text).empty(); }) &&
            std::ranges::any_of(fields, [](const Field& f) { return !f.text.empty(); });
+}
+
+/// Whether numbers, some with a decimal comma, stand between tabs.
+bool has_tabs_and_commas(std::string_view line) {
+    if (line.find('\t') == std::string_view::npos) return false;
+    bool comma = false;
+    for (const Field& field : fields_of(line, '\t')) {
+        const bool with_comma = !with_point(field.text).empty();
+        if (!with_comma && !is_number(field.text)) return false;
+        comma = comma || with_comma;
+    }
+    return comma;
 }
 
 /// What separates fields, told by a line; a header may have names with blanks between tabs.
 char separator_of(std::string_view line) {
+    if (has_tabs_and_commas(line)) return '\t';
     for (const char separator : {';', ','})
         if (line.find(separator) != std::string_view::npos) return separator;
     if (line.find('\t') == std::string_view::npos) return ' ';
@@ -412,21 +451,45 @@ struct TableHead {
     }
 };
 
-/// Whether the first fields of the rows are 0, 1, 2, ... or 1, 2, 3, ..., as far as a thousand of
-/// them tell.
-bool counts_rows(const SourceText& text, const char* body, char separator) {
-    constexpr int few = 3;
-    constexpr int enough = 1000;
-    int rows = 0;
-    double first = 0;
-    for (const char* at = body; at != text.end() && rows < enough; at = next_line(text, at)) {
+/// Shows the fields of the first thousand rows, until it gives false.
+void look_at_rows(const SourceText& text, const char* body, char separator,
+                  const std::function<bool(const std::vector<Field>&)>& look) {
+    int left = 1000;
+    for (const char* at = body; at != text.end() && left > 0; at = next_line(text, at)) {
         const std::string_view line = line_at(text, at);
         if (trim(line).empty() || trim(line).starts_with('#')) continue;
-        const auto number = parse_number(fields_of(line, separator).front().text);
-        if (rows == 0) first = number.value_or(-1);
-        if (!number || *number != first + rows++) return false;
+        if (!look(fields_of(line, separator))) return;
+        --left;
     }
-    return rows >= few && (first == 0 || first == 1);
+}
+
+/// Whether the first fields of the rows are 0, 1, 2, ... or 1, 2, 3, ...
+bool counts_rows(const SourceText& text, const char* body, char separator) {
+    constexpr int few = 3;
+    int rows = 0;
+    bool counts = true;
+    double first = 0;
+    look_at_rows(text, body, separator, [&](const std::vector<Field>& fields) {
+        const auto number = parse_number(fields.front().text);
+        if (rows == 0) first = number.value_or(-1);
+        return counts = number && *number == first + rows++;
+    });
+    return counts && rows >= few && (first == 0 || first == 1);
+}
+
+/// Whether the first number that is not whole has a decimal comma.
+bool has_decimal_comma(const SourceText& text, const char* body, char separator) {
+    bool comma = false;
+    if (separator == ',' || separator == ' ') return comma;
+    look_at_rows(text, body, separator, [&](const std::vector<Field>& fields) {
+        for (const Field& field : fields) {
+            comma = !with_point(field.text).empty();
+            if (comma || (is_number(field.text) && field.text.find('.') != std::string_view::npos))
+                return false;
+        }
+        return true;
+    });
+    return comma;
 }
 
 TableHead read_head(const SourceText& text, const ReadOptions& options) {
@@ -438,13 +501,17 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
     if (is_header(fields))
         for (const Field& field : fields) names.emplace_back(field.text);
     head.names = !names.empty();
+    if (!head.names && head.top.provenance.columns.size() == fields.size())
+        names = head.top.provenance.columns;
     head.row_names =
         head.names && names[0].empty() && options.columns.empty() && !options.all_columns;
     head.dialect.model_line = text.line_of(head.top.first);
     head.columns = choose_columns(names, fields.size(), options,
                                   fmt::format("{}:{}", text.source(), head.dialect.model_line));
     head.top.provenance.density_column = head.columns.density;
+    head.top.provenance.columns = kept_names(head.columns.names);
     head.body = head.names ? head.top.next : head.top.first;
+    head.dialect.comma = has_decimal_comma(text, head.body, head.dialect.separator);
     if (head.names && !head.row_names && fields.size() > 1 && options.columns.empty() &&
         !options.all_columns && names[0] != "set" &&
         counts_rows(text, head.body, head.dialect.separator))

@@ -10,7 +10,7 @@
 // Several sets stand as "sets":[[[0,0],[0.5,0.25]],...] in place of the points; `count` is then
 // that of each set, or a list where they differ. Rows with extras name their "columns". The reader
 // takes the keys in any order, ignores those that it does not know, and takes a bare [[x,y],...]
-// too.
+// or records [{"x":0,"y":0},...] too.
 //
 // The points are scanned here rather than by the JSON library, which takes eight times as long for
 // them and cannot say where a point stands that is not like the others; all else is left to it.
@@ -75,6 +75,15 @@ class Reader {
                 "\"points\":[[0.1,0.2],...]");
     }
 
+    /// @throws Error(input) where what is to be a coordinate of records is no number
+    void require_numbers(const Columns& columns) {
+        for (std::size_t c = 0; c < words_.size(); ++c)
+            if (words_[c] != nullptr && columns.role[c] < columns.dimension) {
+                p_ = words_[c];
+                refuse("a finite number, or --column with the names of others");
+            }
+    }
+
     JsonHead head;
     std::size_t width = 0;
     std::vector<double> numbers;
@@ -112,16 +121,91 @@ class Reader {
         if (!accept(c)) refuse(expected);
     }
 
-    /// [[0,1],...] or [[[0,1],...],...]
+    /// [[0,1],...], [[[0,1],...],...] or [{"x":0,"y":1},...]
     void read_bare() {
         const char* const begin = p_;
         std::size_t depth = 0;
         while (accept('[')) ++depth;
+        const bool records = depth == 1 && p_ != last_ && *p_ == '{';
         p_ = begin;
-        if (depth >= 3)
+        if (records)
+            read_records();
+        else if (depth >= 3)
             read_sets();
         else
             read_points();
+    }
+
+    void read_records() {
+        expect('[', "a list of records");
+        starts.push_back(0);
+        do {
+            read_record();
+            if (numbers.size() / width % 8192 == 0) run_.check_stop();
+        } while (accept(','));
+        expect(']', "',' or ']'");
+    }
+
+    /// Its values go where the names of the first record stand; what is no number is noted.
+    void read_record() {
+        expect('{', "a record such as {\"x\":0.1,\"y\":0.2}");
+        const char* const begin = p_ - 1;
+        const bool first = width == 0;
+        std::vector<bool> seen(width);
+        const std::size_t row = numbers.size();
+        numbers.resize(row + width);
+        std::size_t count = 0;
+        do {
+            skip_blanks();
+            const std::string_view key = read_key();
+            const std::size_t c = first ? add_name(key) : column_of(key, count);
+            if (first) numbers.push_back(0);
+            if (!first && seen[c]) text_.refuse(key.data(), "a name for a second time");
+            if (!first) seen[c] = true;
+            expect(':', "':'");
+            skip_blanks();
+            const bool number = p_ != last_ && (*p_ == '-' || (*p_ >= '0' && *p_ <= '9'));
+            if (!number && words_[c] == nullptr) words_[c] = p_;
+            if (number)
+                numbers[row + c] = read_coordinate();
+            else
+                skip_value();
+            ++count;
+        } while (accept(','));
+        expect('}', "',' or '}'");
+        if (first) width = count;
+        if (first) reserve_for(begin);
+        if (count != width)
+            text_.refuse(begin, fmt::format("the record has {} of the {} names of the first one",
+                                            count, width));
+    }
+
+    /// A name of the first record.
+    std::size_t add_name(std::string_view key) {
+        if (std::ranges::find(keys_, key) != keys_.end())
+            text_.refuse(key.data(), "a name for a second time");
+        keys_.push_back(key);
+        words_.push_back(nullptr);
+        head.columns.push_back(
+            parse_piece(text_, {key.data() - 1, key.size() + 2}).get<std::string>());
+        return keys_.size() - 1;
+    }
+
+    /// Where the first record has the name; mostly at the same place.
+    [[nodiscard]] std::size_t column_of(std::string_view key, std::size_t place) const {
+        if (place < keys_.size() && keys_[place] == key) return place;
+        const auto it = std::ranges::find(keys_, key);
+        if (it == keys_.end())
+            text_.refuse(key.data(), shown(key) + " is no name of the first record");
+        return static_cast<std::size_t>(it - keys_.begin());
+    }
+
+    /// A first row as long as the others makes this the only allocation.
+    void reserve_for(const char* begin) {
+        const auto rows = (last_ - begin) / std::max<std::ptrdiff_t>(p_ - begin, 1) + 1;
+        const std::size_t room = static_cast<std::size_t>(rows) * width;
+        run_.need_memory(8 * static_cast<double>(room), "reading " + text_.source());
+        numbers.reserve(room);
     }
 
     void read_object() {
@@ -198,11 +282,7 @@ class Reader {
         const std::size_t found = numbers.size() - size;
         if (width == 0) {
             width = found;
-            // A first row as long as the others makes this the only allocation.
-            const auto rows = (last_ - begin) / std::max<std::ptrdiff_t>(p_ - begin, 1) + 1;
-            const std::size_t room = static_cast<std::size_t>(rows) * width;
-            run_.need_memory(8 * static_cast<double>(room), "reading " + text_.source());
-            numbers.reserve(room);
+            reserve_for(begin);
         }
         if (found != width)
             text_.refuse(begin, fmt::format("the point has {} coordinate{}; expected {}, as the "
@@ -229,6 +309,8 @@ class Reader {
     const RunContext& run_;
     const char* p_;
     const char* last_;
+    std::vector<std::string_view> keys_;  ///< of the first record, as they are written
+    std::vector<const char*> words_;      ///< the first value under each that is no number
 };
 
 std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
@@ -237,6 +319,7 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     Reader reader(text, run);
     reader.read();
     const Columns columns = json_columns(text, reader.head, reader.width, options);
+    reader.require_numbers(columns);
     std::vector<double> numbers = keep_coordinates(std::move(reader.numbers), columns);
     std::vector<PointSet> sets =
         cut_sets(std::move(numbers), columns.dimension, reader.starts, reader.head.provenance);

@@ -77,6 +77,8 @@ Json parse_piece(const SourceText& text, std::string_view piece) {
 
 Columns json_columns(const SourceText& text, JsonHead& head, std::size_t width,
                      const ReadOptions& options) {
+    if (head.columns.empty() && head.provenance.columns.size() == width)
+        head.columns = head.provenance.columns;
     if (!head.columns.empty() && head.columns.size() != width)
         text.refuse_whole(fmt::format("{} columns are named; the points have {} numbers",
                                       head.columns.size(), width));
@@ -93,6 +95,7 @@ Columns json_columns(const SourceText& text, JsonHead& head, std::size_t width,
     }
     Columns columns = choose_columns(head.columns, width, options, text.source());
     head.provenance.density_column = columns.density;
+    head.provenance.columns = kept_names(columns.names);
     return columns;
 }
 

@@ -110,23 +110,28 @@ Sheet sheet_of(const Layout& layout) {
     return sheet;
 }
 
-/// What a picture is called: letters that mean something to XML are left out.
+/// Less the letters that mean something to XML.
+std::string without_markup(std::string text) {
+    std::erase_if(text, [](char c) { return c == '<' || c == '&' || (c >= 0 && c < 0x20); });
+    return text;
+}
+
+/// What a picture is called.
 std::string title_of(const Layout& layout) {
     std::string title = fmt::format("{} points", layout.counts[0]);
     if (!layout.provenance.generator.empty()) title = layout.provenance.generator + ", " + title;
     for (const std::string& warp : layout.provenance.warps) title += ", " + warp;
-    std::erase_if(title, [](char c) { return c == '<' || c == '&' || (c >= 0 && c < 0x20); });
-    return title;
+    return without_markup(title);
 }
 
 /// What is on the axes of a panel, and from where to where, in the margin below it; in the letters
 /// that fit.
 std::string caption_of(const Layout& layout, const Panel& panel) {
-    const auto names = coordinate_names(layout.dimension);
+    const auto names = coordinate_names(layout.dimension, layout.provenance);
     const Box box = box_of(layout);
-    const std::string words = fmt::format("{} right {:.4g} to {:.4g}, {} up {:.4g} to {:.4g}",
-                                          names[panel.i], box.low[panel.i], box.high[panel.i],
-                                          names[panel.j], box.low[panel.j], box.high[panel.j]);
+    const std::string words = without_markup(fmt::format(
+        "{} right {:.4g} to {:.4g}, {} up {:.4g} to {:.4g}", names[panel.i], box.low[panel.i],
+        box.high[panel.i], names[panel.j], box.low[panel.j], box.high[panel.j]));
     const double letters = 0.55 * static_cast<double>(words.size());
     const double size = std::clamp(panel.room / letters, 4.0, 14.0);
     return fmt::format(

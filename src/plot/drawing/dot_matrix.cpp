@@ -13,7 +13,8 @@ namespace stipple::plot {
 DotMatrix::DotMatrix(std::size_t columns, std::size_t rows)
     : columns_(std::max<std::size_t>(columns, 1)),
       rows_(std::max<std::size_t>(rows, 1)),
-      letters_(columns_ * rows_) {}
+      letters_(columns_ * rows_),
+      pens_(columns_ * rows_) {}
 
 void DotMatrix::set(double right, double up) {
     if (!(right >= 0 && right <= 1 && up >= 0 && up <= 1)) return;
@@ -25,6 +26,7 @@ void DotMatrix::set(double right, double up) {
         {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}}};
     unsigned char& letter = letters_[y / 4 * columns_ + x / 2];
     letter = static_cast<unsigned char>(letter | bits[y % 4][x % 2]);
+    pens_[y / 4 * columns_ + x / 2] = static_cast<unsigned char>(pen_);
 }
 
 void DotMatrix::draw(double right0, double up0, double right1, double up1) {
@@ -35,11 +37,29 @@ void DotMatrix::draw(double right0, double up0, double right1, double up1) {
         set(right0 + (right1 - right0) * k / steps, up0 + (up1 - up0) * k / steps);
 }
 
-std::string DotMatrix::row(std::size_t row) const {
+std::string DotMatrix::row(std::size_t row, bool coloured) const {
     std::string text;
-    for (std::size_t i = 0; i < columns_; ++i)
-        append_utf8(text, 0x2800U + letters_[row * columns_ + i]);
+    for (std::size_t i = row * columns_; i < (row + 1) * columns_;) {
+        const unsigned char pen = pens_[i];
+        std::string part;
+        for (const std::size_t end = (row + 1) * columns_; i < end && pens_[i] == pen; ++i)
+            append_utf8(part, 0x2800U + letters_[i]);
+        text += in_colour(part, pen, coloured);
+    }
     return text;
+}
+
+std::string in_colour(const std::string& text, std::size_t pen, bool coloured) {
+    constexpr std::array codes = {36, 33, 32, 35, 34, 31};  // of those that differ most
+    return coloured ? fmt::format("\x1b[{}m{}\x1b[0m", codes[pen % codes.size()], text) : text;
+}
+
+std::size_t shown_width(std::string_view line) {
+    std::size_t width = code_points(line).size();
+    for (auto code = line.find('\x1b'); code != std::string_view::npos;
+         code = line.find('\x1b', code + 1))
+        width -= std::min(line.find('m', code), line.size() - 1) + 1 - code;
+    return width;
 }
 
 std::string framed(const DotMatrix& dots, const TextFrame& frame) {
@@ -52,9 +72,11 @@ std::string framed(const DotMatrix& dots, const TextFrame& frame) {
     text += fmt::format("{:{}} ┌{:─<{}}┐\n", "", side, "", columns);
     for (std::size_t i = 0; i < rows; ++i) {
         const std::string& label = i == 0 ? frame.high_y : i + 1 == rows ? frame.low_y : "";
-        text += fmt::format("{:>{}} │{}│\n", label, side, dots.row(i));
+        text += fmt::format("{:>{}} │{}│{}\n", label, side, dots.row(i, frame.coloured),
+                            i < frame.beside.size() ? frame.beside[i] : "");
     }
     text += fmt::format("{:{}} └{:─<{}}┘\n", "", side, "", columns);
+    if (frame.name_x.empty() && frame.low_x.empty()) return text;
     const std::size_t taken = length(frame.low_x) + length(frame.high_x) + length(frame.name_x);
     const std::size_t room = columns + 2 > taken ? columns + 2 - taken : 2;
     return text + fmt::format("{:{}} {}{:{}}{}{:{}}{}\n", "", side, frame.low_x, "", room / 2,

@@ -116,7 +116,7 @@ class Rasterizer {
         const double unit = label.size / em_units;
         double x = label.anchor == Anchor::start ? 0 : -text_width(label.text, label.size);
         if (label.anchor == Anchor::middle) x /= 2;
-        const double pen = (label.bold ? 3.3 : 2.3) * unit * scale_;
+        const double pen = (label.bold ? 3 : 2.3) * unit * scale_;
         for (const char32_t letter : code_points(label.text)) {
             for (auto& points : strokes_of(letter)) {
                 for (Position& position : points) {

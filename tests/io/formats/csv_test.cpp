@@ -216,8 +216,6 @@ TEST(Csv, RefusesWhatIsNotANumber) {
               "input: p.csv:1:1: '1e999' is beyond the largest double, 1.8e308; expected a finite "
               "number");
     EXPECT_EQ(refused("0.1,0.2\n0.1,,\n"), "input: p.csv:2:5: an empty field; expected a number");
-    EXPECT_EQ(refused("x;y\n0,5;0,7\n"),
-              "input: p.csv:2:1: '0,5' is not a number; expected a decimal point, as in 0.5");
     EXPECT_EQ(refused("0.1,0.2 0.3\n"),
               "input: p.csv:1:5: '0.2 0.3' is not a number; expected one such as 0.5 or 1e-3");
     EXPECT_EQ(refused("0.1 0.2 # note\n0.1 0.2\n"),
@@ -297,6 +295,45 @@ TEST(Csv, StopsAndLimitsAreHonoured) {
     EXPECT_EQ(refusal("csv", text, {}, {.stop = stop.get_token()}), "cancelled: interrupted");
     const std::string error = refusal("csv", text, {}, {.max_memory = 100'000});
     EXPECT_TRUE(error.starts_with("limit: reading p needs")) << error;
+}
+
+// As spreadsheets write them where the comma stands for the point.
+TEST(Csv, TakesDecimalCommas) {
+    const PointSet points = points_of({{0.5, 1}, {-2.25, 1e-3}, {3, 0.125}});
+    EXPECT_EQ(csv("0,5;1\n-2,25;1e-3\n3;0,125\n").at(0), points);
+    EXPECT_EQ(csv("0,5\t1\n-2,25\t1e-3\n3\t0,125\n").at(0), points);
+    EXPECT_EQ(csv("age;income\n0,5;1\n-2,25;1e-3\n3;0,125\n").at(0), points);
+    EXPECT_EQ(csv("3;1\n0,5;2\n").at(0), points_of({{3, 1}, {0.5, 2}}));
+    EXPECT_EQ(csv("1;2\n0.5;0.25\n").at(0), points_of({{1, 2}, {0.5, 0.25}}));
+    EXPECT_EQ(
+        refused("0,5;1\n1.5;2\n"),
+        "input: p.csv:2:1: '1.5' has a point; expected a decimal comma, as in the rows above");
+    EXPECT_EQ(refused("0.5;1\n1,5;2\n"),
+              "input: p.csv:2:1: '1,5' is not a number; expected a decimal point, as in 0.5");
+    EXPECT_EQ(refused("0,5;1\n1,5,0;2\n"),
+              "input: p.csv:2:1: '1,5,0' is not a number; expected one such as 0,5");
+}
+
+TEST(Csv, KeepsTheNamesOfColumns) {
+    const auto names = [](const std::string& text, const ReadOptions& options = {}) {
+        return csv(text, options).at(0).provenance.columns;
+    };
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(names("age,income\n1,2\n"), (Names{"age", "income"}));
+    EXPECT_EQ(names("x,y\n1,2\n"), Names());
+    EXPECT_EQ(names("1,2\n"), Names());
+    EXPECT_EQ(names("a,b,c\n1,2,3\n", {.columns = {"c", "a"}}), (Names{"c", "a"}));
+    EXPECT_EQ(names("a,b,pdf\n1,2,3\n"), (Names{"a", "b"}));
+    EXPECT_EQ(names("set,a\n0,2\n"), Names{"a"});
+    // A header with these would be read as something else.
+    EXPECT_EQ(names("a,set\n0,2\n"), Names());
+    EXPECT_EQ(names("a,b\"c\n0,2\n"), Names());
+    EXPECT_EQ(names("a," + std::string(300, 'b') + "\n0,2\n"), Names());
+    Layout layout{.dimension = 2};
+    layout.provenance.columns = {"age", "wages, gross"};
+    const std::string text = written("csv", {points_of({{1, 2}})}, layout);
+    EXPECT_EQ(text, "age,\"wages, gross\"\n1,2\n");
+    EXPECT_EQ(names(text), layout.provenance.columns);
 }
 
 }  // namespace stipple::testing::csv_test

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -171,6 +172,45 @@ TEST(Json, SurvivesDeepNesting) {
     EXPECT_EQ(refused(with("\"meta\":{\"options\":{\"a\":" + deep + std::string(100'000, ']') +
                            ",\"b\":1},\"seed\":1},")),
               "input: p:1:43: lists in lists too deep; expected a value such as 1, \"word\" or {}");
+}
+
+TEST(Json, TakesRecords) {
+    const auto read = [](const std::string& text, const ReadOptions& options = {}) {
+        return read_as("json", text, options).at(0);
+    };
+    const std::string records =
+        R"([{"a":1,"name":"q","b":2}, {"b":-3e1,"a":0.5,"name":null}, {"a":0,"b":3,"name":[1]}])";
+    EXPECT_EQ(read(R"([{"a":1,"b":2},{"b":-3e1,"a":0.5}])"), points_of({{1, 2}, {0.5, -30}}));
+    const PointSet picked = read(records, {.columns = {"b", "a"}});
+    EXPECT_EQ(picked, points_of({{2, 1}, {-30, 0.5}, {3, 0}}));
+    EXPECT_EQ(picked.provenance.columns, (std::vector<std::string>{"b", "a"}));
+    EXPECT_EQ(read(R"([{"x":1}])"), points_of({{1}}));
+    EXPECT_EQ(io::format_of_bytes(R"([{"x":1}])").name, "json");
+    EXPECT_EQ(refused(records),
+              "input: p:1:16: found '\"q\"'; expected a finite number, or --column "
+              "with the names of others");
+    EXPECT_EQ(refused(R"([{"a":1},{"b":1}])"), "input: p:1:12: 'b' is no name of the first record");
+    EXPECT_EQ(refused(R"([{"a":1,"b":2},{"b":1}])"),
+              "input: p:1:16: the record has 1 of the 2 names of the first one");
+    EXPECT_EQ(refused(R"([{"a":1,"a":2}])"), "input: p:1:10: a name for a second time");
+    EXPECT_EQ(refused(R"([{"a":1},{"a":1,"a":2}])"), "input: p:1:18: a name for a second time");
+    EXPECT_EQ(
+        refused(R"([{"a":1e999}])"),
+        "input: p:1:7: '1e999' is beyond the largest double, 1.8e308; expected a finite number");
+    for (std::size_t size = 1; size < records.size(); ++size)
+        EXPECT_NE(refused(records.substr(0, size), {.columns = {"a"}}), "");
+}
+
+TEST(Json, KeepsTheNamesOfColumns) {
+    Layout layout{.dimension = 2};
+    layout.provenance.columns = {"age", "income"};
+    const std::string text = written("json", {two}, layout);
+    EXPECT_THAT(text, ::testing::HasSubstr(R"("columns":["age","income"])"));
+    EXPECT_EQ(read_as("json", text).at(0).provenance.columns, layout.provenance.columns);
+    EXPECT_EQ(read_as("json", text, {.columns = {"income"}}).at(0), points_of({{0.5}, {-1e-7}}));
+    // Names that no header could have.
+    layout.provenance.columns = {"set", "\x1b[31m"};
+    EXPECT_EQ(read_as("json", written("json", {two}, layout)).at(0).provenance.columns.size(), 0U);
 }
 
 }  // namespace stipple::testing::json_test
