@@ -35,6 +35,11 @@ Shard parse_shard(const Arguments& arguments) {
 Box bounds_of(const std::string& text, const Production& job) {
     const auto ranges = static_cast<std::size_t>(1 + std::ranges::count(text, ','));
     Request request = job.request;
+    if (!job.warps.empty()) {  // of what these leave, or of all
+        const std::size_t d = plan_for(*job.generator, request, job.options).dimension;
+        const std::size_t kept = WarpChain(job.warps, d).kept().size();
+        return parse_box(text, ranges == d ? d : std::max<std::size_t>(kept, 1));
+    }
     request.bounds = parse_box(text, request.dimension.value_or(std::max<std::size_t>(ranges, 2)));
     return parse_box(text, plan_for(*job.generator, request, job.options).dimension);
 }

@@ -194,10 +194,39 @@ WarpChain::WarpChain(std::span<const Spec> specs, std::size_t dimension, const C
             add_scramble(*scramble, spec, set);
         else
             add_warp(find_warp(spec.name), spec, run);
+    domain_ = domain_of_steps();
+}
+
+DomainPtr WarpChain::domain_of_steps() const {
     std::vector<Factor> factors;
     for (const Step& step : steps_)
         if (step.domain) factors.push_back({step.domain, step.image});
-    domain_ = filled_up(std::move(factors), dimension_out_);
+    return filled_up(std::move(factors), dimension_out_);
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> WarpChain::kept() const {
+    constexpr std::size_t taken = ~std::size_t{0};
+    std::vector<std::size_t> from = all_of(dimension_in_);
+    for (const Step& step : steps_) {
+        if (!step.mapping) continue;
+        std::vector<std::size_t> after(step.width_out, taken);
+        for (std::size_t i = 0; i < step.rest.size(); ++i)
+            after[step.others[i]] = from[step.rest[i]];
+        from = std::move(after);
+    }
+    std::vector<std::pair<std::size_t, std::size_t>> found;
+    for (std::size_t k = 0; k < from.size(); ++k)
+        if (from[k] != taken) found.emplace_back(from[k], k);
+    return found;
+}
+
+void WarpChain::put_on(const std::vector<Factor>& factors) {
+    for (const Factor& factor : factors)
+        steps_.push_back({.domain = factor.domain,
+                          .image = factor.coordinates,
+                          .width_in = dimension_out_,
+                          .width_out = dimension_out_});
+    domain_ = domain_of_steps();
 }
 
 /// They must be there, and still be uniform.

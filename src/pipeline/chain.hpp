@@ -41,6 +41,12 @@ class WarpChain {
     [[nodiscard]] std::size_t dimension_out() const { return dimension_out_; }
     [[nodiscard]] const DomainPtr& domain() const { return domain_; }
 
+    /// Coordinates of the points that no warp takes, in order, each with its place in the images.
+    [[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> kept() const;
+
+    /// Says what such coordinates of the images are on in the end.
+    void put_on(const std::vector<Factor>& factors);
+
     /// The specs, with what differs from the defaults.
     [[nodiscard]] const std::vector<std::string>& specs() const { return specs_; }
 
@@ -120,6 +126,7 @@ class WarpChain {
     /// Remembers the first of some rows of a step's cube whose image is infinitely far.
     void note_infinite(const Step& step, std::span<const double> cube, std::uint64_t first) const;
 
+    [[nodiscard]] DomainPtr domain_of_steps() const;
     void add_scramble(const Scramble& scramble, const Spec& spec, const ChainSet& set);
     void add_warp(const Warp& warp, const Spec& spec, const RunContext& run);
     template <class Unit>

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "pipeline/units.hpp"
 
 namespace stipple {
 namespace {
@@ -26,7 +27,7 @@ void walk_to(Sequence& sequence, std::uint64_t start, std::size_t dimension,
 /// Points of a sequence from `first` on, each as the chain or the bounds move it, block by block on
 /// all threads where the sequence allows it.
 void fill_rows(const Sequence& sequence, std::uint64_t first, const WarpChain& chain,
-               const std::optional<Box>& bounds, std::span<double> rows, RunContext run) {
+               const std::optional<Scaling>& scaling, std::span<double> rows, RunContext run) {
     const std::size_t in = chain.dimension_in();
     const std::size_t out = chain.dimension_out();
     if (!sequence.random_access()) run.threads = 1;
@@ -35,12 +36,12 @@ void fill_rows(const Sequence& sequence, std::uint64_t first, const WarpChain& c
         const auto place = rows.subspan(b.first * out, (b.last - b.first) * out);
         if (chain.empty()) {
             sequence.fill(first + b.first, place);
-            if (bounds) scale_into(*bounds, place);
-            return;
+        } else {
+            std::vector<double> raw((b.last - b.first) * in);
+            sequence.fill(first + b.first, raw);
+            std::ranges::copy(chain.forward(std::move(raw), first + b.first), place.begin());
         }
-        std::vector<double> raw((b.last - b.first) * in);
-        sequence.fill(first + b.first, raw);
-        std::ranges::copy(chain.forward(std::move(raw), first + b.first), place.begin());
+        if (scaling) scaling->apply(place, out);
     });
     chain.tell_infinite(run);
 }
@@ -98,20 +99,70 @@ PointSet make_points(const Generator& generator, const Request& request, const V
     return points_of(*generator.sequence(plan, options, steady), plan, request.start, steady);
 }
 
+void Scaling::apply(std::span<double> rows, std::size_t width) const {
+    if (columns.size() == width) return scale_into(box, rows);
+    std::vector<double> part = gather(rows, width, columns);
+    scale_into(box, part);
+    const std::size_t some = columns.size();
+    for (std::size_t i = 0; i < rows.size() / width; ++i)
+        for (std::size_t k = 0; k < some; ++k) rows[i * width + columns[k]] = part[i * some + k];
+}
+
+namespace {
+
+/// The same with a range for each coordinate of the generator's points, [0, 1) for those that warps
+/// take. @throws Error(usage)
+SetsToMake with_all_bounds(SetsToMake asked) {
+    auto& bounds = asked.request.bounds;
+    if (!bounds || asked.warps.empty()) return asked;
+    Request request = asked.request;
+    request.bounds.reset();
+    const std::size_t d = plan_for(*asked.generator, request, asked.options).dimension;
+    const auto kept = WarpChain(asked.warps, d).kept();
+    Box all{std::vector<double>(d, 0), std::vector<double>(d, 1)};
+    if (kept.empty())
+        fail(ErrorKind::usage,
+             "--bounds: the warps take all coordinates, and none is left to scale");
+    if (bounds->dimension() != kept.size() && bounds->dimension() != d)
+        fail(ErrorKind::usage, "--bounds: {} ranges; the warps leave {} of {} coordinates",
+             bounds->dimension(), kept.size(), d);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        const std::size_t k = kept[i].first;
+        const std::size_t range = bounds->dimension() == d ? k : i;
+        all.low[k] = bounds->low[range];
+        all.high[k] = bounds->high[range];
+    }
+    if (asked.generator->traits.boxed)
+        for (const Spec& spec : asked.warps)
+            if (scramble_named(spec.name) != nullptr)
+                fail(ErrorKind::usage,
+                     "--bounds: {} keeps its distances in the box, which {} would not",
+                     asked.generator->name, spec.name);
+    bounds = std::move(all);
+    return asked;
+}
+
+}  // namespace
+
 GeneratedSets::GeneratedSets(SetsToMake asked, const RunContext& run)
-    : asked_(std::move(asked)),
+    : asked_(with_all_bounds(std::move(asked))),
       generator_(*asked_.generator),
       plan_(plan_for(generator_, asked_.request, asked_.options)),
-      chain_(std::make_shared<WarpChain>(asked_.warps, plan_.dimension, ChainSet{}, run)),
-      domain_(asked_.request.bounds ? box_domain(*asked_.request.bounds) : chain_->domain()) {
+      chain_(make_chain({}, run)),
+      domain_(chain_->empty() && asked_.request.bounds ? box_domain(*asked_.request.bounds)
+                                                       : chain_->domain()) {
     if (generator_.settle) generator_.settle(asked_.options);
     auto files = files_of(generator_.options, asked_.options, generator_.writes);
     files.insert(files.end(), chain_->files().begin(), chain_->files().end());
     inputs_ = fingerprints(files);
-    if (!generator_.traits.boxed) bounds_ = asked_.request.bounds;
-    if (asked_.request.bounds && !chain_->empty())
-        fail(ErrorKind::usage,
-             "--bounds and --warp: a warp takes points of the unit cube, which a box is not");
+    if (const auto& bounds = asked_.request.bounds; bounds && !generator_.traits.boxed) {
+        scaling_.emplace();
+        for (const auto& [k, at] : chain_->kept()) {
+            scaling_->box.low.push_back(bounds->low[k]);
+            scaling_->box.high.push_back(bounds->high[k]);
+            scaling_->columns.push_back(at);
+        }
+    }
     if (asked_.sets - 1 > ~plan_.seed)
         fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed", plan_.seed,
              asked_.sets);
@@ -131,9 +182,19 @@ std::optional<std::uint64_t> GeneratedSets::streamed() const {
 std::shared_ptr<const WarpChain> GeneratedSets::chain_for(std::uint64_t set,
                                                           const RunContext& run) const {
     if (!chain_->seeded()) return chain_;
-    return std::make_shared<WarpChain>(
-        asked_.warps, plan_.dimension,
-        ChainSet{.seed = plan_.seed + set, .count = asked_.request.start + plan_.count}, run);
+    return make_chain({.seed = plan_.seed + set, .count = asked_.request.start + plan_.count}, run);
+}
+
+std::shared_ptr<const WarpChain> GeneratedSets::make_chain(const ChainSet& set,
+                                                           const RunContext& run) const {
+    auto chain = std::make_shared<WarpChain>(asked_.warps, plan_.dimension, set, run);
+    const auto& bounds = asked_.request.bounds;
+    if (!bounds || chain->empty()) return chain;
+    std::vector<Factor> factors;
+    for (const auto& [k, at] : chain->kept())
+        factors.push_back({box_domain({{bounds->low[k]}, {bounds->high[k]}}), {at}});
+    chain->put_on(factors);
+    return chain;
 }
 
 std::shared_ptr<Sequence> GeneratedSets::sequence(std::uint64_t set, const RunContext& run) const {
@@ -148,12 +209,12 @@ NextRows GeneratedSets::stream(std::uint64_t set, const RunContext& run, std::ui
     const auto points = sequence(set, run);
     walk_to(*points, asked_.request.start + first, plan_.dimension, run);
     return [=, at = asked_.request.start + first,
-            end = asked_.request.start + last.value_or(plan_.count), bounds = bounds_,
+            end = asked_.request.start + last.value_or(plan_.count), scaling = scaling_,
             chain = chain_for(set, run), lane = silent(run)](std::span<double> rows) mutable {
         const std::size_t d = chain->dimension_out();
         const auto some =
             static_cast<std::size_t>(std::min<std::uint64_t>(end - at, rows.size() / d));
-        fill_rows(*points, at, *chain, bounds, rows.first(some * d), lane);
+        fill_rows(*points, at, *chain, scaling, rows.first(some * d), lane);
         at += some;
         return some;
     };
@@ -170,11 +231,11 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
     auto side_files =
         generator_.traits.sequence ? this->side_files() : std::move(points.side_files);
     double efficiency = 1;
-    if (bounds_) scale_into(*bounds_, points.flat());
     if (!chain_->empty()) {
         points = chain_for(set, run)->image(points, run.stage(1, 1), asked_.request.start);
         efficiency = points.provenance.efficiency;
     }
+    if (scaling_) scaling_->apply(points.flat(), points.dimension());
     points.domain = domain_;
     points.provenance = provenance(set, points.count());
     points.provenance.efficiency = efficiency;

@@ -40,9 +40,20 @@ PointSet make_points(const Generator& generator, const Request& request, const V
 struct SetsToMake {
     const Generator* generator = nullptr;
     Values options = {};
-    Request request = {};  ///< its seed is that of the first set; the next ones have seed + 1, ...
+    /// Its seed is that of the first set; the next ones have seed + 1, ... Bounds may be those of the
+    /// coordinates that no warp takes.
+    Request request = {};
     std::uint64_t sets = 1;
     std::vector<Spec> warps = {};
+};
+
+/// Some coordinates of points, which go from the unit cube to a box.
+struct Scaling {
+    Box box;
+    std::vector<std::size_t> columns;  ///< of the rows
+
+    /// Moves rows of `width` numbers.
+    void apply(std::span<double> rows, std::size_t width) const;
 };
 
 class GeneratedSets {
@@ -83,6 +94,8 @@ class GeneratedSets {
     /// The warps with the random choices of one set.
     [[nodiscard]] std::shared_ptr<const WarpChain> chain_for(std::uint64_t set,
                                                              const RunContext& run) const;
+    [[nodiscard]] std::shared_ptr<const WarpChain> make_chain(const ChainSet& set,
+                                                              const RunContext& run) const;
     /// The points of a set before its warps; the same object for all sets that are the same.
     [[nodiscard]] std::shared_ptr<Sequence> sequence(std::uint64_t set,
                                                      const RunContext& run) const;
@@ -92,7 +105,7 @@ class GeneratedSets {
     Plan plan_;
     std::shared_ptr<const WarpChain> chain_;
     DomainPtr domain_;
-    std::optional<Box> bounds_;  ///< of the points, where the generator does not scale them itself
+    std::optional<Scaling> scaling_;  ///< to the bounds, where the generator does not do it
     std::vector<std::pair<std::string, std::string>> inputs_;
     mutable std::shared_ptr<Sequence> sequence_;  ///< that was made last
 };

@@ -570,4 +570,49 @@ TEST(Generate, SpecsAreTakenWhereverAUnitIsNamed) {
               std::string::npos);
 }
 
+// Coordinates that no warp takes are scaled; the others are as without.
+TEST(Generate, BoundsAreOfTheCoordinatesThatNoWarpTakes) {
+    const Sandbox box;
+    const auto rows = [&](const std::string& words) {
+        return nlohmann::json::parse(good(box.shell("stipple generate " + words + " -f json")));
+    };
+    for (const std::string generator : {"halton -n 50", "jittered -n 64", "poisson-disk -n 40"}) {
+        const std::string warped = generator + " -d 3 -w disk@1,2";
+        const auto plain = rows(warped);
+        const auto scaled = rows(warped + " --bounds -2..8");
+        EXPECT_EQ(scaled["meta"]["domain"], "disk@1,2 x box@3:bounds=[-2..8]");
+        EXPECT_EQ(scaled["meta"]["bounds"], "0..1,0..1,-2..8");
+        if (generator.starts_with("poisson")) continue;  // its distances are those in the box
+        for (std::size_t i = 0; i < plain["points"].size(); ++i) {
+            EXPECT_EQ(scaled["points"][i][0], plain["points"][i][0]);
+            EXPECT_EQ(scaled["points"][i][1], plain["points"][i][1]);
+            EXPECT_EQ(scaled["points"][i][2], -2 + 10 * plain["points"][i][2].get<double>());
+        }
+    }
+    // A warp that gives more numbers than it takes moves those behind it.
+    const auto moved = rows("halton -n 9 -d 4 -w sphere@2,3 --bounds 5..6,10..20");
+    EXPECT_EQ(moved["meta"]["domain"],
+              "sphere@2,3,4 x box@1:bounds=[5..6] x box@5:bounds=[10..20]");
+    for (const auto& point : moved["points"]) {
+        EXPECT_GE(point[0], 5);
+        EXPECT_GE(point[4], 10);
+    }
+    // A scramble leaves all coordinates where they were.
+    const auto owen = rows("sobol -n 8 -w owen --bounds 0..5");
+    EXPECT_EQ(owen["meta"]["domain"], "box@1:bounds=[0..5] x box@2:bounds=[0..5]");
+    EXPECT_EQ(
+        good(box.shell("stipple generate halton -n 4 -d 3 -w disk@1,2 --bounds 0..4 --with-pdf | "
+                       "cut -d, -f4 | tail -n 1")),
+        "0.07957747154594767\n");  // 1 / (4 pi)
+    good(
+        box.shell("stipple generate halton -n 50 -d 3 -w disk@1,2 --bounds 0..4 -o a.json && "
+                  "stipple reproduce a.json && stipple analyze moments a.json -o m.json"));
+    expect_refusal(box.shell("stipple generate halton -w disk --bounds 0..4"), 2,
+                   "the warps take all coordinates");
+    expect_refusal(box.shell("stipple generate halton -d 5 -w disk@1,2 --bounds 0..4,0..5"), 2,
+                   "--bounds");
+    expect_refusal(box.shell("stipple generate poisson-disk -n 9 -w owen --bounds 0..4"), 2,
+                   "poisson-disk keeps its distances in the box");
+}
+
 }  // namespace stipple::testing::generate_test

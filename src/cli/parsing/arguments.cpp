@@ -105,7 +105,8 @@ const std::vector<CommonOption> rows = {
     {"-m,--seeds,--sets", "R", "1", "sets of each --generate, with seeds S, S + 1, ...",
      analyze | plot, false, 1, most_sets},
     {"-m,--seeds,--sets", "R", "1",
-     "sets of each --generate, with seeds S, S + 1, ...: the first is shown, and all are compared by "
+     "sets of each --generate, with seeds S, S + 1, ...: the first is shown, and all are compared "
+     "by "
      "their means",
      report, false, 1, 1000},
     {"-w,--warp", "NAME[:OPT=V,...]", "", "warp or scramble of --generate", analyze | plot | report,
@@ -115,7 +116,10 @@ const std::vector<CommonOption> rows = {
     {"--start", "I", "0", "index of a sequence's first point", generate, false, 0, most_points},
     {"--shard", "I/K", "0/1",
      "the I-th of K (from 0) contiguous parts; concatenated they are the whole set", generate},
-    {"--bounds", "LO..HI,...", "", "scale to a box: one range for all coordinates, or one for each",
+    {"--bounds", "LO..HI,...", "",
+     "scale to a box: one range for all coordinates, or one for each; of warped points, those that "
+     "no "
+     "warp takes",
      generate},
     {"--bounds", "LO..HI,...", "",
      "the box that the points lie in; analyzers of the unit cube first map it to the cube",
