@@ -11,6 +11,7 @@
 #include "cli/analysis.hpp"
 #include "cli/inputs.hpp"
 #include "cli/launched.hpp"
+#include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/spec.hpp"
@@ -18,6 +19,7 @@
 #include "io/output.hpp"
 #include "pipeline/generated.hpp"
 #include "pipeline/shared_analysis.hpp"
+#include "report/typical.hpp"
 
 namespace stipple::cli {
 namespace {
@@ -29,6 +31,7 @@ std::string report_format(const Arguments& arguments, const std::string& path) {
     io::require_extension(path, known, "--format names what is written under any name");
     const std::string extension = io::extension_of(path);
     if (extension == ".csv") return "csv";
+    if (extension.empty() && (arguments.has("full") || arguments.has("explain"))) return "text";
     return is_terminal(path) || extension == ".txt" ? "text" : "json";
 }
 
@@ -54,6 +57,7 @@ class AnalyzeCall {
           generators_(arguments.all("generate")),
           path_(output_of(arguments)),
           format_(report_format(arguments, path_)) {
+        if (format_ != "text") arguments.refuse({"full", "explain"}, "is of --format text");
         add_analyses();
         for (const auto& text : arguments.all("check")) add_check(text);
     }
@@ -421,6 +425,23 @@ class AnalyzeCall {
         return exit_code;
     }
 
+    [[nodiscard]] TextStyle text_style() const {
+        TextStyle style{.full = arguments_.has("full")};
+        if (arguments_.has("explain"))
+            style.below = [](const Measurement& m, const std::string& key) {
+                constexpr std::size_t indent = 6;
+                std::string text;
+                const ResultKey* result = find_result(find_analyzer(m.analyzer), key);
+                const std::string help = result != nullptr ? result->help : "";
+                for (const std::string& sentence : {help, typical_in_words(m.analyzer, key)})
+                    if (!sentence.empty())
+                        text += std::string(indent, ' ') +
+                                filled(sentence, text_columns(), indent) + "\n";
+                return text;
+            };
+        return style;
+    }
+
     void print() {
         std::vector<Measurement> all;
         for (const auto& [measurement, analysis] : in_order())
@@ -428,7 +449,7 @@ class AnalyzeCall {
         files_.add(path_, std::stop_token())
             .write(format_ == "json"  ? to_json(all)
                    : format_ == "csv" ? to_csv(all)
-                                      : to_text(all, arguments_.has("full")));
+                                      : to_text(all, text_style()));
     }
 
     const Arguments& arguments_;

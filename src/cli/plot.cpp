@@ -37,7 +37,7 @@
 namespace stipple::cli {
 namespace {
 
-enum class Medium { svg, png, text };
+enum class Medium { svg, pdf, png, text };
 
 constexpr std::size_t most_overlaid = 7;  ///< sets in one frame: as many as there are colours
 constexpr std::size_t most_frames = 12;   ///< of sets, on one sheet
@@ -45,17 +45,22 @@ constexpr std::size_t most_frames = 12;   ///< of sets, on one sheet
 Medium medium_of(const Arguments& arguments, const std::string& path) {
     const bool terminal = is_terminal(path);
     if (const auto named = arguments.get("format")) {
-        if (*named == "png" && terminal)
+        if ((*named == "png" || *named == "pdf") && terminal)
             fail_with_hint(ErrorKind::usage, "name a file with -o, or pipe it on",
-                           "--format: png is binary, and standard output is a terminal");
-        return *named == "svg" ? Medium::svg : *named == "png" ? Medium::png : Medium::text;
+                           "--format: {} is binary, and standard output is a terminal", *named);
+        return *named == "svg"   ? Medium::svg
+               : *named == "pdf" ? Medium::pdf
+               : *named == "png" ? Medium::png
+                                 : Medium::text;
     }
     if (path == "-") return terminal ? Medium::text : Medium::svg;
     if (path.ends_with(".png")) return Medium::png;
+    if (path.ends_with(".pdf")) return Medium::pdf;
     if (path.ends_with(".txt")) return Medium::text;
     if (path.ends_with(".svg") || path.starts_with("/dev/")) return Medium::svg;
-    fail_with_hint(ErrorKind::usage, "or name the format with -f svg, png or text",
-                   "--output: {} has no extension of a picture; expected .svg, .png or .txt", path);
+    fail_with_hint(ErrorKind::usage, "or name the format with -f svg, pdf, png or text",
+                   "--output: {} has no extension of a picture; expected .svg, .pdf, .png or .txt",
+                   path);
 }
 
 std::optional<bool> scale_of(const Arguments& arguments, const char* name) {
@@ -287,10 +292,34 @@ class Plot {
         if (chart_ == "distances") return distances();
         if (chart_ != "histogram") refuse_scales("points");
         if (frames) return sheet_of_points();
-        const plot::PointsPicture picture = points_picture();
+        plot::PointsPicture picture = points_picture();
+        add_overlays(picture, sets_[0]);
         if (chart_ == "histogram") return drawn(plot::histogram_chart(picture));
         if (medium_ == Medium::text) return plot::points_as_text(picture, room_);
         return finished(plot::draw_points(picture, style_, session_.run()));
+    }
+
+    /// Adds what --draw names to the picture of one set.
+    void add_overlays(plot::PointsPicture& picture, const Loaded& set) {
+        const auto text = arguments_.get("draw");
+        if (!text) return;
+        if (set.points.dimension() != 2 || picture.sets.size() > 1 || medium_ == Medium::text)
+            fail(ErrorKind::usage, "--draw: is for one set of points of the plane in each frame");
+        for (const auto word : split(*text, ',')) {
+            if (word == "cells") {
+                picture.cells = true;
+            } else if (word == "gap") {
+                const Analyzer& analyzer = find_analyzer("coverage");
+                const Report gap = stipple::analyze(analyzer, set.points,
+                                                    analyzer.options.defaults(), session_.run());
+                const auto& centre = gap.curve("center");
+                picture.circles.push_back({.centre = {centre[0], centre[1]},
+                                           .radius = gap.number("radius"),
+                                           .torus = gap.text("metric") == "torus"});
+            } else {
+                fail(ErrorKind::usage, "--draw: '{}' is not one of cells, gap", word);
+            }
+        }
     }
 
     /// A frame for each set.
@@ -301,6 +330,7 @@ class Plot {
             picture.title = sets_[i].title + number_of(sets_[i]);
             picture.names = {picture.title};
             picture.subtitle = subtitle_of(sets_[i]);
+            add_overlays(picture, sets_[i]);
             return picture;
         };
         if (medium_ == Medium::text)
@@ -385,8 +415,9 @@ class Plot {
             session_.run().need_memory(
                 pixel_bytes * drawing.width * drawing.height * scale_ * scale_, "the picture");
         const plot::PictureNotes notes = notes_of();
-        return medium_ == Medium::svg ? plot::svg_bytes(drawing, scale_, notes)
-                                      : plot::png_bytes_of(drawing, scale_, notes);
+        return medium_ == Medium::svg   ? plot::svg_bytes(drawing, scale_, notes)
+               : medium_ == Medium::pdf ? plot::pdf_bytes(drawing, scale_, notes)
+                                        : plot::png_bytes_of(drawing, scale_, notes);
     }
 
     /// The table that --grid saved, if the input is one.

@@ -8,8 +8,11 @@
 #include "core/options.hpp"
 #include "core/text.hpp"
 #include "page/figures.hpp"
+#include "page/measures.hpp"
+#include "pipeline/units.hpp"
 #include "plot/drawing/html_text.hpp"
 #include "report/document.hpp"
+#include "report/typical.hpp"
 
 namespace stipple::page {
 
@@ -124,6 +127,17 @@ std::string rule_of(const Key& key) {
                        key.any_count ? " data-any-count" : "");
 }
 
+/// A title that says what a result means; nothing where nobody knows.
+std::string explained(std::string_view analyzer, std::string_view key) {
+    const ResultKey* result = find_result(find_analyzer(analyzer), key);
+    std::vector<std::string> sentences;
+    if (result != nullptr) sentences.push_back(result->help);
+    if (const auto typical = typical_in_words(analyzer, key); !typical.empty())
+        sentences.push_back(typical);
+    if (sentences.empty()) return {};
+    return fmt::format(" title=\"{}\"", html_text(join(sentences, "; ")));
+}
+
 std::string size_row(std::span<const Set> sets) {
     std::string out = "<tr><th scope=\"row\">Points</th>";
     for (std::size_t i = 0; i < sets.size(); ++i) out += cell(i, std::to_string(sets[i].count));
@@ -146,8 +160,12 @@ std::string comparison_of(std::span<const Set> sets) {
                 "<tr class=\"group\"><th colspan=\"{}\" scope=\"colgroup\">{}</th></tr>\n",
                 sets.size() + 1, group);
         }
-        out += fmt::format("<tr data-key=\"{}\"{}><th scope=\"row\">{}{}</th>", row.key.key,
-                           rule_of(row.key), html_text(row.key.label), arrow_of(row.key.better));
+        const std::string_view key = row.key.key;
+        const auto dot = key.find('.');
+        out += fmt::format("<tr data-key=\"{}\"{}><th scope=\"row\"{}>{}{}</th>", key,
+                           rule_of(row.key),
+                           explained(analyzer_of(key.substr(0, dot))->name, key.substr(dot + 1)),
+                           html_text(row.key.label), arrow_of(row.key.better));
         for (std::size_t i = 0; i < sets.size(); ++i) out += cell_of(row, i);
         out += "</tr>\n";
     }
@@ -169,7 +187,7 @@ std::string comparison_of(std::span<const Set> sets) {
 
 constexpr std::size_t most_listed = 8;  ///< numbers of a list that a table shows
 
-std::string row_of(const std::string& key, const Report& results) {
+std::string row_of(const std::string& analyzer, const std::string& key, const Report& results) {
     std::string shown = text_of(*results.find(key));
     std::string whole;
     if (const auto list = list_at(results, key)) {
@@ -181,14 +199,15 @@ std::string row_of(const std::string& key, const Report& results) {
         whole = fmt::format(" title=\"{}\"", format_number(*number));
     }
     if (shown.empty()) return {};
-    return fmt::format("<tr><th scope=\"row\">{}</th><td class=\"number\"{}>{}</td></tr>\n",
-                       html_text(key), whole, html_text(shown));
+    return fmt::format("<tr><th scope=\"row\"{}>{}</th><td class=\"number\"{}>{}</td></tr>\n",
+                       explained(analyzer, key), html_text(key), whole, html_text(shown));
 }
 
 std::string measure_of(const Measure& measure) {
     std::string out = fmt::format("<div class=\"measure\">\n<h3>{}</h3>\n<table><tbody>\n",
                                   html_text(measure.title));
-    for (const std::string& key : measure.results->keys()) out += row_of(key, *measure.results);
+    for (const std::string& key : measure.results->keys())
+        out += row_of(measure.analyzer, key, *measure.results);
     return out +
            fmt::format("</tbody></table>\n<pre>{}</pre>\n</div>\n", html_text(measure.command));
 }

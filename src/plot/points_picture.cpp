@@ -7,9 +7,12 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <tuple>
 
+#include "core/parallel.hpp"
 #include "io/format.hpp"
+#include "math/neighbors/planar_sites.hpp"
 
 namespace stipple::plot {
 namespace {
@@ -245,6 +248,54 @@ std::vector<std::pair<double, double>> parts_of_range(double low, double high) {
     return {{0, high}, {low, 1}};
 }
 
+/// The edges of the Voronoi cells, each once.
+void draw_cells(Drawing& drawing, const PointSet& set, const Panel& panel, const Theme& theme,
+                const RunContext& run) {
+    const Box box = shown_box(std::array{&set});
+    const PlanarSites sites = planar_sites(set.flat(), box, false, silent(run));
+    const PlanarCells cells(sites, run);
+    VoronoiCell cell;
+    for (std::size_t i = 0; i < sites.count(); ++i) {
+        cells.cut(i, cell);
+        const auto corners = cell.corners();
+        const auto at = [&](const CellCorner& corner) {
+            return panel.at(box.low[0] + sites.at(i).x + corner.at.x,
+                            box.low[1] + sites.at(i).y + corner.at.y);
+        };
+        for (std::size_t k = 0; k < corners.size(); ++k)
+            if (corners[k].site != CellCorner::wall && corners[k].site > i)
+                drawing.add(
+                    Line{.vertices = {at(corners[k]), at(corners[(k + 1) % corners.size()])},
+                         .colour = theme.guide,
+                         .width = 0.8});
+    }
+}
+
+/// The circles, clipped to the frame; on the torus with their copies.
+void draw_circles(Drawing& drawing, const PointsPicture& picture, const Panel& panel,
+                  const Theme& theme) {
+    if (picture.circles.empty()) return;
+    const Box box = picture.sets[0]->domain->bounding_box();
+    drawing.add(ClipWindow{.area = panel.frame()});
+    for (const auto& [centre, radius, torus] : picture.circles)
+        for (int across = -1; across <= 1; ++across)
+            for (int up = -1; up <= 1; ++up) {
+                if (!torus && (across != 0 || up != 0)) continue;
+                std::vector<Position> rim;
+                constexpr int corners = 180;
+                for (int k = 0; k <= corners; ++k) {
+                    const double angle = 2 * std::numbers::pi * k / corners;
+                    rim.push_back(
+                        panel.at(centre.x + across * box.extent(0) + radius * std::cos(angle),
+                                 centre.y + up * box.extent(1) + radius * std::sin(angle)));
+                }
+                drawing.add(
+                    Patch{.vertices = rim, .colour = theme.series_colour(1), .opacity = 0.12});
+                drawing.add(Line{.vertices = rim, .colour = theme.series_colour(1), .width = 1.4});
+            }
+    drawing.add(ClipWindow{.open = true});
+}
+
 /// The boxes as they lie in the plane of two coordinates.
 void draw_boxes(Drawing& drawing, const PointsPicture& picture, const Panel& panel, std::size_t i,
                 std::size_t j) {
@@ -411,6 +462,7 @@ class PairSheet {
     PairSheet(const PointsPicture& picture, const PictureStyle& style, const RunContext& run)
         : picture_(picture),
           theme_(*style.theme),
+          run_(run),
           plane_(picture.sets[0]->dimension() == 2),
           marks_(picture, style, run),
           page_(picture, style, plane_ ? 640 : 800),
@@ -436,6 +488,9 @@ class PairSheet {
                 const auto [frame, place] = view(i, j);
                 panel(i, j).draw_axes(page_.drawing, theme_, true);
                 if (plane_) draw_outline(page_.drawing, picture_, panel(i, j), theme_);
+                if (plane_ && picture_.cells)
+                    draw_cells(page_.drawing, *picture_.sets[0], panel(i, j), theme_, run_);
+                if (plane_) draw_circles(page_.drawing, picture_, panel(i, j), theme_);
                 if (marks_.as_disks()) marks_.disks(page_.drawing, frame, place);
                 draw_boxes(page_.drawing, picture_, panel(i, j), i, j);
             }
@@ -490,6 +545,7 @@ class PairSheet {
 
     const PointsPicture& picture_;
     const Theme& theme_;
+    const RunContext& run_;
     bool plane_;
     PointMarks marks_;
     Page page_;

@@ -37,6 +37,13 @@ struct MarkedBox {
     bool closed = true;  ///< drawn with a solid line; else dashed
 };
 
+/// A circle that is drawn over points of the plane.
+struct MarkedCircle {
+    Position centre;
+    double radius = 0;
+    bool torus = false;  ///< goes on across opposite sides of the first set's domain
+};
+
 struct PointsPicture {
     std::vector<const PointSet*> sets;  ///< of one dimension, none empty
     std::vector<std::string> names;     ///< of the sets, for the legend
@@ -44,6 +51,9 @@ struct PointsPicture {
     std::string subtitle = {};
     Marking marking = Marking::automatic;
     std::vector<MarkedBox> boxes = {};
+    std::vector<MarkedCircle> circles = {};
+    bool cells =
+        false;  ///< with the Voronoi cells of a single set of the plane, in its domain's box
     std::size_t most_disks = 20'000;                       ///< above, points are pixels
     std::size_t most_coordinates = most_pair_coordinates;  ///< of which pairs are drawn
 };

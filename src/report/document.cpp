@@ -100,7 +100,7 @@ std::string tables_of(const Report& report) {
     return text;
 }
 
-std::string to_text(const Measurement& m, bool full = false) {
+std::string to_text(const Measurement& m, const TextStyle& style = {}) {
     const std::string most = m.largest_count > 0 ? fmt::format(" to {}", m.largest_count) : "";
     const std::string of = m.columns.empty() ? "" : ": " + join(m.columns, ", ");
     std::string text = fmt::format("{} of {} ({}{} points, dimension {}{}, {})\n", m.analyzer,
@@ -110,7 +110,7 @@ std::string to_text(const Measurement& m, bool full = false) {
     for (const auto& key : keys) width = std::max(width, key.size());
     for (const auto& key : keys) {
         const Report::Item* item = m.results.find(key);
-        const auto list = full ? list_at(m.results, key) : std::nullopt;
+        const auto list = style.full ? list_at(m.results, key) : std::nullopt;
         if (list && list->size() > most_shown) continue;
         std::string line = fmt::format("  {:<{}}  {}", key, width, text_of(*item));
         const Report::Item* error = m.standard_error ? m.standard_error->find(key) : nullptr;
@@ -118,8 +118,9 @@ std::string to_text(const Measurement& m, bool full = false) {
             line += fmt::format(" +- {:.3g}", *number);
         const std::string unit = unit_of(m.results, item);
         text += unit.empty() ? line + "\n" : fmt::format("{} {}\n", line, unit);
+        if (style.below) text += style.below(m, key);
     }
-    return full ? text + tables_of(m.results) : text;
+    return style.full ? text + tables_of(m.results) : text;
 }
 
 // ---------------------------------------------------------------- the way back
@@ -256,9 +257,9 @@ std::string to_json(std::span<const Measurement> measurements) {
     return json_text(array, 2) + "\n";
 }
 
-std::string to_text(std::span<const Measurement> measurements, bool full) {
+std::string to_text(std::span<const Measurement> measurements, const TextStyle& style) {
     std::string text;
-    for (const Measurement& m : measurements) text += to_text(m, full);
+    for (const Measurement& m : measurements) text += to_text(m, style);
     return text;
 }
 

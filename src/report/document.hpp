@@ -4,6 +4,7 @@
 // CSV.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,9 +53,16 @@ Json json_of(const std::vector<std::pair<std::string, std::string>>& options);
 /// One object for one measurement, an array for several; ends with a newline.
 std::string to_json(std::span<const Measurement> measurements);
 
-/// Names, values and units in aligned columns; long curves are cut short and say so or, with `full`,
-/// stand in tables below, those of one group and length side by side.
-std::string to_text(std::span<const Measurement> measurements, bool full = false);
+struct TextStyle {
+    /// Long lists stand in tables below, those of one group and length side by side; else they are cut
+    /// short, and say so.
+    bool full = false;
+    /// What stands below the line of a result, with its ends of lines; empty: nothing.
+    std::function<std::string(const Measurement&, const std::string& key)> below = {};
+};
+
+/// Names, values and units in aligned columns.
+std::string to_text(std::span<const Measurement> measurements, const TextStyle& style = {});
 
 /// Whether the bytes are JSON of reports as far as their front tells: an object, or an array of
 /// objects, that names the format.

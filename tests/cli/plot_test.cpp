@@ -290,9 +290,9 @@ TEST(Plot, RefusesWhatIsNoPictureAndLeavesNoFile) {
         box.shell("stipple analyze chi-square p.csv -o chi.json; stipple analyze moments p.csv -o "
                   "moments.json; stipple analyze nearest-neighbor p.csv -o nearest.json"));
     const auto before = box.files();
-    expect_refusal(box.run({"plot", "p.csv", "-o", "p.pdf"}), 2, "p.pdf has no extension");
-    expect_refusal(box.run({"plot", "p.csv", "-o", "p"}), 2, "expected .svg, .png or .txt");
-    expect_refusal(box.run({"plot", "p.csv", "-f", "gif"}), 2, "not one of svg, png, text");
+    expect_refusal(box.run({"plot", "p.csv", "-o", "p.eps"}), 2, "p.eps has no extension");
+    expect_refusal(box.run({"plot", "p.csv", "-o", "p"}), 2, "expected .svg, .pdf, .png or .txt");
+    expect_refusal(box.run({"plot", "p.csv", "-f", "gif"}), 2, "not one of svg, pdf, png, text");
     expect_refusal(box.run({"plot", "p.csv", "--theme", "blue"}), 2, "light, dark");
     expect_refusal(box.run({"plot", "p.csv", "--chart", "pie"}), 2, "histogram");
     expect_refusal(box.run({"plot", "p.csv", "--width", "0"}), 2, "outside [120, 20000]");
@@ -334,6 +334,55 @@ TEST(Plot, DrawsOnePointAndEqualPoints) {
         }
     expect_refusal(box.shell("printf '3,3\\n' | stipple plot --chart distances"), 3,
                    "no nearest neighbour");
+}
+
+// On a square grid the cells are squares, and the largest gap is in the middle of four points.
+TEST(Plot, DrawsCellsAndTheLargestGap) {
+    const Sandbox box;
+    good(box.shell("stipple generate grid -n 16 -o g.csv"));
+    const auto lines = [&](const std::string& more) {
+        good(box.shell("stipple plot g.csv -o g.svg --width 640 " + more));
+        const std::string count = xml(box, "g.svg", "path");
+        return std::stoi(count);
+    };
+    const int plain = lines("");
+    EXPECT_EQ(lines("--draw cells"), plain + 24);  // edges between 16 squares
+    EXPECT_EQ(lines("--draw gap"), plain + 18);    // a disk and its rim, with their copies
+    EXPECT_EQ(lines("--draw gap,cells"), plain + 42);
+    expect_refusal(box.shell("stipple plot g.csv -o g.svg --draw holes"), 2,
+                   "not one of cells, gap");
+    expect_refusal(box.shell("stipple plot --generate random -d 3 -o g.svg --draw gap"), 2,
+                   "--draw");
+}
+
+// Its table tells where every object begins; text is text, and every point a dot.
+TEST(Plot, WritesPdf) {
+    const Sandbox box;
+    good(box.shell("stipple plot --generate random -n 37 --title 'Größe (10⁻³) ★' -o p.pdf"));
+    const std::string pdf = box.read("p.pdf");
+    ASSERT_TRUE(pdf.starts_with("%PDF-1.4\n"));
+    ASSERT_TRUE(pdf.ends_with("%%EOF\n"));
+    const std::string checked =
+        good(box.shell("python3 -c '\n"
+                       "import re, zlib\n"
+                       "b = open(\"p.pdf\", \"rb\").read()\n"
+                       "table = int(re.search(rb\"startxref.(\\d+)\", b, re.S).group(1))\n"
+                       "assert b[table:table + 4] == b\"xref\"\n"
+                       "places = re.findall(rb\"(\\d{10}) 00000 n\", b[table:])\n"
+                       "for i, at in enumerate(places):\n"
+                       "    assert b[int(at):].startswith(b\"%d 0 obj\" % (i + 1))\n"
+                       "part = re.search(rb\"Length (\\d+)>>.stream.\", b, re.S)\n"
+                       "page = zlib.decompress(b[part.end():part.end() + int(part.group(1))])\n"
+                       "assert page.count(b\"BT\") == page.count(b\"ET\") and page.count(b\"q \") "
+                       "== page.count(b\"Q\")\n"
+                       "print(len(re.findall(rb\"([0-9.]+ [0-9.]+) m \\1 l\", page)), "
+                       "page.decode(\"latin-1\"))'"));
+    EXPECT_TRUE(checked.starts_with("37 ")) << checked.substr(0, 20);
+    EXPECT_THAT(checked, HasSubstr("(Gr\\366\\337e \\(10)"));
+    EXPECT_THAT(checked, HasSubstr("(37 points, seed 1)"));
+    EXPECT_THAT(pdf, HasSubstr("/Title<FEFF004700720"));
+    good(box.shell("stipple plot --generate random -n 37 --title 'Größe (10⁻³) ★' -f pdf > q.pdf"));
+    EXPECT_TRUE(box.read("q.pdf").substr(0, 900) == pdf.substr(0, 900));
 }
 
 // A frame for each set, with its own points; --overlay has one for all.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // A picture as a list of shapes, in units of which one is a pixel on a plain screen; x to the
-// right, y downward. It is written as SVG (svg_bytes, svg_element) or as pixels (png_bytes_of).
+// right, y downward. It is written as SVG (svg_bytes, svg_element), as PDF, or as pixels
+// (png_bytes_of).
 //
 // Promise the same drawing gives the same bytes.
 #pragma once
@@ -141,6 +142,12 @@ std::string svg_bytes(const Drawing& drawing, double scale, const PictureNotes& 
 /// As an element of a page, in the colours of the first where the page is light, of the second
 /// where it is dark; the label describes it to screen readers. Both have the same shapes.
 std::string svg_element(const Drawing& light, const Drawing& dark, const std::string& label);
+
+/// A number to hundredths of a unit, which are more than eyes see.
+std::string short_number(double x);
+
+/// As one page of PDF 1.4, the letters in Helvetica; one unit is `scale` times 3/4 of a point.
+std::string pdf_bytes(const Drawing& drawing, double scale, const PictureNotes& notes = {});
 
 /// Pixels as PNG; grey: of one part, where all three are the same.
 std::string png_bytes_of(const PixelImage& image, bool grey, const PictureNotes& notes = {});

@@ -21,14 +21,6 @@ constexpr const char* font = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans'
 
 std::string hex(Colour c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
 
-/// Hundredths of a unit are more than eyes see.
-std::string number(double x) {
-    std::string text = fmt::format("{:.2f}", x);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.back() == '.') text.pop_back();
-    return text == "-0" ? "0" : text;
-}
-
 /// fill="#0072b2", with the colour of dark pages where that is another one.
 std::string paint(const char* property, Colour light, Colour dark) {
     std::string text = fmt::format(" {}=\"{}\"", property, hex(light));
@@ -48,7 +40,7 @@ class Writer {
         const bool half = line.crisp && std::lround(line.width) % 2 == 1;
         add_path(line.vertices, half);
         out_ += fmt::format("\" fill=\"none\"{} stroke-width=\"{}\"",
-                            paint("stroke", line.colour, dark.colour), number(line.width));
+                            paint("stroke", line.colour, dark.colour), short_number(line.width));
         if (line.dash == Dash::dashed) out_ += " stroke-dasharray=\"6 4\"";
         if (line.dash == Dash::dotted) out_ += " stroke-dasharray=\"1.5 3\"";
         out_ +=
@@ -58,14 +50,16 @@ class Writer {
     void operator()(const Patch& patch, const Patch& dark) {
         add_path(patch.vertices, false);
         out_ += "Z\"" + paint("fill", patch.colour, dark.colour);
-        if (patch.opacity < 1) out_ += fmt::format(" fill-opacity=\"{}\"", number(patch.opacity));
+        if (patch.opacity < 1)
+            out_ += fmt::format(" fill-opacity=\"{}\"", short_number(patch.opacity));
         out_ += "/>\n";
     }
 
     void operator()(const Disks& disks, const Disks& dark) {
         if (page_) return dots(disks, dark);
         out_ += "<g" + paint("fill", disks.colour, dark.colour);
-        if (disks.opacity < 1) out_ += fmt::format(" fill-opacity=\"{}\"", number(disks.opacity));
+        if (disks.opacity < 1)
+            out_ += fmt::format(" fill-opacity=\"{}\"", short_number(disks.opacity));
         out_ += ">\n";
         std::string close = "\" r=\"";
         io::append_number(close, disks.radius, 2);
@@ -81,15 +75,15 @@ class Writer {
     }
 
     void operator()(const Label& label, const Label& dark) {
-        out_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\"{}", number(label.at.x),
-                            number(label.at.y), number(label.size),
+        out_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\"{}", short_number(label.at.x),
+                            short_number(label.at.y), short_number(label.size),
                             paint("fill", label.colour, dark.colour));
         if (label.anchor == Anchor::middle) out_ += " text-anchor=\"middle\"";
         if (label.anchor == Anchor::end) out_ += " text-anchor=\"end\"";
         if (label.bold) out_ += " font-weight=\"bold\"";
         if (label.upward)
-            out_ += fmt::format(" transform=\"rotate(-90 {} {})\"", number(label.at.x),
-                                number(label.at.y));
+            out_ += fmt::format(" transform=\"rotate(-90 {} {})\"", short_number(label.at.x),
+                                short_number(label.at.y));
         out_ += fmt::format(">{}</text>\n", xml_text(label.text));
     }
 
@@ -101,9 +95,9 @@ class Writer {
         out_ += fmt::format(
             "<image{} x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
             "style=\"image-rendering:pixelated\" {}=\"data:image/png;base64,{}\"/>\n",
-            raster.pixels == dark.pixels ? "" : " class=\"inverted\"", number(a.left),
-            number(a.top), number(a.width), number(a.height), page_ ? "href" : "xlink:href",
-            base64(png_bytes_of(raster, grey)));
+            raster.pixels == dark.pixels ? "" : " class=\"inverted\"", short_number(a.left),
+            short_number(a.top), short_number(a.width), short_number(a.height),
+            page_ ? "href" : "xlink:href", base64(png_bytes_of(raster, grey)));
     }
 
     void operator()(const ClipWindow& window, const ClipWindow&) {
@@ -112,12 +106,14 @@ class Writer {
         if (window.open) return;
         // Named by what it shows, so that drawings can stand in one page.
         const Area& a = window.area;
-        const std::string name = fmt::format("w{}-{}-{}-{}", number(a.left), number(a.top),
-                                             number(a.width), number(a.height));
+        const std::string name =
+            fmt::format("w{}-{}-{}-{}", short_number(a.left), short_number(a.top),
+                        short_number(a.width), short_number(a.height));
         out_ += fmt::format(
             "<clipPath id=\"{0}\"><rect x=\"{1}\" y=\"{2}\" width=\"{3}\" height=\"{4}\"/>"
             "</clipPath>\n<g clip-path=\"url(#{0})\">\n",
-            name, number(a.left), number(a.top), number(a.width), number(a.height));
+            name, short_number(a.left), short_number(a.top), short_number(a.width),
+            short_number(a.height));
         in_window_ = true;
     }
 
@@ -145,15 +141,17 @@ class Writer {
         out_ += "<path d=\"";
         for (const auto& [x, y] : vertices)
             out_ += fmt::format("{}{} {}", &x == &vertices[0].x ? "M" : "L",
-                                number(half ? std::floor(x) + 0.5 : x),
-                                number(half ? std::floor(y) + 0.5 : y));
+                                short_number(half ? std::floor(x) + 0.5 : x),
+                                short_number(half ? std::floor(y) + 0.5 : y));
     }
 
     /// Strokes without length, whose ends are round: a third of the bytes of circles.
     void dots(const Disks& disks, const Disks& dark) {
-        out_ += fmt::format("<path fill=\"none\" stroke-linecap=\"round\" stroke-width=\"{}\"{}",
-                            number(2 * disks.radius), paint("stroke", disks.colour, dark.colour));
-        if (disks.opacity < 1) out_ += fmt::format(" stroke-opacity=\"{}\"", number(disks.opacity));
+        out_ +=
+            fmt::format("<path fill=\"none\" stroke-linecap=\"round\" stroke-width=\"{}\"{}",
+                        short_number(2 * disks.radius), paint("stroke", disks.colour, dark.colour));
+        if (disks.opacity < 1)
+            out_ += fmt::format(" stroke-opacity=\"{}\"", short_number(disks.opacity));
         out_ += " d=\"";
         for (const Position& centre : disks.centres) {
             out_ += 'M';
@@ -178,16 +176,24 @@ std::string body_of(const Drawing& light, const Drawing& dark, bool page) {
     for (std::size_t i = 0; i < light.shapes.size(); ++i)
         std::visit([&]<class S>(const S& shape) { writer(shape, std::get<S>(dark.shapes[i])); },
                    light.shapes[i]);
-    return fmt::format("<rect width=\"{}\" height=\"{}\"{}/>\n", number(light.width),
-                       number(light.height), paint("fill", light.background, dark.background)) +
+    return fmt::format("<rect width=\"{}\" height=\"{}\"{}/>\n", short_number(light.width),
+                       short_number(light.height),
+                       paint("fill", light.background, dark.background)) +
            writer.take();
 }
 
 }  // namespace
 
+std::string short_number(double x) {
+    std::string text = fmt::format("{:.2f}", x);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text == "-0" ? "0" : text;
+}
+
 std::string svg_element(const Drawing& light, const Drawing& dark, const std::string& label) {
     return fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n",
-                       number(light.width), number(light.height), html_text(label)) +
+                       short_number(light.width), short_number(light.height), html_text(label)) +
            body_of(light, dark, true) + "</svg>\n";
 }
 
@@ -196,8 +202,8 @@ std::string svg_bytes(const Drawing& drawing, double scale, const PictureNotes& 
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
         "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
         "width=\"{}\" height=\"{}\" viewBox=\"0 0 {} {}\" font-family=\"{}\">\n<title>{}</title>\n",
-        number(drawing.width * scale), number(drawing.height * scale), number(drawing.width),
-        number(drawing.height), font, xml_text(drawing.title));
+        short_number(drawing.width * scale), short_number(drawing.height * scale),
+        short_number(drawing.width), short_number(drawing.height), font, xml_text(drawing.title));
     if (!notes.empty()) {
         out += "<metadata>\n";
         for (const auto& [keyword, text] : notes)
