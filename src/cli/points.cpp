@@ -11,8 +11,10 @@
 #include "cli/launched.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "core/spec.hpp"
 #include "core/text.hpp"
 #include "pipeline/chain.hpp"
+#include "pipeline/generated.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/set_writer.hpp"
 
@@ -60,6 +62,34 @@ std::string command_of(const Arguments& arguments, const Production& job, const 
         text += typed_option("seed", std::to_string(job.request.seed), false);
     if (target.format->name != "csv") text += typed_option("format", target.format->name, false);
     return text;
+}
+
+/// The files that --vector-output asks for, of the lattice that the provenance tells of: with what a
+/// search found, where one was made.
+std::vector<SideFile> vector_files(const Provenance& meta, const Arguments& arguments,
+                                   const RunContext& run) {
+    const Generator* generator = generator_named(meta.generator);
+    if (!generator ||
+        std::ranges::find(generator->writes, "vector-output") == generator->writes.end())
+        fail(ErrorKind::input, "--vector-output: the provenance of these points names no lattice");
+    SetsToMake asked{.generator = generator,
+                     .options = generator->options.defaults(),
+                     .request = {.count = meta.count, .dimension = meta.dimension}};
+    const auto& known = generator->options.options();
+    const auto set = [&](const std::string& name, const std::string& text) {
+        if (std::ranges::find(known, name, &Option::name) != known.end())
+            generator->options.set(asked.options, name, text);
+    };
+    const auto usual = typed_settings(asked.options, generator->options);
+    for (const auto& option : meta.found.empty() ? meta.options : meta.found)
+        if (std::ranges::find(usual, option) == usual.end() && option.first != "vector-output" &&
+            option.first != "vector-format")
+            set(option.first, option.second);
+    for (const char* name : {"vector-output", "vector-format"})
+        if (const auto text = arguments.get(name)) set(name, *text);
+    const GeneratedSets sets(std::move(asked), run);
+    sets.prepare(run);
+    return sets.side_files();
 }
 
 }  // namespace
@@ -191,7 +221,14 @@ int warp(const Arguments& arguments, Session& session) {
 int convert(const Arguments& arguments, Session& session) {
     const std::string path = only_input(arguments, "--concat takes several as one set");
     const Target target = target_of(arguments);
-    write_sets(read_input(path, arguments, session.run()), target, session.run());
+    auto sets = read_input(path, arguments, session.run());
+    if (arguments.has("vector-output"))
+        naming(path, [&] {
+            sets[0].side_files = vector_files(sets[0].provenance, arguments, session.run());
+        });
+    else
+        arguments.refuse({"vector-format"}, "is of --vector-output, which is not given");
+    write_sets(sets, target, session.run());
     return 0;
 }
 

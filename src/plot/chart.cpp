@@ -353,12 +353,13 @@ std::vector<Guide> falling_guides(const Series& series) {
     if (first == series.y.end() || series.x.size() < 3) return {};
     const double n = series.x[static_cast<std::size_t>(first - series.y.begin())];
     if (!(n > 0)) return {};
+    constexpr double aside = 1.5;  // so that they do not lie on the curve
     std::vector<Guide> guides;
     for (const double power : {0.5, 1.0}) {
         Guide guide{.name = guides.empty() ? "falling as 1/√n and as 1/n" : ""};
         for (const double x : {n, series.x.back()}) {
             guide.x.push_back(x);
-            guide.y.push_back(*first * std::pow(n / x, power));
+            guide.y.push_back(aside * *first * std::pow(n / x, power));
         }
         guides.push_back(std::move(guide));
     }

@@ -107,4 +107,30 @@ TEST(SideFiles, AreNotLeftByACommandThatFails) {
     EXPECT_EQ(box.files(), (Names{"m.png", "pipe"})) << outcome.err;
 }
 
+// What generate writes beside the points, from the points alone.
+TEST(SideFiles, OfALatticeComeFromItsProvenance) {
+    const Sandbox box;
+    for (const std::string made :
+         {"rank1-lattice -n 101 -d 3", "rank1-lattice -n 64 --rule korobov --multiplier 19",
+          "rank1-lattice -n 8 --vector 1,3", "polynomial-lattice -n 64 -d 3"})
+        for (const std::string form : {"lddata", "latnet-builder"}) {
+            good(box.shell("stipple generate " + made +
+                           " -o p.json --vector-output v.txt "
+                           "--vector-format " +
+                           form));
+            good(box.shell("stipple generate " + made +
+                           " -o q.json && stipple convert q.json -o r.json "
+                           "--vector-output w.txt --vector-format " +
+                           form));
+            EXPECT_EQ(box.read("w.txt"), box.read("v.txt")) << made;
+            EXPECT_THAT(box.read("w.txt"), HasSubstr("# dimensions")) << made;
+        }
+    good(box.shell("stipple generate halton -n 9 -o h.json"));
+    expect_refusal(box.shell("stipple convert h.json -o r.csv --vector-output x.txt"), 3,
+                   "names no lattice");
+    EXPECT_FALSE(box.exists("r.csv"));
+    expect_refusal(box.shell("stipple convert h.json -o r.csv --vector-format lddata"), 2,
+                   "--vector-format: is of --vector-output");
+}
+
 }  // namespace stipple::testing::side_files_test

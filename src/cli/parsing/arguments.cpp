@@ -199,6 +199,10 @@ const std::vector<CommonOption> rows = {
      "write the provenance: in '# ' lines on top of text formats; for npy, bin, utk and psa in "
      "FILE.meta.json",
      writers},
+    {"--vector-output", "FILE", "",
+     "of points of a lattice: also writes its generating vector, as their provenance tells it",
+     convert},
+    {"--vector-format", "lddata|latnet-builder", "lddata", "form of --vector-output", convert},
     {"--with-pdf", "", "", "add a column with the density of each point", generate | warp},
     {"--with-weight", "", "",
      "add a column with 1 / density: the mean of f times weight estimates the integral of f",
