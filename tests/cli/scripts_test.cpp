@@ -175,18 +175,6 @@ TEST(Overview, IsDrawnFromTheProgram) {
     EXPECT_FALSE(box.exists("no.png"));
 }
 
-TEST(PlotBlueNoise, DrawsPointsSpectrumAndRadialPowerOfEach) {
-    const Sandbox box;
-    const std::string small = "plot_blue_noise.py --count 64 --spectrum-count 64 --sets 2 ";
-    expect_quiet(run(box, small + "random 'lloyd --iterations 5' -o a.png"));
-    expect_picture(box, "a.png");
-    expect_quiet(run(box, small + "random 'lloyd --iterations 5' -o a.svg"));
-    EXPECT_EQ(texts(box.read("a.svg")), "random\nlloyd --iterations 5\n");
-    expect_refusal(run(box, small + "radnom -o no.png"), 4, "radnom", "plot_blue_noise.py");
-    expect_refusal(run(box, small + "--sets 0 -o no.png"), 2, "--sets", "plot_blue_noise.py");
-    EXPECT_FALSE(box.exists("no.png"));
-}
-
 // 64 points of a square grid: 1/8 apart, sqrt(sqrt(3) / 2) of hexagons, and circles of sqrt(1/2) /
 // 8 are empty, sqrt(3 sqrt(3) / 4) times those of hexagons.
 TEST(BlueNoiseTable, HasARowForEachGenerator) {
@@ -218,8 +206,7 @@ TEST(PublishedTable, HasOursBesideTheirs) {
 
 TEST(Scripts, ExplainThemselves) {
     const Sandbox box;
-    for (const char* name :
-         {"plot_discrepancy.py", "plot_convergence.py", "overview.py", "plot_blue_noise.py"}) {
+    for (const char* name : {"plot_discrepancy.py", "plot_convergence.py", "overview.py"}) {
         const Outcome outcome = run(box, std::string(name) + " --help");
         expect_quiet(outcome);
         EXPECT_THAT(outcome.out, HasSubstr("usage: " + std::string(name)));
@@ -228,7 +215,7 @@ TEST(Scripts, ExplainThemselves) {
     // Importing draws nothing and reads nothing.
     expect_quiet(run(box, "PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=" STIPPLE_SOURCE_DIR
                           "/scripts /usr/bin/python3 -c 'import plot_discrepancy, "
-                          "plot_convergence, overview, plot_blue_noise'"));
+                          "plot_convergence, overview'"));
     EXPECT_EQ(box.files(), std::vector<std::string>{});
 }
 
