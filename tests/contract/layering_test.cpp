@@ -138,7 +138,7 @@ const std::map<std::string, std::set<std::string>> exceptions = {
     // Charts of reports are chosen by the analyzer that wrote them.
     {"plot/report_charts.cpp", {"differential", "hyperuniformity"}},
     {"plot/spectral_table.cpp", {"periodogram"}},
-    {"cli/plot.cpp", {"differential", "pair-correlation", "periodogram"}},
+    {"cli/plot.cpp", {"coverage", "differential", "pair-correlation", "periodogram"}},
     // An entry of a report, whose name is compared.
     {"cli/analysis.cpp", {"grid"}},
 };

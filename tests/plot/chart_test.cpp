@@ -17,6 +17,7 @@ namespace stipple::testing::chart_test {
 
 using namespace plot;
 
+using ::testing::DoubleEq;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -209,9 +210,9 @@ TEST(ReportCharts, PrefixesAreLogarithmicWithBoundsAsABand) {
     EXPECT_TRUE(panel.log_x && panel.log_y);
     EXPECT_THAT(panel.series.at(0).high, ElementsAre(0.5, 0.3, 0.2));
     EXPECT_EQ(panel.y_name, "star discrepancy");
-    // Lines that fall as n^(-1/2) and n^(-1), from the first value.
-    EXPECT_THAT(panel.guides.at(0).y, ElementsAre(0.4, 0.2));
-    EXPECT_THAT(panel.guides.at(1).y, ElementsAre(0.4, 0.1));
+    // Lines that fall as n^(-1/2) and n^(-1), from half as much again as the first value.
+    EXPECT_THAT(panel.guides.at(0).y, ElementsAre(DoubleEq(0.6), DoubleEq(0.3)));
+    EXPECT_THAT(panel.guides.at(1).y, ElementsAre(DoubleEq(0.6), DoubleEq(0.15)));
 }
 
 TEST(ReportCharts, PairCorrelationHasWhatUniformPointsHave) {
