@@ -694,4 +694,17 @@ TEST(Analyze, TextHasAllNumbersOfListsWhereItIsAsked) {
     EXPECT_THAT(full, HasSubstr(fmt::format(" 9 {:>12.6g} ", last)));
 }
 
+// The mean of one set is that set, with its places; of several there are none.
+TEST(Analyze, TheMeanOfOneSetHasItsPlaces) {
+    const Sandbox box;
+    const auto found = [&](const std::string& sets) {
+        return json::parse(
+            good(box.shell("stipple analyze dispersion --generate random -n 20 --average "
+                           "-m " +
+                           sets)))["results"];
+    };
+    EXPECT_TRUE(found("1").contains("box"));
+    EXPECT_FALSE(found("2").contains("box"));
+}
+
 }  // namespace stipple::testing::analyze_test
