@@ -17,6 +17,8 @@
 namespace stipple::plot {
 namespace {
 
+constexpr double most_unlike = 20;  ///< sides of a box, beyond which their lengths are not compared
+
 std::vector<std::string> names_of(const PointsPicture& picture) {
     const PointSet& first = *picture.sets[0];
     return coordinate_names(first.dimension(), first.provenance);
@@ -320,7 +322,7 @@ void draw_boxes(Drawing& drawing, const PointsPicture& picture, const Panel& pan
 
 /// How large the frame of a box is, so that lengths along x and y are alike unless it is very thin.
 std::pair<double, double> frame_size(const Box& box, double width, double height) {
-    double ratio = std::clamp(box.extent(1) / box.extent(0), 0.12, 3.0);
+    double ratio = std::clamp(picture_ratio(box, 0, 1), 0.12, 3.0);
     if (!(ratio > 0)) ratio = 1;
     double wide = width;
     if (height > 0 && wide * ratio > height) wide = height / ratio;
@@ -600,16 +602,25 @@ Box shown_box(std::span<const PointSet* const> sets) {
     return box;
 }
 
+double picture_ratio(const Box& box, std::size_t i, std::size_t j) {
+    const double ratio = box.extent(j) / box.extent(i);
+    return ratio > most_unlike || ratio < 1 / most_unlike ? 1 : ratio;
+}
+
 Projected project(const Box& box, std::span<const double> point) {
     // From 30 degrees beside the y axis, 25 degrees above the ground.
     constexpr double side_cosine = 0.8660254037844386;
     constexpr double side_sine = 0.5;
     constexpr double rise_cosine = 0.9063077870366499;
     constexpr double rise_sine = 0.42261826174069944;
-    const double longest = std::max({box.extent(0), box.extent(1), box.extent(2)});
-    const double x = (point[0] - box.low[0]) / longest;
-    const double y = (point[1] - box.low[1]) / longest;
-    const double z = (point[2] - box.low[2]) / longest;
+    const auto [shortest, longest] = std::minmax({box.extent(0), box.extent(1), box.extent(2)});
+    const bool alike = longest <= most_unlike * shortest;
+    const auto share = [&](std::size_t k) {
+        return (point[k] - box.low[k]) / (alike ? longest : box.extent(k));
+    };
+    const double x = share(0);
+    const double y = share(1);
+    const double z = share(2);
     const double toward = side_sine * x - side_cosine * y;
     return {.right = side_cosine * x + side_sine * y,
             .up = rise_cosine * z - rise_sine * toward,

@@ -66,8 +66,13 @@ std::vector<std::vector<Position>> outline_of(const Domain& domain);
 /// the unit cube that is their default domain, the box is that of the points.
 Box shown_box(std::span<const PointSet* const> sets);
 
+/// The height of a picture of two coordinates over its width: that of the box, unless its sides are so
+/// different that they measure different things.
+double picture_ratio(const Box& box, std::size_t i, std::size_t j);
+
 /// A point of three coordinates in the parallel projection of a picture, in units of the box's longest
-/// side; `depth` is larger for nearer points.
+/// side or, where sides are as different as above, each in units of its own; `depth` is larger for
+/// nearer points.
 struct Projected {
     double right = 0;
     double up = 0;

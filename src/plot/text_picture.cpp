@@ -59,7 +59,7 @@ std::string plane_as_text(const PointsPicture& picture, const TextRoom& room, st
                           .high_y = rounded(box.high[j]),
                           .name_y = printable(names[j]),
                           .coloured = room.coloured};
-    const double ratio = plane ? std::clamp(box.extent(1) / box.extent(0), 0.05, 20.0) : 1;
+    const double ratio = plane ? picture_ratio(box, 0, 1) : 1;
     DotMatrix dots = field_for(room, frame, ratio);
     for (std::size_t s = 0; s < picture.sets.size(); ++s) {
         dots.take_pen(s);

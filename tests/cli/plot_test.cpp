@@ -336,6 +336,28 @@ TEST(Plot, DrawsOnePointAndEqualPoints) {
                    "no nearest neighbour");
 }
 
+// Columns that measure different things have axes of their own.
+TEST(Plot, UnlikeSidesAreNotCompared) {
+    const Sandbox box;
+    box.write(
+        "g.csv",
+        "Alter;Einkommen;Groesse\n23;1500,5;1,62\n35;2400;1,75\n45;3100,25;1,8\n52;4200;1,5\n");
+    box.write("u.csv", "0.1,0.1,0.2\n0.4,0.3,0.5\n0.75,0.6,0.6\n0.9,0.9,0.1\n");
+    const auto width_of_dots = [&](const char* file, const char* column) {
+        good(box.shell(std::string("stipple plot ") + file + column + " -o g.svg"));
+        const std::string svg = box.read("g.svg");
+        double low = 1e9;
+        double high = -1e9;
+        for (auto at = svg.find("cx=\""); at != std::string::npos; at = svg.find("cx=\"", at + 1)) {
+            low = std::min(low, std::stod(svg.substr(at + 4)));
+            high = std::max(high, std::stod(svg.substr(at + 4)));
+        }
+        return high - low;
+    };
+    for (const char* column : {"", " --column 1,2"})
+        EXPECT_GT(width_of_dots("g.csv", column), 0.5 * width_of_dots("u.csv", column)) << column;
+}
+
 // On a square grid the cells are squares, and the largest gap is in the middle of four points.
 TEST(Plot, DrawsCellsAndTheLargestGap) {
     const Sandbox box;
