@@ -379,7 +379,7 @@ void draw_ends(Drawing& drawing, const Scene& scene, const std::vector<std::stri
     };
     const Box& box = scene.box;
     const auto end = [&](std::size_t k, bool high) {
-        return rounded(high ? box.high[k] : box.low[k], 3);
+        return rounded(high ? box.high[k] : box.low[k], 4);
     };
     put(scene.at(0.08, 0, 0), -2, 18, end(0, false), Anchor::end, false);
     put(scene.at(0.95, 0, 0), -2, 18, end(0, true), Anchor::end, false);
@@ -389,7 +389,14 @@ void draw_ends(Drawing& drawing, const Scene& scene, const std::vector<std::stri
     put(scene.at(1, 0.5, 0), 14, 22, names[1], Anchor::start, true);
     put(scene.at(0, 0, 0.04), -8, 4, end(2, false), Anchor::end, false);
     put(scene.at(0, 0, 0.98), -8, 4, end(2, true), Anchor::end, false);
-    put(scene.at(0, 0, 0.5), -14, 4, names[2], Anchor::end, true);
+    // Beside the numbers, from below, however long it is.
+    const Position side = scene.at(0, 0, 0.5);
+    drawing.add(Label{.text = names[2],
+                      .at = {side.x - 36, side.y},
+                      .size = name_size,
+                      .colour = theme.ink,
+                      .anchor = Anchor::middle,
+                      .upward = names[2].size() > 1});
 }
 
 /// Disks in layers from far to near: paler and smaller behind.
