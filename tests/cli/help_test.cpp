@@ -234,4 +234,15 @@ TEST(Help, ShowsPointsInLetters) {
     EXPECT_EQ(dots("moments"), "");
 }
 
+// Only analyze takes lists of units; help is there all the same.
+TEST(Help, OfWordsThatOnlyBeginWithAUnit) {
+    const Sandbox box;
+    for (const std::string word : {"generate 'sobol;x'", "generate sobol,halton", "warp 'disk;y'",
+                                   "analyze 'moments;'", "analyze moments,nobody"}) {
+        const Outcome outcome = box.shell("stipple " + word + " --help");
+        EXPECT_TRUE(outcome.code == 0 || outcome.code == 2) << word << outcome.code;
+        EXPECT_EQ(box.shell("stipple " + word + " < /dev/null").code, 2) << word;
+    }
+}
+
 }  // namespace stipple::testing::help_test

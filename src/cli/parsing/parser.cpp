@@ -262,7 +262,8 @@ Arguments parse_arguments(int argc, const char* const* argv) {
         arguments.inputs.insert(arguments.inputs.end(), inputs.begin() + 1, inputs.end());
     if (!arguments.help && !arguments.specs.empty()) refuse_loose_options(rest, arguments, *kind);
     if (!arguments.help) check_rest(rest, *info, kind, arguments.unit.empty() ? nullptr : unit);
-    if (!spec.name.empty() && arguments.specs.empty()) take_spec(spec, *unit, arguments);
+    if (unit != nullptr && !spec.name.empty() && arguments.specs.empty())
+        take_spec(spec, *unit, arguments);
     settle_format(arguments);
     if (!arguments.help) check_choices(arguments);
     return arguments;
