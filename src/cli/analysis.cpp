@@ -143,17 +143,12 @@ void Analysis::warn_of_units() const {
                         format_number(shortest), format_number(longest)));
 }
 
-/// Prefixes of sets whose points come in no order, or in that of their places, tell little.
 void Analysis::warn_of_prefixes(const Provenance& made) {
     if (told_of_prefixes_ || !(text_of("prefixes") || text_of("every"))) return;
-    const Generator* generator = generator_named(made.generator);
-    const bool progressive =
-        std::ranges::find(made.options, std::pair<std::string, std::string>(
-                                            "order", "progressive")) != made.options.end();
-    if (!generator || generator->traits.prefix || progressive) return;
+    const std::string sentence = unlike_prefixes(made);
+    if (sentence.empty()) return;
     told_of_prefixes_ = true;
-    session_.warn(fmt::format("{} makes sets as a whole: their prefixes are not sets of its kind",
-                              made.generator));
+    session_.warn(sentence);
 }
 
 // ---------------------------------------------------------------- sets

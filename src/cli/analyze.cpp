@@ -56,7 +56,8 @@ class AnalyzeCall {
           inputs_(input_names(arguments)),
           generators_(arguments.all("generate")),
           path_(output_of(arguments)),
-          format_(report_format(arguments, path_)) {
+          format_(report_format(arguments, path_)),
+          averaged_(arguments.has("average") || arguments.has("pool")) {
         if (format_ != "text") arguments.refuse({"full", "explain"}, "is of --format text");
         add_analyses();
         for (const auto& text : arguments.all("check")) add_check(text);
@@ -142,7 +143,7 @@ class AnalyzeCall {
             const Provenance& made = sets[set].provenance;
             const SetOrigin origin{.source = input,
                                    .number = number_of(set, sets.size()),
-                                   .kind = kind_of(made, count),
+                                   .kind = averaged_ ? kind_of(made, count) : "",
                                    .columns = made.columns,
                                    .several = several_sources() || sets.size() > 1};
             add_to_all(std::move(sets[set]), origin);
@@ -199,7 +200,7 @@ class AnalyzeCall {
                 const Arrival points =
                     arrival_of(*stream, !strengths().empty(), analysis.analyzer(), arguments_, run);
                 const Provenance& made = stream->provenance();
-                if (!made.generator.empty()) origin.kind = kind_of(made, 0);
+                if (averaged_ && !made.generator.empty()) origin.kind = kind_of(made, 0);
                 origin.columns = made.columns;
                 origin.number = sets;
                 origin.several = several_sources() || sets > 0;
@@ -417,8 +418,7 @@ class AnalyzeCall {
     /// Results that came back although a stop was requested are as good as was possible till then;
     /// a mean of some sets would not be what was asked for, nor would a file.
     int print_what_is_known() {
-        const bool averaged = arguments_.has("average") || arguments_.has("pool");
-        if (averaged || path_ != "-" || ranks_.size() > 1) session_.run().check_stop();
+        if (averaged_ || path_ != "-" || ranks_.size() > 1) session_.run().check_stop();
         print();
         say_line("interrupted");
         constexpr int exit_code = 130;
@@ -431,12 +431,9 @@ class AnalyzeCall {
             style.below = [](const Measurement& m, const std::string& key) {
                 constexpr std::size_t indent = 6;
                 std::string text;
-                const ResultKey* result = find_result(find_analyzer(m.analyzer), key);
-                const std::string help = result != nullptr ? result->help : "";
-                for (const std::string& sentence : {help, typical_in_words(m.analyzer, key)})
-                    if (!sentence.empty())
-                        text += std::string(indent, ' ') +
-                                filled(sentence, text_columns(), indent) + "\n";
+                for (const std::string& sentence : meaning_of(find_analyzer(m.analyzer), key))
+                    text +=
+                        std::string(indent, ' ') + filled(sentence, text_columns(), indent) + "\n";
                 return text;
             };
         return style;
@@ -459,6 +456,7 @@ class AnalyzeCall {
     std::vector<std::string> generators_;  ///< specs
     std::string path_;
     std::string format_;
+    bool averaged_;
     io::Outputs files_;  ///< the report, and what comes with it
     std::vector<std::unique_ptr<Analysis>> analyses_;
     std::vector<NamedCheck> checks_;

@@ -185,10 +185,10 @@ class Reporter {
         pending_.push_back(std::move(next));
     }
 
-    /// The options that all generated sets share, as they are typed.
+    /// The options that all generated sets share, as they are typed for the first of each.
     [[nodiscard]] std::string of_generated() const {
         std::string words;
-        for (const char* name : {"count", "dimension", "start", "warp"})  // of the first set
+        for (const char* name : {"count", "dimension", "start", "warp"})
             for (const auto& text : arguments_.all(name)) words += typed_option(name, text, false);
         if (arguments_.has("seed")) words += fmt::format(" --seed {}", seed_);
         return words;

@@ -135,18 +135,16 @@ std::span<const Key> compared_keys() { return keys; }
 
 namespace {
 
-/// The number under a key of all results of one set.
-std::optional<Known> known_in(const Report& all, const Key& key) {
-    const std::string path = key.key;
-    const std::string measure = path.substr(0, path.find('.') + 1);
-    const bool bounded = path == measure + "value";
-    const auto lower = bounded ? number_at(all, measure + "lower") : std::nullopt;
-    const auto value = number_at(all, path);
+/// The number under a path of a measure's results, if there are any.
+std::optional<Known> known_in(const Report* found, std::string_view path, bool magnitude) {
+    if (found == nullptr) return std::nullopt;
+    const auto lower = path == "value" ? number_at(*found, "lower") : std::nullopt;
+    const auto value = number_at(*found, path);
     auto known = value ? value : lower;
     if (!known || std::isnan(*known)) return std::nullopt;
-    if (key.magnitude) known = std::abs(*known);
+    if (magnitude) known = std::abs(*known);
     if (!lower) return Known{*known, *known, *known};
-    return Known{*known, *lower, number_at(all, measure + "upper").value_or(*known)};
+    return Known{*known, *lower, number_at(*found, "upper").value_or(*known)};
 }
 
 /// The mean of all, with its error; of magnitudes the root of the mean square.
@@ -177,15 +175,20 @@ Known mean_of(const std::vector<Known>& all, bool magnitude) {
 }  // namespace
 
 std::optional<Known> known_under(const Set& set, const Key& key) {
+    const std::string_view whole = key.key;
+    const auto dot = whole.find('.');
+    if (dot == std::string_view::npos) return std::nullopt;
+    const std::string_view measure = whole.substr(0, dot);
     std::vector<Known> all;
-    const auto take = [&](const Report& results) {
-        const auto known = known_in(results, key);
+    const auto take = [&](const Report* found) {
+        const auto known = known_in(found, whole.substr(dot + 1), key.magnitude);
         if (known) all.push_back(*known);
         return known.has_value();
     };
-    if (!take(set.all_results())) return std::nullopt;
+    if (!take(set.results(measure))) return std::nullopt;
     if (set.replications.empty() || key.better == Better::neither) return all[0];
-    if (!std::ranges::all_of(set.replications, take)) return std::nullopt;
+    for (const Report& results : set.replications)
+        if (!take(std::get_if<Report>(results.find(measure)))) return std::nullopt;
     return mean_of(all, key.magnitude);
 }
 

@@ -129,11 +129,7 @@ std::string rule_of(const Key& key) {
 
 /// A title that says what a result means; nothing where nobody knows.
 std::string explained(std::string_view analyzer, std::string_view key) {
-    const ResultKey* result = find_result(find_analyzer(analyzer), key);
-    std::vector<std::string> sentences;
-    if (result != nullptr) sentences.push_back(result->help);
-    if (const auto typical = typical_in_words(analyzer, key); !typical.empty())
-        sentences.push_back(typical);
+    const auto sentences = meaning_of(find_analyzer(analyzer), key);
     if (sentences.empty()) return {};
     return fmt::format(" title=\"{}\"", html_text(join(sentences, "; ")));
 }

@@ -81,10 +81,8 @@ void need_prefixes(const PointSet& points) {
     constexpr std::size_t most = 100'000;
     if (points.dimension() > 2 || points.count() < fewest || points.count() > most)
         fail(ErrorKind::limit, "it is for {} to {} points in one and two dimensions", fewest, most);
-    const Generator* generator = generator_named(points.provenance.generator);
-    if (generator != nullptr && !generator->traits.prefix)
-        fail(ErrorKind::input, "{} makes sets as a whole: their prefixes are not sets of its kind",
-             generator->name);
+    if (const auto sentence = unlike_prefixes(points.provenance); !sentence.empty())
+        fail(ErrorKind::input, "{}", sentence);
 }
 
 Measure described(const Planned& plan, const PointSet& points, const Input& input,

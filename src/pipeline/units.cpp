@@ -125,6 +125,16 @@ const Analyzer& find_analyzer(std::string_view name) {
     return find_unit("analyzer", analyzers::all(), name);
 }
 
+std::string unlike_prefixes(const Provenance& made) {
+    const Generator* generator = generator_named(made.generator);
+    const std::pair<std::string, std::string> progressive{"order", "progressive"};
+    if (generator == nullptr || generator->traits.prefix ||
+        std::ranges::find(made.options, progressive) != made.options.end())
+        return {};
+    return fmt::format("{} makes sets as a whole: their prefixes are not sets of its kind",
+                       generator->name);
+}
+
 void complete(Provenance& provenance) {
     const Generator* generator = generator_named(provenance.generator);
     provenance.independent = generator != nullptr && generator->traits.independent;

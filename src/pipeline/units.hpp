@@ -25,6 +25,10 @@ const Analyzer& find_analyzer(std::string_view name);
 const Generator* generator_named(std::string_view name);
 const Scramble* scramble_named(std::string_view name);
 
+/// A sentence on why prefixes of points that were made so tell little: they come in no order, or in
+/// that of their places; empty where they do, or where nobody knows.
+std::string unlike_prefixes(const Provenance& made);
+
 /// Adds to the provenance that a file holds what the record of its generator knows.
 void complete(Provenance& provenance);
 

@@ -11,6 +11,8 @@ namespace tables {
 const char* typical_csv();  // analyzer,key,better,random,jittered,best,generator
 }
 
+namespace {
+
 std::string typical_in_words(std::string_view analyzer, std::string_view key) {
     for (const auto line : split(tables::typical_csv(), '\n')) {
         const auto cells = split(line, ',');
@@ -21,6 +23,16 @@ std::string typical_in_words(std::string_view analyzer, std::string_view key) {
         return fmt::format("{} is better; {}, best {} ({})", cells[2], words, cells[5], cells[6]);
     }
     return {};
+}
+
+}  // namespace
+
+std::vector<std::string> meaning_of(const Analyzer& analyzer, std::string_view key) {
+    std::vector<std::string> sentences;
+    if (const ResultKey* result = find_result(analyzer, key)) sentences.push_back(result->help);
+    if (auto words = typical_in_words(analyzer.name, key); !words.empty())
+        sentences.push_back(std::move(words));
+    return sentences;
 }
 
 }  // namespace stipple

@@ -5,11 +5,14 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "analyzers/analyzer.hpp"
 
 namespace stipple {
 
-/// "lower is better; 1024 points in the plane: random 0.0392, jittered 0.0133, best 0.00386 (pmj02)";
-/// empty where nothing is known of the result.
-std::string typical_in_words(std::string_view analyzer, std::string_view key);
+/// Sentences on a result: what its record says, and "lower is better; 1024 points in the plane: random
+/// 0.0392, jittered 0.0133, best 0.00386 (pmj02)"; as far as anything is known.
+std::vector<std::string> meaning_of(const Analyzer& analyzer, std::string_view key);
 
 }  // namespace stipple

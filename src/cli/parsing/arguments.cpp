@@ -101,8 +101,7 @@ const std::vector<CommonOption> rows = {
      analyze | plot, false, 1, most_sets},
     {"-m,--seeds,--sets", "R", "1",
      "sets of each --generate, with seeds S, S + 1, ...: the first is shown, and all are compared "
-     "by "
-     "their means",
+     "by their means",
      report, false, 1, 1000},
     {"-m,--sets,--seeds", "R", "1",
      "sets of each generator, dimension and count: seeds S, S + 1, ...", study, false, 1,
@@ -118,8 +117,7 @@ const std::vector<CommonOption> rows = {
     {"--start", "I", "0", "index of a sequence's first point", generate, false, 0, most_points},
     {"--bounds", "LO..HI,...", "",
      "scale to a box: one range for all coordinates, or one for each; of warped points, those that "
-     "no "
-     "warp takes",
+     "no warp takes",
      generate},
     {"--bounds", "LO..HI,...", "",
      "the box that the points lie in; analyzers of the unit cube first map it to the cube",
@@ -186,8 +184,7 @@ const std::vector<CommonOption> rows = {
     {"--curves", "", "", "also keep lists, a row for each number: radial.power[3]", study},
     {"--resume", "", "",
      "continue the study in the output file, also with more seeds, counts, generators, ...; start "
-     "it "
-     "if there is none",
+     "it if there is none",
      study},
     {"--overwrite", "", "", "replace the study that the file holds", study},
     {"--domain", "SPEC", "",

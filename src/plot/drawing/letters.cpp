@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <sstream>
 
 #include "core/text.hpp"
@@ -25,10 +24,6 @@ struct Glyph {
 };
 
 const Glyph unknown{U'\uFFFD', 556, "M2 1L13.6 1L13.6 19L2 19L2 1"};
-
-/// Raised letters are small ones, higher up.
-constexpr double raised_size = 0.6;
-constexpr double raised_by = 8.5;
 
 constexpr std::u32string_view raised_letters = U"⁰¹²³⁴⁵⁶⁷⁸⁹⁻";
 constexpr std::u32string_view plain_letters = U"0123456789−";
@@ -60,12 +55,6 @@ const Glyph& plain_glyph(char32_t letter) {
     if (letter >= 0xC0 && letter < 0xC0 + bare_letters.size()) letter = bare_letters[letter - 0xC0];
     const auto it = std::ranges::lower_bound(glyphs(), letter, {}, &Glyph::letter);
     return it != glyphs().end() && it->letter == letter ? *it : unknown;
-}
-
-/// The plain letter of a raised one.
-std::optional<char32_t> lowered(char32_t letter) {
-    const auto at = raised_letters.find(letter);
-    return at == std::u32string_view::npos ? std::nullopt : std::optional(plain_letters[at]);
 }
 
 /// A rational curve of weight sqrt(1/2): a quarter of a circle or an ellipse where the tangents are
@@ -101,6 +90,11 @@ std::vector<std::vector<Position>> strokes_in(const std::string& path) {
 }
 
 }  // namespace
+
+std::optional<char32_t> lowered(char32_t letter) {
+    const auto at = raised_letters.find(letter);
+    return at == std::u32string_view::npos ? std::nullopt : std::optional(plain_letters[at]);
+}
 
 double advance_of(char32_t letter) {
     const auto plain = lowered(letter);

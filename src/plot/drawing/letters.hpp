@@ -5,6 +5,7 @@
 // Units   an em is 28 units of the glyph's grid; y upward from the base line, capitals 20 high.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,13 @@
 namespace stipple::plot {
 
 inline constexpr double em_units = 28;
+
+/// Raised letters are small ones, higher up.
+inline constexpr double raised_size = 0.6;
+inline constexpr double raised_by = 8.5;
+
+/// The plain letter of a raised one: 2 of ².
+std::optional<char32_t> lowered(char32_t letter);
 
 /// Units from a letter's origin to the next one's: those of Helvetica.
 double advance_of(char32_t letter);

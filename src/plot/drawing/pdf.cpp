@@ -168,8 +168,7 @@ class Content {
     [[nodiscard]] const std::map<std::string, std::string>& opacities() const { return opacities_; }
 
   private:
-    static constexpr double bold_width =
-        1.05;  // of Helvetica-Bold, where strokes stand in lines of it
+    static constexpr double bold_width = 1.05;  ///< of Helvetica-Bold over Helvetica, about
 
     static std::string colour(Colour c) {
         return fmt::format("{:.3g} {:.3g} {:.3g}", c.red / 255.0, c.green / 255.0, c.blue / 255.0);
@@ -203,12 +202,10 @@ class Content {
 
     /// Adds a letter of a font; raised ones are small. False: the fonts do not have it.
     bool put(char32_t letter, const Label& label, double along) {
-        constexpr std::u32string_view raised = U"⁰¹²³⁴⁵⁶⁷⁸⁹⁻";
-        const auto small = raised.find(letter);
-        const auto plain = small == raised.npos ? letter : U"0123456789−"[small];
-        const auto found = place_of(plain);
+        const auto plain = lowered(letter);
+        const auto found = place_of(plain.value_or(letter));
         if (!found) return false;
-        const double size = small == raised.npos ? label.size : 0.6 * label.size;
+        const double size = plain ? raised_size * label.size : label.size;
         const std::string font = fmt::format("/F{} {}",
                                              found->symbol ? 3
                                              : label.bold  ? 2
@@ -216,7 +213,7 @@ class Content {
                                              short_number(size));
         if (font != font_ || !in_text_) {
             end_text();
-            const double up = small == raised.npos ? 0 : 0.3 * label.size;
+            const double up = plain ? raised_by * label.size / em_units : 0;
             out_ +=
                 fmt::format("BT {} Tf {} {} Tm (", font, label.upward ? "0 -1 -1 0" : "1 0 0 -1",
                             place(moved(label, along, up)));

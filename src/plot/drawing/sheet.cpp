@@ -2,6 +2,7 @@
 #include "plot/drawing/sheet.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace stipple::plot {
 namespace {
@@ -34,16 +35,16 @@ struct Mover {
     void operator()(SvgGroup&) const {}
 };
 
+void add_moved(Drawing& drawing, Drawing part, double right, double down) {
+    for (Shape& shape : part.shapes) std::visit(Mover{right, down}, shape);
+    std::ranges::move(part.shapes, std::back_inserter(drawing.shapes));
+}
+
 }  // namespace
 
 std::size_t sheet_columns(std::size_t parts) {
     if (parts <= 3) return parts;
     return parts == 4 ? 2 : parts <= 9 ? 3 : 4;
-}
-
-void add_moved(Drawing& drawing, Drawing part, double right, double down) {
-    for (Shape& shape : part.shapes) std::visit(Mover{right, down}, shape);
-    std::ranges::move(part.shapes, std::back_inserter(drawing.shapes));
 }
 
 void add_rows(Drawing& drawing, std::vector<Drawing> parts, double top) {

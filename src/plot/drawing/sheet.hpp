@@ -13,9 +13,6 @@ namespace stipple::plot {
 /// Columns in which so many drawings stand: one row up to three, then two of two, three, or four.
 std::size_t sheet_columns(std::size_t parts);
 
-/// Adds the shapes of a part, moved to the right and down.
-void add_moved(Drawing& drawing, Drawing part, double right, double down);
-
 /// Puts parts in rows below `top`, from the left, and makes the drawing as large as they need.
 void add_rows(Drawing& drawing, std::vector<Drawing> parts, double top);
 
