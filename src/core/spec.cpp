@@ -115,8 +115,9 @@ std::string format_spec(std::string_view name, const Values& values, const Schem
     for (const Option& option : schema.options()) {
         const auto& item = values.find(option.name);
         const bool unset = option.optional && !item.given;
-        if (unset || item.value == option.fallback) continue;
         const std::string text = format_value(item.value);
+        // As text: -0 equals 0, but is another value.
+        if (unset || text == format_value(option.fallback)) continue;
         const bool brackets = text.find_first_of(", [") != std::string::npos;
         spec += fmt::format(fmt::runtime(brackets ? "{}{}=[{}]" : "{}{}={}"), separator,
                             option.name, text);

@@ -132,6 +132,15 @@ TEST(Spec, WritesWhatDiffersAndReadsItBack) {
     EXPECT_EQ(back[radius], values[radius]);
 }
 
+// -0 equals 0, but atan2 and 1/x tell them apart.
+TEST(Spec, ZerosKeepTheirSigns) {
+    const std::string fallback = format_value(schema.defaults().find("center").value);
+    ASSERT_EQ(fallback, "0,0");
+    Values values = schema.defaults();
+    schema.set(values, "center", "-0,0");
+    EXPECT_EQ(format_spec("unit", values, schema), "unit:center=[-0,0]");
+}
+
 // A value in brackets ends at the bracket that closes it, so that specs can hold specs.
 TEST(Spec, BracketsNest) {
     const Spec spec = parse_spec("mixture:components=[cone:axis=[1,0,0]|disk],weights=[1,2]");
