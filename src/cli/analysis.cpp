@@ -95,13 +95,12 @@ std::optional<std::string> Analysis::text_of(std::string_view name) const {
 void Analysis::check_arguments(const std::string& output) const {
     check_domain();
     check_side_files(output);
-    warn_of_units();
+    warn_of_metric();
 }
 
 void Analysis::check_domain() const {
-    for (const char* other : {"rescale", "domain"})
-        if (arguments_.has("bounds") && arguments_.has(other))
-            fail(ErrorKind::usage, "--bounds and --{}: give one of them", other);
+    if (arguments_.has("bounds") && arguments_.has("domain"))
+        fail(ErrorKind::usage, "--bounds and --domain: give one of them");
     const auto named = arguments_.get("domain");
     const bool moved = arguments_.has("bounds") || arguments_.has("rescale");
     if (!named || *named == "unit-cube" || moved || !analyzer_.traits.unit_cube) return;
@@ -127,10 +126,19 @@ void Analysis::check_side_files(const std::string& output) const {
     }
 }
 
-/// Distances in a box whose sides measure different things mean little.
-void Analysis::warn_of_units() const {
+/// Distances in a box whose sides measure different things mean little, nor do those across the faces
+/// of a box that the points themselves gave.
+void Analysis::warn_of_metric() const {
+    const auto* metric = asked_.try_find("metric");
+    if (metric == nullptr) return;
     const auto bounds = arguments_.get("bounds");
-    if (!bounds || !asked_.try_find("metric")) return;
+    if (arguments_.has("rescale")) {
+        if (bounds || metric->given) return;
+        return session_.warn(
+            "--rescale puts the outermost points on faces that the torus joins; --metric euclidean "
+            "measures straight, --bounds with it names the box that the points lie in");
+    }
+    if (!bounds) return;
     const auto ranges = std::ranges::count(*bounds, ',') + 1;
     const Box box = parse_box(*bounds, static_cast<std::size_t>(ranges));
     std::vector<double> sides;
@@ -139,7 +147,7 @@ void Analysis::warn_of_units() const {
     if (longest > shortest)
         session_.warn(
             fmt::format("the sides of --bounds are between {} and {} long, and distances mix "
-                        "their units; --rescale maps the points to the unit cube first",
+                        "their units; with --rescale the box is first mapped to the unit cube",
                         format_number(shortest), format_number(longest)));
 }
 

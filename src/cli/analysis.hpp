@@ -111,7 +111,7 @@ class Analysis {
 
     void check_domain() const;
     void check_side_files(const std::string& output) const;
-    void warn_of_units() const;
+    void warn_of_metric() const;
     void warn_of_prefixes(const Provenance& made);
     [[nodiscard]] bool interrupted() const { return session_.run().stop.stop_requested(); }
 

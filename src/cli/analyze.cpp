@@ -383,13 +383,15 @@ class AnalyzeCall {
             fine = false;
         };
         for (const auto& [m, analysis] : in_order()) {
+            const std::string name =
+                m->set ? fmt::format("{}, set {}", m->source, *m->set) : m->source;
             for (const auto& sentence : m->results.unmet())
-                complain(fmt::format("{}: {}", m->source, sentence));
+                complain(fmt::format("{}: {}", name, sentence));
             for (const NamedCheck& asked : checks_) {
                 if (asked.analysis != analysis) continue;
                 const Check& check = asked.check;
                 if (const auto found = analysis->broken(check, m->results))
-                    complain(fmt::format("{}: {}{}{}{} does not hold: it is {}", m->source,
+                    complain(fmt::format("{}: {}{}{}{} does not hold: it is {}", name,
                                          several_analyzers() ? m->analyzer + "." : "", check.key,
                                          check.op, check.value, *found));
             }

@@ -222,7 +222,8 @@ PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& ar
     take_domain(points, arguments);
     if (const auto bounds = arguments.get("bounds")) {
         const Box box = parse_box(*bounds, points.dimension());
-        return taken_box(std::move(points), box, analyzer.traits.unit_cube);
+        return taken_box(std::move(points), box,
+                         analyzer.traits.unit_cube || arguments.has("rescale"));
     }
     if (arguments.has("rescale")) {
         require_width(points);
@@ -295,7 +296,7 @@ std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session
     if (!text) return 1;
     if (*text == "random") {
         const std::uint64_t seed = drawn_seed(largest);
-        session.warn(fmt::format("--seed {}", seed));
+        session.tell(fmt::format("--seed {}", seed));
         return seed;
     }
     const auto seed = parse_unsigned(*text);

@@ -180,13 +180,13 @@ class Plot {
         const double wide = static_cast<double>(width.value_or(0));
         const double high = static_cast<double>(height.value_or(0));
         if (wide > 0)
-            scale_ = std::max(1.0, wide / usual);
+            style_.scale = std::max(1.0, wide / usual);
         else if (high > 0)
-            scale_ = std::max(1.0, high / usual);
+            style_.scale = std::max(1.0, high / usual);
         else if (medium_ == Medium::png)
-            scale_ = 2;
-        style_.width = wide / scale_;
-        style_.height = high / scale_;
+            style_.scale = 2;
+        style_.width = wide / style_.scale;
+        style_.height = high / style_.scale;
     }
 
     void read(const std::string& input) {
@@ -289,6 +289,9 @@ class Plot {
         const bool frames = has_frames();
         if (!frames) require_one_dimension();
         keep_few_sets(frames ? most_frames : most_overlaid);
+        for (const Loaded& set : sets_)
+            if (chart_ == "pairs" && set.points.dimension() < 2)
+                fail(ErrorKind::input, "--chart: points of one coordinate have no pairs of them");
         if (chart_ == "distances") return distances();
         if (chart_ != "histogram") refuse_scales("points");
         if (frames) return sheet_of_points();
@@ -350,14 +353,15 @@ class Plot {
     /// Parts beside and below each other, under the title that was given.
     /// @param more width of the last in each row
     std::string on_sheet(std::size_t parts, double more, const DrawPart& draw) {
-        const std::size_t columns = plot::sheet_columns(parts);
-        const double usual = columns == 2 ? 400 : columns == 3 ? 330 : 280;
+        const std::size_t columns = columns_of(parts);
+        const double usual = columns <= 2 ? 400 : columns == 3 ? 330 : 280;
         const auto across = static_cast<double>(columns);
-        fit_to(usual * across + more);
+        const double rows = std::ceil(static_cast<double>(parts) / across);
+        fit_to(usual * across + more, usual * rows);
         auto [drawing, top] = plot::titled_drawing("", "", style_, usual * across + more);
         if (style_.title.value_or("").empty()) top = 0;
-        const double rows = std::ceil(static_cast<double>(parts) / across);
         const double width = std::floor((drawing.width - more) / across);
+        require_room(across, width, rows, top);
         std::vector<plot::Drawing> drawn;
         for (std::size_t i = 0; i < parts; ++i) {
             plot::PictureStyle style = style_;
@@ -366,23 +370,42 @@ class Plot {
             if (style_.height > 0) style.height = std::floor((style_.height - top) / rows);
             drawn.push_back(draw(i, style));
         }
-        plot::add_rows(drawing, std::move(drawn), top);
-        return finished(drawing);
+        plot::add_rows(drawing, std::move(drawn), columns, top);
+        return finished(std::move(drawing));
     }
 
-    /// Chooses the scale so that a sheet has so many units in the width that is asked for.
-    void fit_to(double width) {
-        const double pixels = style_.width * scale_;
-        if (!(pixels > 0)) return;
+    [[nodiscard]] std::size_t columns_of(std::size_t parts) const {
+        const bool both = style_.width > 0 && style_.height > 0;
+        return plot::sheet_columns(parts, both ? style_.width / style_.height : 0);
+    }
+
+    /// Chooses the scale so that a sheet has so many units in the size that is asked for.
+    void fit_to(double width, double height) {
+        const double across = style_.width * style_.scale;
+        const double upward = style_.height * style_.scale;
+        if (!(across > 0 || upward > 0)) return;
         constexpr double least = 0.6;  // what letters can be read at
-        const double height = style_.height * scale_;
-        scale_ = std::max(least, pixels / width);
-        style_.width = pixels / scale_;
-        style_.height = height / scale_;
+        const double scale = std::min(across > 0 ? across / width : HUGE_VAL,
+                                      upward > 0 ? upward / height : HUGE_VAL);
+        style_.scale = std::max(least, scale);
+        style_.width = across / style_.scale;
+        style_.height = upward / style_.scale;
     }
 
-    static bool is_last_in_row(std::size_t part, std::size_t parts) {
-        return part + 1 == parts || (part + 1) % plot::sheet_columns(parts) == 0;
+    /// @throws Error(usage) where frames of that width, in so many rows, hold no points
+    void require_room(double columns, double width, double rows, double top) const {
+        constexpr double least_width = 150;
+        constexpr double least_height = 200;
+        plot::require_height(style_, top + rows * least_height);
+        if (width < least_width)
+            fail(ErrorKind::usage,
+                 "--width: {:.0f} leaves no room for {} frames in a row; at least {:.0f} does",
+                 style_.width * style_.scale, columns,
+                 std::ceil(columns * least_width * style_.scale));
+    }
+
+    [[nodiscard]] bool is_last_in_row(std::size_t part, std::size_t parts) const {
+        return part + 1 == parts || (part + 1) % columns_of(parts) == 0;
     }
 
     std::string in_letters(std::size_t parts, const WritePart& write) const {
@@ -409,15 +432,17 @@ class Plot {
         return finished(plot::draw_chart(chart, style_));
     }
 
-    std::string finished(const plot::Drawing& drawing) {
+    std::string finished(plot::Drawing drawing) {
+        plot::fill_height(drawing, style_.height);
         constexpr double pixel_bytes = 14;  // of colours, of marks, and twice on the way to libpng
         if (medium_ == Medium::png)
             session_.run().need_memory(
-                pixel_bytes * drawing.width * drawing.height * scale_ * scale_, "the picture");
+                pixel_bytes * drawing.width * drawing.height * style_.scale * style_.scale,
+                "the picture");
         const plot::PictureNotes notes = notes_of();
-        return medium_ == Medium::svg   ? plot::svg_bytes(drawing, scale_, notes)
-               : medium_ == Medium::pdf ? plot::pdf_bytes(drawing, scale_, notes)
-                                        : plot::png_bytes_of(drawing, scale_, notes);
+        return medium_ == Medium::svg   ? plot::svg_bytes(drawing, style_.scale, notes)
+               : medium_ == Medium::pdf ? plot::pdf_bytes(drawing, style_.scale, notes)
+                                        : plot::png_bytes_of(drawing, style_.scale, notes);
     }
 
     /// The table that --grid saved, if the input is one.
@@ -469,15 +494,17 @@ class Plot {
 
     /// A frame for each, and a bar for the shades of all at the end of each row.
     std::string sheet_of_tables(const std::vector<Measurement>& found) {
+        const std::vector<std::size_t> firsts = firsts_of_inputs();
         if (medium_ == Medium::text)
             return in_letters(found.size(), [&](std::size_t i, const plot::TextRoom& room) {
                 return plot::spectrum_as_text(grid_of(found[i]), found[i].source, room);
             });
         const double bar = plot::colour_bar_room - plot::picture_margin / 2;
         return on_sheet(found.size(), bar, [&](std::size_t i, const plot::PictureStyle& style) {
-            const std::string points = fmt::format(
-                "{} points{}", found[i].count,
-                found[i].sets > 1 ? fmt::format(", mean of {} sets", found[i].sets) : "");
+            const std::string points =
+                found[i].sets > 1
+                    ? fmt::format("{} points, mean of {} sets", found[i].count, found[i].sets)
+                    : subtitle_of(sets_[firsts[i]]);
             plot::TableNames names = names_of(found[i]);
             names.bar = is_last_in_row(i, found.size());
             return plot::draw_spectrum(grid_of(found[i]), found[i].source, points, style, names);
@@ -521,13 +548,19 @@ class Plot {
         const Analyzer& analyzer = find_analyzer(name);
         const Values options = analyzer.options.defaults();
         std::vector<Measurement> found;
-        for (std::size_t first = 0; first < sets_.size();) {
-            std::size_t last = first;
-            while (last < sets_.size() && sets_[last].source == sets_[first].source) ++last;
-            found.push_back(analyzed(analyzer, options, first, last));
-            first = last;
-        }
+        const std::vector<std::size_t> firsts = firsts_of_inputs();
+        for (std::size_t i = 0; i < firsts.size(); ++i)
+            found.push_back(analyzed(analyzer, options, firsts[i],
+                                     i + 1 < firsts.size() ? firsts[i + 1] : sets_.size()));
         return found;
+    }
+
+    /// Where the sets of each input begin.
+    [[nodiscard]] std::vector<std::size_t> firsts_of_inputs() const {
+        std::vector<std::size_t> firsts;
+        for (std::size_t i = 0; i < sets_.size(); ++i)
+            if (i == 0 || sets_[i].source != sets_[i - 1].source) firsts.push_back(i);
+        return firsts;
     }
 
     Measurement analyzed(const Analyzer& analyzer, const Values& options, std::size_t first,
@@ -590,8 +623,12 @@ class Plot {
         for (const Loaded& set : sets_) picture.sets.push_back(&set.points);
         if (chart_ == "points") picture.marking = plot::Marking::disks;
         if (chart_ == "density") picture.marking = plot::Marking::density;
+        picture.pairs = chart_ == "pairs";
         picture.title = arguments_.get("title").value_or(sets_[0].title);
-        if (sets_.size() > 1 && different_titles()) picture.title = "points";
+        if (sets_.size() > 1 && different_titles() && !arguments_.has("title")) {
+            picture.title = picture.names[0];
+            for (std::size_t i = 1; i < sets_.size(); ++i) picture.title += ", " + picture.names[i];
+        }
         picture.subtitle = subtitle_of(sets_[0]) + number_of(sets_[0]);
         if (sets_.size() > 1) picture.subtitle.clear();
         return picture;
@@ -637,7 +674,6 @@ class Plot {
     std::string chart_;
     plot::PictureStyle style_;
     plot::TextRoom room_;
-    double scale_ = 1;
     std::vector<Loaded> sets_;
     std::vector<Measurement> reports_;
     std::vector<MeanRow> means_;

@@ -149,7 +149,9 @@ Session::Session(const Arguments& arguments)
     run_.warn = [this](const std::string& sentence) { warn(sentence); };
 }
 
-void Session::warn(const std::string& sentence) {
+void Session::warn(const std::string& sentence) { tell("note: " + sentence); }
+
+void Session::tell(const std::string& sentence) {
     constexpr std::size_t most_at_once = 100;
     if (quiet_) return;
     warnings_.push_back(sentence);

@@ -47,9 +47,12 @@ class Session {
 
     [[nodiscard]] const RunContext& run() const { return run_; }
 
-    /// A sentence for stderr, unless --quiet. It is said when the work is done, or takes long: an
-    /// error says alone what is wrong.
+    /// A note on stderr, unless --quiet. It is said when the work is done, or takes long: an error says
+    /// alone what is wrong.
     void warn(const std::string& sentence);
+
+    /// The same for what was asked for.
+    void tell(const std::string& sentence);
 
     /// Says what there is to say.
     void tell_warnings();

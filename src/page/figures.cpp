@@ -144,9 +144,15 @@ std::string chart_figure(std::span<const Set> sets, std::span<const std::size_t>
                          const std::string& caption) {
     std::vector<Measurement> found;
     std::vector<std::size_t> numbers;
+    std::vector<std::string> without;
+    bool several = false;
     for (const std::size_t i : which) {
         const Report* results = sets[i].results(measure);
-        if (results == nullptr || results->find(curve) == nullptr) continue;
+        if (results == nullptr || results->find(curve) == nullptr) {
+            without.push_back(sets[i].name);
+            continue;
+        }
+        several = several || !sets[i].replications.empty();
         const auto& of = *std::ranges::find(sets[i].measures, measure, &Measure::name);
         found.push_back({.analyzer = of.analyzer,
                          .source = sets[i].name,
@@ -174,7 +180,9 @@ std::string chart_figure(std::span<const Set> sets, std::span<const std::size_t>
                   fmt::format("{}<output class=\"tip\" hidden></output>\n<script "
                               "type=\"application/json\">{}</script>\n",
                               svg, numbers_of(sets, chart, frames.front())),
-                  caption + (panel.log_y ? "; logarithmic." : "."));
+                  caption + (panel.log_y ? "; logarithmic" : "") +
+                      (several ? "; of the first seed" : "") +
+                      (without.empty() ? "" : "; without " + html_text(join(without, ", "))) + ".");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/error.hpp"
 #include "plot/drawing/letters.hpp"
@@ -34,7 +35,7 @@ struct Span {
     }
 };
 
-bool marked(const std::vector<ChartPanel>& panels) {
+bool marked(std::span<const ChartPanel> panels) {
     return std::ranges::any_of(panels, [](const ChartPanel& panel) {
         return std::ranges::any_of(panel.series, &Series::marks);
     });
@@ -54,7 +55,7 @@ void widen(Axis& axis, double share, bool keep_low = false) {
 }
 
 /// Whether all curves have values at powers of two alone, two or more.
-bool only_powers_of_two(const std::vector<ChartPanel>& panels) {
+bool only_powers_of_two(std::span<const ChartPanel> panels) {
     double low = HUGE_VAL;
     double high = 0;
     for (const ChartPanel& panel : panels)
@@ -68,7 +69,7 @@ bool only_powers_of_two(const std::vector<ChartPanel>& panels) {
     return low < high;
 }
 
-Axis x_axis(const std::vector<ChartPanel>& panels, const PictureStyle& style) {
+Axis x_axis(std::span<const ChartPanel> panels, const PictureStyle& style) {
     const ChartPanel& last = panels.back();
     Span span{.log = style.log_x.value_or(last.log_x)};
     for (const ChartPanel& panel : panels) {
@@ -422,20 +423,30 @@ TitledDrawing titled_drawing(const std::string& title, const std::string& subtit
 }
 
 std::pair<Axis, Axis> chart_axes(const Chart& chart, std::size_t panel, const PictureStyle& style) {
-    std::pair axes{x_axis(chart.panels, style), y_axis(chart.panels[panel], style)};
+    const std::span panels(chart.panels);
+    std::pair axes{x_axis(chart.own_x ? panels.subspan(panel, 1) : panels, style),
+                   y_axis(panels[panel], style)};
     axes.first.make_valid();
     axes.second.make_valid();
     return axes;
 }
 
+void require_height(const PictureStyle& style, double needed) {
+    if (style.height > 0 && style.height < needed)
+        fail(ErrorKind::usage,
+             "--height: {:.0f} leaves no room for the picture; at least {:.0f} does",
+             style.height * style.scale, std::ceil(needed * style.scale));
+}
+
 Drawing draw_chart(const Chart& chart, const PictureStyle& style, std::vector<Area>* frames) {
     const Theme& theme = *style.theme;
     const auto more_panels = static_cast<double>(chart.panels.size() - 1);
+    const double below = Panel::room_below(chart_axes(chart, 0, style).first);
+    const double gap = panel_gap + (chart.own_x ? below : 0);
     auto [drawing, y] =
-        titled_drawing(chart.title, chart.subtitle, style, 720, 420 + 170 * more_panels);
-    const Axis x = x_axis(chart.panels, style);
+        titled_drawing(chart.title, chart.subtitle, style, 720, 420 + (158 + gap) * more_panels);
     const double whole_width = drawing.width - 2 * picture_margin;
-    double used = y + Panel::room_below(x) + picture_margin + panel_gap * more_panels;
+    double used = y + below + picture_margin + gap * more_panels;
     double shares = 0;
     std::vector<std::vector<LegendEntry>> legends;
     for (const ChartPanel& panel : chart.panels) {
@@ -443,10 +454,8 @@ Drawing draw_chart(const Chart& chart, const PictureStyle& style, std::vector<Ar
         used += legend_height(legends.back(), whole_width);
         shares += panel.share;
     }
-    constexpr double least = 60;  // pixels that panels share
-    if (style.height > 0 && drawing.height - used < least)
-        fail(ErrorKind::usage, "--height: {:.0f} leaves no room for the chart; at least {:.0f} do",
-             style.height, std::ceil(used + least));
+    constexpr double least = 60;  // units that panels share
+    require_height(style, used + least);
     drawing.height = std::max(drawing.height, std::ceil(used + least));
     const double unit = (drawing.height - used) / shares;
     double left = 0;
@@ -458,12 +467,12 @@ Drawing draw_chart(const Chart& chart, const PictureStyle& style, std::vector<Ar
         const ChartPanel& panel = chart.panels[i];
         draw_legend(drawing, legends[i], {picture_margin, y}, whole_width, theme);
         y = std::ceil(y + legend_height(legends[i], whole_width));
-        Axis across = x;
-        across.numbers = i + 1 == chart.panels.size();
+        auto [across, upward] = chart_axes(chart, i, style);
+        across.numbers = chart.own_x || i + 1 == chart.panels.size();
         const Area frame{left, y, width, std::floor(unit * panel.share)};
         if (frames != nullptr) frames->push_back(frame);
-        draw_panel(drawing, panel, Panel(frame, across, y_axis(panel, style)), theme);
-        y = frame.bottom() + panel_gap;
+        draw_panel(drawing, panel, Panel(frame, across, upward), theme);
+        y = frame.bottom() + gap;
     }
     return std::move(drawing);
 }

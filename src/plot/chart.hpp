@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Charts of curves: panels one above the other over the same x axis, with a legend above each.
+// Charts of curves: panels one above the other, mostly over the same x axis, with a legend above each.
 #pragma once
 
 #include <limits>
@@ -16,11 +16,13 @@ namespace stipple::plot {
 /// Space between a picture's edge and what is drawn, in units of a drawing.
 constexpr double picture_margin = 14;
 
-/// How a picture looks. Sizes in units of a drawing; 0: automatic.
+/// How a picture looks. Sizes in units of a drawing; 0: automatic. What has lengths along both axes
+/// alike may need less height.
 struct PictureStyle {
     const Theme* theme = &light_theme;
     double width = 0;
     double height = 0;
+    double scale = 1;                       ///< pixels in a unit
     std::optional<std::string> title = {};  ///< instead of the picture's own
     std::optional<bool> log_x = {};
     std::optional<bool> log_y = {};
@@ -75,7 +77,11 @@ struct Chart {
     std::string title;
     std::string subtitle = {};
     std::vector<ChartPanel> panels = {};
+    bool own_x = false;  ///< each panel has its own x axis
 };
+
+/// @throws Error(usage) where the height asked for is less than what a picture needs
+void require_height(const PictureStyle& style, double needed);
 
 /// @param frames if not null, gets where the panels are
 /// @throws Error(usage) where the height asked for leaves no room.

@@ -23,7 +23,7 @@ namespace {
 
 std::vector<double> nearest_distances(const PointSet& set, bool& torus, const RunContext& run) {
     if (set.count() < 2) fail(ErrorKind::input, "a single point has no nearest neighbour");
-    const auto distances = analyzers::distances_of(set, "");
+    const auto distances = analyzers::distances_of(set, without_domain(set) ? "euclidean" : "");
     torus = distances.torus;
     std::vector<double> found;
     for (const Neighbor& neighbor : analyzers::nearest_neighbors(set, distances, run))
@@ -31,13 +31,16 @@ std::vector<double> nearest_distances(const PointSet& set, bool& torus, const Ru
     return found;
 }
 
-/// The density of independent uniform points' distances.
+/// The density of independent uniform points' distances; none where most of them reach across the
+/// domain's box.
 Guide random_distances(const PointSet& set, double largest) {
     const double volume = set.domain->measure();
-    if (!std::isfinite(volume) || !(volume > 0)) return {};
+    if (without_domain(set) || !std::isfinite(volume) || !(volume > 0)) return {};
     const auto d = static_cast<double>(set.dimension());
     const double ball = std::pow(std::numbers::pi, d / 2) / std::tgamma(d / 2 + 1);
     const double rate = ball * static_cast<double>(set.count()) / volume;
+    const double usual = std::pow(1 / rate, 1 / d);
+    if (2 * usual > analyzers::shortest_side(set.domain->bounding_box())) return {};
     constexpr int steps = 200;
     Guide guide{.name = "independent uniform points"};
     for (int k = 0; k <= steps; ++k) {

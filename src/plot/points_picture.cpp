@@ -48,11 +48,6 @@ bool all_inside(const PointSet& set) {
     return true;
 }
 
-/// Whether the unit cube is only the default domain of points that lie outside it.
-bool without_domain(const PointSet& set) {
-    return set.domain->spec().starts_with("unit-cube") && !all_inside(set);
-}
-
 /// The same directions a little longer on both sides; what has no extent gets one.
 void widen(Box& box, double share) {
     for (std::size_t k = 0; k < box.dimension(); ++k) {
@@ -327,8 +322,8 @@ std::pair<double, double> frame_size(const Box& box, double width, double height
     double wide = width;
     if (height > 0 && wide * ratio > height) wide = height / ratio;
     if (height <= 0) wide = std::min(wide, 1.25 * width / ratio);
-    wide = std::max(wide, 40.0);
-    return {std::floor(wide), std::floor(std::max(wide * ratio, 40.0))};
+    constexpr double least = 30;
+    return {std::floor(std::max(wide, least)), std::floor(std::max(wide * ratio, least))};
 }
 
 // ---------------------------------------------------------------- three coordinates
@@ -439,11 +434,13 @@ Drawing draw_space(const PointsPicture& picture, const PictureStyle& style, cons
     const double upward = high.up - low.up;
     const double sides = 46 + picture_margin;
     const double below = 30 + picture_margin;
+    constexpr double least = 20;
+    require_height(style, page.top + 8 + least * upward + below);
     double scale = (page.drawing.width - 2 * sides) / across;
     if (style.height > 0) scale = std::min(scale, (style.height - page.top - below - 8) / upward);
-    scale = std::max(scale, 20.0);
+    scale = std::max(scale, least);
     Drawing& drawing = page.drawing;
-    if (style.height <= 0) drawing.height = std::ceil(page.top + 8 + scale * upward + below);
+    drawing.height = std::ceil(page.top + 8 + scale * upward + below);
     const double wide = scale * across;
     const double left = (drawing.width - wide) / 2;
     const Scene scene{box, scale, left - scale * low.right, page.top + 8 + scale * high.up};
@@ -481,7 +478,7 @@ class PairSheet {
         if (!frame_is_outline(picture)) widen(box_, 0.03);
         const double tall = style.height > 0 ? style.height : page_.width;
         dense_ = plane_ && marks_.as_density(page_.width, tall);
-        place_panels(style.height);
+        place_panels(style);
         if (!plane_) dense_ = marks_.as_density(width_, height_);
     }
 
@@ -508,9 +505,9 @@ class PairSheet {
 
   private:
     static constexpr double gap = 10;
+    static constexpr double least = 30;  ///< side of a panel
 
-    /// @param given height of the picture; 0: as much as is needed
-    void place_panels(double given) {
+    void place_panels(const PictureStyle& style) {
         const auto columns = static_cast<double>(shown_ - 1);
         const double gaps = (columns - 1) * gap;
         double room = 0;
@@ -521,14 +518,17 @@ class PairSheet {
         const double below = Panel::room_below(axis(1, true)) + picture_margin;
         const double right = picture_margin + (dense_ ? colour_bar_room : plane_ ? 8 : 0);
         const double wide = (page_.drawing.width - left_ - right - gaps) / columns;
-        const double high = given > 0 ? (given - top_ - below - gaps) / columns : 0;
-        if (plane_)
+        require_height(style, top_ + columns * least + gaps + below);
+        const double high =
+            style.height > 0 ? std::floor((style.height - top_ - below - gaps) / columns) : 0;
+        if (plane_) {
             std::tie(width_, height_) = frame_size(box_, wide, high);
-        else  // coordinates of pairs may measure different things
-            std::tie(width_, height_) =
-                std::pair{std::max(std::floor(wide), 30.0),
-                          std::max(std::floor(given > 0 ? high : wide), 30.0)};
-        if (given <= 0) page_.drawing.height = std::ceil(top_ + columns * height_ + gaps + below);
+            left_ += std::max(std::floor((wide - width_) / 2), 0.0);
+        } else {  // coordinates of pairs may measure different things
+            width_ = std::max(std::floor(wide), least);
+            height_ = high > 0 ? high : width_;
+        }
+        page_.drawing.height = std::ceil(top_ + columns * height_ + gaps + below);
     }
 
     /// Of a coordinate; numbers and names stand at the sheet's edge only.
@@ -598,6 +598,10 @@ ChartPanel histogram_panel(const PointsPicture& picture, const Box& box, std::si
 
 }  // namespace
 
+bool without_domain(const PointSet& set) {
+    return set.domain->spec().starts_with("unit-cube") && !all_inside(set);
+}
+
 Box shown_box(std::span<const PointSet* const> sets) {
     const PointSet& first = *sets[0];
     const std::vector<double> point(first[0].begin(), first[0].end());
@@ -653,9 +657,11 @@ Chart histogram_chart(const PointsPicture& picture) {
     const Box box = shown_box(picture.sets);
     Chart chart{.title = picture.title, .subtitle = picture.subtitle};
     const std::size_t panels = std::min(box.dimension(), most_panels);
+    for (std::size_t k = 1; k < panels; ++k)
+        if (box.low[k] != box.low[0] || box.high[k] != box.high[0]) chart.own_x = true;
     for (std::size_t k = 0; k < panels; ++k) {
         ChartPanel panel = histogram_panel(picture, box, k);
-        if (panels > 1) {
+        if (panels > 1 && !chart.own_x) {
             panel.y_name = fmt::format("density of {}", panel.x_name);
             panel.x_name = "coordinate";
         }
@@ -670,7 +676,8 @@ Drawing draw_points(const PointsPicture& picture, const PictureStyle& style,
                     const RunContext& run) {
     const std::size_t d = picture.sets[0]->dimension();
     if (d == 1) return draw_chart(histogram_chart(picture), style);
-    return d == 3 ? draw_space(picture, style, run) : draw_pairs(picture, style, run);
+    return d == 3 && !picture.pairs ? draw_space(picture, style, run)
+                                    : draw_pairs(picture, style, run);
 }
 
 Drawing draw_pairs(const PointsPicture& picture, const PictureStyle& style, const RunContext& run) {

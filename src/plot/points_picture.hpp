@@ -5,7 +5,7 @@
 //     d = 1   histogram, with a mark for each point below
 //     d = 2   a disk for each point, lengths along x and y alike, and the outline of their domain
 //     d = 3   the same from a fixed place, in a box; distant points are paler and smaller
-//     d > 3   every pair of the first 8 coordinates in a panel of its own
+//     d > 3   every pair of the first 8 coordinates in a panel of its own, as of three if asked
 //
 // Too many disks to tell apart become pixels: one for each point, until (at some 300 000 in one
 // frame) they would fill it; then a density. Several sets are drawn over each other, in colours.
@@ -52,8 +52,8 @@ struct PointsPicture {
     Marking marking = Marking::automatic;
     std::vector<MarkedBox> boxes = {};
     std::vector<MarkedCircle> circles = {};
-    bool cells =
-        false;  ///< with the Voronoi cells of a single set of the plane, in its domain's box
+    bool cells = false;  ///< those of Voronoi, of a single set of the plane, in its domain's box
+    bool pairs = false;  ///< of three coordinates as of more
     std::size_t most_disks = 20'000;                       ///< above, points are pixels
     std::size_t most_coordinates = most_pair_coordinates;  ///< of which pairs are drawn
 };
@@ -85,13 +85,18 @@ std::pair<Projected, Projected> projected_range(const Box& box);
 
 Drawing draw_points(const PointsPicture& picture, const PictureStyle& style, const RunContext& run);
 
+/// Whether the unit cube is only the default domain of points that lie outside it.
+bool without_domain(const PointSet& set);
+
 /// Every pair of the first coordinates in a panel of its own, of two or more.
 Drawing draw_pairs(const PointsPicture& picture, const PictureStyle& style, const RunContext& run);
 
-/// The histogram of each coordinate in a panel of its own, at most 6 of them.
+/// The histogram of each coordinate in a panel of its own, at most 6 of them; they have one x axis
+/// where their ranges are the same.
 Chart histogram_chart(const PointsPicture& picture);
 
-/// Histogram of the distances to the nearest other point. @throws Error(input) for a set of one point.
+/// Histogram of the distances to the nearest other point, straight ones where points have no domain;
+/// beside it that of independent points, unless a side is too short for it to hold. @throws Error(input) for a set of one point.
 Chart distance_chart(std::span<const PointSet* const> sets, const std::vector<std::string>& names,
                      const RunContext& run);
 

@@ -30,7 +30,7 @@ std::string_view last_part(std::string_view key) { return key.substr(key.rfind('
 
 /// Whether what counts is how far results are from 0.
 bool is_error(const Topic& topic, std::span<const MeanRow> means) {
-    if (last_part(topic.key) == "error") return true;
+    if (is_error_key(topic.key)) return true;
     return std::ranges::any_of(
         means, [&](const MeanRow& row) { return topic_of(row) == topic && row.mean < 0; });
 }

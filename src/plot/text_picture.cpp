@@ -184,7 +184,7 @@ std::string panel_as_text(const Chart& chart, std::size_t number, const PictureS
                           std::size_t side, const TextRoom& room) {
     const auto [x, y] = chart_axes(chart, number, style);
     const ChartPanel& panel = chart.panels[number];
-    const bool last = number + 1 == chart.panels.size();
+    const bool last = chart.own_x || number + 1 == chart.panels.size();
     const auto scale = [](const Axis& axis) { return axis.log ? " (logarithmic)" : ""; };
     TextFrame frame{.low_x = last ? rounded(x.low) : "",
                     .high_x = last ? rounded(x.high) : "",
@@ -233,7 +233,7 @@ std::string chart_as_text(const Chart& chart, const PictureStyle& style, const T
 std::string points_as_text(const PointsPicture& picture, const TextRoom& room) {
     const std::size_t d = picture.sets[0]->dimension();
     if (d == 1) return chart_as_text(histogram_chart(picture), {}, room);
-    if (d > 3) return pairs_as_text(picture, room);
+    if (d > 3 || (d == 3 && picture.pairs)) return pairs_as_text(picture, room);
     return d == 3 ? space_as_text(picture, room) : plane_as_text(picture, room);
 }
 

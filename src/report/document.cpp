@@ -42,7 +42,7 @@ Json measurement_json(const Measurement& m) {
     return object;
 }
 
-constexpr std::size_t most_shown = 6;  ///< numbers of a list on a line
+constexpr std::size_t most_shown = 9;  ///< numbers of a list on a line
 
 std::string shortened(const Report::Curve& curve) {
     const std::size_t some = std::min(curve.size(), most_shown);

@@ -73,9 +73,14 @@ MeanRow mean_of(const StudyRow& first, std::span<const double> values, std::uint
                 .t_high = t.high,
                 .study = first.study};
     row.rms = root_mean_square(values);
-    const Interval rms = rms_interval(values, confidence);
-    row.rms_low = rms.low;
-    row.rms_high = rms.high;
+    const auto below = [](double x) { return x < 0; };
+    const auto above = [](double x) { return x > 0; };
+    if (is_error_key(first.key) ||
+        (std::ranges::any_of(values, below) && std::ranges::any_of(values, above))) {
+        const Interval rms = rms_interval(values, confidence);
+        row.rms_low = rms.low;
+        row.rms_high = rms.high;
+    }
     return row;
 }
 
@@ -98,6 +103,8 @@ Paired paired(const std::vector<std::uint64_t>& seeds_a, const std::vector<doubl
 }
 
 }  // namespace
+
+bool is_error_key(std::string_view key) { return key.substr(key.rfind('.') + 1) == "error"; }
 
 void StudySummary::add(const StudyRow& row) {
     auto& failed = failed_[{row.generator, row.dimension, row.count, row.measure}];
@@ -254,6 +261,9 @@ std::optional<std::vector<MeanRow>> read_means(std::string_view bytes, const std
     const TableStyle style = csv ? TableStyle::csv : TableStyle::jsonl;
     const bool summary = csv ? std::string(first) + "\n" == table_head(style, cells_of(MeanRow()))
                              : first.starts_with("{\"table\":\"mean\"");
+    if (first.starts_with(csv ? "table,dimension," : "{\"table\":\"comparison\""))
+        fail_with_hint(ErrorKind::input, "the summary beside them has the means",
+                       "{}: comparisons of a study are not drawn", source);
     if (!summary && !StudyTable(style, true).is_head(first)) return std::nullopt;
     const auto lines = split(bytes.substr(0, bytes.find_last_not_of('\n') + 1), '\n');
     if (summary) return means_in_summary(lines, style, source);

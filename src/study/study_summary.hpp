@@ -38,8 +38,8 @@ struct MeanRow {
     double standard_error = not_known;
     double median = not_known;
     double standard_deviation = not_known;
-    double rms = not_known;  ///< the root of the mean of the squares, as of errors
-    double rms_low = not_known;
+    double rms = not_known;      ///< the root of the mean of the squares, as of errors
+    double rms_low = not_known;  ///< of errors, and of what is found on both sides of 0
     double rms_high = not_known;
     double confidence = not_known;  ///< of these intervals
     double t_low = not_known;       ///< of the mean
@@ -110,6 +110,9 @@ class StudySummary {
     };
     std::map<Cell, Failed> failed_;  ///< all cells, also those of which nothing failed
 };
+
+/// Whether results under a key are errors: what counts is how far they are from 0.
+bool is_error_key(std::string_view key);
 
 /// The means of a study's table, without bootstrap intervals, or those of its summary; nothing where
 /// the text is neither.

@@ -177,7 +177,8 @@ TEST(Analyze, ChecksAndExpectationsSetTheExitCode) {
     EXPECT_EQ(two.code, 0);
     EXPECT_THAT(
         two.err,
-        HasSubstr("stipple: h.csv: the star discrepancy is not known exactly; it is between "));
+        HasSubstr(
+            "stipple: note: h.csv: the star discrepancy is not known exactly; it is between "));
 }
 
 TEST(Analyze, SaysWhatTakesPointsOffASurface) {
@@ -527,10 +528,41 @@ TEST(Analyze, SaysWhatPrefixesAndMixedUnitsTell) {
     EXPECT_EQ(notes("jittered -n 64 --meta", "star-discrepancy"), "");
     const std::string make = "random -n 30 --bounds 0..1,0..100";
     EXPECT_EQ(notes(make, "nearest-neighbor --bounds 0..1,0..100"),
-              "stipple: the sides of --bounds are between 1 and 100 long, and distances mix their "
-              "units; --rescale maps the points to the unit cube first\n");
+              "stipple: note: the sides of --bounds are between 1 and 100 long, and distances mix "
+              "their units; with --rescale the box is first mapped to the unit cube\n");
+    EXPECT_EQ(notes(make, "nearest-neighbor --bounds 0..1,0..100 --rescale"), "");
+    EXPECT_THAT(notes(make, "nearest-neighbor --rescale"),
+                HasSubstr("--rescale puts the outermost points on faces that the torus joins"));
+    EXPECT_EQ(notes(make, "nearest-neighbor --rescale --metric euclidean"), "");
+    EXPECT_EQ(notes(make, "star-discrepancy --rescale"), "");
     EXPECT_EQ(notes(make, "nearest-neighbor --bounds 0..100"), "");
     EXPECT_EQ(notes(make, "star-discrepancy --bounds 0..1,0..100"), "");
+}
+
+// The box that the points lie in, as the unit cube.
+TEST(Analyze, MapsTheBoxOfBoundsToTheCube) {
+    const Sandbox box;
+    good(box.shell("stipple generate halton -n 50 -o u.csv"));
+    good(box.shell("stipple generate halton -n 50 --bounds 0..4,-8..8 --no-header -o b.csv"));
+    const auto results = [&](const std::string& words) {
+        return report_of(box.shell("stipple analyze nearest-neighbor " + words))["results"];
+    };
+    EXPECT_EQ(results("b.csv --bounds 0..4,-8..8 --rescale"), results("u.csv"));
+    EXPECT_NE(results("b.csv --bounds 0..4,-8..8"), results("u.csv"));
+}
+
+TEST(Analyze, SaysHowSeveralAnalyzersAreNamed) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -n 50 -m 2 -f json -o u.json"));
+    expect_refusal(box.run({"analyze", "star-discrepancy", "moments", "u.json"}), 2,
+                   "several analyzers stand between commas: star-discrepancy,moments");
+    const Outcome broken =
+        box.run({"analyze", "star-discrepancy", "u.json", "--check", "value<0.01"});
+    EXPECT_EQ(broken.code, 1);
+    EXPECT_THAT(broken.err, HasSubstr("u.json, set 0: value<0.01 does not hold"));
+    EXPECT_THAT(broken.err, HasSubstr("u.json, set 1: value<0.01 does not hold"));
+    box.write("moments", "0.1,0.2\n0.3,0.4\n");  // a file may have the name
+    good(box.run({"analyze", "star-discrepancy", "moments"}));
 }
 
 TEST(Analyze, AveragesEachKindOfSetsByItself) {
@@ -677,21 +709,21 @@ TEST(Analyze, TakesGeneratorsBehindFiles) {
     const Outcome means = box.shell(
         "stipple analyze moments --generate halton --generate random --average -m 2 -n 9");
     EXPECT_EQ(json::parse(means.out).size(), 2U);
-    EXPECT_EQ(means.err, "stipple: halton does not use the seed: all 2 sets are the same\n");
+    EXPECT_EQ(means.err, "stipple: note: halton does not use the seed: all 2 sets are the same\n");
 }
 
 TEST(Analyze, TextHasAllNumbersOfListsWhereItIsAsked) {
     const Sandbox box;
     good(box.shell("stipple generate random -n 90 -o a.csv"));
-    const std::string analyze = "stipple analyze periodogram a.csv --max-frequency 9 -f ";
-    EXPECT_THAT(good(box.shell(analyze + "text")), HasSubstr("... (9 values)"));
+    const std::string analyze = "stipple analyze periodogram a.csv --max-frequency 12 -f ";
+    EXPECT_THAT(good(box.shell(analyze + "text")), HasSubstr("... (12 values)"));
     const std::string full = good(box.shell(analyze + "text --full"));
     EXPECT_THAT(full, ::testing::Not(HasSubstr("...")));
     const json report = json::parse(good(box.shell(analyze + "json")));
-    const double last = report["results"]["radial"]["power"][8];
+    const double last = report["results"]["radial"]["power"][11];
     EXPECT_THAT(full,
                 HasSubstr("radial.frequency radial.power radial.anisotropy_db radial.cells\n"));
-    EXPECT_THAT(full, HasSubstr(fmt::format(" 9 {:>12.6g} ", last)));
+    EXPECT_THAT(full, HasSubstr(fmt::format(" 12 {:>12.6g} ", last)));
 }
 
 // The mean of one set is that set, with its places; of several there are none.

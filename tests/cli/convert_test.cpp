@@ -45,7 +45,8 @@ TEST(Convert, SaysWhichColumnCountsTheRows) {
         return file.err;
     };
     const std::string note =
-        "stipple: r.csv: the column 'id' counts the rows, and is taken for a coordinate; --column "
+        "stipple: note: r.csv: the column 'id' counts the rows, and is taken for a coordinate; "
+        "--column "
         "picks the others\n";
     EXPECT_EQ(notes("id,x\n0,0.5\n1,0.25\n2,0.5\n"), note);
     EXPECT_EQ(notes("id x\n# as in R\n1 0.5\n2 0.25\n\n3 0.5\n4 0.125\n"), note);
@@ -201,6 +202,16 @@ TEST(Convert, PicturesAndMeshesAreWriteOnly) {
     const Outcome outcome = box.run({"convert", "p.ply", "-o", "q.csv"});
     EXPECT_EQ(outcome.code, 2);
     EXPECT_THAT(outcome.err, HasSubstr("ply"));
+}
+
+// As spreadsheets of western Europe write them.
+TEST(Convert, ReadsNamesInLatin1) {
+    const Sandbox box;
+    box.write("a.csv",
+              "Gr\xf6\xdf"
+              "e;H\xf6he\n1,5;2\n2,5;3\n");
+    EXPECT_EQ(good(box.shell("stipple convert a.csv -f csv")), "Größe,Höhe\n1.5,2\n2.5,3\n");
+    EXPECT_EQ(good(box.shell("stipple convert a.csv --column Höhe -f csv")), "Höhe\n2\n3\n");
 }
 
 // Through every verb that keeps points, and every format that has a place for them.

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
+#include <set>
+
 #include "support/program.hpp"
 
 namespace stipple::testing::plot_test {
@@ -299,7 +302,7 @@ TEST(Plot, RefusesWhatIsNoPictureAndLeavesNoFile) {
     expect_refusal(box.run({"plot", "p.csv", "-f", "text", "--width", "0"}), 2,
                    "outside [20, 1000]");
     expect_refusal(box.run({"plot", "p.csv", "--chart", "radial", "-f", "svg", "--height", "150"}),
-                   2, "--height: 150 leaves no room for the chart; at least 2");
+                   2, "--height: 150 leaves no room for the picture; at least 2");
     expect_refusal(box.run({"plot", "p.csv", "--set", "1"}), 2, "outside [0, 0]");
     expect_refusal(box.run({"plot", "p.csv", "--key", "value"}), 2, "--key");
     expect_refusal(box.run({"plot", "p.csv", "--y-scale", "cubic"}), 2, "linear, log");
@@ -425,6 +428,76 @@ TEST(Plot, SeveralSetsStandSideBySide) {
     EXPECT_THAT(text, HasSubstr("set 2"));
     const auto first = text.substr(0, text.find('\n'));
     EXPECT_THAT(first, ::testing::AllOf(HasSubstr("set 0"), HasSubstr("set 1")));
+}
+
+// Rows are chosen by the room, and what has none is refused.
+TEST(Plot, SheetsFillTheSizeThatIsAskedFor) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -n 5 -m 4 -f json -o p.json"));
+    // Places of the four titles: their lines, from left to right and from above.
+    const auto places = [&](const std::string& size) {
+        good(box.shell("stipple plot p.json -o p.svg " + size));
+        const std::string svg = box.read("p.svg");
+        std::set<std::string> left, top;
+        const std::regex title("<text x=\"([0-9.]+)\" y=\"([0-9.]+)\"[^>]*>random \\(set");
+        for (std::sregex_iterator it(svg.begin(), svg.end(), title), end; it != end; ++it) {
+            left.insert((*it)[1]);
+            top.insert((*it)[2]);
+        }
+        return std::pair(left.size(), top.size());
+    };
+    using Grid = std::pair<std::size_t, std::size_t>;
+    EXPECT_EQ(places(""), (Grid{2, 2}));
+    EXPECT_EQ(places("--width 1600 --height 400"), (Grid{4, 1}));
+    EXPECT_EQ(places("--width 400 --height 1600"), (Grid{1, 4}));
+    EXPECT_EQ(places("--height 500"), (Grid{2, 2}));
+    for (const char* chart : {"points", "spectrum"}) {
+        const std::string plot = std::string("stipple plot p.json -o p.svg --chart ") + chart;
+        if (chart == std::string("points"))
+            expect_refusal(box.shell(plot + " --width 200 --height 100"), 2,
+                           "--height: 100 leaves no room for the picture; at least ");
+        expect_refusal(box.shell(plot + " --height 95"), 2, "--height: 95 leaves no room");
+    }
+    expect_refusal(box.shell("stipple plot p.json -o p.svg --width 130"), 2,
+                   "--width: 130 leaves no room for 2 frames in a row; at least 180 does");
+    good(box.shell("stipple plot p.json --set 0 -o p.png --width 300 --height 900"));
+    EXPECT_EQ(good(box.shell("python3 -c 'import struct; print(struct.unpack(\">II\", "
+                             "open(\"p.png\", \"rb\").read()[16:24]))'")),
+              "(300, 900)\n");
+}
+
+TEST(Plot, DrawsPairsOfThreeCoordinates) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -n 5 -d 3 -o p.csv"));
+    good(box.shell("stipple plot p.csv -o p.svg"));
+    EXPECT_EQ(xml(box, "p.svg", "circle"), "5\n");
+    good(box.shell("stipple plot p.csv --chart pairs -o p.svg"));
+    EXPECT_EQ(xml(box, "p.svg", "circle"), "15\n");
+    EXPECT_THAT(good(box.shell("stipple plot p.csv --chart pairs -f text --width 60")),
+                Not(HasSubstr("to the right")));
+    expect_refusal(box.shell("stipple plot p.csv --column 1 --chart pairs -o p.svg"), 3,
+                   "have no pairs");
+}
+
+// Columns that measure different things have an x axis each, with their names.
+TEST(Plot, HistogramsOfUnlikeColumnsHaveTheirOwnAxes) {
+    const Sandbox box;
+    box.write("g.csv", "age,income\n23,1500\n35,2400\n45,3100\n52,4200\n");
+    good(box.shell("stipple plot g.csv --chart histogram -o g.svg"));
+    const std::string own = xml(box, "g.svg", "text");
+    for (const char* text : {"age", "income", "30", "3000"}) EXPECT_THAT(own, HasSubstr(text));
+    EXPECT_THAT(own, Not(HasSubstr("coordinate")));
+    good(box.shell("stipple plot --generate random -n 9 --chart histogram -o h.svg"));
+    EXPECT_THAT(xml(box, "h.svg", "text"), HasSubstr("coordinate"));
+    // Distances of points that have no domain are straight, and there is nothing to expect of them.
+    good(box.shell("stipple plot g.csv --chart distances -o d.svg"));
+    EXPECT_THAT(xml(box, "d.svg", "text"), Not(HasSubstr("torus")));
+    EXPECT_THAT(xml(box, "d.svg", "text"), Not(HasSubstr("independent")));
+    for (const auto& [bounds, drawn] : {std::pair{"0..1,0..1", true}, {"0..1,0..9000", false}}) {
+        good(box.shell(std::string("stipple generate random -n 99 -f json --bounds ") + bounds +
+                       " | stipple plot --chart distances -o d.svg"));
+        EXPECT_EQ(xml(box, "d.svg", "text").find("independent") != std::string::npos, drawn);
+    }
 }
 
 TEST(Plot, SeveralSpectraStandSideBySide) {

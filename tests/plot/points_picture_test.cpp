@@ -95,7 +95,7 @@ TEST(PointsPicture, DrawsDegenerateSets) {
          {points_of({{0.5, 0.5}}), points_of({{7, -3}}), points_of({{7, 3}, {7, 3}, {7, 3}}),
           points_of({{5, 2}, {6, 2}, {9, 2}}), points_of({{0.3}}), points_of({{4}, {4}}),
           points_of({{1, 2, 3}}), points_of({{1, 2, 3, 4, 5}})})
-        for (const double width : {200.0, 0.0}) {
+        for (const double width : {260.0, 0.0}) {
             const Drawing drawing =
                 draw_points(picture_of({&points}), {.width = width, .height = width}, {});
             EXPECT_GT(drawing.height, 0);

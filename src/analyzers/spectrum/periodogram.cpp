@@ -515,7 +515,9 @@ std::vector<ResultKey> results() {
         {"effective_nyquist",
          "Half the largest radius R, at most F, with a mean power of at most 0.1 over |f| < R; of "
          "averaged sets that of their mean power, without a standard error"},
-        {"relative_nyquist", "The same over regular_nyquist, as published tables give it"},
+        {"relative_nyquist",
+         "The same over regular_nyquist, as published tables give it; psa finds another from its "
+         "pair correlation"},
         {"oscillation",
          "10 x root mean square of radial power - 1, weighted by cells, from where it first "
          "reaches 0.98 over n^(1/d) x 5 frequencies, or up to F; of averaged sets that of "

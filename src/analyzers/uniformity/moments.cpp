@@ -182,7 +182,7 @@ std::vector<ResultKey> results() {
         keys.push_back({prefix + "covariance", of + "covariance of each pair, row after row"});
     };
     group("", "");
-    group("standard_error.", "standard error: ");
+    group("standard_error.", "standard error, as far as points are independent: ");
     group("exact.", "of the domain's law, where a closed form is known: ");
     keys.push_back(
         {"exact.known",

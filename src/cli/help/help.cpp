@@ -214,7 +214,10 @@ HelpPage page_of_unit(const VerbInfo& info, const UnitInfo& unit) {
     std::string usage = info.usage;
     const auto word = usage.find(' ', sizeof "stipple");
     const auto end = usage.find(' ', word + 1);
-    usage.replace(word + 1, end - word - 1, unit.name);
+    // "GENERATOR" is its name, "ANALYZER[,ANALYZER...]" may go on with others.
+    const std::string wanted = usage.substr(word + 1, end - word - 1);
+    const std::string others = wanted.substr(std::min(wanted.find('['), wanted.size()));
+    usage.replace(word + 1, wanted.size(), unit.name + others);
     HelpPage page(HelpPage::Style::text);
     page.title(unit.name, 1, unit.summary, usage);
     page.facts(facts_of(unit));

@@ -162,10 +162,12 @@ const std::vector<CommonOption> rows = {
      "as text, with what each result means, which of two is better, and what is typical of 1024 "
      "points in the plane",
      analyze},
-    {"--chart", "points|density|histogram|distances|spectrum|radial|pair-correlation|differential",
+    {"--chart",
+     "points|density|pairs|histogram|distances|spectrum|radial|pair-correlation|differential",
      "points",
-     "what to draw of points: their places, counts, a histogram, distances to the nearest "
-     "neighbour, or what analyze finds with its default options",
+     "what to draw of points: their places (of three coordinates a view, of more each pair of the "
+     "first 8), counts, each pair of coordinates, histograms, distances to the nearest neighbour, "
+     "or what analyze finds with its default options",
      plot},
     {"--key", "KEY", "", "result to draw of a report, such as prefixes.value or minimum", plot},
     {"--set", "K", "", "draw only set or report K, from 0; default: all", plot},
@@ -191,7 +193,9 @@ const std::vector<CommonOption> rows = {
      "domain of the points: unit-cube, disk, triangle:vertices=[...], ...; default: as the file "
      "states",
      analyze | plot | report},
-    {"--rescale", "", "", "first map the bounding box of the points to the unit cube", analyze},
+    {"--rescale", "", "",
+     "first map the box of --bounds, else the bounding box of the points, to the unit cube",
+     analyze},
     {"--meta", "", "",
      "write the provenance: in '# ' lines on top of text formats; for npy, bin, utk and psa in "
      "FILE.meta.json",
@@ -213,7 +217,10 @@ const std::vector<CommonOption> rows = {
      plot},
     {"--theme", "light|dark", "light", "colours", plot},
     {"--width", "W", "", "pixels, or characters of text; default: automatic", plot},
-    {"--height", "H", "", "pixels, or lines of text; default: automatic", plot},
+    {"--height", "H", "",
+     "pixels, or lines of text; default: automatic; with --width, several sets stand in the rows "
+     "that make them largest",
+     plot},
     {"--x-scale", "linear|log", "", "scale of curves and histograms; default: automatic", plot},
     {"--y-scale", "linear|log", "", "scale of curves and histograms; default: automatic", plot},
     {"--pairs", "welch|paired", "welch",

@@ -8,6 +8,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "cli/parsing/arguments.hpp"
@@ -162,6 +163,21 @@ void refuse_loose_options(const std::vector<std::string>& rest, const Arguments&
         }
 }
 
+/// @throws Error(usage) for an analyzer where an input stands, unless a file has its name
+void refuse_second_unit(const Arguments& arguments, const Kind& kind) {
+    for (const std::string& word : arguments.inputs) {
+        const std::string name = word.substr(0, word.find_first_of(",:"));
+        std::error_code none;
+        if (arguments.unit.empty() || find_unit(kind, name) == nullptr ||
+            std::filesystem::exists(word, none))
+            continue;
+        fail_with_hint(
+            ErrorKind::usage,
+            fmt::format("several analyzers stand between commas: {},{}", arguments.unit, word),
+            "{}: no such file, but an analyzer", word);
+    }
+}
+
 /// --json and --markdown are short for --format.
 void settle_format(Arguments& arguments) {
     for (const char* name : {"json", "markdown"}) {
@@ -256,6 +272,7 @@ Arguments parse_arguments(int argc, const char* const* argv) {
         }
     }
     const auto rest = take_words(std::move(words), kind != nullptr, unit, arguments);
+    if (verb == Verb::analyze) refuse_second_unit(arguments, *kind);
     if (verb == Verb::generate && inputs.size() > 1)
         fail(ErrorKind::usage, "unexpected argument '{}'", inputs[1]);
     if (!inputs.empty())

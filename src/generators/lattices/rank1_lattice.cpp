@@ -144,6 +144,10 @@ Plan plan(const Request& request, const Values& options) {
             fail(ErrorKind::usage, "--dimension: {} is outside [1, 2], what fibonacci can make",
                  plan.dimension);
     }
+    if (file.points % plan.count != 0)
+        fail_with_hint(ErrorKind::usage, "--vector takes a vector for any count",
+                       "--count: {} is a lattice of {} points; {} does not divide that",
+                       options[vector_file], file.points, plan.count);
     const bool searches = chosen == "cbc" || searches_multiplier(chosen, options);
     if (searches && plan.count > largest_searched_lattice)
         fail_with_hint(ErrorKind::usage, "give a vector, or korobov's multiplier",
@@ -216,11 +220,6 @@ std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
         std::uint64_t divisor = plan.count;
         for (const std::uint64_t z : given_vector(options, plan.dimension))
             divisor = std::gcd(divisor, z);
-        if (const auto points = vector_in_file(options, false).points; points % plan.count != 0)
-            return {
-                fmt::format("rank1-lattice: {} is a lattice of {} points, which {} does not "
-                            "divide",
-                            options[vector_file], points, plan.count)};
         if (divisor == 1) return {};
         return {
             fmt::format("rank1-lattice: {0} divides the number of points and all of the vector: "

@@ -64,6 +64,21 @@ Field field_between(const char* first, const char* last) {
     return {{first, static_cast<std::size_t>(last - first)}, at};
 }
 
+/// The name that a header has: letters that are not UTF-8 are those of Latin-1, as spreadsheets write
+/// them.
+std::string name_in(std::string_view text) {
+    std::string latin;
+    bool valid = true;
+    for (std::string_view rest = text; !rest.empty();) {
+        const Letter letter = first_letter(rest);
+        valid = valid && letter.valid;
+        rest.remove_prefix(letter.size);
+    }
+    if (valid) return std::string(text);
+    for (const char byte : text) append_utf8(latin, static_cast<unsigned char>(byte));
+    return latin;
+}
+
 /// The fields of a line, one after the other.
 class FieldReader {
   public:
@@ -499,7 +514,7 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
     const std::vector<Field> fields = fields_of(line, head.dialect.separator);
     std::vector<std::string> names;
     if (is_header(fields))
-        for (const Field& field : fields) names.emplace_back(field.text);
+        for (const Field& field : fields) names.push_back(name_in(field.text));
     head.names = !names.empty();
     if (!head.names && head.top.provenance.columns.size() == fields.size())
         names = head.top.provenance.columns;

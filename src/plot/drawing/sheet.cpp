@@ -2,6 +2,7 @@
 #include "plot/drawing/sheet.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace stipple::plot {
@@ -42,13 +43,23 @@ void add_moved(Drawing& drawing, Drawing part, double right, double down) {
 
 }  // namespace
 
-std::size_t sheet_columns(std::size_t parts) {
+std::size_t sheet_columns(std::size_t parts, double ratio) {
+    if (ratio > 0) {
+        std::size_t best = 1;
+        double largest = 0;
+        for (std::size_t columns = 1; columns <= parts; ++columns) {
+            const auto rows = static_cast<double>((parts + columns - 1) / columns);
+            const double side = std::min(ratio / static_cast<double>(columns), 1 / rows);
+            if (side >= largest) best = columns;
+            largest = std::max(largest, side);
+        }
+        return best;
+    }
     if (parts <= 3) return parts;
     return parts == 4 ? 2 : parts <= 9 ? 3 : 4;
 }
 
-void add_rows(Drawing& drawing, std::vector<Drawing> parts, double top) {
-    const std::size_t columns = sheet_columns(parts.size());
+void add_rows(Drawing& drawing, std::vector<Drawing> parts, std::size_t columns, double top) {
     double down = top;
     for (std::size_t first = 0; first < parts.size(); first += columns) {
         double right = 0;
@@ -62,7 +73,14 @@ void add_rows(Drawing& drawing, std::vector<Drawing> parts, double top) {
         drawing.width = std::max(drawing.width, right);
         down += highest;
     }
-    drawing.height = std::max(drawing.height, down);
+    drawing.height = down;
+}
+
+void fill_height(Drawing& drawing, double height) {
+    const double more = height - drawing.height;
+    if (!(more > 0)) return;
+    for (Shape& shape : drawing.shapes) std::visit(Mover{0, std::floor(more / 2)}, shape);
+    drawing.height = height;
 }
 
 }  // namespace stipple::plot

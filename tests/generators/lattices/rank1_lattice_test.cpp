@@ -255,6 +255,10 @@ TEST(Rank1Lattice, ReadsLatticesOfOtherPackages) {
         EXPECT_EQ(make("rank1-lattice", {.count = 8}, settings), expected) << text;
         if (text[0] != '#') continue;
         EXPECT_EQ(make("rank1-lattice", {}, settings), expected) << text;
+        EXPECT_EQ(make("rank1-lattice", {.count = 4}, settings),
+                  make("rank1-lattice", points(4, 3), {{"vector", "1,3,5"}}));
+        EXPECT_THAT(error_of([&] { make("rank1-lattice", {.count = 16}, settings); }),
+                    ::testing::HasSubstr("is a lattice of 8 points; 16 does not divide that"));
     }
     const auto refusal = [](const std::string& text) {
         const TemporaryFile file(text);

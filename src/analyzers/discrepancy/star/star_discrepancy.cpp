@@ -200,8 +200,8 @@ std::vector<ResultKey> results() {
         {"method", "sweep-1d, sweep-2d or branch-and-bound", true,
          "sweep-1d|sweep-2d|branch-and-bound"},
         {"worst_box.corner",
-         "upper corner of the box where the value is reached (of all boxes from the origin, or of "
-         "all that the kind has)"},
+         "upper corner of the worst box found, where 'lower' is reached (of all boxes from the "
+         "origin, or of all that the kind has)"},
         {"worst_box.lower_corner",
          "its lower corner, for the kinds extreme and periodic; on an axis where it is above the "
          "upper one, the box goes from there across 1 to 0 and on (and all round where an open box "
