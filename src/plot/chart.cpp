@@ -87,7 +87,7 @@ Axis x_axis(std::span<const ChartPanel> panels, const PictureStyle& style) {
     const bool near_zero = !span.log && span.low > 0 && span.low < 0.04 * span.high;
     if (near_zero) axis.low = 0;
     constexpr double share = 0.02;  // more than a mark takes
-    if (marked(panels) && span.low < span.high)
+    if (!style.tight && marked(panels) && span.low < span.high)
         widen(axis, share, near_zero && span.low > share * span.high);
     return axis;
 }
@@ -123,6 +123,7 @@ Axis y_axis(const ChartPanel& panel, const PictureStyle& style) {
     if (span.high - span.low <= 1e-7 * std::abs(span.high)) span.low = span.high;
     Axis axis{.low = span.low, .high = span.high, .log = span.log, .name = panel.y_name};
     axis.make_valid();
+    if (style.tight) return axis;
     if (axis.log) {
         axis.low = std::max(axis.low, panel.least_y > 0 ? panel.least_y : 0);
         widen(axis, 0.05);

@@ -26,6 +26,7 @@ struct PictureStyle {
     std::optional<std::string> title = {};  ///< instead of the picture's own
     std::optional<bool> log_x = {};
     std::optional<bool> log_y = {};
+    bool tight = false;  ///< charts' axes end with what they show
 };
 
 /// One curve, or the bars of a histogram. Not finite values are gaps.

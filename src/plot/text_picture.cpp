@@ -214,7 +214,8 @@ std::string panel_as_text(const Chart& chart, std::size_t number, const PictureS
 
 }  // namespace
 
-std::string chart_as_text(const Chart& chart, const PictureStyle& style, const TextRoom& room) {
+std::string chart_as_text(const Chart& chart, PictureStyle style, const TextRoom& room) {
+    style.tight = true;  // the numbers at the ends are those of the data
     const std::string title = printable(style.title.value_or(chart.title));
     std::string text = title.empty() ? "" : title + "\n";
     text += legend_as_text(chart.panels[0], room);

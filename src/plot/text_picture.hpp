@@ -25,7 +25,7 @@ std::string points_as_text(const PointsPicture& picture, const TextRoom& room);
 
 /// All curves and bars, panel below panel. Where there are several, each has a letter, which stands
 /// where it ends, on the right.
-std::string chart_as_text(const Chart& chart, const PictureStyle& style, const TextRoom& room);
+std::string chart_as_text(const Chart& chart, PictureStyle style, const TextRoom& room);
 
 /// A spectrum in five shades.
 std::string spectrum_as_text(const Grid& power, const std::string& title, const TextRoom& room);
