@@ -228,6 +228,7 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
                           ? points_of(*sequence(set, steady), plan, asked_.request.start, steady)
                           : generator_.set(plan, asked_.options, run);
     auto worked_out = std::move(points.provenance.options);
+    auto found = std::move(points.provenance.found);
     auto side_files =
         generator_.traits.sequence ? this->side_files() : std::move(points.side_files);
     double efficiency = 1;
@@ -240,6 +241,7 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
     points.provenance = provenance(set, points.count());
     points.provenance.efficiency = efficiency;
     if (!worked_out.empty()) points.provenance.options = std::move(worked_out);
+    if (!found.empty()) points.provenance.found = std::move(found);
     points.side_files = std::move(side_files);
     return points;
 }

@@ -17,9 +17,12 @@ namespace {
 std::optional<PointSet> sample_of(const char* generator, std::uint64_t count, std::size_t dimension,
                                   std::vector<Spec> warps) {
     const Generator& made_by = find_generator(generator);
+    Values options = made_by.options.defaults();
+    for (const Option& option : made_by.options.options())
+        if (option.name == "effort") options.put(option.name, option.low, false);  // help is quick
     try {
         return GeneratedSets({.generator = &made_by,
-                              .options = made_by.options.defaults(),
+                              .options = options,
                               .request = {.count = count, .dimension = dimension},
                               .warps = std::move(warps)},
                              {})

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+//
+// The sets of least star discrepancy that a search finds, for a given number of points.
+//
+//     d = 1   (i + 1/2) / n, which is the least: 1 / (2 n)
+//     d = 2   a search over the orders of the points by x and by y, each solved exactly
+//             (planar_order.hpp, order_search.hpp)
+//
+// Shape   d = 1, 2; any n that the memory holds: 8 n^2 bytes a thread in the plane.
+// Cost    a budget of steps, never the clock: by default 2^20 n^2, at most 2^35, which one core
+//         takes 10 s for; 4 solved orders at least, 3 s each for n = 10 000.
+// Promise the discrepancy is the least of the points' order, to 1e-12 relatively; the provenance has
+//         it. Up to 20 points the default effort finds the optimum that is proven. A function of
+//         count, seed and effort, for any number of threads.
+// Beware  no prefix of the points is good by itself, and projections are as even as one allows.
+// Source  F. Clement, C. Doerr, K. Klamroth, L. Paquete, arXiv:2311.17463 (optimal sets);
+//         T. K. Rusch, N. Kirk, M. M. Bronstein, C. Lemieux, D. Rus, arXiv:2405.15059.
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "generators/generator.hpp"
+#include "generators/optimized/order_search.hpp"
+
+namespace stipple::generators::optimized {
+namespace {
+
+constexpr Param<double> effort{.name = "effort",
+                               .fallback = 1,
+                               .low = 1e-3,
+                               .high = 1e6,
+                               .help =
+                                   "Steps of the search in the plane: this times those of some "
+                                   "seconds (fewer for less than 180 points)"};
+
+constexpr std::size_t most_points = 30'000;
+
+Plan plan(const Request& request, const Values& /*options*/) {
+    const Plan plan = default_plan(request, 64);
+    if (plan.dimension > 1 && plan.count > most_points)
+        fail(ErrorKind::usage,
+             "--count: {} is outside [1, {}], what optimized can make in the plane", plan.count,
+             most_points);
+    return plan;
+}
+
+double budget_of(double n, const Values& options) {
+    return options[effort] * std::min(0x1p20 * n * n, 0x1p35);
+}
+
+PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
+    const auto n = static_cast<double>(plan.count);
+    PointSet points(plan.count, plan.dimension);
+    double value = 1 / (2 * n);
+    if (plan.dimension == 1) {
+        for (std::size_t i = 0; i < plan.count; ++i)
+            points[i][0] = (static_cast<double>(i) + 0.5) / n;
+    } else {
+        const OptimizedSet found =
+            least_star_discrepancy(plan.count, plan.seed, budget_of(n, options), run);
+        std::ranges::copy(found.rows, points.flat().begin());
+        value = found.discrepancy;
+    }
+    points.provenance.found = {{"star_discrepancy", format_number(value)}};
+    return points;
+}
+
+double seconds(double n, double d) {
+    constexpr double steps_a_second = 3e9;
+    return d < 2 ? 1e-8 * n : (std::min(0x1p20 * n * n, 0x1p35) + 120 * n * n) / steps_a_second;
+}
+
+}  // namespace
+
+Generator unit() {
+    return {.name = "optimized",
+            .summary = "Points of least star discrepancy for their number, found by a search",
+            .source = "Clement, Doerr, Klamroth, Paquete 2023, arXiv:2311.17463",
+            .related = {"message-passing", "mpmc", "optimal", "low-discrepancy-set", "openevolve"},
+            .traits = {.max_dimension = 2, .sequence = false, .prefix = false},
+            .options = Schema(effort),
+            .plan = plan,
+            .set = make,
+            .cost = seconds};
+}
+
+}  // namespace stipple::generators::optimized

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+#include "generators/optimized/order_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/parallel.hpp"
+#include "core/rng.hpp"
+#include "core/text.hpp"
+#include "generators/optimized/planar_order.hpp"
+
+namespace stipple {
+namespace {
+
+using Ranks = PlanarOrder::Ranks;
+
+const double golden = (std::sqrt(5.0) - 1) / 2;
+
+constexpr double on_cycle = 0.35;       ///< share of the swaps that are on the critical cycle
+constexpr double patience = 20;         ///< swaps in vain, a point, that end a descent
+constexpr double kick_height = 1.02;    ///< levels that a kick may reach, relatively
+constexpr std::size_t kick_swaps = 10;  ///< that a kick makes
+constexpr double solution = 30;         ///< steps for one, over n^2
+
+/// An order, where a descent from it has got to.
+struct Descent {
+    Ranks ranks;
+    double level = 0;
+    bool over = false;  ///< nothing was gained for long
+};
+
+bool better(const Descent& a, const Descent& b) { return a.level < b.level; }
+
+double unit(SplitMix64& draws) { return to_unit(draws.next()); }
+
+/// The order of points with different coordinates.
+Ranks order_of(const std::vector<double>& x, const std::vector<double>& y) {
+    const auto sorted = [](const std::vector<double>& values) {
+        std::vector<std::uint32_t> order(values.size());
+        std::iota(order.begin(), order.end(), 0U);
+        std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+            return values[a] != values[b] ? values[a] < values[b] : a < b;
+        });
+        return order;
+    };
+    const auto by_x = sorted(x);
+    const auto by_y = sorted(y);
+    Ranks place(x.size());
+    for (std::uint32_t j = 0; j < by_y.size(); ++j) place[by_y[j]] = j;
+    Ranks ranks;
+    for (const std::uint32_t i : by_x) ranks.push_back(place[i]);
+    return ranks;
+}
+
+/// Multiples of the golden section, shifted.
+Ranks rotation(std::size_t n, SplitMix64& draws) {
+    std::vector<double> x;
+    std::vector<double> y;
+    const double shift = unit(draws);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double turned = static_cast<double>(i) * golden + shift;
+        x.push_back(static_cast<double>(i));
+        y.push_back(turned - std::floor(turned));
+    }
+    return order_of(x, y);
+}
+
+/// The golden lattice k t (a + b / golden), (k / t) (a - b golden) with n points on average in the
+/// unit square, shifted; nothing unless there are n.
+Ranks lattice_cut(std::size_t n, SplitMix64& draws) {
+    const double k = std::sqrt(1 / (static_cast<double>(n) * std::sqrt(5.0)));
+    const double t = golden + unit(draws) * (1 / golden - golden);
+    const double right = unit(draws);
+    const double up = unit(draws);
+    const double wide = 1 / (k * t);
+    const double high = t / k;
+    // a + b / golden in [0, wide) - right wide, a - b golden in [0, high) - up high
+    const double spread = golden + 1 / golden;
+    const auto first =
+        static_cast<std::int64_t>(std::floor((-right * wide - (1 - up) * high) / spread));
+    const auto last =
+        static_cast<std::int64_t>(std::ceil(((1 - right) * wide + up * high) / spread));
+    std::vector<double> x;
+    std::vector<double> y;
+    for (std::int64_t b = first; b <= last; ++b) {
+        const auto whole = static_cast<double>(b);
+        const double low = std::max(-right * wide - whole / golden, -up * high + whole * golden);
+        for (double a = std::ceil(low);; ++a) {
+            const double across = (a + whole / golden) / wide + right;
+            const double upward = (a - whole * golden) / high + up;
+            if (across >= 1 || upward >= 1) break;
+            if (across < 0 || upward < 0) continue;
+            x.push_back(across);
+            y.push_back(upward);
+        }
+    }
+    return x.size() == n ? order_of(x, y) : Ranks();
+}
+
+Ranks start(std::size_t n, SplitMix64& draws) {
+    constexpr int tries = 100;
+    const bool cut = draws.below(2) == 0;
+    for (int i = 0; cut && i < tries; ++i)
+        if (Ranks ranks = lattice_cut(n, draws); !ranks.empty()) return ranks;
+    return rotation(n, draws);
+}
+
+PlanarOrder::Swap any_swap(std::size_t n, SplitMix64& draws) {
+    const bool by_x = draws.below(2) == 0;
+    return {by_x, 1 + static_cast<std::size_t>(draws.below(n - 1))};
+}
+
+/// Swaps that raise the level a little.
+void kick(PlanarOrder& order, std::size_t n, SplitMix64& draws) {
+    constexpr int tries = 200;
+    const double limit = order.level() * kick_height;
+    std::size_t made = 0;
+    for (int i = 0; i < tries && made < kick_swaps; ++i)
+        made += static_cast<std::size_t>(order.attempt(any_swap(n, draws), limit));
+}
+
+/// Goes on with a descent, after a kick where it is over, for so many steps at most.
+/// Returns the steps that it took.
+double go_on(Descent& descent, SplitMix64 draws, double steps, const RunContext& run) {
+    constexpr double equal = 1 + 1e-12;
+    const std::size_t n = descent.ranks.size();
+    PlanarOrder order(descent.ranks, run);
+    if (descent.over) kick(order, n, draws);
+    const auto most = static_cast<std::uint64_t>(patience * static_cast<double>(n));
+    double lowest = order.level();
+    std::uint64_t in_vain = 0;
+    while (in_vain < most && static_cast<double>(order.steps()) < steps) {
+        ++in_vain;
+        const bool critical = unit(draws) < on_cycle;
+        const auto swap = critical ? order.critical_swap(draws) : any_swap(n, draws);
+        if (swap) order.attempt(*swap, order.level() * equal, critical);
+        if (order.level() * equal >= lowest) continue;
+        lowest = order.level();
+        in_vain = 0;
+    }
+    const bool kicked = descent.over;
+    if (!kicked || order.level() <= descent.level * equal)
+        descent = {order.ranks(), order.level(), in_vain >= most};
+    return static_cast<double>(order.steps());
+}
+
+class OrderSearch {
+  public:
+    OrderSearch(std::size_t n, std::uint64_t seed, double budget, const RunContext& run)
+        : n_(n), rng_(seed), budget_(budget), run_(run) {}
+
+    Ranks best() {
+        make_starts();
+        std::vector<Descent> all;
+        for (std::size_t i = 0; i < starts_.size() && spent_ < 0.4 * budget_; i += together()) {
+            const std::size_t end = std::min(i + together(), starts_.size());
+            std::vector<Descent> some(starts_.begin() + static_cast<std::ptrdiff_t>(i),
+                                      starts_.begin() + static_cast<std::ptrdiff_t>(end));
+            advance(some, 0.1);
+            std::ranges::move(some, std::back_inserter(all));
+        }
+        if (all.empty()) all = starts_;
+        while (spent_ < budget_) {
+            keep_best(all, spent_ < 0.6 * budget_    ? 32
+                           : spent_ < 0.75 * budget_ ? 16
+                           : spent_ < 0.88 * budget_ ? 8
+                                                     : 4);
+            advance(all, 0.05);
+        }
+        return std::ranges::min_element(all, better)->ranks;
+    }
+
+  private:
+    /// Descents that go on side by side: few where each takes long, whatever the machine has.
+    [[nodiscard]] std::size_t together() const { return n_ <= 200 ? 16 : n_ <= 500 ? 8 : 4; }
+
+    [[nodiscard]] SplitMix64 draws() { return SplitMix64(rng_.bits(tasks_++)); }
+
+    void make_starts() {
+        const double size = static_cast<double>(n_) * static_cast<double>(n_);
+        const double some = std::clamp(0.1 * budget_ / (solution * size), 4.0, 1000.0);
+        std::vector<Descent> all(static_cast<std::size_t>(some));
+        std::vector<SplitMix64> streams;
+        for (std::size_t i = 0; i < all.size(); ++i) streams.push_back(draws());
+        std::vector<double> steps(all.size());
+        for_each_block(run_.stage(0, 0.1), all.size(), 1, [&](const Block& block) {
+            SplitMix64 own = streams[block.index];
+            const Ranks ranks = start(n_, own);
+            const PlanarOrder order(ranks, silent(run_));
+            all[block.index] = {ranks, order.level()};
+            steps[block.index] = static_cast<double>(order.steps());
+        });
+        spent_ += std::accumulate(steps.begin(), steps.end(), 0.0);
+        keep_best(all, all.size());
+        starts_ = std::move(all);
+    }
+
+    /// In order of their levels, each once.
+    static void keep_best(std::vector<Descent>& all, std::size_t most) {
+        std::ranges::stable_sort(all, better);
+        const auto [first, last] = std::ranges::unique(all, {}, &Descent::ranks);
+        all.erase(first, last);
+        if (all.size() > most) all.resize(most);
+    }
+
+    /// Lets all go on, each for a share of the budget at most.
+    void advance(std::vector<Descent>& all, double share) {
+        std::vector<SplitMix64> streams;
+        for (std::size_t i = 0; i < all.size(); ++i) streams.push_back(draws());
+        std::vector<double> steps(all.size());
+        for_each_block(silent(run_), all.size(), 1, [&](const Block& block) {
+            const std::size_t i = block.index;
+            steps[i] = go_on(all[i], streams[i], share * budget_, silent(run_));
+        });
+        spent_ += std::accumulate(steps.begin(), steps.end(), 0.0);
+        const double level = std::ranges::min_element(all, better)->level;
+        least_ = least_ > 0 ? std::min(least_, level) : level;
+        constexpr std::uint64_t parts = 10'000;
+        run_.tick(static_cast<std::uint64_t>(std::min(1.0, spent_ / budget_) * parts), parts,
+                  fmt::format("star discrepancy {:.6f}", least_ / static_cast<double>(n_)));
+    }
+
+    std::size_t n_;
+    Rng rng_;
+    double budget_;
+    const RunContext& run_;
+    std::uint64_t tasks_ = 0;
+    double spent_ = 0;
+    double least_ = 0;
+    std::vector<Descent> starts_;
+};
+
+}  // namespace
+
+OptimizedSet least_star_discrepancy(std::size_t n, std::uint64_t seed, double budget,
+                                    const RunContext& run) {
+    const auto size = static_cast<double>(n);
+    const double bytes = 8 * size * size + 200 * size;
+    run.need_memory(bytes, "the search for an order");
+    RunContext own = run;  // as many threads as there is memory for
+    own.threads = static_cast<unsigned>(std::min(static_cast<double>(run.memory_left()) / bytes,
+                                                 static_cast<double>(run.thread_count())));
+    const Ranks ranks = n > 1 ? OrderSearch(n, seed, budget, own).best() : Ranks{0};
+    PlanarOrder order(ranks, run);
+    return {order.points(), order.level() / size};
+}
+
+}  // namespace stipple
