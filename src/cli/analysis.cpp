@@ -161,8 +161,25 @@ void Analysis::warn_of_prefixes(const Provenance& made) {
 
 // ---------------------------------------------------------------- sets
 
+/// The same of points that are measured as they are.
+void Analysis::warn_of_ranges(const PointSet& points) {
+    if (told_of_ranges_ || !asked_.try_find("metric") || arguments_.has("bounds")) return;
+    constexpr double unlike = 20;  // lengths beyond that measure different things
+    const Box box = bounding_box(points.flat(), points.dimension());
+    std::vector<double> sides;
+    for (std::size_t k = 0; k < box.dimension(); ++k) sides.push_back(box.extent(k));
+    const auto [shortest, longest] = std::ranges::minmax(sides);
+    if (points.count() < 2 || !(longest > unlike * shortest)) return;
+    told_of_ranges_ = true;
+    session_.warn(
+        fmt::format("the ranges of the coordinates are between {:.4g} and {:.4g} wide, and "
+                    "distances mix their units; --rescale maps the points to the unit cube first",
+                    shortest, longest));
+}
+
 void Analysis::add(PointSet points, SetOrigin origin) {
     warn_of_prefixes(points.provenance);
+    warn_of_ranges(points);
     const std::size_t numbers = points.flat().size();
     // The first set of a kind may decide how the others are measured.
     const bool decides = averaged_ && analyzer_.follow && is_first(origin.kind, points.dimension());
@@ -380,8 +397,14 @@ void take_mean(Measurement& m, const ReportAverage& average, std::span<const Rep
     m.sets = average.count();
     m.results = average.mean();
     if (analyzer.refine) analyzer.refine(m.results, average.count(), options);
+    const Report means = m.results;
     if (analyzer.combine) analyzer.combine(m.results, sets, options);
-    if (average.count() > 1) m.standard_error = average.standard_error(m.results);
+    if (average.count() < 2) return;
+    m.standard_error = average.standard_error(m.results);
+    // What was combined otherwise is no mean, and has not its error.
+    for (const std::string& key : means.keys())
+        if (number_at(means, key) != number_at(m.results, key))
+            drop(*m.standard_error, {key.c_str()});
 }
 
 }  // namespace stipple::cli

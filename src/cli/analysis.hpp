@@ -113,6 +113,7 @@ class Analysis {
     void check_side_files(const std::string& output) const;
     void warn_of_metric() const;
     void warn_of_prefixes(const Provenance& made);
+    void warn_of_ranges(const PointSet& points);
     [[nodiscard]] bool interrupted() const { return session_.run().stop.stop_requested(); }
 
     [[nodiscard]] Outcome measured_alone(const Waiting& set, RunContext one) const;
@@ -138,6 +139,7 @@ class Analysis {
     bool pooled_;  ///< sets of all kinds have one mean
     bool averaged_;
     bool told_of_prefixes_ = false;
+    bool told_of_ranges_ = false;
     std::vector<Measurement> measurements_;
     std::vector<Group> groups_;  ///< of a measurement each, where these are means
     std::map<std::string, std::size_t> group_indices_;

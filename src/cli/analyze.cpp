@@ -219,7 +219,8 @@ class AnalyzeCall {
     }
 
     void add_generated(const std::string& text, const GeneratedSets& generated) {
-        const std::uint64_t sets = generated.sets();
+        // Copies of one set are no evidence.
+        const std::uint64_t sets = averaged_ ? generated.different_sets() : generated.sets();
         const auto count = generated.streamed();
         RunContext quiet = session_.run();
         if (sets > 1) quiet.progress = {};
@@ -433,7 +434,8 @@ class AnalyzeCall {
             style.below = [](const Measurement& m, const std::string& key) {
                 constexpr std::size_t indent = 6;
                 std::string text;
-                for (const std::string& sentence : meaning_of(find_analyzer(m.analyzer), key))
+                for (const std::string& sentence :
+                     meaning_of(find_analyzer(m.analyzer), key, m.dimension))
                     text +=
                         std::string(indent, ' ') + filled(sentence, text_columns(), indent) + "\n";
                 return text;

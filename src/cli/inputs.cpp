@@ -204,6 +204,12 @@ void require_width(const PointSet& points, const std::string& input) {
                  format_number(box.low[k]), format_number(box.high[k]));
 }
 
+PointSet rescaled(PointSet points) {
+    require_width(points);
+    const Box box = box_around(points);
+    return taken_box(std::move(points), box, true);
+}
+
 PointSet of_the_cube(PointSet points, const Analyzer& analyzer) {
     const std::string domain = points.domain->spec();
     const auto outside = [](double x) { return !(x >= 0 && x <= 1); };
@@ -225,11 +231,7 @@ PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& ar
         return taken_box(std::move(points), box,
                          analyzer.traits.unit_cube || arguments.has("rescale"));
     }
-    if (arguments.has("rescale")) {
-        require_width(points);
-        const Box box = box_around(points);
-        return taken_box(std::move(points), box, true);
-    }
+    if (arguments.has("rescale")) return rescaled(std::move(points));
     return of_the_cube(std::move(points), analyzer);
 }
 

@@ -69,6 +69,9 @@ void take_domain(PointSet& set, const Arguments& arguments);
 /// @param input names them in the message; empty: the caller does
 void require_width(const PointSet& points, const std::string& input = {});
 
+/// Points in the unit cube, their bounding box mapped to it.
+PointSet rescaled(PointSet points);
+
 /// Points of another domain may lie in the cube and be no sample of it.
 /// @throws Error(input) where the set says that it has another domain.
 PointSet of_the_cube(PointSet points, const Analyzer& analyzer);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -100,8 +101,34 @@ bool seed_matters(const Generator& generator, const Provenance& from) {
     }
 }
 
-/// "1024 points, seed 3, scramble=owen (set 2)": options that are not what they are by default, and
-/// the seed where it matters.
+/// "scramble=owen": options that are not what they are by default.
+std::vector<std::string> options_in(const Provenance& from, const Generator& generator) {
+    std::vector<std::string> changed;
+    const auto defaults = typed_settings(generator.options.defaults(), generator.options);
+    for (const auto& setting : from.options) {
+        constexpr std::size_t readable = 40;
+        const auto& [name, value] = setting;
+        const bool is_default = std::ranges::find(defaults, setting) != defaults.end();
+        const auto number = parse_number(value);
+        if (!is_default && value.size() <= readable)
+            changed.push_back(
+                fmt::format("{}={}", name, number ? plot::rounded(*number, 5) : value));
+    }
+    return changed;
+}
+
+/// "sobol:scramble=owen, disk": with the options, where no subtitle has them.
+std::string full_title(const Loaded& set) {
+    const Provenance& from = set.points.provenance;
+    const Generator* generator = generator_named(from.generator);
+    const auto options =
+        generator != nullptr ? options_in(from, *generator) : std::vector<std::string>();
+    if (options.empty() || !set.title.starts_with(from.generator)) return set.title;
+    return fmt::format("{}:{}{}", from.generator, join(options, ","),
+                       set.title.substr(from.generator.size()));
+}
+
+/// "1024 points, seed 3, scramble=owen (set 2)": with options, and the seed where it matters.
 std::string subtitle_of(const Loaded& set) {
     const Provenance& from = set.points.provenance;
     const std::size_t n = set.points.count();
@@ -109,15 +136,7 @@ std::string subtitle_of(const Loaded& set) {
     if (const Generator* generator = generator_named(from.generator)) {
         if (seed_matters(*generator, from)) text += fmt::format(", seed {}", from.seed);
         if (from.start > 0) text += fmt::format(", from index {}", from.start);
-        const auto defaults = typed_settings(generator->options.defaults(), generator->options);
-        for (const auto& setting : from.options) {
-            constexpr std::size_t readable = 40;
-            const auto& [name, value] = setting;
-            const bool is_default = std::ranges::find(defaults, setting) != defaults.end();
-            const auto number = parse_number(value);
-            if (!is_default && value.size() <= readable)
-                text += fmt::format(", {}={}", name, number ? plot::rounded(*number, 5) : value);
-        }
+        for (const std::string& option : options_in(from, *generator)) text += ", " + option;
     }
     return text;
 }
@@ -194,6 +213,9 @@ class Plot {
         const std::string bytes = io::read_bytes(input, run);
         if (!arguments_.has("from"))
             if (auto means = read_means(bytes, io::source_name(input), run)) {
+                std::error_code none;
+                if (input != "-" && std::filesystem::exists(input + ".journal", none))
+                    session_.warn(fmt::format("{}: the study is not finished", input));
                 add_study(*std::move(means), input);
                 return;
             }
@@ -208,6 +230,7 @@ class Plot {
         for (std::size_t i = 0; i < sets.size(); ++i) {
             require_width(sets[i], input);
             naming(input, [&] { take_domain(sets[i], arguments_); });
+            if (arguments_.has("rescale")) sets[i] = rescaled(std::move(sets[i]));
             const std::string title = title_of_points(sets[i].provenance, input);
             sets_.push_back({std::move(sets[i]), input,
                              sets.size() > 1 ? std::optional(i) : std::nullopt,
@@ -221,12 +244,12 @@ class Plot {
         seed_ = seed_for(arguments_, specs, session_);
         for (const std::string& spec : specs) {
             const GeneratedSets sets = generated_sets(spec, seed_, arguments_, session_.run());
-            for (std::uint64_t set = 0; set < sets.sets(); ++set) {
+            for (std::uint64_t set = 0; set < sets.different_sets(); ++set) {
                 PointSet points = sets.made(set, session_.run());
                 std::string title = title_of_points(points.provenance, spec);
                 sets_.push_back({std::move(points), spec,
-                                 sets.sets() > 1 ? std::optional(set) : std::nullopt, false,
-                                 std::move(title)});
+                                 sets.different_sets() > 1 ? std::optional(set) : std::nullopt,
+                                 false, std::move(title)});
             }
         }
     }
@@ -580,7 +603,7 @@ class Plot {
         }
         const PointSet& points = sets_[first].points;
         Measurement m{.analyzer = analyzer.name,
-                      .source = sets_[first].title,
+                      .source = full_title(sets_[first]),
                       .count = points.count(),
                       .dimension = points.dimension(),
                       .domain = points.domain->spec()};

@@ -119,6 +119,8 @@ class Reporter {
         for (std::size_t i = 0; i < pending_.size(); ++i) whole.sets.push_back(finished(i));
         whole.title = title_of(whole.sets);
         const bool fine = judge(whole.sets);
+        for (const page::Set& set : whole.sets)
+            if (fine) warn_of_nothing(set);
         session_.run().check_stop();
         if (output.write(json_ ? page::to_json(whole) : page::to_html(whole))) output.commit();
         return fine ? 0 : 1;
@@ -148,6 +150,7 @@ class Reporter {
         for (std::size_t i = 0; i < sets.size(); ++i) {
             require_width(sets[i], input);
             naming(input, [&] { take_domain(sets[i], arguments_); });
+            if (arguments_.has("rescale")) sets[i] = rescaled(std::move(sets[i]));
             PendingSet next;
             next.set.source = input;
             next.set.provenance = sets[i].provenance;
@@ -168,6 +171,7 @@ class Reporter {
         std::string words = shell_word(input);
         for (const char* name : {"from", "dimension", "column", "input-dtype", "dtype", "domain"})
             if (const auto text = arguments_.get(name)) words += typed_option(name, *text, false);
+        if (arguments_.has("rescale")) words += " --rescale";
         return words;
     }
 
@@ -266,6 +270,16 @@ class Reporter {
                 kept.entries().push_back({name, value, unit});
         }
         return kept;
+    }
+
+    /// A page on points that nothing was measured of is a mistake, mostly.
+    void warn_of_nothing(const page::Set& set) const {
+        if (std::ranges::any_of(set.measures, [](const auto& m) { return m.results.has_value(); }))
+            return;
+        session_.warn(fmt::format(
+            "{}: nothing could be measured ({}); --rescale maps the points to the unit cube, "
+            "--domain 'box:bounds=[lo..hi,...]' names their box",
+            set.name, set.measures.front().left_out));
     }
 
     /// Whether all conditions are certain to hold, also of sets that were not measured.

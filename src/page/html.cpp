@@ -101,7 +101,7 @@ std::string cell_of(const Row& row, std::size_t set) {
                             script_number(known->most())));
 }
 
-std::string verdict_row(std::span<const Set> sets, const char* measure, const char* label) {
+std::string verdict_row(std::span<const Set> sets, const char* measure, const std::string& label) {
     std::string cells;
     bool any = false;
     for (std::size_t i = 0; i < sets.size(); ++i) {
@@ -128,8 +128,8 @@ std::string rule_of(const Key& key) {
 }
 
 /// A title that says what a result means; nothing where nobody knows.
-std::string explained(std::string_view analyzer, std::string_view key) {
-    const auto sentences = meaning_of(find_analyzer(analyzer), key);
+std::string explained(std::string_view analyzer, std::string_view key, std::size_t dimension) {
+    const auto sentences = meaning_of(find_analyzer(analyzer), key, dimension);
     if (sentences.empty()) return {};
     return fmt::format(" title=\"{}\"", html_text(join(sentences, "; ")));
 }
@@ -148,6 +148,10 @@ std::string comparison_of(std::span<const Set> sets) {
     out +=
         "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"comparison\"><table>\n" +
         comparison_head(sets) + "<tbody>\n" + size_row(sets);
+    // A mean of p-values is none.
+    const bool several =
+        std::ranges::any_of(sets, [](const Set& set) { return !set.replications.empty(); });
+    const std::string of_first = several ? " (first seed)" : "";
     std::string group;
     for (const Row& row : compare_sets(sets)) {
         if (group != row.key.group) {
@@ -160,13 +164,15 @@ std::string comparison_of(std::span<const Set> sets) {
         const auto dot = key.find('.');
         out += fmt::format("<tr data-key=\"{}\"{}><th scope=\"row\"{}>{}{}</th>", key,
                            rule_of(row.key),
-                           explained(analyzer_of(key.substr(0, dot))->name, key.substr(dot + 1)),
-                           html_text(row.key.label), arrow_of(row.key.better));
+                           explained(analyzer_of(key.substr(0, dot))->name, key.substr(dot + 1),
+                                     sets[0].dimension),
+                           html_text(row.key.label) + (key.ends_with("p_value") ? of_first : ""),
+                           arrow_of(row.key.better));
         for (std::size_t i = 0; i < sets.size(); ++i) out += cell_of(row, i);
         out += "</tr>\n";
     }
-    out += verdict_row(sets, "chi-square", "χ² verdict") +
-           verdict_row(sets, "kolmogorov-smirnov", "Kolmogorov–Smirnov verdict");
+    out += verdict_row(sets, "chi-square", "χ² verdict" + of_first) +
+           verdict_row(sets, "kolmogorov-smirnov", "Kolmogorov–Smirnov verdict" + of_first);
     out += "</tbody></table></div>\n";
     if (sets.size() > 1)
         out +=
@@ -183,7 +189,8 @@ std::string comparison_of(std::span<const Set> sets) {
 
 constexpr std::size_t most_listed = 8;  ///< numbers of a list that a table shows
 
-std::string row_of(const std::string& analyzer, const std::string& key, const Report& results) {
+std::string row_of(const std::string& analyzer, const std::string& key, const Report& results,
+                   std::size_t dimension) {
     std::string shown = text_of(*results.find(key));
     std::string whole;
     if (const auto list = list_at(results, key)) {
@@ -196,14 +203,15 @@ std::string row_of(const std::string& analyzer, const std::string& key, const Re
     }
     if (shown.empty()) return {};
     return fmt::format("<tr><th scope=\"row\"{}>{}</th><td class=\"number\"{}>{}</td></tr>\n",
-                       explained(analyzer, key), html_text(key), whole, html_text(shown));
+                       explained(analyzer, key, dimension), html_text(key), whole,
+                       html_text(shown));
 }
 
-std::string measure_of(const Measure& measure) {
+std::string measure_of(const Measure& measure, std::size_t dimension) {
     std::string out = fmt::format("<div class=\"measure\">\n<h3>{}</h3>\n<table><tbody>\n",
                                   html_text(measure.title));
     for (const std::string& key : measure.results->keys())
-        out += row_of(measure.analyzer, key, *measure.results);
+        out += row_of(measure.analyzer, key, *measure.results, dimension);
     return out +
            fmt::format("</tbody></table>\n<pre>{}</pre>\n</div>\n", html_text(measure.command));
 }
@@ -268,7 +276,7 @@ std::string section_of(std::span<const Set> sets, std::size_t i) {
     out +=
         curve_figures(sets, which) + "</div>\n" + verdicts_of(set) + "<div class=\"measures\">\n";
     for (const Measure& measure : set.measures)
-        if (measure.results) out += measure_of(measure);
+        if (measure.results) out += measure_of(measure, set.dimension);
     return out + "</div>\n" + left_out_of(set) + provenance_of(set) + "</section>\n";
 }
 

@@ -166,7 +166,7 @@ GeneratedSets::GeneratedSets(SetsToMake asked, const RunContext& run)
     if (asked_.sets - 1 > ~plan_.seed)
         fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed", plan_.seed,
              asked_.sets);
-    if (asked_.sets > 1 && !uses_seed(generator_, asked_.options) && !chain_->seeded())
+    if (different_sets() < asked_.sets)
         run.notify(fmt::format("{} does not use the seed: all {} sets are the same",
                                generator_.name, asked_.sets));
     if (generator_.notes)
@@ -202,6 +202,10 @@ std::shared_ptr<Sequence> GeneratedSets::sequence(std::uint64_t set, const RunCo
     Plan plan = plan_;
     plan.seed += set;
     return sequence_ = generator_.sequence(plan, asked_.options, run);
+}
+
+std::uint64_t GeneratedSets::different_sets() const {
+    return uses_seed(generator_, asked_.options) || chain_->seeded() ? asked_.sets : 1;
 }
 
 NextRows GeneratedSets::stream(std::uint64_t set, const RunContext& run, std::uint64_t first,

@@ -62,6 +62,8 @@ class GeneratedSets {
     GeneratedSets(SetsToMake asked, const RunContext& run);
 
     [[nodiscard]] std::uint64_t sets() const { return asked_.sets; }
+    /// 1 where no seed changes the points.
+    [[nodiscard]] std::uint64_t different_sets() const;
     [[nodiscard]] const Plan& plan() const { return plan_; }
     [[nodiscard]] std::size_t dimension() const { return chain_->dimension_out(); }
     /// What the points are on in the end.

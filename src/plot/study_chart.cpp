@@ -138,7 +138,7 @@ ChartPanel panel_of(const Topic& topic, const std::string& name, std::span<const
         }
         if (!series.x.empty()) panel.series.push_back(std::move(series));
     }
-    panel.log_y = low > 0 && high > 3 * low;
+    panel.log_y = low > 0 && high > 1.5 * low;
     if (panel.log_y) panel.guides = falling_guides(panel.series[0]);
     return panel;
 }

@@ -27,10 +27,11 @@ std::string typical_in_words(std::string_view analyzer, std::string_view key) {
 
 }  // namespace
 
-std::vector<std::string> meaning_of(const Analyzer& analyzer, std::string_view key) {
+std::vector<std::string> meaning_of(const Analyzer& analyzer, std::string_view key,
+                                    std::size_t dimension) {
     std::vector<std::string> sentences;
     if (const ResultKey* result = find_result(analyzer, key)) sentences.push_back(result->help);
-    if (auto words = typical_in_words(analyzer.name, key); !words.empty())
+    if (auto words = typical_in_words(analyzer.name, key); dimension == 2 && !words.empty())
         sentences.push_back(std::move(words));
     return sentences;
 }

@@ -159,13 +159,19 @@ std::vector<StudySummary::Pair> StudySummary::pairs_of(const Topic& topic, bool 
     std::vector<Pair> pairs;
     std::vector<double> p_values;
     const auto& members = topics_.at(topic);
+    std::vector<std::vector<double>> values;
+    for (const std::size_t member : members) {
+        values.push_back(samples_[member].values);
+        if (is_error_key(std::get<3>(topic)))
+            for (double& error : values.back()) error = std::abs(error);
+    }
     for (std::size_t i = 0; i < members.size(); ++i)
         for (std::size_t j = i + 1; j < members.size(); ++j) {
             const Sample& a = samples_[members[i]];
             const Sample& b = samples_[members[j]];
-            const Paired both = paired(a.seeds, a.values, b.seeds, b.values);
-            const auto& x = by_seed ? both.a : a.values;
-            const auto& y = by_seed ? both.b : b.values;
+            const Paired both = paired(a.seeds, values[i], b.seeds, values[j]);
+            const auto& x = by_seed ? both.a : values[i];
+            const auto& y = by_seed ? both.b : values[j];
             pairs.push_back(
                 {&a, &b, x.size(), y.size(), by_seed ? paired_test(x, y) : welch_test(x, y)});
             p_values.push_back(pairs.back().test.p_value);
@@ -189,6 +195,7 @@ std::string StudySummary::comparisons(TableStyle style, const SummaryOptions& op
                 word("generator_a", row.generator),
                 word("generator_b", b->row.generator),
                 word("method", options.paired ? "paired" : "welch"),
+                word("compared", is_error_key(row.key) ? "absolute value" : "value"),
                 whole("sets_a", sets_a),
                 whole("sets_b", sets_b),
                 real("difference", test.difference),

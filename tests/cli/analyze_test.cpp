@@ -539,6 +539,36 @@ TEST(Analyze, SaysWhatPrefixesAndMixedUnitsTell) {
     EXPECT_EQ(notes(make, "star-discrepancy --bounds 0..1,0..100"), "");
 }
 
+// Copies of one set have its anisotropy, not that of a mean of many.
+TEST(Analyze, CopiesOfOneSetAreNoEvidence) {
+    const Sandbox box;
+    const auto results = [&](const std::string& sets) {
+        return report_of(
+            box.shell("stipple analyze periodogram --generate halton -n 64 --average "
+                      "--quiet -m " +
+                      sets))["results"];
+    };
+    EXPECT_EQ(results("100"), results("1"));
+    EXPECT_EQ(report_of(box.shell("stipple analyze kolmogorov-smirnov --generate jittered -n 64 "
+                                  "--average -m 4"))["standard_error"]
+                  .contains("combined_p_value"),
+              false);
+}
+
+TEST(Analyze, SaysWhereRangesMixUnits) {
+    const Sandbox box;
+    box.write("w.csv", "height,weight\n1.5,60000\n1.7,75000\n1.8,90000\n");
+    EXPECT_THAT(box.run({"analyze", "nearest-neighbor", "w.csv", "--metric", "euclidean"}).err,
+                HasSubstr("the column 'weight' is taken for the weight of the points"));
+    box.write("t.csv", "height,mass\n1.5,60000\n1.7,75000\n1.8,90000\n");
+    const Outcome mixed =
+        box.run({"analyze", "nearest-neighbor", "t.csv", "--metric", "euclidean"});
+    EXPECT_THAT(mixed.err, HasSubstr("the ranges of the coordinates are between 0.3 and 3e+04"));
+    EXPECT_EQ(good(box.shell("stipple analyze nearest-neighbor t.csv --metric euclidean --rescale"))
+                  .empty(),
+              false);
+}
+
 // The box that the points lie in, as the unit cube.
 TEST(Analyze, MapsTheBoxOfBoundsToTheCube) {
     const Sandbox box;

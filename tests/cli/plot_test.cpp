@@ -466,6 +466,20 @@ TEST(Plot, SheetsFillTheSizeThatIsAskedFor) {
               "(300, 900)\n");
 }
 
+// Means have no subtitle that tells their options.
+TEST(Plot, MeansAreNamedWithTheirOptions) {
+    const Sandbox box;
+    const std::string make = "--generate sobol --generate sobol:scramble=owen -n 64 -m 2 --quiet ";
+    for (const char* chart : {"spectrum", "radial"}) {
+        good(box.shell("stipple plot " + make + "-o s.svg --chart " + chart));
+        EXPECT_THAT(xml(box, "s.svg", "text"), HasSubstr("sobol:scramble=owen")) << chart;
+    }
+    good(box.shell("stipple plot " + make + "-o p.svg"));  // one of plain points, two of scrambled
+    EXPECT_EQ(xml(box, "p.svg", "circle"), "192\n");
+    good(box.shell("printf '1,60000\\n2,90000\\n' | stipple plot --rescale -o r.svg"));
+    EXPECT_THAT(xml(box, "r.svg", "text"), Not(HasSubstr("60000")));
+}
+
 TEST(Plot, DrawsPairsOfThreeCoordinates) {
     const Sandbox box;
     good(box.shell("stipple generate random -n 5 -d 3 -o p.csv"));

@@ -365,4 +365,14 @@ TEST(Report, SavesPicturesAsTheyLook) {
     EXPECT_THAT(outcome.out, HasSubstr("rgb(0, 114, 178)"));
 }
 
+TEST(Report, OfATableNeedsItsBox) {
+    const Sandbox box;
+    box.write("t.csv", "height,mass\n1.5,60000\n1.7,75000\n1.8,90000\n1.6,70000\n");
+    const Outcome nothing = box.run({"report", "t.csv", "-o", "t.html"});
+    EXPECT_EQ(nothing.code, 0);
+    EXPECT_THAT(nothing.err, HasSubstr("t.csv: nothing could be measured"));
+    good(box.run({"report", "t.csv", "--rescale", "-o", "t.html"}));
+    EXPECT_THAT(box.read("t.html"), HasSubstr("t.csv --rescale"));
+}
+
 }  // namespace stipple::testing::report_test

@@ -245,6 +245,14 @@ TEST(Study, SummaryHasIntervalsOfErrors) {
         EXPECT_NEAR(std::stod(row.at("rms_high")), rms * std::sqrt(4 / 0.4844185571), 1e-9 * rms);
         EXPECT_NEAR(std::stod(row.at("rms_low")), rms * std::sqrt(4 / 11.1432867819), 1e-9 * rms);
     }
+    good(
+        box.shell("stipple study --generators 'random;sobol:scramble=owen' --count 1024 --sets 8 "
+                  "--analyze integration:integrand=genz-gaussian --keys error -o study.csv "
+                  "--summary --overwrite"));
+    const Row pair = rows_of(box.read("study.comparisons.csv")).front();
+    EXPECT_EQ(pair.at("compared"), "absolute value");
+    EXPECT_GT(std::stod(pair.at("difference")), 0);
+    EXPECT_LT(std::stod(pair.at("p_value")), 0.05);  // though both means are near 0
     expect_refusal(box.run({"plot", "study.comparisons.csv", "-o", "c.svg"}), 3,
                    "comparisons of a study are not drawn");
 }

@@ -196,6 +196,8 @@ const std::vector<CommonOption> rows = {
     {"--rescale", "", "",
      "first map the box of --bounds, else the bounding box of the points, to the unit cube",
      analyze},
+    {"--rescale", "", "", "first map the bounding box of the points of files to the unit cube",
+     plot | report},
     {"--meta", "", "",
      "write the provenance: in '# ' lines on top of text formats; for npy, bin, utk and psa in "
      "FILE.meta.json",

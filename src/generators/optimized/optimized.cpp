@@ -18,7 +18,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
 #include "core/text.hpp"
 #include "generators/generator.hpp"
 #include "generators/optimized/order_search.hpp"
@@ -34,22 +33,14 @@ constexpr Param<double> effort{.name = "effort",
                                    "Steps of the search in the plane: this times those of some "
                                    "seconds (fewer for less than 180 points)"};
 
-constexpr std::size_t most_points = 30'000;
-
-Plan plan(const Request& request, const Values& /*options*/) {
-    const Plan plan = default_plan(request, 64);
-    if (plan.dimension > 1 && plan.count > most_points)
-        fail(ErrorKind::usage,
-             "--count: {} is outside [1, {}], what optimized can make in the plane", plan.count,
-             most_points);
-    return plan;
-}
+Plan plan(const Request& request, const Values& /*options*/) { return default_plan(request, 64); }
 
 double budget_of(double n, const Values& options) {
     return options[effort] * std::min(0x1p20 * n * n, 0x1p35);
 }
 
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
+    run.tick(0, 1);
     const auto n = static_cast<double>(plan.count);
     PointSet points(plan.count, plan.dimension);
     double value = 1 / (2 * n);

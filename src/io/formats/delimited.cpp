@@ -447,9 +447,10 @@ struct TableHead {
     Top top;
     Dialect dialect;
     Columns columns;
-    bool names = false;          ///< the first line is a header
-    bool row_names = false;      ///< the first column, which has no name
-    std::string counter = {};    ///< the first column, taken for a coordinate, that counts the rows
+    bool names = false;        ///< the first line is a header
+    bool row_names = false;    ///< the first column, which has no name
+    std::string counter = {};  ///< the first column, taken for a coordinate, that counts the rows
+    std::string measure = {};  ///< the column pdf or weight beside columns with names of their own
     const char* body = nullptr;  ///< where rows begin
 
     void tell_row_names(const std::string& source, const RunContext& run) const {
@@ -458,6 +459,11 @@ struct TableHead {
                 fmt::format("{}: the first column has no name: it holds row names, and is "
                             "left out; --column picks columns by number",
                             source_name(source)));
+        if (!measure.empty())
+            run.notify(
+                fmt::format("{}: the column '{}' is taken for the {} of the points, not for a "
+                            "coordinate; --column picks columns by name",
+                            source_name(source), measure, measure == "pdf" ? "density" : measure));
         if (!counter.empty())
             run.notify(
                 fmt::format("{}: the column '{}' counts the rows, and is taken for a "
@@ -531,6 +537,10 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
         !options.all_columns && names[0] != "set" &&
         counts_rows(text, head.body, head.dialect.separator))
         head.counter = names[0];
+    // Points of our own have usual names beside them.
+    if (head.names && options.columns.empty() && !head.top.provenance.columns.empty())
+        for (std::size_t c = 0; c < names.size(); ++c)
+            if (head.columns.role[c] == Columns::checked) head.measure = names[c];
     return head;
 }
 

@@ -28,9 +28,34 @@ const Glyph unknown{U'\uFFFD', 556, "M2 1L13.6 1L13.6 19L2 19L2 1"};
 constexpr std::u32string_view raised_letters = U"⁰¹²³⁴⁵⁶⁷⁸⁹⁻";
 constexpr std::u32string_view plain_letters = U"0123456789−";
 
-/// Letters of Latin-1 from U+00C0 on, without their accents.
+/// Letters of Latin-1 from U+00C0 on, without their accents, and these.
 constexpr std::u32string_view bare_letters =
-    U"AAAAAAACEEEEIIIIDNOOOOO×OUUUUYPsaaaaaaaceeeeiiiidnooooo/ouuuuypy";
+    U"AAAAAAACEEEEIIIIDNOOOOO×OUUUUYPßaaaaaaaceeeeiiiidnooooo/ouuuuypy";
+constexpr std::string_view accents =
+    "`'^~:o ,`'^:`'^: ~`'^~: /`'^:'  `'^~:o ,`'^:`'^: ~`'^~: /`'^:' :";
+static_assert(accents.size() == bare_letters.size());
+
+/// Over the middle of a letter that ends at 0, or from its baseline down and through it.
+const char* path_of(char accent) {
+    switch (accent) {
+        case '`':
+            return "M-2.4 3.2L0.8 0";
+        case '\'':
+            return "M2.4 3.2L-0.8 0";
+        case '^':
+            return "M-3 0L0 3L3 0";
+        case '~':
+            return "M-3.6 0.4Q-3 2.4 -1.2 2L1.2 0.8Q3 0.4 3.6 2.4";
+        case ':':
+            return "M-2.6 1L-2.6 1.6M2.6 1L2.6 1.6";
+        case 'o':
+            return "M0 3.6Q1.9 3.6 1.9 1.7Q1.9 -0.2 0 -0.2Q-1.9 -0.2 -1.9 1.7Q-1.9 3.6 0 3.6";
+        case ',':
+            return "M0 1L-0.6 -1.2Q2.2 -1.4 2 -3Q1.8 -4.6 -1.8 -4.4";
+        default:
+            return "M-6 0L6 15";
+    }
+}
 
 /// All glyphs by their letters, from lines such as "L 556 M3 19L3 1L14.2 1".
 const std::vector<Glyph>& glyphs() {
@@ -89,6 +114,23 @@ std::vector<std::vector<Position>> strokes_in(const std::string& path) {
     return strokes;
 }
 
+/// Adds the accent of a letter of Latin-1.
+void add_accent(std::vector<std::vector<Position>>& strokes, char32_t letter) {
+    if (letter < 0xC0 || letter >= 0xC0 + accents.size()) return;
+    const char accent = accents[letter - 0xC0];
+    if (accent == ' ') return;
+    const bool above = accent != ',' && accent != '/';
+    const bool small = letter >= 0xE0;
+    if (above && small && bare_letters[letter - 0xC0] == U'i')
+        strokes.resize(1);  // without its dot
+    const double middle = em_units * plain_glyph(letter).advance / 2000;
+    const double base = !above ? 0 : small ? 16 : 21.5;
+    for (auto& stroke : strokes_in(path_of(accent))) {
+        for (Position& position : stroke) position = {position.x + middle, position.y + base};
+        strokes.push_back(std::move(stroke));
+    }
+}
+
 }  // namespace
 
 std::optional<char32_t> lowered(char32_t letter) {
@@ -105,7 +147,10 @@ double advance_of(char32_t letter) {
 std::vector<std::vector<Position>> strokes_of(char32_t letter) {
     const auto plain = lowered(letter);
     auto strokes = strokes_in(plain_glyph(plain.value_or(letter)).path);
-    if (!plain) return strokes;
+    if (!plain) {
+        add_accent(strokes, letter);
+        return strokes;
+    }
     for (auto& stroke : strokes)
         for (Position& position : stroke)
             position = {position.x * raised_size, position.y * raised_size + raised_by};

@@ -170,8 +170,8 @@ TEST(Letters, EveryPrintableLetterHasStrokesWithinItsBox) {
     for (const char32_t letter : {U'⁻', U'³', U'×', U'·', U'−', U'…', U'√', U'∞', U'±'})
         EXPECT_NE(strokes_of(letter), strokes_of(U'\uFFFD')) << static_cast<int>(letter);
     EXPECT_TRUE(strokes_of(U' ').empty());
-    EXPECT_EQ(strokes_of(U'é'), strokes_of(U'e'));
-    EXPECT_EQ(strokes_of(U'ÿ'), strokes_of(U'y'));
+    EXPECT_EQ(strokes_of(U'æ'), strokes_of(U'a'));
+    EXPECT_EQ(strokes_of(U'þ'), strokes_of(U'p'));
     EXPECT_EQ(strokes_of(U'Σ'), strokes_of(U'\uFFFD'));
 }
 
@@ -310,6 +310,27 @@ TEST(HtmlText, Base64AsPrinted) {
     EXPECT_EQ(base64("foo"), "Zm9v");
     EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
     EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
+}
+
+// Accents stand over their letters, small and capital ones; i has one in place of its dot.
+TEST(Letters, HaveTheirAccents) {
+    const auto top = [](char32_t letter) {
+        double highest = 0;
+        for (const auto& stroke : strokes_of(letter))
+            for (const Position& position : stroke) highest = std::max(highest, position.y);
+        return highest;
+    };
+    for (const auto& [accented, bare] :
+         {std::pair{U'ü', U'u'}, {U'é', U'e'}, {U'ñ', U'n'}, {U'Å', U'A'}, {U'Ö', U'O'}}) {
+        EXPECT_EQ(advance_of(accented), advance_of(bare));
+        EXPECT_GT(strokes_of(accented).size(), strokes_of(bare).size());
+        EXPECT_GT(top(accented), top(bare));
+    }
+    EXPECT_EQ(strokes_of(U'î').size(), strokes_of(U'i').size());
+    EXPECT_EQ(top(U'ç'), top(U'c'));
+    EXPECT_NE(advance_of(U'ß'), advance_of(U's'));
+    for (const char32_t letter : std::u32string_view(U"ßµΩμ"))
+        EXPECT_NE(strokes_of(letter).front().size(), strokes_of(U'\uFFFD').front().size());
 }
 
 }  // namespace stipple::testing::drawing_test
