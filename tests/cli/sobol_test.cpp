@@ -36,7 +36,7 @@ TEST(Sobol, TellsOnceThatACountIsNoNet) {
         return outcome.err;
     };
     const std::string note =
-        "stipple: 1000 points do not form a net; take a power of two: 512 or 1024\n";
+        "stipple: note: 1000 points do not form a net; take a power of two: 512 or 1024\n";
     EXPECT_EQ(said({}), note);
     EXPECT_EQ(said({"--scramble", "owen", "-m", "3"}), note);
     EXPECT_EQ(said({"--scramble", "owen", "-m", "3", "-o", "a{set}.csv"}), note);
