@@ -232,6 +232,11 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     const PairCounts counts =
         count_pairs(points, plan.distances, plan.width, plan.bins + plan.spread, plan.spread > 0,
                     run.stage(0, 0.98));
+    if (std::ranges::count(counts.pairs, 0U) == std::ssize(counts.pairs))
+        run.notify(
+            fmt::format("no two points are within {:.4g}, as far as distances are looked at: there "
+                        "are no pairs to count",
+                        static_cast<double>(plan.bins) * plan.width));
     const RunContext rest = run.stage(0.98, 1);
     Curves curves = plan.spread == 0 ? histogram(plan, counts, rest) : smooth(plan, counts, rest);
     const char* unit = options[normalize] ? "(V / n)^(1/d)" : "";

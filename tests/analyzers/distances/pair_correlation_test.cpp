@@ -293,6 +293,8 @@ TEST(PairCorrelation, WarnsOfPointsThatAreAllEqual) {
     EXPECT_EQ(warnings(equal),
               std::vector<std::string>{"all 3 points are equal: all distances are 0"});
     EXPECT_TRUE(warnings(points_of({{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.25}})).empty());
+    EXPECT_EQ(warnings(points_of({{0.1, 0.1}, {0.6, 0.6}})).at(0).substr(0, 24),
+              "no two points are within");
 }
 
 }  // namespace stipple::testing::pair_correlation_test
