@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <utility>
 
@@ -18,6 +19,7 @@
 #include "io/source_text.hpp"
 #include "math/fourier/transform.hpp"
 #include "pipeline/chain.hpp"
+#include "plot/points_picture.hpp"
 #include "report/grid_files.hpp"
 
 namespace stipple::cli {
@@ -136,7 +138,7 @@ void Analysis::warn_of_metric() const {
         if (bounds || metric->given) return;
         return session_.warn(
             "--rescale puts the outermost points on faces that the torus joins; --metric euclidean "
-            "measures straight, --bounds with it names the box that the points lie in");
+            "measures straight, and --rescale with --bounds takes the box that the points lie in");
     }
     if (!bounds) return;
     const auto ranges = std::ranges::count(*bounds, ',') + 1;
@@ -161,15 +163,22 @@ void Analysis::warn_of_prefixes(const Provenance& made) {
 
 // ---------------------------------------------------------------- sets
 
-/// The same of points that are measured as they are.
+/// Distances between the points of a file whose columns measure different things.
 void Analysis::warn_of_ranges(const PointSet& points) {
-    if (told_of_ranges_ || !asked_.try_find("metric") || arguments_.has("bounds")) return;
+    if (told_of_ranges_ || !asked_.try_find("metric") || arguments_.has("bounds") ||
+        arguments_.has("generate"))
+        return;
     constexpr double unlike = 20;  // lengths beyond that measure different things
-    const Box box = bounding_box(points.flat(), points.dimension());
+    const bool boxed = points.domain->spec().starts_with("box");
+    if (!boxed && !plot::without_domain(points)) return;
+    const Box box =
+        boxed ? points.domain->bounding_box() : bounding_box(points.flat(), points.dimension());
     std::vector<double> sides;
-    for (std::size_t k = 0; k < box.dimension(); ++k) sides.push_back(box.extent(k));
+    for (std::size_t k = 0; k < box.dimension(); ++k)
+        if (box.extent(k) > 0) sides.push_back(box.extent(k));
+    if (sides.size() < 2) return;
     const auto [shortest, longest] = std::ranges::minmax(sides);
-    if (points.count() < 2 || !(longest > unlike * shortest)) return;
+    if (!(longest > unlike * shortest)) return;
     told_of_ranges_ = true;
     session_.warn(
         fmt::format("the ranges of the coordinates are between {:.4g} and {:.4g} wide, and "
@@ -392,19 +401,46 @@ std::optional<std::string> Analysis::broken(const Check& check, const Report& re
     return check.found(results);
 }
 
+namespace {
+
+/// Whether a result is the mean as it was, but for rounding.
+bool is_mean(const Report& means, const Report& results, const std::string& key) {
+    const auto alike = [](double a, double b) {
+        return a == b || !(std::abs(a - b) > 1e-9 * std::abs(b));
+    };
+    const auto before = list_at(means, key);
+    const auto after = list_at(results, key);
+    if (before && after) return std::ranges::equal(*before, *after, alike);
+    const auto was = number_at(means, key);
+    const auto is = number_at(results, key);
+    return !was || !is || alike(*was, *is);
+}
+
+/// Less those of what is no mean: combined of the sets in another way.
+Report errors_of_means(const Report& errors, const Report& means, const Report& results,
+                       const std::string& group = {}) {
+    Report kept;
+    for (const auto& [name, value, unit] : errors.entries()) {
+        const std::string key = group + name;
+        if (const auto* inner = std::get_if<Report>(&value))
+            kept.add(name, errors_of_means(*inner, means, results, key + "."));
+        else if (is_mean(means, results, key))
+            kept.entries().push_back({name, value, unit});
+    }
+    return kept;
+}
+
+}  // namespace
+
 void take_mean(Measurement& m, const ReportAverage& average, std::span<const Report> sets,
                const Analyzer& analyzer, const Values& options) {
     m.sets = average.count();
-    m.results = average.mean();
+    const Report means = average.mean();
+    m.results = means;
     if (analyzer.refine) analyzer.refine(m.results, average.count(), options);
-    const Report means = m.results;
     if (analyzer.combine) analyzer.combine(m.results, sets, options);
     if (average.count() < 2) return;
-    m.standard_error = average.standard_error(m.results);
-    // What was combined otherwise is no mean, and has not its error.
-    for (const std::string& key : means.keys())
-        if (number_at(means, key) != number_at(m.results, key))
-            drop(*m.standard_error, {key.c_str()});
+    m.standard_error = errors_of_means(average.standard_error(m.results), means, m.results);
 }
 
 }  // namespace stipple::cli

@@ -34,6 +34,7 @@
 #include "plot/text_picture.hpp"
 #include "report/average.hpp"
 #include "report/document.hpp"
+#include "study/study_file.hpp"
 
 namespace stipple::cli {
 namespace {
@@ -214,7 +215,7 @@ class Plot {
         if (!arguments_.has("from"))
             if (auto means = read_means(bytes, io::source_name(input), run)) {
                 std::error_code none;
-                if (input != "-" && std::filesystem::exists(input + ".journal", none))
+                if (input != "-" && std::filesystem::exists(journal_of(input), none))
                     session_.warn(fmt::format("{}: the study is not finished", input));
                 add_study(*std::move(means), input);
                 return;
@@ -363,14 +364,15 @@ class Plot {
             return in_letters(sets_.size(), [&](std::size_t i, const plot::TextRoom& room) {
                 return plot::points_as_text(frame_of(i), room);
             });
-        return on_sheet(sets_.size(), 0, [&](std::size_t i, plot::PictureStyle style) {
+        return on_sheet(sets_.size(), 0, [&](std::size_t i, plot::PictureStyle style, bool) {
             const bool histogram = sets_[i].points.dimension() == 1;
             if (histogram && style.height <= 0) style.height = style.width;
             return plot::draw_points(frame_of(i), style, session_.run());
         });
     }
 
-    using DrawPart = std::function<plot::Drawing(std::size_t part, const plot::PictureStyle&)>;
+    using DrawPart =
+        std::function<plot::Drawing(std::size_t part, const plot::PictureStyle&, bool last_in_row)>;
     using WritePart = std::function<std::string(std::size_t part, const plot::TextRoom&)>;
 
     /// Parts beside and below each other, under the title that was given.
@@ -384,14 +386,16 @@ class Plot {
         auto [drawing, top] = plot::titled_drawing("", "", style_, usual * across + more);
         if (style_.title.value_or("").empty()) top = 0;
         const double width = std::floor((drawing.width - more) / across);
-        require_room(across, width, rows, top);
+        require_room(across, width, more, rows, top);
         std::vector<plot::Drawing> drawn;
         for (std::size_t i = 0; i < parts; ++i) {
+            const bool last = i + 1 == parts || (i + 1) % columns == 0;
             plot::PictureStyle style = style_;
             style.title.reset();
-            style.width = width + (is_last_in_row(i, parts) ? more : 0);
+            style.width = width + (last ? more : 0);
             if (style_.height > 0) style.height = std::floor((style_.height - top) / rows);
-            drawn.push_back(draw(i, style));
+            style.rows = rows;
+            drawn.push_back(draw(i, style, last));
         }
         plot::add_rows(drawing, std::move(drawn), columns, top);
         return finished(std::move(drawing));
@@ -416,7 +420,7 @@ class Plot {
     }
 
     /// @throws Error(usage) where frames of that width, in so many rows, hold no points
-    void require_room(double columns, double width, double rows, double top) const {
+    void require_room(double columns, double width, double more, double rows, double top) const {
         constexpr double least_width = 150;
         constexpr double least_height = 200;
         plot::require_height(style_, top + rows * least_height);
@@ -424,11 +428,7 @@ class Plot {
             fail(ErrorKind::usage,
                  "--width: {:.0f} leaves no room for {} frames in a row; at least {:.0f} does",
                  style_.width * style_.scale, columns,
-                 std::ceil(columns * least_width * style_.scale));
-    }
-
-    [[nodiscard]] bool is_last_in_row(std::size_t part, std::size_t parts) const {
-        return part + 1 == parts || (part + 1) % columns_of(parts) == 0;
+                 std::ceil((columns * least_width + more) * style_.scale));
     }
 
     std::string in_letters(std::size_t parts, const WritePart& write) const {
@@ -523,15 +523,19 @@ class Plot {
                 return plot::spectrum_as_text(grid_of(found[i]), found[i].source, room);
             });
         const double bar = plot::colour_bar_room - plot::picture_margin / 2;
-        return on_sheet(found.size(), bar, [&](std::size_t i, const plot::PictureStyle& style) {
-            const std::string points =
-                found[i].sets > 1
-                    ? fmt::format("{} points, mean of {} sets", found[i].count, found[i].sets)
-                    : subtitle_of(sets_[firsts[i]]);
-            plot::TableNames names = names_of(found[i]);
-            names.bar = is_last_in_row(i, found.size());
-            return plot::draw_spectrum(grid_of(found[i]), found[i].source, points, style, names);
-        });
+        return on_sheet(
+            found.size(), bar,
+            [&](std::size_t i, const plot::PictureStyle& style, bool last_in_row) {
+                const Loaded& first = sets_[firsts[i]];
+                const bool mean = found[i].sets > 1;
+                const std::string points =
+                    mean ? fmt::format("{} points, mean of {} sets", found[i].count, found[i].sets)
+                         : subtitle_of(first);
+                plot::TableNames names = names_of(found[i]);
+                names.bar = last_in_row;
+                return plot::draw_spectrum(grid_of(found[i]), mean ? found[i].source : first.title,
+                                           points, style, names);
+            });
     }
 
     std::string drawn_table(const Grid& table, const std::string& title,

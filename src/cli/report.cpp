@@ -120,7 +120,7 @@ class Reporter {
         whole.title = title_of(whole.sets);
         const bool fine = judge(whole.sets);
         for (const page::Set& set : whole.sets)
-            if (fine) warn_of_nothing(set);
+            if (fine) warn_of_nothing(set);  // an error says alone what is wrong
         session_.run().check_stop();
         if (output.write(json_ ? page::to_json(whole) : page::to_html(whole))) output.commit();
         return fine ? 0 : 1;
@@ -274,7 +274,9 @@ class Reporter {
 
     /// A page on points that nothing was measured of is a mistake, mostly.
     void warn_of_nothing(const page::Set& set) const {
-        if (std::ranges::any_of(set.measures, [](const auto& m) { return m.results.has_value(); }))
+        const auto inputs = input_names(arguments_);
+        if (std::ranges::find(inputs, set.source) == inputs.end() ||
+            std::ranges::any_of(set.measures, [](const auto& m) { return m.results.has_value(); }))
             return;
         session_.warn(fmt::format(
             "{}: nothing could be measured ({}); --rescale maps the points to the unit cube, "

@@ -123,13 +123,12 @@ Axis y_axis(const ChartPanel& panel, const PictureStyle& style) {
     if (span.high - span.low <= 1e-7 * std::abs(span.high)) span.low = span.high;
     Axis axis{.low = span.low, .high = span.high, .log = span.log, .name = panel.y_name};
     axis.make_valid();
+    if (axis.log) axis.low = std::max(axis.low, panel.least_y > 0 ? panel.least_y : 0);
     if (style.tight) return axis;
-    if (axis.log) {
-        axis.low = std::max(axis.low, panel.least_y > 0 ? panel.least_y : 0);
+    if (axis.log)
         widen(axis, 0.05);
-    } else {
+    else
         widen(axis, 0.06, panel.from_zero && axis.low == 0);
-    }
     return axis;
 }
 
@@ -436,7 +435,8 @@ void require_height(const PictureStyle& style, double needed) {
     if (style.height > 0 && style.height < needed)
         fail(ErrorKind::usage,
              "--height: {:.0f} leaves no room for the picture; at least {:.0f} does",
-             style.height * style.scale, std::ceil(needed * style.scale));
+             std::ceil(style.height * style.rows * style.scale),
+             std::ceil(needed * style.rows * style.scale));
 }
 
 Drawing draw_chart(const Chart& chart, const PictureStyle& style, std::vector<Area>* frames) {

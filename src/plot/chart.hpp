@@ -23,6 +23,7 @@ struct PictureStyle {
     double width = 0;
     double height = 0;
     double scale = 1;                       ///< pixels in a unit
+    double rows = 1;                        ///< of such pictures in the height that was asked for
     std::optional<std::string> title = {};  ///< instead of the picture's own
     std::optional<bool> log_x = {};
     std::optional<bool> log_y = {};

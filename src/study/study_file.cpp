@@ -19,8 +19,6 @@ namespace {
 
 constexpr const char* journal_format = "stipple.study-journal";
 
-std::string journal_of(const std::string& path) { return path + ".journal"; }
-
 std::string folder_of(const std::string& path) {
     const auto slash = path.rfind('/');
     return slash == std::string::npos ? "." : path.substr(0, slash + 1);
@@ -84,6 +82,8 @@ bool is_of(const Sweep& sweep, const StudyRow& row, std::uint64_t unit) {
 }
 
 }  // namespace
+
+std::string journal_of(const std::string& table) { return table + ".journal"; }
 
 /// Lines of a file, which may not be there. A read that fails is not its end.
 class StudyFile::Lines {

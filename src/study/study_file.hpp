@@ -34,6 +34,9 @@
 
 namespace stipple {
 
+/// The file beside a study's table that is there until it is finished.
+std::string journal_of(const std::string& table);
+
 class StudyFile {
   public:
     using Listener = std::function<void(const StudyRow&)>;

@@ -173,7 +173,9 @@ void refuse_second_unit(const Arguments& arguments, const Kind& kind) {
             continue;
         fail_with_hint(
             ErrorKind::usage,
-            fmt::format("several analyzers stand between commas: {},{}", arguments.unit, word),
+            fmt::format("several analyzers stand between commas: {},{}",
+                        arguments.specs.empty() ? arguments.unit : join(arguments.specs, ","),
+                        word),
             "{}: no such file, but an analyzer", word);
     }
 }
@@ -272,7 +274,7 @@ Arguments parse_arguments(int argc, const char* const* argv) {
         }
     }
     const auto rest = take_words(std::move(words), kind != nullptr, unit, arguments);
-    if (verb == Verb::analyze) refuse_second_unit(arguments, *kind);
+    if (verb == Verb::analyze && !arguments.help) refuse_second_unit(arguments, *kind);
     if (verb == Verb::generate && inputs.size() > 1)
         fail(ErrorKind::usage, "unexpected argument '{}'", inputs[1]);
     if (!inputs.empty())

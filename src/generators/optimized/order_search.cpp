@@ -136,7 +136,7 @@ double go_on(Descent& descent, SplitMix64 draws, double steps, const RunContext&
         ++in_vain;
         const bool critical = unit(draws) < on_cycle;
         const auto swap = critical ? order.critical_swap(draws) : any_swap(n, draws);
-        if (swap) order.attempt(*swap, order.level() * equal, critical);
+        if (swap) order.attempt(*swap, lowest * equal, critical);
         if (order.level() * equal >= lowest) continue;
         lowest = order.level();
         in_vain = 0;
@@ -200,9 +200,10 @@ class OrderSearch {
 
     /// In order of their levels, each once.
     static void keep_best(std::vector<Descent>& all, std::size_t most) {
-        std::ranges::stable_sort(all, better);
+        std::ranges::stable_sort(all, {}, &Descent::ranks);
         const auto [first, last] = std::ranges::unique(all, {}, &Descent::ranks);
         all.erase(first, last);
+        std::ranges::stable_sort(all, better);
         if (all.size() > most) all.resize(most);
     }
 

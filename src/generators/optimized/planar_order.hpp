@@ -14,7 +14,7 @@
 // and the F at which the cycle does not contradict itself any more is a lower bound: raised to it
 // until there are points, F is the least of the order, and the last cycle proves it.
 //
-// Cost    a solution takes some 25 n^2 steps (comparisons of a bound): 0.2 ms for n = 100, 20 ms for
+// Cost    a solution takes some 30 n^2 steps (comparisons of a bound): 0.2 ms for n = 100, 20 ms for
 //         n = 1000 on one core; 8 n^2 bytes. A swap takes much less.
 // Promise the value is right to 1e-12 relatively, the same on any machine.
 // Source  the constraints are those of F. Clement, C. Doerr, K. Klamroth, L. Paquete,

@@ -45,12 +45,16 @@ void add_moved(Drawing& drawing, Drawing part, double right, double down) {
 
 std::size_t sheet_columns(std::size_t parts, double ratio) {
     if (ratio > 0) {
+        const auto rows_of = [parts](std::size_t columns) {
+            return (parts + columns - 1) / columns;
+        };
         std::size_t best = 1;
         double largest = 0;
         for (std::size_t columns = 1; columns <= parts; ++columns) {
-            const auto rows = static_cast<double>((parts + columns - 1) / columns);
-            const double side = std::min(ratio / static_cast<double>(columns), 1 / rows);
-            if (side >= largest) best = columns;
+            const std::size_t rows = rows_of(columns);
+            const double side =
+                std::min(ratio / static_cast<double>(columns), 1 / static_cast<double>(rows));
+            if (side > largest || (side == largest && rows < rows_of(best))) best = columns;
             largest = std::max(largest, side);
         }
         return best;

@@ -301,4 +301,14 @@ TEST(Dispersion, RefusesWhatItCannotTake) {
               "limit: the search for the largest empty box needs ");
 }
 
+// A mean of boxes is none, but that of one box is the box.
+TEST(Dispersion, TheMeanOfOneSetHasItsBox) {
+    const Analyzer& dispersion = find_analyzer("dispersion");
+    for (const std::size_t sets : {1, 2}) {
+        Report mean = analyze("dispersion", points_of({{0.5, 0.5}}), {}, {});
+        dispersion.refine(mean, sets, dispersion.options.defaults());
+        EXPECT_EQ(mean.find("box.lower_corner") != nullptr, sets == 1);
+    }
+}
+
 }  // namespace stipple::testing::dispersion_test
