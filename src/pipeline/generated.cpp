@@ -246,7 +246,7 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
     points.provenance.efficiency = efficiency;
     if (!worked_out.empty()) points.provenance.options = std::move(worked_out);
     // What was found is of the points in the unit cube.
-    if (chain_->empty() && !scaling_) points.provenance.found = std::move(found);
+    if (!found.empty() && chain_->empty() && !scaling_) points.provenance.found = std::move(found);
     points.side_files = std::move(side_files);
     return points;
 }

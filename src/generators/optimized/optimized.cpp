@@ -27,7 +27,7 @@ namespace {
 
 constexpr Param<double> effort{.name = "effort",
                                .fallback = 1,
-                               .low = 1e-3,
+                               .low = 1e-6,
                                .high = 1e6,
                                .help =
                                    "Steps of the search in the plane: this times those of some "
