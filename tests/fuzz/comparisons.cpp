@@ -173,11 +173,13 @@ Production production(FuzzedDataProvider& input) {
     made.request.seed = input.ConsumeIntegral<std::uint8_t>();
     made.request.start = input.ConsumeBool() ? input.ConsumeIntegral<std::uint16_t>() : 0;
     made.sets = input.ConsumeIntegralInRange<std::uint64_t>(1, 3);
-    const auto& options = made.generator->options.options();
+    std::vector<Option> options = made.generator->options.options();
+    std::erase_if(options, [](const Option& option) {
+        return option.type == "file" || option.name == "effort";
+    });
     while (!options.empty() && input.remaining_bytes() > 0) {
         const Option& option =
             options[input.ConsumeIntegralInRange<std::size_t>(0, options.size() - 1)];
-        if (option.type == "file" || option.name == "effort") continue;
         std::string text = input.ConsumeRandomLengthString(12);
         if (option.type == "flag") text = "true";
         if (!option.choices.empty()) text = option.choices[text.size() % option.choices.size()];
