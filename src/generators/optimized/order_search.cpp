@@ -21,8 +21,8 @@ const double golden = (std::sqrt(5.0) - 1) / 2;
 
 constexpr double on_cycle = 0.35;       ///< share of the swaps that are on the critical cycle
 constexpr double patience = 20;         ///< swaps in vain, a point, that end a descent
-constexpr double kick_height = 1.02;    ///< levels that a kick may reach, relatively
-constexpr std::size_t kick_swaps = 10;  ///< that a kick makes
+constexpr double kick_height = 0.2;     ///< by which a kick may raise the level, at most
+constexpr std::size_t kick_swaps = 20;  ///< that a kick makes, at most
 constexpr double solution = 30;         ///< steps for one, over n^2
 
 /// An order, where a descent from it has got to.
@@ -113,12 +113,14 @@ PlanarOrder::Swap any_swap(std::size_t n, SplitMix64& draws) {
     return {by_x, 1 + static_cast<std::size_t>(draws.below(n - 1))};
 }
 
-/// Swaps that raise the level a little.
+/// Some swaps, few or many, that raise the level a little or more.
 void kick(PlanarOrder& order, std::size_t n, SplitMix64& draws) {
     constexpr int tries = 200;
-    const double limit = order.level() * kick_height;
+    const double u = unit(draws);
+    const double limit = order.level() * (1 + kick_height * u * u);
+    const std::size_t most = 1 + draws.below(kick_swaps);
     std::size_t made = 0;
-    for (int i = 0; i < tries && made < kick_swaps; ++i)
+    for (int i = 0; i < tries && made < most; ++i)
         made += static_cast<std::size_t>(order.attempt(any_swap(n, draws), limit));
 }
 
@@ -155,10 +157,10 @@ class OrderSearch {
     Ranks best() {
         make_starts();
         std::vector<Descent> all;
-        for (std::size_t i = 0; i < starts_.size() && spent_ < 0.4 * budget_; i += together()) {
-            const std::size_t end = std::min(i + together(), starts_.size());
-            std::vector<Descent> some(starts_.begin() + static_cast<std::ptrdiff_t>(i),
-                                      starts_.begin() + static_cast<std::ptrdiff_t>(end));
+        for (std::size_t i = 0; spent_ < 0.4 * budget_;) {
+            std::vector<Descent> some;
+            for (; some.size() < together(); ++i)
+                some.push_back(i < starts_.size() ? starts_[i] : another_start());
             advance(some, 0.1);
             std::ranges::move(some, std::back_inserter(all));
         }
@@ -174,6 +176,19 @@ class OrderSearch {
     }
 
   private:
+    /// Once all have been: one of them, with as many as n swaps.
+    Descent another_start() {
+        SplitMix64 own = draws();
+        Ranks ranks = starts_[own.below(starts_.size())].ranks;
+        for (std::uint64_t swaps = 1 + own.below(n_); swaps > 0; --swaps) {
+            const auto [by_x, p] = any_swap(n_, own);
+            auto& first = by_x ? ranks[p - 1] : *std::ranges::find(ranks, p - 1);
+            auto& second = by_x ? ranks[p] : *std::ranges::find(ranks, p);
+            std::swap(first, second);
+        }
+        return {std::move(ranks)};
+    }
+
     /// Descents that go on side by side: few where each takes long, whatever the machine has.
     [[nodiscard]] std::size_t together() const { return n_ <= 200 ? 16 : n_ <= 500 ? 8 : 4; }
 

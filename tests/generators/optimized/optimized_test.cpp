@@ -25,6 +25,7 @@ TEST(Optimized, FindsTheOptimaThatAreKnown) {
         EXPECT_NEAR(star_of(points), known[n - 1], 5.1e-5) << n;
         EXPECT_NEAR(star_of(points), said(points), 1e-12) << n;
     }
+    EXPECT_NEAR(star_of(make("optimized", testing::points(20, 2))), .0604, 5.1e-5);
 }
 
 TEST(Optimized, IsBelowWhatIsPublished) {
