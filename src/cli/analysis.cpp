@@ -62,6 +62,16 @@ PowerPicture picture_of(const Report& results, const Values& options) {
     return picture;
 }
 
+/// The shortest and the longest side, of those that have a length; both 0: none has.
+std::pair<double, double> sides_of(const Box& box) {
+    std::vector<double> sides;
+    for (std::size_t k = 0; k < box.dimension(); ++k)
+        if (box.extent(k) > 0) sides.push_back(box.extent(k));
+    if (sides.empty()) return {};
+    const auto [shortest, longest] = std::ranges::minmax(sides);
+    return {shortest, longest};
+}
+
 }  // namespace
 
 std::string kind_of(const Provenance& made, std::uint64_t count) {
@@ -142,10 +152,7 @@ void Analysis::warn_of_metric() const {
     }
     if (!bounds) return;
     const auto ranges = std::ranges::count(*bounds, ',') + 1;
-    const Box box = parse_box(*bounds, static_cast<std::size_t>(ranges));
-    std::vector<double> sides;
-    for (std::size_t k = 0; k < box.dimension(); ++k) sides.push_back(box.extent(k));
-    const auto [shortest, longest] = std::ranges::minmax(sides);
+    const auto [shortest, longest] = sides_of(parse_box(*bounds, static_cast<std::size_t>(ranges)));
     if (longest > shortest)
         session_.warn(
             fmt::format("the sides of --bounds are between {} and {} long, and distances mix "
@@ -161,30 +168,24 @@ void Analysis::warn_of_prefixes(const Provenance& made) {
     session_.warn(sentence);
 }
 
-// ---------------------------------------------------------------- sets
-
 /// Distances between the points of a file whose columns measure different things.
 void Analysis::warn_of_ranges(const PointSet& points) {
     if (told_of_ranges_ || !asked_.try_find("metric") || arguments_.has("bounds") ||
         arguments_.has("generate"))
         return;
-    constexpr double unlike = 20;  // lengths beyond that measure different things
     const bool boxed = points.domain->spec().starts_with("box");
-    if (!boxed && !plot::without_domain(points)) return;
-    const Box box =
-        boxed ? points.domain->bounding_box() : bounding_box(points.flat(), points.dimension());
-    std::vector<double> sides;
-    for (std::size_t k = 0; k < box.dimension(); ++k)
-        if (box.extent(k) > 0) sides.push_back(box.extent(k));
-    if (sides.size() < 2) return;
-    const auto [shortest, longest] = std::ranges::minmax(sides);
-    if (!(longest > unlike * shortest)) return;
+    const auto [shortest, longest] = sides_of(
+        boxed ? points.domain->bounding_box() : bounding_box(points.flat(), points.dimension()));
+    if (!(longest > plot::most_unlike * shortest) || (!boxed && !plot::without_domain(points)))
+        return;
     told_of_ranges_ = true;
     session_.warn(
         fmt::format("the ranges of the coordinates are between {:.4g} and {:.4g} wide, and "
                     "distances mix their units; --rescale maps the points to the unit cube first",
                     shortest, longest));
 }
+
+// ---------------------------------------------------------------- sets
 
 void Analysis::add(PointSet points, SetOrigin origin) {
     warn_of_prefixes(points.provenance);

@@ -204,10 +204,19 @@ void require_width(const PointSet& points, const std::string& input) {
                  format_number(box.low[k]), format_number(box.high[k]));
 }
 
+namespace {
+
 PointSet rescaled(PointSet points) {
-    require_width(points);
     const Box box = box_around(points);
     return taken_box(std::move(points), box, true);
+}
+
+}  // namespace
+
+PointSet placed(PointSet points, const std::string& input, const Arguments& arguments) {
+    require_width(points, input);
+    naming(input, [&] { take_domain(points, arguments); });
+    return arguments.has("rescale") ? rescaled(std::move(points)) : std::move(points);
 }
 
 PointSet of_the_cube(PointSet points, const Analyzer& analyzer) {
@@ -231,7 +240,10 @@ PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& ar
         return taken_box(std::move(points), box,
                          analyzer.traits.unit_cube || arguments.has("rescale"));
     }
-    if (arguments.has("rescale")) return rescaled(std::move(points));
+    if (arguments.has("rescale")) {
+        require_width(points);
+        return rescaled(std::move(points));
+    }
     return of_the_cube(std::move(points), analyzer);
 }
 

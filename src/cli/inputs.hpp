@@ -69,8 +69,9 @@ void take_domain(PointSet& set, const Arguments& arguments);
 /// @param input names them in the message; empty: the caller does
 void require_width(const PointSet& points, const std::string& input = {});
 
-/// Points in the unit cube, their bounding box mapped to it.
-PointSet rescaled(PointSet points);
+/// The points of a file where they are looked at as they are: on the domain that --domain names, or
+/// their bounding box mapped to the unit cube for --rescale. @throws as the two above
+PointSet placed(PointSet points, const std::string& input, const Arguments& arguments);
 
 /// Points of another domain may lie in the cube and be no sample of it.
 /// @throws Error(input) where the set says that it has another domain.

@@ -229,9 +229,7 @@ class Plot {
             input, [&] { return read_input(bytes, input, arguments_, run); },
             "plot takes points, the JSON of 'stipple analyze', or the table of a study");
         for (std::size_t i = 0; i < sets.size(); ++i) {
-            require_width(sets[i], input);
-            naming(input, [&] { take_domain(sets[i], arguments_); });
-            if (arguments_.has("rescale")) sets[i] = rescaled(std::move(sets[i]));
+            sets[i] = placed(std::move(sets[i]), input, arguments_);
             const std::string title = title_of_points(sets[i].provenance, input);
             sets_.push_back({std::move(sets[i]), input,
                              sets.size() > 1 ? std::optional(i) : std::nullopt,
@@ -245,12 +243,13 @@ class Plot {
         seed_ = seed_for(arguments_, specs, session_);
         for (const std::string& spec : specs) {
             const GeneratedSets sets = generated_sets(spec, seed_, arguments_, session_.run());
-            for (std::uint64_t set = 0; set < sets.different_sets(); ++set) {
+            const std::uint64_t count = sets.different_sets();
+            for (std::uint64_t set = 0; set < count; ++set) {
                 PointSet points = sets.made(set, session_.run());
                 std::string title = title_of_points(points.provenance, spec);
                 sets_.push_back({std::move(points), spec,
-                                 sets.different_sets() > 1 ? std::optional(set) : std::nullopt,
-                                 false, std::move(title)});
+                                 count > 1 ? std::optional(set) : std::nullopt, false,
+                                 std::move(title)});
             }
         }
     }
@@ -652,10 +651,8 @@ class Plot {
         if (chart_ == "density") picture.marking = plot::Marking::density;
         picture.pairs = chart_ == "pairs";
         picture.title = arguments_.get("title").value_or(sets_[0].title);
-        if (sets_.size() > 1 && different_titles() && !arguments_.has("title")) {
-            picture.title = picture.names[0];
-            for (std::size_t i = 1; i < sets_.size(); ++i) picture.title += ", " + picture.names[i];
-        }
+        if (sets_.size() > 1 && different_titles() && !arguments_.has("title"))
+            picture.title = join(picture.names, ", ");
         picture.subtitle = subtitle_of(sets_[0]) + number_of(sets_[0]);
         if (sets_.size() > 1) picture.subtitle.clear();
         return picture;

@@ -119,8 +119,8 @@ class Reporter {
         for (std::size_t i = 0; i < pending_.size(); ++i) whole.sets.push_back(finished(i));
         whole.title = title_of(whole.sets);
         const bool fine = judge(whole.sets);
-        for (const page::Set& set : whole.sets)
-            if (fine) warn_of_nothing(set);  // an error says alone what is wrong
+        if (fine)  // an error says alone what is wrong
+            for (const page::Set& set : whole.sets) warn_of_nothing(set);
         session_.run().check_stop();
         if (output.write(json_ ? page::to_json(whole) : page::to_html(whole))) output.commit();
         return fine ? 0 : 1;
@@ -148,9 +148,7 @@ class Reporter {
     void add_file(const std::string& input) {
         auto sets = read_input(input, arguments_, session_.run());
         for (std::size_t i = 0; i < sets.size(); ++i) {
-            require_width(sets[i], input);
-            naming(input, [&] { take_domain(sets[i], arguments_); });
-            if (arguments_.has("rescale")) sets[i] = rescaled(std::move(sets[i]));
+            sets[i] = placed(std::move(sets[i]), input, arguments_);
             PendingSet next;
             next.set.source = input;
             next.set.provenance = sets[i].provenance;

@@ -40,6 +40,13 @@ void check_indices(const Generator& generator, const Request& request, std::uint
 
 }  // namespace
 
+Values quick_options(const Generator& generator) {
+    Values values = generator.options.defaults();
+    for (const Option& option : generator.options.options())
+        if (option.name == "effort") values.put(option.name, option.low, false);
+    return values;
+}
+
 Plan default_plan(const Request& request, std::uint64_t count, std::size_t dimension) {
     return {.count = request.count.value_or(count),
             .dimension = request.dimension.value_or(dimension),

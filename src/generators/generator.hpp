@@ -128,6 +128,9 @@ Plan plan_for(const Generator& generator, const Request& request, const Values& 
 /// Whether sets of different seeds differ.
 bool uses_seed(const Generator& generator, const Values& options);
 
+/// The defaults, with the least effort of what searches: for points that are needed at once.
+Values quick_options(const Generator& generator);
+
 /// What generator.plan does where it is empty.
 Plan default_plan(const Request& request, std::uint64_t count = 1024, std::size_t dimension = 2);
 

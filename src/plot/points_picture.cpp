@@ -17,8 +17,6 @@
 namespace stipple::plot {
 namespace {
 
-constexpr double most_unlike = 20;  ///< sides of a box, beyond which their lengths are not compared
-
 std::vector<std::string> names_of(const PointsPicture& picture) {
     const PointSet& first = *picture.sets[0];
     return coordinate_names(first.dimension(), first.provenance);

@@ -24,6 +24,9 @@ namespace stipple::plot {
 inline constexpr std::size_t most_pair_coordinates = 8;
 inline constexpr double density_share = 0.75;  ///< of points to a frame's area, for their density
 
+/// Sides of a box that differ by more measure different things; their lengths are not compared.
+inline constexpr double most_unlike = 20;
+
 /// How points are marked.
 enum class Marking { automatic, disks, density };
 

@@ -39,7 +39,7 @@ struct MeanRow {
     double median = not_known;
     double standard_deviation = not_known;
     double rms = not_known;      ///< the root of the mean of the squares, as of errors
-    double rms_low = not_known;  ///< of errors, and of what is found on both sides of 0
+    double rms_low = not_known;  ///< of errors, and where there are values below 0
     double rms_high = not_known;
     double confidence = not_known;  ///< of these intervals
     double t_low = not_known;       ///< of the mean

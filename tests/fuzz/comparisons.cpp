@@ -165,9 +165,7 @@ Production production(FuzzedDataProvider& input) {
     const auto& all = generators::all();
     Production made;
     made.generator = &all[input.ConsumeIntegralInRange<std::size_t>(0, all.size() - 1)];
-    made.options = made.generator->options.defaults();
-    for (const Option& option : made.generator->options.options())
-        if (option.name == "effort") made.options.put(option.name, option.low, false);
+    made.options = quick_options(*made.generator);
     made.request.count = input.ConsumeIntegralInRange<std::uint64_t>(1, 70);
     made.request.dimension = input.ConsumeIntegralInRange<std::size_t>(1, 4);
     made.request.seed = input.ConsumeIntegral<std::uint8_t>();

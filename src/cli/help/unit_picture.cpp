@@ -17,12 +17,9 @@ namespace {
 std::optional<PointSet> sample_of(const char* generator, std::uint64_t count, std::size_t dimension,
                                   std::vector<Spec> warps) {
     const Generator& made_by = find_generator(generator);
-    Values options = made_by.options.defaults();
-    for (const Option& option : made_by.options.options())
-        if (option.name == "effort") options.put(option.name, option.low, false);  // help is quick
     try {
         return GeneratedSets({.generator = &made_by,
-                              .options = options,
+                              .options = quick_options(made_by),
                               .request = {.count = count, .dimension = dimension},
                               .warps = std::move(warps)},
                              {})

@@ -17,37 +17,20 @@ constexpr double slack = 1e-13;      ///< relative, by which a bound may be miss
 constexpr std::size_t lanes = 64;    ///< bounds that are compared at once
 constexpr std::uint64_t entry = 32;  ///< steps that beginning a row takes
 
-/// Writes the k in [1, end) with (counts[k] - level) * scale above values[k]; returns how many.
-STIPPLE_WIDE std::size_t above(const float* counts, double level, double scale,
-                               const double* values, std::size_t end, std::uint32_t* hits) {
-    constexpr double reach = 1 + slack;
+/// Writes the k below `size` with (counts[k] - level) * scale above values[k] * reach; returns how
+/// many. With all three signs turned, those with (counts[k] + level) * scale below.
+STIPPLE_WIDE std::size_t beyond(const float* counts, double level, double scale,
+                                const double* values, double reach, std::size_t size,
+                                std::uint32_t* hits) {
     std::size_t found = 0;
-    for (std::size_t first = 1; first < end; first += lanes) {
-        const std::size_t last = std::min(first + lanes, end);
+    for (std::size_t first = 0; first < size; first += lanes) {
+        const std::size_t last = std::min(first + lanes, size);
         std::int64_t any = 0;
         for (std::size_t k = first; k < last; ++k)
             any |=
                 std::int64_t{(static_cast<double>(counts[k]) - level) * scale > values[k] * reach};
         for (std::size_t k = first; any != 0 && k < last; ++k)
             if ((static_cast<double>(counts[k]) - level) * scale > values[k] * reach)
-                hits[found++] = static_cast<std::uint32_t>(k);
-    }
-    return found;
-}
-
-/// The same with (counts[k - 1] + level) * scale below values[k].
-STIPPLE_WIDE std::size_t below(const float* counts, double level, double scale,
-                               const double* values, std::size_t end, std::uint32_t* hits) {
-    constexpr double reach = 1 - slack;
-    std::size_t found = 0;
-    for (std::size_t first = 1; first < end; first += lanes) {
-        const std::size_t last = std::min(first + lanes, end);
-        std::int64_t any = 0;
-        for (std::size_t k = first; k < last; ++k)
-            any |= std::int64_t{(static_cast<double>(counts[k - 1]) + level) * scale <
-                                values[k] * reach};
-        for (std::size_t k = first; any != 0 && k < last; ++k)
-            if ((static_cast<double>(counts[k - 1]) + level) * scale < values[k] * reach)
                 hits[found++] = static_cast<std::uint32_t>(k);
     }
     return found;
@@ -205,9 +188,10 @@ bool PlanarOrder::relax_x(std::size_t i, Node node) {
     const float* counts = &counts_[std::min(i, n_) * stride_];
     const std::size_t end = i > n_ ? n_ + 1 : n_ + 2;
     steps_ += end + entry;
-    const std::size_t hits = above(counts, level_, scale, y_.data(), end, hits_.data());
+    const std::size_t hits =
+        beyond(counts + 1, level_, scale, &y_[1], 1 + slack, end - 1, hits_.data());
     for (std::size_t h = 0; h < hits; ++h) {
-        const std::size_t j = hits_[h];
+        const std::size_t j = hits_[h] + std::size_t{1};
         const double least = (static_cast<double>(counts[j]) - level_) * scale;
         if (j <= n_ ? move(static_cast<Node>(n_ + j), node, false, least)
                     : move(0, node, false, 1 / least))
@@ -223,9 +207,10 @@ bool PlanarOrder::relax_y(std::size_t j, Node node) {
     const float* counts = &transposed_[(j - 1) * stride_];
     const std::size_t end = j > n_ ? n_ + 1 : n_ + 2;
     steps_ += end + entry;
-    const std::size_t hits = below(counts, level_, scale, x_.data(), end, hits_.data());
+    const std::size_t hits =
+        beyond(counts, -level_, -scale, &x_[1], slack - 1, end - 1, hits_.data());
     for (std::size_t h = 0; h < hits; ++h) {
-        const std::size_t i = hits_[h];
+        const std::size_t i = hits_[h] + std::size_t{1};
         const double most = (static_cast<double>(counts[i - 1]) + level_) * scale;
         if (move(static_cast<Node>(i <= n_ ? i : 0), node, false, most)) return true;
     }
@@ -307,15 +292,20 @@ double PlanarOrder::level_of_cycle() const {
     return level;
 }
 
+/// To where the cycle that was met does not contradict itself any more.
+void PlanarOrder::raise() {
+    take_cycle();
+    // Bounds are missed by the slack; so may a cycle be that contradicts itself no more.
+    level_ = std::max(level_of_cycle(), level_ * (1 + 2 * slack));
+    begin();
+}
+
 /// Raises the level until there are points; false where it is above the limit, or given up.
 bool PlanarOrder::settle(double limit) {
     for (;;) {
         const Outcome outcome = relax();
         if (outcome != Outcome::cycle) return outcome == Outcome::feasible;
-        take_cycle();
-        // Bounds are missed by the slack; so may a cycle be that contradicts itself no more.
-        level_ = std::max(level_of_cycle(), level_ * (1 + 2 * slack));
-        begin();
+        raise();
         if (level_ > limit) return false;
     }
 }
@@ -328,9 +318,7 @@ void PlanarOrder::lower() {
         push_all();
         const Outcome outcome = relax();
         if (outcome == Outcome::feasible) continue;
-        take_cycle();
-        level_ = std::max(level_of_cycle(), level_ * (1 + 2 * slack));
-        begin();
+        raise();
         settle(std::numeric_limits<double>::infinity());
         return;
     }

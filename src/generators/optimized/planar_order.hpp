@@ -94,6 +94,7 @@ class PlanarOrder {
     Outcome relax();
     void take_cycle();
     [[nodiscard]] double level_of_cycle() const;
+    void raise();
     bool settle(double limit);
     void lower();
     void tighten(const Swap& swap, bool more);

@@ -67,16 +67,11 @@ Field field_between(const char* first, const char* last) {
 /// The name that a header has: letters that are not UTF-8 are those of Latin-1, as spreadsheets write
 /// them.
 std::string name_in(std::string_view text) {
-    std::string latin;
-    bool valid = true;
-    for (std::string_view rest = text; !rest.empty();) {
-        const Letter letter = first_letter(rest);
-        valid = valid && letter.valid;
-        rest.remove_prefix(letter.size);
-    }
-    if (valid) return std::string(text);
-    for (const char byte : text) append_utf8(latin, static_cast<unsigned char>(byte));
-    return latin;
+    std::string name(text);
+    if (utf8_of(code_points(text)) == name) return name;
+    name.clear();
+    for (const char byte : text) append_utf8(name, static_cast<unsigned char>(byte));
+    return name;
 }
 
 /// The fields of a line, one after the other.
