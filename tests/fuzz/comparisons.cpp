@@ -123,6 +123,8 @@ const Kernel kernels[] = {
          return 1.5L - t + t * t;
      },
      [](long double) { return 4.0L / 3; }, 4.0L / 3},
+    {"symmetric", [](long double x, long double y) { return 2 - 2 * std::abs(x - y); },
+     [](long double x) { return 1 + 2 * x * (1 - x); }, 4.0L / 3},
 };
 
 long double square_by_pairs(const PointSet& points, const Kernel& kernel) {

@@ -8,6 +8,7 @@
 //
 //     a + t (t - 1)             = (a - 1/4) + (t - 1/2)^2
 //     h_x + h_y + t (t - 3/2)   = (h_x + h_y - 9/16) + (t - 3/4)^2
+//     a - t                     = (a - 1/2) - (t - 1/2)
 //
 // so that with a coordinate as a multiple of 2^-53 and a rest, the square's root has no rounding.
 // Where all weights are 1 and no coordinate has a rest, the two minima of the centered kernel are
@@ -180,6 +181,20 @@ struct Bernoulli {
     }
 };
 
+/// Falling with the distance.
+struct Linear {
+    static constexpr std::size_t columns_of_factor = 2;
+    static constexpr bool separates = false;
+    static constexpr bool above_one = false;
+    STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
+                                                    const AxisConstants& axis) {
+        const auto [u, rest] = from_vertex(row, block, axis);
+        Compensated<Group> out = raised(u, all(same(-1)), axis);
+        out.error = out.error - rest;
+        return out;
+    }
+};
+
 /// The mixture kernel: a parabola of the distance over a sum of a number of either point, which
 /// has no rounding.
 struct Mixture {
@@ -341,6 +356,8 @@ inline PairKernel kernel_for(PairForm form) {
             return kernel_of<TwoSided>();
         case PairForm::bernoulli:
             return kernel_of<Bernoulli>();
+        case PairForm::linear:
+            return kernel_of<Linear>();
         case PairForm::mixture:
             return kernel_of<Mixture>();
         default:

@@ -18,14 +18,14 @@ constexpr std::size_t block_width = 64;  ///< points of a block
 constexpr std::size_t max_lanes = 8;     ///< of the widest vector
 
 /// The factors of block_pair_kernels.hpp.
-enum class PairForm { minimum, two_sided, bernoulli, mixture, one_plus_minima };
+enum class PairForm { minimum, two_sided, bernoulli, linear, mixture, one_plus_minima };
 
 /// What is the same for all points on the axis of a factor.
 struct AxisConstants {
     double base = 0;
     double base_error = 0;
     double offset = 0;  ///< that the base has been raised by
-    double vertex = 0;  ///< of the parabola in |x - y|
+    double vertex = 0;  ///< of the parabola in |x - y|, or its middle
 };
 
 /// Blocks of points, column after column in each; behind them one that is 1, and 0 where there are

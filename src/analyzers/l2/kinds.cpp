@@ -38,6 +38,14 @@ constexpr AxisKernel mixture_kernel{.s00 = 42,
 constexpr AxisKernel bernoulli_kernel{
     .s00 = 8, .s02 = 48, .s11 = -96, .sigma = -48, .mean = {}, .total = 0};
 
+// (1 - t) / 2
+constexpr AxisKernel average_kernel{
+    .s00 = 24, .sigma = -24, .mean = {12, 24, -24, 0}, .total = 16};
+
+// 1 - 2 t
+constexpr AxisKernel symmetric_kernel{
+    .s00 = 48, .sigma = -96, .mean = {0, 96, -96, 0}, .total = 16};
+
 constexpr KindRecord records[] = {
     {"star", star_kernel, 1, false},
     {"extreme", extreme_kernel, 1, false},
@@ -47,6 +55,8 @@ constexpr KindRecord records[] = {
     {"mixture", mixture_kernel},
     {"modified", star_kernel},
     {"diaphony", bernoulli_kernel, diaphony},
+    {"average", average_kernel, 1, false},
+    {"symmetric", symmetric_kernel},
 };
 
 }  // namespace

@@ -11,11 +11,23 @@
 
 namespace stipple::analyzers::l2 {
 
-enum class Kind { star, extreme, periodic, centered, wraparound, mixture, modified, diaphony };
+enum class Kind {
+    star,
+    extreme,
+    periodic,
+    centered,
+    wraparound,
+    mixture,
+    modified,
+    diaphony,
+    average,
+    symmetric
+};
 
 inline constexpr Kind all_kinds[] = {Kind::star,     Kind::extreme,    Kind::periodic,
                                      Kind::centered, Kind::wraparound, Kind::mixture,
-                                     Kind::modified, Kind::diaphony};
+                                     Kind::modified, Kind::diaphony,   Kind::average,
+                                     Kind::symmetric};
 
 /// The diaphony's kernel over the second Bernoulli polynomial.
 inline constexpr double diaphony = 2 * std::numbers::pi * std::numbers::pi;

@@ -11,9 +11,11 @@
 //     mixture     7/8 - (|x - 1/2| + |y - 1/2| + 3 t) / 4 + t^2 / 2
 //     modified    1 - max(x, y)
 //     diaphony    2 pi^2 (1/6 - t + t^2) = sum over m != 0 of cos(2 pi m t) / m^2
+//     average     (1 - t) / 2                                    boxes at a corner, mean of all 2^d
+//     symmetric   1 - 2 t                                        unions of boxes, even minus odd
 //
-// and with K the product of k over the axes for the first three, of 1 + k for the others (so that
-// every projection counts),
+// and with K the product of k over the axes for star, extreme, periodic and average, of 1 + k for
+// the others (so that every projection counts),
 //
 //     squared = int int K  -  2/n sum_i int K(x_i, y) dy  +  n^-2 sum_i sum_k K(x_i, x_k),
 //     value   = sqrt(squared).
@@ -21,7 +23,7 @@
 // With product weights w_j >= 0, K is the product of 1 + w_j k for every kind: squared is the sum,
 // over all sets of axes, of the product of their weights times the square for k on these axes
 // alone. (So star with weights is modified with weights, and periodic is wraparound; weights of 1
-// change nothing for the last five.)
+// change nothing for those of 1 + k. Without weights symmetric is 2^d times average.)
 //
 // Shape   points n x d in [0, 1];  results >= 0, pure numbers, smaller is more even.
 // Cost    d <= 2: O(n log n) for all kinds together (about 0.4 s at n = 10^6 on one core).
@@ -33,10 +35,11 @@
 // Beware  SciPy's CD, WD and MD are `squared` of centered, wraparound and mixture; its L2-star is
 //         `value` of star. Diaphony is not divided by its largest value, sqrt((1 + pi^2/3)^d - 1).
 // Source  T. T. Warnock, in "Applications of Number Theory to Numerical Analysis" (1972) 319-343
-//         (star). F. J. Hickernell, Math. Comp. 67 (1998) 299-322 (centered, modified);
+//         (star). F. J. Hickernell, Math. Comp. 67 (1998) 299-322 (centered, modified,
+//         symmetric);
 //         "Lattice rules: how well do they measure up?" (1998) (wraparound). Y.-D. Zhou, K.-T.
 //         Fang, J.-H. Ning, J. Complexity 29 (2013) 283-301 (mixture). W. J. Morokoff, R. E.
-//         Caflisch, SIAM J. Sci. Comput. 15 (1994) 1251-1279 (extreme). P. Zinterhof, Sitzungsber.
+//         Caflisch, SIAM J. Sci. Comput. 15 (1994) 1251-1279 (extreme). arXiv:2508.04926 (average). P. Zinterhof, Sitzungsber.
 //         Oesterr. Akad. Wiss. II 185 (1976) 121-132 (diaphony). I. H. Sloan, H. Wozniakowski, J.
 //         Complexity 14 (1998) 1-33 (weights). S. Heinrich, Math. Comp. 65 (1996) 1621-1633 (fewer
 //         than n^2).
@@ -58,14 +61,15 @@ constexpr Param<Text> kind{{.name = "kind",
                             .fallback = "all",
                             .help = "Which, separated by commas: all, or some of star, extreme, "
                                     "periodic, centered, wraparound, mixture, modified, "
-                                    "diaphony; stipple help definitions says what they are"}};
+                                    "diaphony, average, symmetric; stipple help definitions says what they "
+                                    "are"}};
 
 constexpr Param<Numbers> axis_weights{
     {.name = "weights",
      .help =
          "Product weights, one for each coordinate, from 0 to 10^6: K = prod (1 + weight k) for "
          "every kind, so that projections count by the product of their weights; without it star, "
-         "extreme and periodic have K = prod k, which is not that of weights 1"}};
+         "extreme, periodic and average have K = prod k, which is not that of weights 1"}};
 
 /// More points than any machine's memory holds; places of points fit 32 bits.
 constexpr std::size_t max_count = std::size_t{1} << 29;
@@ -186,7 +190,7 @@ Analyzer unit() {
         .name = "l2-discrepancy",
         .summary =
             "L2 discrepancies: star, extreme, periodic, centered, wraparound, mixture, "
-            "modified, and diaphony",
+            "modified, diaphony, average and symmetric",
         .source =
             "Hickernell 1998, doi:10.1090/S0025-5718-98-00894-1; Heinrich 1996, "
             "doi:10.1090/S0025-5718-96-00756-4",

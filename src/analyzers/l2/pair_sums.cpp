@@ -13,6 +13,7 @@
 //     min(g_x, g_y)                     star, modified; two of them: extreme, centered
 //     a + t (t - 1)                     periodic, wraparound, diaphony
 //     h_x + h_y + t (t - 3/2)           mixture
+//     a - t                             average, symmetric
 //     a + min(x, y) min(1 - x, 1 - y)   extreme with weights
 //
 // Coordinates that are no multiples of 2^-53 have an error term, too. Factors are scaled by powers
@@ -50,7 +51,7 @@ namespace {
 
 /// Of a point for a factor.
 struct PointNumbers {
-    double position;  ///< in the order of the axis; of parabolas a multiple of 2^-53
+    double position;  ///< in the order of the axis; a multiple of 2^-53 if distances count
     double rest;      ///< of the position
     DoubleDouble value;
 };
@@ -70,13 +71,19 @@ class FactorForm {
     /// @param two_sided whether the two minima of the centered kernel are one factor
     FactorForm(Kind kind, bool alone, bool two_sided, double weight)
         : kind_(kind), alone_(alone), two_sided_(two_sided) {
-        const Quad curve = kind == Kind::diaphony ? Quad(diaphony) * weight : Quad(weight);
+        const double times = kind == Kind::diaphony    ? diaphony
+                             : kind == Kind::average   ? 0.5
+                             : kind == Kind::symmetric ? 2
+                                                       : 1;
+        const Quad curve = Quad(times) * weight;
         inverse_ = alone ? Quad(0) : Quad(1) / curve;
-        scale_ = alone ? Quad(1) : curve;
+        scale_ = curve;
         if (kind == Kind::centered) scale_ *= curve;
         if (kind == Kind::mixture) scale_ /= 2;
-        const Quad top = kind == Kind::diaphony ? Quad(1) / 6 : Quad(1) / 2;
-        if (is_bernoulli()) base_ = inverse_ + top - Quad(1) / 4;
+        const Quad top = kind == Kind::diaphony  ? Quad(1) / 6
+                         : kind == Kind::average ? Quad(1)
+                                                 : Quad(1) / 2;
+        if (is_of_distance()) base_ = inverse_ + top - reach();
         if (kind == Kind::extreme) base_ = inverse_;
         if (kind == Kind::mixture) {
             base_ = inverse_ + Quad(7) / 8 - Quad(9) / 32;
@@ -93,9 +100,15 @@ class FactorForm {
     [[nodiscard]] bool is_bernoulli() const {
         return kind_ == Kind::periodic || kind_ == Kind::wraparound || kind_ == Kind::diaphony;
     }
+    [[nodiscard]] bool is_linear() const {
+        return kind_ == Kind::average || kind_ == Kind::symmetric;
+    }
+    [[nodiscard]] bool is_of_distance() const { return is_bernoulli() || is_linear(); }
     [[nodiscard]] bool is_two_sided() const { return two_sided_; }
     [[nodiscard]] bool is_one_plus_minima() const { return kind_ == Kind::extreme && !alone_; }
-    [[nodiscard]] bool is_parabola() const { return is_bernoulli() || kind_ == Kind::mixture; }
+    [[nodiscard]] bool is_from_vertex() const {
+        return is_of_distance() || kind_ == Kind::mixture;
+    }
 
     /// Factors on the axis.
     [[nodiscard]] std::size_t factors() const {
@@ -106,7 +119,7 @@ class FactorForm {
     /// More than the factors over the scale.
     [[nodiscard]] double most() const {
         if (kind_ == Kind::mixture) return static_cast<double>(2 * inverse_ + Quad(7) / 4);
-        if (is_bernoulli()) return static_cast<double>(base_ + 0.25);
+        if (is_of_distance()) return static_cast<double>(base_) + reach();
         const auto one = static_cast<double>(inverse_ + 1);
         return factors() == 2 ? one * one : one;
     }
@@ -114,12 +127,12 @@ class FactorForm {
     /// What is added to a factor and taken off again, lest it come near 0 before.
     [[nodiscard]] double offset() const {
         const bool small =
-            (is_bernoulli() && base_ < Quad(0.25)) || (is_one_plus_minima() && base_ < Quad(0.5));
+            (is_of_distance() && base_ < reach()) || (is_one_plus_minima() && base_ < Quad(0.5));
         return small ? 1 : 0;
     }
 
     /// Whether factors may come near 0, so that they lose by what is largest.
-    [[nodiscard]] bool may_vanish() const { return is_bernoulli() && offset() != 0; }
+    [[nodiscard]] bool may_vanish() const { return is_of_distance() && offset() != 0; }
 
     /// How much larger the numbers are that a factor is worked out from.
     [[nodiscard]] double cancellation() const {
@@ -129,7 +142,7 @@ class FactorForm {
     [[nodiscard]] AxisConstants constants() const {
         AxisConstants axis;
         axis.vertex = vertex();
-        if (!is_bernoulli() && !is_one_plus_minima()) return axis;
+        if (!is_of_distance() && !is_one_plus_minima()) return axis;
         const DoubleDouble base = to_double_double(base_ + offset());
         axis.base = base.high;
         axis.base_error = base.low;
@@ -140,12 +153,12 @@ class FactorForm {
     /// Writes the numbers of a point, for each factor of the axis; gives what is behind them.
     PointNumbers* put(double x, PointNumbers* to) const {
         const auto write = [&](double position, const DoubleDouble& value) {
-            const double at = is_parabola() ? whole(position) : position;
+            const double at = is_from_vertex() ? whole(position) : position;
             *to++ = {at, position - at, value};
         };
         if (two_sided_) {
             write(x, {x - 0.5, 0.5 - x});
-        } else if (is_bernoulli()) {
+        } else if (is_of_distance()) {
             write(x, {0, 0});
         } else if (kind_ == Kind::extreme) {
             if (alone_) write(x, {x, 0});
@@ -166,13 +179,15 @@ class FactorForm {
     /// Nearly the factor of a point and itself.
     [[nodiscard]] double diagonal(const PointNumbers& point) const {
         if (two_sided_) return 1 + std::abs(point.value.high);
-        if (is_bernoulli()) return static_cast<double>(base_) + 0.25;
+        if (is_of_distance()) return static_cast<double>(base_) + reach();
         if (kind_ == Kind::mixture) return 2 * point.value.high + 0.5625;
         if (!is_one_plus_minima()) return point.value.high;
         return static_cast<double>(base_) + point.position * point.value.high;
     }
 
   private:
+    /// How far a factor of the distance is from base_, at most.
+    [[nodiscard]] double reach() const { return is_linear() ? 0.5 : 0.25; }
     [[nodiscard]] double vertex() const { return kind_ == Kind::mixture ? 0.75 : 0.5; }
 
     Kind kind_;
@@ -359,7 +374,13 @@ PairForm form_of(const FactorForm& form, Kind kind) {
     if (form.is_two_sided()) return PairForm::two_sided;
     if (form.is_one_plus_minima()) return PairForm::one_plus_minima;
     if (kind == Kind::mixture) return PairForm::mixture;
+    if (form.is_linear()) return PairForm::linear;
     return form.is_bernoulli() ? PairForm::bernoulli : PairForm::minimum;
+}
+
+/// What distances are multiplied with where factors are with the root's square.
+double scale_of_distance(PairForm form, double root) {
+    return form == PairForm::linear ? root * root : root;
 }
 
 /// The columns of a point that the kernels of a form want, and what may follow them.
@@ -369,7 +390,8 @@ std::array<double, 4> columns_of(PairForm form, const PointNumbers& point, doubl
     if (form == PairForm::two_sided) return {value, error};
     if (form == PairForm::minimum || form == PairForm::one_plus_minima)
         return {point.position, value, error};
-    return {root * point.position, root * point.rest, value, error};
+    const double along = scale_of_distance(form, root);
+    return {along * point.position, along * point.rest, value, error};
 }
 
 struct Factors {
@@ -396,7 +418,7 @@ BlockTable table_of(PairForm form, const Numbers& numbers, const Scaling& scalin
         const double root = std::ldexp(1.0, -scaling.exponents[f] / 2);
         AxisConstants& axis = constants[f];
         axis = {root * root * axis.base, root * root * axis.base_error, root * root * axis.offset,
-                root * axis.vertex};
+                scale_of_distance(form, root) * axis.vertex};
         roots.push_back(root);
     }
     BlockTable table(form, order.size(), std::move(constants), scaling.any_order <= safe_digits);

@@ -70,6 +70,15 @@ const Definition definitions[] = {
      },
      Fraction(7, 12)},
     {"modified", true, falling, falling_mean, Fraction(1, 3)},
+    {"average", false, [](const Fraction& x, const Fraction& y) -> Fraction {
+         return (1 - abs(x - y)) / 2;
+     },
+     [](const Fraction& x) -> Fraction { return Fraction(1, 4) + x * (1 - x) / 2; },
+     Fraction(1, 3)},
+    {"symmetric", true, [](const Fraction& x, const Fraction& y) -> Fraction {
+         return 1 - 2 * abs(x - y);
+     },
+     [](const Fraction& x) -> Fraction { return 2 * x * (1 - x); }, Fraction(1, 3)},
 };
 
 const Definition& definition(std::string_view name) {
@@ -163,6 +172,10 @@ DoubleDouble kernel_of(Kind kind, double x, double y) {
             const DoubleDouble sixth{1.0 / 6, 0x1.5555555555555p-57};
             return times(2 * std::numbers::pi * std::numbers::pi, sixth + parabola);
         }
+        case Kind::average:
+            return times(0.5, DoubleDouble{1, 0} + negative(t));
+        case Kind::symmetric:
+            return DoubleDouble{1, 0} + times(-2, t);
         default:
             return DoubleDouble{0.5, 0} + parabola;
     }
@@ -187,6 +200,13 @@ DoubleDouble mean_of(Kind kind, std::optional<double> x) {
             return times(2, third) + times(-0.25, u + u * u);
         case Kind::diaphony:
             return {0, 0};
+        case Kind::average:
+        case Kind::symmetric: {
+            if (!x) return third;
+            const DoubleDouble bow = times(*x, exact_sum(1, -*x));  // x (1 - x)
+            return kind == Kind::symmetric ? times(2, bow)
+                                           : DoubleDouble{0.25, 0} + times(0.5, bow);
+        }
         default:
             return third;
     }
@@ -267,7 +287,8 @@ PointSet mapped(PointSet set, double (*map)(double)) {
 }
 
 constexpr Kind reflectable[] = {Kind::extreme,    Kind::periodic, Kind::centered,
-                                Kind::wraparound, Kind::mixture,  Kind::diaphony};
+                                Kind::wraparound, Kind::mixture,  Kind::diaphony,
+                                Kind::average,    Kind::symmetric};
 
 /// Kinds that divide and conquer takes.
 std::vector<Kind> divisible(std::size_t dimension) {
@@ -374,6 +395,27 @@ TEST(L2Discrepancy, AgreesWithSciPy) {
     EXPECT_NEAR(squared(halton, "wraparound"), 0.0006200154844040462, 1e-14);
     EXPECT_NEAR(squared(halton, "mixture"), 0.0010599037156469038, 1e-14);
     EXPECT_NEAR(halton.number("star.value"), 0.013345897863399583, 1e-14);
+}
+
+// arXiv:2508.04926: the mean of the squared star discrepancies from all corners. Hickernell's
+// symmetric discrepancy is (4/3)^d - 2/n sum prod (1 + 2 x - 2 x^2) + 2^d/n^2 sum prod (1 - t).
+TEST(L2Discrepancy, AverageIsTheMeanOfStarOverAllCorners) {
+    for (const std::size_t d : {1, 2, 3, 5}) {
+        const PointSet set = on_lattice(40, d, 1 << 20, d);
+        double sum = 0;
+        for (std::size_t corner = 0; corner < std::size_t{1} << d; ++corner) {
+            PointSet turned = set;
+            for (std::size_t i = 0; i < set.count(); ++i)
+                for (std::size_t j = 0; j < d; ++j)
+                    if ((corner >> j & 1) != 0) turned[i][j] = 1 - set[i][j];
+            sum += squared(report_of(turned, {}, "star"), "star");
+        }
+        const Report report = report_of(set, {}, "average,symmetric");
+        EXPECT_NEAR(squared(report, "average") / std::ldexp(sum, -static_cast<int>(d)), 1, 1e-12);
+        EXPECT_NEAR(std::ldexp(squared(report, "average"), 2 * static_cast<int>(d)) /
+                        squared(report, "symmetric"),
+                    1, 1e-12);
+    }
 }
 
 // On a line the star discrepancy of the centered grid is least: 1 / (n sqrt 12).
@@ -620,6 +662,10 @@ TEST(L2Discrepancy, IsWithinATrillionthInHundredsOfDimensions) {
                                              {many, Weights(100, 1e-6), Kind::mixture},
                                              {many, Weights(100, 3e2), Kind::extreme},
                                              {many, Weights(100, 100), Kind::diaphony},
+                                             {many, Weights(100, 1e-6), Kind::average},
+                                             {many, Weights(100, 1), Kind::symmetric},
+                                             {high, {}, Kind::average},
+                                             {many, Weights(100, 30), Kind::symmetric},
                                              {sides, {}, Kind::star},
                                              {sides, {}, Kind::modified}}) {
         const double plain = plain_square(set, kind, weights);
@@ -672,7 +718,8 @@ TEST(L2Discrepancy, DividesManyPointsInThreeDimensions) {
         EXPECT_EQ(report.text(std::string(name) + ".method"), "divide-and-conquer");
         EXPECT_LE(off(squared(report, name), product_square(line, definition(name), 3)), 0x1p-51);
     }
-    for (const Kind kind : {Kind::periodic, Kind::wraparound, Kind::mixture}) {
+    for (const Kind kind : {Kind::periodic, Kind::wraparound, Kind::mixture, Kind::average,
+                            Kind::symmetric}) {
         EXPECT_TRUE(analyzers::l2::divide_wins(50'000, 3, kind));
         EXPECT_FALSE(analyzers::l2::divide_wins(10'000, 3, kind));
         const auto few = middles(11);
@@ -808,7 +855,7 @@ TEST(L2Discrepancy, RefusesWhatNoDoubleHolds) {
               "in 500 dimensions its square is beyond the largest double");
     EXPECT_EQ(all.find("diaphony.value"), nullptr);
     for (const char* kind :
-         {"star", "extreme", "periodic", "centered", "wraparound", "mixture", "modified"})
+         {"star", "extreme", "periodic", "centered", "mixture", "average", "symmetric"})
         EXPECT_TRUE(std::isfinite(squared(all, kind))) << kind;
 }
 
