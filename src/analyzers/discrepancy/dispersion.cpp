@@ -27,9 +27,9 @@
 #include <algorithm>
 
 #include "analyzers/analyzer.hpp"
-#include "analyzers/discrepancy/empty_rectangle.hpp"
-#include "analyzers/discrepancy/extreme/search.hpp"
 #include "core/error.hpp"
+#include "math/discrepancy/empty_rectangle.hpp"
+#include "math/discrepancy/extreme/search.hpp"
 
 namespace stipple::analyzers::dispersion {
 namespace {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analyzers/discrepancy/empty_rectangle.hpp"
-#include "analyzers/discrepancy/extreme/search.hpp"
 #include "core/rng.hpp"
+#include "math/discrepancy/empty_rectangle.hpp"
+#include "math/discrepancy/extreme/search.hpp"
 #include "support/exact.hpp"
 #include "support/lattices.hpp"
 #include "support/units.hpp"

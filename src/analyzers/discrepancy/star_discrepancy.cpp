@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: MIT
+//
+// Star discrepancy of n points in the unit cube, exact, or where that takes too long, between
+// bounds that are certain:
+//
+//     D* = sup over c in [0,1]^d of  | #{points in [0,c)} / n  -  vol [0,c) |.
+//
+// It is reached or approached at corners c made of point coordinates and 1, once with the box open
+// (too few points inside) and once with it closed (too many), so both are counted:
+//
+//     D* = max over c of  max( vol(c) - #{x < c} / n,  #{x <= c} / n - vol(c) ).
+//
+// --boxes half-open takes the first line at its word: points with a coordinate 1 are in no box.
+// --kind extreme takes all boxes [a,b) in the cube, --kind periodic those of the torus, where 1 is
+// 0 and each side may wrap; closed boxes count as limits of half-open ones. So D* <= extreme <= 2^d
+// D* and extreme <= periodic. In one dimension, both are Kuiper's statistic.
+//
+// Shape   points n x d in [0, 1];  result in [1/(2n), 1], a pure number, smaller is more even;
+//         other kinds in [1/n, 1].
+// Cost    d = 1: O(n log n). d = 2: O(n^(4/3)) time in practice and O(n) memory, 65 bytes a point
+//         with the points; 2^16 points take 0.04 s, 10^6 1 s and 10^7 20 s on one core.
+//         d > 2: exponential in d at worst (the problem is NP-hard); branch and bound, which ends
+//         after --max-work or --time-limit. Both are for all rows of a table together.
+//         Other kinds, d = 2: branch and bound over O(n^2) cells at worst, of a few points each.
+//         1024 points take 0.1 s (random) to 0.4 s (Hammersley), 4096 points 0.5 s to 9 s; the
+//         periodic kind of even points takes ten times as long. d > 2: up to n^(2(d - 1)) cells;
+//         1000 random points in 3-D take 10 s, 128 in 5-D 5 s. A first bound of many points in few
+//         dimensions is 2^d D* (periodic: (3^d - 1) D*).
+// Promise `exact` says whether it is: counts are integers, boxes are compared without rounding, and
+//         the value is the double nearest to that of the worst box. Where it is not, the worst box
+//         found gives `lower`, and no box is worse than `upper`. Never depends on the number of
+//         threads; depends on the machine if --time-limit ends it.
+// Beware  where `exact` is false, `value` is `lower`; a --check of it must hold for both bounds.
+//         Coordinates are taken as the doubles that they are: 0.1 is a little more than 1/10.
+// Source  C. Doerr, M. Gnewuch, M. Wahlstroem, "Calculation of discrepancy measures and
+//         applications", arXiv:1405.1653 (survey); M. Gnewuch, A. Srivastav, C. Winzen, J.
+//         Complexity 25 (2009) 115-127 (NP-hard). Other kinds: W. J. Morokoff, R. E. Caflisch, SIAM
+//         J. Sci. Comput. 15 (1994) 1251-1279, doi:10.1137/0915077 (the measures); N. H. Kuiper,
+//         Indag. Math. 22 (1960) 38-47.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "analyzers/analyzer.hpp"
+#include "analyzers/discrepancy/tables.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/text.hpp"
+#include "math/discrepancy/extreme/search.hpp"
+#include "math/discrepancy/search_limits.hpp"
+#include "math/discrepancy/star/search.hpp"
+
+namespace stipple::analyzers::star_discrepancy {
+namespace {
+
+using namespace discrepancy;
+
+constexpr Param<Choice> kind{
+    .name = "kind",
+    .fallback = "star",
+    .choices = "star|extreme|periodic",
+    .help =
+        "Boxes from the origin, all axis-parallel boxes, or those of the torus, which may wrap"};
+
+constexpr Param<Choice> boxes{
+    .name = "boxes",
+    .fallback = "closed",
+    .choices = "closed|half-open",
+    .help =
+        "Whether boxes that end at 1 are closed there, or half-open as all others; they differ "
+        "for points with a coordinate 1"};
+
+/// More points than any machine's memory holds; counts of points stay far from 2^31.
+constexpr std::size_t max_count = std::size_t{1} << 29;
+
+/// What a set's search found, and how.
+struct Found {
+    SearchResult result;
+    const char* method = "branch-and-bound";
+};
+
+Report report(const Found& found, double tolerance, Family family) {
+    const WorstBox& worst = found.result.worst;
+    Report box;
+    if (family >= Family::cube) box.add("lower_corner", worst.corner(&Interval::lower));
+    box.add("corner", worst.corner(&Interval::upper));
+    box.add("closed", worst.closed());
+    box.add("points", worst.points());
+    box.add("volume", worst.volume());
+    return report_of(found.result, tolerance, found.method).add("worst_box", std::move(box));
+}
+
+Family family_of(const Values& options) {
+    if (options[kind] == "star")
+        return options[boxes] == "closed" ? Family::anchored : Family::half_open;
+    if (options.given(boxes))
+        fail(ErrorKind::usage, "--{} applies to --kind star only", boxes.name);
+    return options[kind] == "extreme" ? Family::cube : Family::torus;
+}
+
+/// @throws Error(limit) saying how many points would do.
+void need_room(const PointSet& points, Family family, const RunContext& run) {
+    const std::size_t d = points.dimension();
+    if (family >= Family::cube)
+        return run.need_memory(extreme::search_memory(points, run.thread_count()),
+                               "the search for the worst box");
+    const double search = d < 3 ? 0 : star::search_bytes(1, d, run.thread_count());
+    const double each = static_cast<double>(d * axis_bytes(true)) + 32 + search;
+    const double all = static_cast<double>(points.count()) * each;
+    const double room = static_cast<double>(run.memory_left());
+    if (all <= room) return;
+    fail_with_hint(ErrorKind::limit,
+                   fmt::format("{} points would do; or raise the limit with --max-memory",
+                               static_cast<std::uint64_t>(room / each)),
+                   "the star discrepancy of {} points in {} dimensions needs {} of memory; the "
+                   "limit is {}",
+                   points.count(), d, format_bytes(all), format_bytes(room));
+}
+
+/// The square's worst box; bounds alone where the sweep takes longer than a part of the time.
+Found sweep_or_search(const BoxGrid& grid, const Limits& limits, const RunContext& run) {
+    constexpr double part = 0.7;  // what is left is for bounds
+    SearchLimits first = limits.search;
+    first.deadline = limits.start + part * (first.deadline - limits.start);
+    const SearchResult sweep = star::sweep_2d(grid, first, run);
+    if (sweep.ending == Ending::complete) return {sweep, "sweep-2d"};
+    const bool stopped = run.stop.stop_requested();
+    return {star::search(grid, sweep.worst, limits.search, run),
+            stopped ? "sweep-2d" : "branch-and-bound"};
+}
+
+Found search(const BoxGrid& grid, const star::Member& set, const RunContext& run) {
+    if (!grid.anchored())
+        return {extreme::find_worst(set.points, grid, set.limits.search, run),
+                grid.dimension() == 1 ? "sweep-1d" : "branch-and-bound"};
+    if (grid.dimension() == 1) return {star::sweep_1d(grid, run), "sweep-1d"};
+    if (grid.dimension() == 2 && !set.limits.bounded) return sweep_or_search(grid, set.limits, run);
+    return {star::find_worst(grid, set.limits.search, run, set.peers)};
+}
+
+Report measure(const star::Member& set, const Values& options, const RunContext& run) {
+    const PointSet& points = set.points;
+    if (points.count() == 0) fail(ErrorKind::input, "star-discrepancy needs at least one point");
+    if (points.count() > max_count)
+        fail(ErrorKind::limit, "star-discrepancy takes up to {} points; these are {}", max_count,
+             points.count());
+    const Family family = family_of(options);
+    need_room(points, family, run);
+    // Peers stop together, in the search.
+    const BoxGrid grid = box_grid(points, family, set.peers != nullptr ? unstopped(run) : run);
+    const Found found = search(grid, set, run);
+    set.limits.judge(found.result, fmt::format("the {} discrepancy", options[kind]), points, run);
+    return report(found, set.limits.search.tolerance, family);
+}
+
+Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
+    const Limits limits(options, run);
+    if (!star::wants_families(options)) return measure({points, limits}, options, run);
+    const auto one = [&options](const star::Member& part, const RunContext& part_run) {
+        return measure(part, options, part_run);
+    };
+    return star::families(points, options, limits, one, run);
+}
+
+/// The peers share the search for the worst box. The sweeps of one and two dimensions are sooner
+/// done than shared.
+Report analyze_together(const PointSet& points, const Values& options, Peers& peers,
+                        const RunContext& run) {
+    if (star::wants_families(options) || options[kind] != "star")
+        fail(ErrorKind::usage,
+             "star-discrepancy: ranks share the search of one set for the kind star; start one "
+             "process for tables and other kinds");
+    const Limits limits(options, run);
+    const bool sweeps = points.dimension() < 2 || (points.dimension() == 2 && !limits.bounded);
+    return measure({.points = points, .limits = limits, .peers = sweeps ? nullptr : &peers},
+                   options, run);
+}
+
+/// A mean of boxes is none, nor is one of axes; the worst projection is that of the means.
+void refine(Report& mean, std::size_t sets, const Values&) {
+    if (sets < 2) return;
+    drop(mean, {"worst_box"});
+    auto* const item = mean.find("projections");
+    if (item == nullptr) return;
+    auto& table = std::get<Report>(*item);
+    drop(table, {"is_worst", "worst", "worst_is_certain"});
+    star::mark_worst(table);
+}
+
+std::vector<ResultKey> results() {
+    std::vector<ResultKey> keys = {
+        {"value",
+         "the star discrepancy: only where it is exact, or the bounds are within --tolerance"},
+        {"lower", "it is at least this"},
+        {"upper", "it is at most this"},
+        {"exact", "whether the two bounds are the same", true, true_or_false},
+        {"method", "sweep-1d, sweep-2d or branch-and-bound", true,
+         "sweep-1d|sweep-2d|branch-and-bound"},
+        {"worst_box.corner",
+         "upper corner of the worst box found, where 'lower' is reached (of all boxes from the "
+         "origin, or of all that the kind has)"},
+        {"worst_box.lower_corner",
+         "its lower corner, for the kinds extreme and periodic; on an axis where it is above the "
+         "upper one, the box goes from there across 1 to 0 and on (and all round where an open box "
+         "has both the same)",
+         false},
+        {"worst_box.closed",
+         "whether points on the box's faces count (upper faces for the kind star)", true,
+         true_or_false},
+        {"worst_box.points", "points in that box"},
+        {"worst_box.volume", "its volume"},
+        {"prefixes.count", "points of each prefix", false}};
+    const auto add_columns = [&](const std::string& table) {
+        keys.push_back(
+            {table + ".value", "its star discrepancy, or nothing where it is not known", false});
+        keys.push_back({table + ".lower", "which is at least this", false});
+        keys.push_back({table + ".upper", "and at most this", false});
+        keys.push_back({table + ".exact", "1 where the two are the same, else 0", false});
+    };
+    add_columns("prefixes");
+    keys.push_back({"projections.axis_1", "first axis of each projection, from 1", false});
+    keys.push_back({"projections.axis_2", "the second, and so on", false});
+    add_columns("projections");
+    keys.insert(
+        keys.end(),
+        {{"projections.is_worst",
+          "1 for the first with the largest value; among bounds, with the largest lower one",
+          false},
+         {"projections.worst", "the axes of that one", false},
+         {"projections.worst_is_certain",
+          "whether the bounds of no other projection reach above its value", false, true_or_false},
+         {"projections.largest.value", "the largest value, where that is certain", false},
+         {"projections.largest.lower", "the largest of all is at least this", false},
+         {"projections.largest.upper", "and at most this", false}});
+    return keys;
+}
+
+}  // namespace
+
+Analyzer unit() {
+    return {.name = "star-discrepancy",
+            .summary = "Star discrepancy, exact or between bounds, with the worst box",
+            .source = "Doerr, Gnewuch, Wahlstroem 2014, arXiv:1405.1653",
+            .related = {"d-star", "discrepancy", "kuipers-niederreiter"},
+            .traits = {.max_dimension = 10'000},
+            .options = Schema(kind, boxes, limit::method, limit::time_limit, limit::tolerance,
+                              limit::max_work, star::prefixes, star::every, star::projections),
+            .results = results(),
+            .analyze = analyze,
+            .cost =
+                [](double n, double d) {  // exact searches of Halton's, Sobol's and random points
+                    if (d <= 2) return 3e-8 * std::pow(n, 1.33);
+                    return std::min(100.0, 5e-8 * std::pow(n, d <= 8 ? 1 + d / 4 : 2.2 + d / 10));
+                },
+            .sharing = {.together = analyze_together},
+            .refine = refine};
+}
+
+}  // namespace stipple::analyzers::star_discrepancy

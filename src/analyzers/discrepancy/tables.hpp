@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+//
+// Tables of discrepancies: of the prefixes of a sequence, against their length, and of the
+// projections of a set to a few of its axes.
+#pragma once
+
+#include <functional>
+
+#include "core/options.hpp"
+#include "core/peers.hpp"
+#include "core/point_set.hpp"
+#include "math/discrepancy/search_limits.hpp"
+#include "stipple/report.hpp"
+#include "stipple/run.hpp"
+
+namespace stipple::discrepancy::star {
+
+inline constexpr Param<Numbers> prefixes{
+    {.name = "prefixes",
+     .unit = "points",
+     .help =
+         "Instead of the whole set, its first so many points, rising: 16,32,64; a table. Limits "
+         "of work and time are for all rows of a table together: work goes by their numbers of "
+         "points, and each has its share of the time that is left"}};
+
+inline constexpr Param<std::int64_t> every{
+    .name = "every",
+    .low = 1,
+    .optional = true,
+    .unit = "points",
+    .help = "The same for every multiple of this number up to the set's"};
+
+inline constexpr Param<std::int64_t> projections{
+    .name = "projections",
+    .low = 1,
+    .high = 8,
+    .optional = true,
+    .unit = "coordinates",
+    .help =
+        "Instead of the whole set, all its projections to so many coordinates; a table, in the "
+        "order 1-2, 1-3, 2-3, 1-4, 2-4, ...: sorted by the last axis, then by the one before"};
+
+/// A set to measure.
+struct Member {
+    const PointSet& points;
+    const Limits& limits;
+    Peers* peers = nullptr;  ///< who share the search, if any do
+};
+
+/// Measures one set: its report has `value`, `lower` and `upper`.
+using Measure = std::function<Report(const Member&, const RunContext&)>;
+
+/// Marks the first row of a table of projections with the largest lower bound.
+void mark_worst(Report& table);
+
+/// Whether tables are asked for. @throws Error(usage) for sizes that no set has prefixes of.
+bool wants_families(const Values& options);
+
+/// The tables, several sets at once on the run's threads; the same for any number of them unless
+/// the time ends it. The limits are for all together: work goes by the numbers of points, time by
+/// the same to those not yet begun. Bounds of a prefix hold for its neighbours, too, up to what the
+/// points between can change. Other sets that a stop or the time leaves out have the bounds 1/(2n)
+/// and 1.
+/// @throws Error(input) for prefixes and projections that these points do not have.
+Report families(const PointSet& points, const Values& options, const Limits& limits,
+                const Measure& measure, const RunContext& run);
+
+}  // namespace stipple::discrepancy::star

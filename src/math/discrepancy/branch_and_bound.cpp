@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+#include "math/discrepancy/branch_and_bound.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/bytes/packed.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+namespace stipple::discrepancy {
+namespace {
+
+bool lower_bound(const Cell& a, const Cell& b) { return a.bound < b.bound; }
+
+void pack(const WorstBox& worst, Packer& to) {
+    to.put(worst.points()).put(worst.box().side).put_all(worst.box().axes);
+}
+
+void offer_packed(Unpacker& from, WorstBox& worst) {
+    const auto points = from.take<std::uint64_t>();
+    const Side side = from.take<Side>();
+    worst.offer({.side = side, .axes = from.take_all<Interval>()}, points);
+}
+
+/// How many open cells fit into a part of the memory.
+std::size_t most_cells(const Cell& cell, const RunContext& run) {
+    constexpr std::size_t of_two_blocks = 32;
+    const double bytes = static_cast<double>(sizeof(Cell) + of_two_blocks +
+                                             2 * sizeof(std::uint32_t) * cell.lo.size());
+    return static_cast<std::size_t>(std::min(0.25 * static_cast<double>(run.max_memory), 0x1p30) /
+                                    bytes);
+}
+
+class Search {
+  public:
+    Search(Problem& problem, const BoxGrid& grid, Known known, const SearchLimits& limits,
+           const RunContext& run, Peers& peers)
+        : problem_(problem),
+          grid_(grid),
+          limits_(limits),
+          run_(run),
+          peers_(peers),
+          known_(std::move(known)),
+          cells_(problem.all_cells()),
+          most_cells_(most_cells(cells_.front(), run)) {}
+
+    /// A peer that was told to stop, or whose time is over, still speaks with the others, so that
+    /// all of them end in the same round.
+    SearchResult go() {
+        agree();
+        while (!stopped_ && !ending()) {
+            std::vector<Task> tasks;
+            unless_interrupted([&] { problem_.look_around(known_, limits_.work); });
+            if (limits_.timed()) agree();  // how far each came depends on its clock
+            if (!stopped_) tasks = next_tasks();
+            unless_interrupted([&] { explore_some(tasks); });
+            exchange(tasks);
+            if (!stopped_) unless_interrupted([&] { update_bounds(); });
+        }
+        return {known_.worst, known_.upper, stopped_ ? Ending::stopped : *ending()};
+    }
+
+  private:
+    [[nodiscard]] std::optional<Ending> ending() const {
+        const double lower = known_.worst.value();
+        if (cells_.empty() || known_.upper <= lower) return Ending::complete;
+        if (known_.upper - lower <= limits_.tolerance * lower) return Ending::tolerance;
+        if (known_.work >= limits_.work) return Ending::work;
+        if (late_) return Ending::time;
+        return {};
+    }
+
+    /// Does it, unless this peer was told to stop; notes if it is told so meanwhile.
+    template <class Work>
+    void unless_interrupted(const Work& work) {
+        if (interrupted_ || stopped_) return;
+        try {
+            work();
+        } catch (const Error& e) {
+            if (e.kind() != ErrorKind::cancelled) throw;
+            interrupted_ = true;
+        }
+    }
+
+    /// From now on all peers know what the first one knows.
+    void agree() {
+        Packer packer;
+        packer.put(limits_.work).put(known_.upper).put(known_.work);
+        pack(known_.worst, packer);
+        const auto all = speak(packer);
+        Unpacker first(all.front());
+        limits_.work = first.take<std::uint64_t>();
+        known_.upper = first.take<double>();
+        known_.work = first.take<std::uint64_t>();
+        known_.worst = WorstBox(grid_);
+        offer_packed(first, known_.worst);
+    }
+
+    /// Exchanges what each says; last of it, whether its time is over and whether it was told to
+    /// stop.
+    std::vector<std::string> speak(Packer& packer) {
+        packer.put(limits_.late(run_)).put(run_.stop.stop_requested() || interrupted_);
+        const auto all = peers_.exchange(packer.take());
+        for (const auto& text : all) {
+            Unpacker end(std::string_view(text).substr(text.size() - 2));
+            late_ = end.take<bool>() || late_;
+            stopped_ = end.take<bool>() || stopped_;
+        }
+        return all;
+    }
+
+    /// This peer's tasks.
+    void explore_some(std::vector<Task>& tasks) {
+        const auto size = static_cast<std::size_t>(peers_.size());
+        const auto rank = static_cast<std::size_t>(peers_.rank());
+        const std::size_t some = (tasks.size() + size - 1 - rank) / size;
+        for_each_block(silent(run_), some, 1, [&](const Block& block) {
+            problem_.explore(tasks[block.index * size + rank]);
+        });
+    }
+
+    /// Tells the others what came of this peer's tasks, and takes in all of them in their order.
+    void exchange(std::vector<Task>& tasks) {
+        const auto size = static_cast<std::size_t>(peers_.size());
+        Packer packer;
+        for (std::size_t i = static_cast<std::size_t>(peers_.rank()); i < tasks.size(); i += size)
+            pack_task(tasks[i], packer);
+        const auto all = speak(packer);
+        std::vector<Unpacker> found(all.begin(), all.end());
+        if (stopped_) return;  // tasks may be unexplored: what was certain before still is
+        for (std::size_t i = 0; i < tasks.size(); ++i) take_task(found[i % size]);
+    }
+
+    static void pack_task(const Task& task, Packer& to) {
+        to.put(task.work);
+        pack(task.worst, to);
+        to.put<std::uint64_t>(task.rest.size());
+        for (const Cell& cell : task.rest)
+            to.put(cell.side).put(cell.bound).put_all(cell.lo).put_all(cell.hi);
+    }
+
+    void take_task(Unpacker& from) {
+        known_.work += from.take<std::uint64_t>();
+        offer_packed(from, known_.worst);
+        for (auto left = from.take<std::uint64_t>(); left > 0; --left) {
+            Cell cell{.side = from.take<Side>(), .bound = from.take<double>(), .lo = {}, .hi = {}};
+            cell.lo = from.take_all<std::uint32_t>();
+            cell.hi = from.take_all<std::uint32_t>();
+            cells_.push_back(std::move(cell));
+            std::ranges::push_heap(cells_, lower_bound);
+        }
+    }
+
+    [[nodiscard]] bool full() const { return cells_.size() >= most_cells_; }
+
+    /// The cells with the highest bounds, each with a share of what work is left.
+    std::vector<Task> next_tasks() {
+        constexpr std::size_t together = 64;
+        const std::uint64_t size = grid_.count * grid_.dimension();
+        const double target = next_target();
+        const bool to_the_end = full();
+        std::vector<Task> tasks;
+        while (tasks.size() < together && !cells_.empty() && cells_.front().bound > target)
+            tasks.push_back({pop(), known_.worst, target, 0});
+        const std::uint64_t left = limits_.work - std::min(known_.work, limits_.work);
+        const std::uint64_t share = left / tasks.size();
+        const std::uint64_t budget =
+            (to_the_end ? 64 : 1) * std::max(std::uint64_t{1} << 22, 16 * size);
+        for (Task& task : tasks) task.budget = std::min(budget, share);
+        return tasks;
+    }
+
+    /// 0 when cells are to be explored to the end.
+    [[nodiscard]] double next_target() const {
+        constexpr double step = 0.6;
+        constexpr double close = 0.1;  // relative; not far from the end
+        const double lower = known_.worst.value();
+        const double gap = known_.upper - lower;
+        if (!problem_.by_stages(known_) || full() || gap < close * lower) return 0;
+        return lower + step * gap;
+    }
+
+    Cell pop() {
+        std::ranges::pop_heap(cells_, lower_bound);
+        Cell cell = std::move(cells_.back());
+        cells_.pop_back();
+        return cell;
+    }
+
+    /// Drops what can't matter any more and says what is certain now.
+    void update_bounds() {
+        const double lower = known_.worst.value();
+        if (!cells_.empty() && cells_.front().bound < lower) cells_.clear();
+        known_.upper =
+            cells_.empty() ? lower : std::max(lower, std::min(known_.upper, cells_.front().bound));
+        report_gap(lower, known_.upper, run_);
+    }
+
+    Problem& problem_;
+    const BoxGrid& grid_;
+    SearchLimits limits_;
+    const RunContext& run_;
+    Peers& peers_;
+    Known known_;
+    std::vector<Cell> cells_;  ///< that are open; a heap, the highest bound first
+    std::size_t most_cells_;   ///< to keep; with more, cells are explored to the end
+
+    bool interrupted_ = false;  ///< this peer was told to stop
+    bool stopped_ = false;      ///< one of them was
+    bool late_ = false;         ///< the time of one of them is over
+};
+
+}  // namespace
+
+SearchResult branch_and_bound(Problem& problem, const BoxGrid& grid, Known known,
+                              const SearchLimits& limits, const RunContext& run, Peers* peers) {
+    Peers alone;
+    return Search(problem, grid, std::move(known), limits, run, peers ? *peers : alone).go();
+}
+
+}  // namespace stipple::discrepancy

@@ -1,0 +1,468 @@
+// SPDX-License-Identifier: MIT
+//
+// Points below lo on all axes are in the box of every corner y of a cell; points that are not all
+// below hi are in none; the others are undecided, each on the axes on which it is not below lo.
+// With O the number of points in the open box, C in the closed one, V the volume, and c_j(y_j)
+// counting, of the undecided points that are assigned to axis j, those below y_j,
+//
+//     open     V(y) - O(y)/n <= V(hi) - O(lo)/n - sum_j min over y_j of [step_j(y_j) + c_j(y_j)/n]
+//     closed   C(y)/n - V(y) <= C(lo)/n - base  - sum_j min over y_j of [step_j(y_j) - c_j(y_j)/n]
+//
+// An open box has at least the points undecided on a single axis, assigned to it; a closed one at
+// most all, each assigned to the one of its undecided axes on which reaching it costs most. The
+// steps come from a bound of V that is a sum over the axes, for open boxes V(y) <= V(hi) - sum
+// step:
+//
+//     chord        step_j = (log hi_j - log y_j) (V(hi) - m) / (log V(hi) - log m)
+//
+// The chord is that of exp between log m and log V(hi), so it holds where V(y) >= m; any box worse
+// than the worst one known, D, has V(y) > m = D + O(lo)/n. For closed boxes V(y) >= base + sum
+// step:
+//
+//     tangent      step_j = (log y_j - log lo_j) v,            base = v (1 + log V(lo) - log v)
+//
+// the tangent of exp at any log v; v is chosen between V(lo) and the largest V(y) that a box worse
+// than D can have. Where V(lo) is 0, all steps are. All sums are over the axes, so a y_j whose own
+// term is further above the least one than the bound is above D is out, and the cell shrinks.
+//
+// On each axis only places matter where a point of the cell lies: an open box that is worst can't
+// grow there without taking in a point (or reaches 1), a closed one can't shrink without losing
+// one.
+
+#include "math/discrepancy/star/cell.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "core/machine/wide.hpp"
+
+namespace stipple::discrepancy::star {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double tiny = 1e-300;
+
+/// In a bin: this place is a candidate. The other bits count points.
+constexpr std::uint32_t candidate = std::uint32_t{1} << 31;
+
+/// Bins in front of each axis's own, for points of no interest; several, since to count up the
+/// same one all the time is slow.
+constexpr std::int32_t dummy_bins = 16;
+
+/// In the state of a point, 1 for each axis on which it is undecided; below that, twice the axes on
+/// which it is above hi plus those on which it is at hi.
+constexpr int undecided_bits = 16;
+constexpr std::int32_t undecided_unit = 1 << undecided_bits;
+
+std::int32_t signed_rank(std::uint32_t place) { return static_cast<std::int32_t>(place); }
+
+STIPPLE_WIDE void compare(const std::int32_t* ranks, std::size_t size, std::int32_t lo,
+                          std::int32_t hi, std::int32_t* state) {
+    for (std::size_t i = 0; i < size; ++i)
+        state[i] += (ranks[i] >= hi ? 1 : 0) + (ranks[i] > hi ? 1 : 0) +
+                    (ranks[i] >= lo ? undecided_unit : 0);
+}
+
+/// Assigns to `axis` the points that cost more there than on the axes before.
+STIPPLE_WIDE void assign_to(const std::int32_t* ranks, std::size_t size, std::int32_t lo,
+                            float price, std::int32_t axis, float* cost, std::int32_t* axes) {
+    for (std::size_t i = 0; i < size; ++i) {
+        const float here = static_cast<float>(ranks[i] + 1 - lo) * price;
+        const bool more = here > cost[i];
+        cost[i] = more ? here : cost[i];
+        axes[i] = more ? axis : axes[i];
+    }
+}
+
+STIPPLE_WIDE void gather(const std::int32_t* from, const std::uint32_t* kept, std::size_t size,
+                         std::int32_t* to) {
+    for (std::size_t i = 0; i < size; ++i) to[i] = from[kept[i]];
+}
+
+/// terms[i] = (values[ranks[i]] - origin) * weight + counts[i] * inverse; gives the least.
+STIPPLE_WIDE double fill_terms(const double* values, const std::int32_t* ranks,
+                               const std::int32_t* counts, std::size_t size, double origin,
+                               double weight, double inverse, double* terms) {
+    for (std::size_t i = 0; i < size; ++i)
+        terms[i] = (values[ranks[i]] - origin) * weight + counts[i] * inverse;
+    double least = infinity;
+    for (std::size_t i = 0; i < size; ++i) least = std::min(least, terms[i]);
+    return least;
+}
+
+/// What is added to a rank to get the y of the box that ends there.
+template <Side side>
+constexpr std::uint32_t shift = side == Side::open ? 0 : 1;
+
+template <Side side>
+class CellBounder {
+  public:
+    using Points = Active;
+    using Axes = std::vector<std::vector<double>>;
+
+    /// Keeps references to all of them.
+    CellBounder(const BoxGrid& grid, const Axes& logs, WorstBox& worst, const RunContext& run)
+        : grid_(grid),
+          logs_(logs),
+          worst_(worst),
+          run_(run),
+          d_(grid.dimension()),
+          inverse_(1 / static_cast<double>(grid.count)),
+          rounding_(static_cast<double>((d_ + 8) * (d_ + 8)) * 0x1p-52),
+          bins_(d_),
+          candidates_(d_),
+          terms_(d_),
+          least_(d_) {}
+
+    /// Shrinks the cell to what may hold a box worse than the worst, offers boxes on the way, and
+    /// keeps those points of `from` that matter in it; false if nothing is left to split.
+    bool tighten(Cell& cell, const Active& from, Active& mine) {
+        filter(cell, from, mine);
+        while (true) {
+            run_.check_stop();
+            count(cell, mine);
+            seen_ = cell;
+            if (!reduce(seen_, cell)) return false;
+            if (cell.lo == seen_.lo && cell.hi == seen_.hi) return cell.lo != cell.hi;
+            filter(cell, mine, mine);
+        }
+    }
+
+    /// Takes the lower half away from the cell, which was tightened last, on the axis that weighs
+    /// most in its bound.
+    Cell split(Cell& cell) const {
+        const std::size_t axis = split_axis(cell);
+        const auto bins = std::span(bins_[axis]).subspan(dummy_bins);
+        const auto is_candidate = [](std::uint32_t bin) { return (bin & candidate) != 0; };
+        auto half = std::ranges::count_if(bins, is_candidate) / 2;
+        Cell lower = cell;
+        std::uint32_t y = 0;
+        for (; half > 0 || !is_candidate(bins[y]); ++y) {
+            if (!is_candidate(bins[y])) continue;
+            --half;
+            lower.hi[axis] = cell.lo[axis] + y;
+        }
+        cell.lo[axis] += y;
+        return lower;
+    }
+
+    /// Comparisons of coordinates and ranks until now.
+    [[nodiscard]] std::uint64_t work() const { return work_; }
+
+  private:
+    /// Ranks of an axis, from lo on, where a box may be worst, and signed counts of the points
+    /// assigned to the axis up to there; room for more than `size`.
+    struct Candidates {
+        std::size_t size = 0;
+        std::vector<std::int32_t> ranks;
+        std::vector<std::int32_t> counts;
+    };
+
+    struct Anchor {
+        double bound;
+        double weight;  ///< of a step in the terms
+        double margin;  ///< more than the rounding errors
+    };
+
+    double value(std::size_t k, std::uint32_t y) const { return grid_.values[k][y - shift<side>]; }
+
+    /// Keeps the points of `from` that can matter in the cell. `from` and `mine` may be the same.
+    void filter(const Cell& cell, const Active& from, Active& mine) {
+        const std::size_t size = from.size;
+        state_.assign(size, 0);
+        for (std::size_t k = 0; k < d_; ++k) {
+            run_.check_stop();
+            compare(from.axis(k), size, signed_rank(cell.lo[k]), signed_rank(cell.hi[k]),
+                    state_.data());
+        }
+        work_ += size * d_;
+        select(cell, from, mine);
+        packed_.resize(kept_.size() * d_);
+        for (std::size_t k = 0; k < d_; ++k)
+            gather(from.axis(k), kept_.data(), kept_.size(), packed_.data() + k * kept_.size());
+        mine.ranks.swap(packed_);
+        mine.size = kept_.size();
+    }
+
+    /// Notes in kept_ which points to keep, those inside first, and in state_ on how many axes those
+    /// are undecided; decides the others that are inside.
+    void select(const Cell& cell, const Active& from, Active& mine) {
+        kept_.resize(from.size);
+        on_face_.resize(side == Side::open ? from.size : 0);
+        std::size_t inside = 0;
+        std::size_t on_face = 0;
+        std::uint64_t decided = 0;
+        for (std::uint32_t i = 0; i < from.size;
+             ++i) {  // without branches: nobody could foresee them
+            const std::int32_t over = state_[i] & (undecided_unit - 1);
+            const std::int32_t undecided = state_[i] >> undecided_bits;
+            if constexpr (side == Side::open) {
+                on_face_[on_face] = i;
+                on_face += over == 1 ? 1 : 0;
+            }
+            const bool sure = over == 0 && undecided == 0;
+            const bool decides = sure && !ends_at_lo(cell, from, i);
+            decided += decides ? 1 : 0;
+            state_[inside] = undecided;
+            kept_[inside] = i;
+            inside += over == 0 && !decides ? 1 : 0;
+        }
+        mine.decided = from.decided + decided;
+        kept_.resize(inside);
+        kept_.insert(kept_.end(), on_face_.begin(),
+                     on_face_.begin() + static_cast<std::ptrdiff_t>(on_face));
+        mine.inside = inside;
+    }
+
+    /// Whether the point, inside for sure, makes lo a candidate on some axis.
+    bool ends_at_lo(const Cell& cell, const Active& from, std::size_t i) const {
+        if (side == Side::open) return false;
+        for (std::size_t k = 0; k < d_; ++k)
+            if (from.axis(k)[i] + 1 == signed_rank(cell.lo[k])) return true;
+        return false;
+    }
+
+    /// Sorts the active points into bins, and offers the box whose count that gives.
+    void count(const Cell& cell, const Active& active) {
+        inside_lo_ = active.decided;
+        for (std::size_t i = 0; i < active.inside; ++i) inside_lo_ += state_[i] == 0 ? 1U : 0U;
+        inside_hi_ = active.decided + active.inside;
+        if (side == Side::closed) assign(cell, active);
+        for (std::size_t k = 0; k < d_; ++k) {
+            fill_bins(cell, active, k);
+            list_candidates(k);
+            work_ += active.size + bins_[k].size();
+        }
+        if (side == Side::open)
+            offer(cell.hi, inside_hi_);
+        else
+            offer(cell.lo, inside_lo_);
+    }
+
+    /// The axis to which each point is assigned, -1 for none (closed boxes; for open ones it is the
+    /// axis on which the point is undecided, if that is the only one).
+    void assign(const Cell& cell, const Active& active) {
+        const std::size_t inside = active.inside;
+        axes_.assign(inside, -1);
+        cost_.assign(inside, 0);
+        for (std::size_t k = 0; k < d_; ++k) {
+            const double low = std::max(value(k, cell.lo[k]), tiny);
+            const double steps = cell.hi[k] - cell.lo[k] + 1;
+            const double price =
+                std::log(value(k, cell.hi[k]) / low + 1e-9) / steps;  // a rough one
+            assign_to(active.axis(k), inside, signed_rank(cell.lo[k]),
+                      std::max(1e-30F, static_cast<float>(price)), static_cast<std::int32_t>(k),
+                      cost_.data(), axes_.data());
+        }
+    }
+
+    /// bins_[k][dummy_bins + y - lo]: the points assigned to axis k that end a box at y, and whether
+    /// any point, assigned or not, makes y a candidate.
+    void fill_bins(const Cell& cell, const Active& active, std::size_t k) {
+        auto& bins = bins_[k];
+        bins.assign(dummy_bins + (cell.hi[k] - cell.lo[k] + 1), 0);
+        const std::int32_t* ranks = active.axis(k);
+        const auto axis = static_cast<std::int32_t>(k);
+        const std::int32_t start = signed_rank(cell.lo[k]) - signed_rank(shift<side>) - dummy_bins;
+        for (std::size_t i = 0; i < active.inside; ++i) {
+            const std::int32_t at =
+                std::max(ranks[i] - start, static_cast<std::int32_t>(i % dummy_bins));
+            auto& bin = bins[static_cast<std::size_t>(at)];
+            // A point of an open box that is undecided on another axis alone is below lo: in a dummy
+            // bin.
+            const bool assigned = side == Side::open ? state_[i] == 1 : axes_[i] == axis;
+            bin = (bin + (assigned ? 1U : 0U)) | candidate;
+        }
+        for (std::size_t i = active.inside; i < active.size; ++i)
+            if (ranks[i] == signed_rank(cell.hi[k])) bins.back() |= candidate;
+        if (side == Side::open && cell.hi[k] + 1 == grid_.values[k].size())
+            bins.back() |= candidate;
+    }
+
+    /// The candidates of an axis, with c_k(y) for open boxes, which end before their point, and -c_k(y)
+    /// for closed ones.
+    void list_candidates(std::size_t k) {
+        const auto bins = std::span(bins_[k]).subspan(dummy_bins);
+        auto& [found, ranks, counts] = candidates_[k];
+        if (ranks.size() <= bins.size()) {
+            ranks.resize(bins.size() + 1);
+            counts.resize(ranks.size());
+            terms_[k].resize(ranks.size());
+        }
+        std::size_t size = 0;
+        std::int32_t points = 0;
+        for (std::size_t y = 0; y < bins.size(); ++y) {
+            const std::int32_t before = points;
+            points += static_cast<std::int32_t>(bins[y] & ~candidate);
+            ranks[size] = static_cast<std::int32_t>(y);
+            counts[size] = side == Side::open ? before : -points;
+            size += bins[y] / candidate;
+        }
+        found = size;
+    }
+
+    void offer(const std::vector<std::uint32_t>& y, std::uint64_t points) {
+        corner_ = y;
+        for (auto& rank : corner_) rank -= shift<side>;
+        worst_.offer(side, corner_, points);
+    }
+
+    /// The bound of a cell before the terms of its axes are taken off.
+    Anchor anchor(const Cell& cell) const {
+        double low = 0;  // logarithms of the smallest and of the largest volume
+        double high = 0;
+        for (std::size_t k = 0; k < d_; ++k) {
+            low += logs_[k][cell.lo[k] - shift<side>];
+            high += logs_[k][cell.hi[k] - shift<side>];
+        }
+        const double share = static_cast<double>(inside_lo_) * inverse_;
+        if (side == Side::open) {
+            const double most = std::exp(high);
+            const double margin = rounding_ + most * -high * rounding_;
+            return {most - share + margin, -chord(std::exp(low), most), margin};
+        }
+        if (low == -infinity) return {share + rounding_, 0, rounding_};  // no tangent
+        const double most = static_cast<double>(inside_hi_) * inverse_ - worst_.value();
+        const double top = std::min(high, std::log(std::max(most, tiny)));
+        const double at = low + 0.6 * std::max(0.0, top - low);  // found by trial
+        const double weight = std::exp(at);
+        const double margin = rounding_ + weight * -low * rounding_;
+        return {share - weight * (1 + low - at) + margin, weight, margin};
+    }
+
+    /// Works out the bound of the points `seen` in the cell, and takes from it the ends that the bound
+    /// excludes; false if it excludes all.
+    bool reduce(const Cell& seen, Cell& cell) {
+        const auto [before, weight, margin] = anchor(seen);
+        double bound = before;
+        for (std::size_t k = 0; k < d_; ++k) {
+            const auto& [size, ranks, counts] = candidates_[k];
+            const auto& axis =
+                weight == 0 ? grid_.values[k] : logs_[k];  // 0 times infinity is no number
+            const double* first = axis.data() + seen.lo[k] - shift<side>;
+            const double origin = side == Side::open ? first[seen.hi[k] - seen.lo[k]] : first[0];
+            least_[k] = fill_terms(first, ranks.data(), counts.data(), size, origin, weight,
+                                   inverse_, terms_[k].data());
+            bound -= least_[k];
+        }
+        cell.bound = std::min(cell.bound, bound);
+        if (!(bound >= worst_.value())) return false;
+        for (std::size_t k = 0; k < d_; ++k)
+            if (!cut_ends(k, least_[k] + (bound - worst_.value()) + margin, seen, cell))
+                return false;
+        return true;
+    }
+
+    /// Slope of the chord of exp from log m to log high, rounded down.
+    double chord(double low, double high) const {
+        const double floor = worst_.value() + static_cast<double>(inside_lo_) * inverse_;
+        const double m = std::max({low, floor * (1 - 1e-12), tiny});
+        // The slope is the logarithmic mean; the geometric one is a little less, and safe near m =
+        // high.
+        if (m > 0.999 * high) return std::sqrt(std::min(m, high) * high) * (1 - 1e-12);
+        return (high - m) / std::log(high / m) * (1 - 1e-12);
+    }
+
+    /// Takes the ends of an axis without a candidate whose term is at most this; false if none is left.
+    bool cut_ends(std::size_t k, double most, const Cell& seen, Cell& cell) {
+        const auto& [size, ranks, counts] = candidates_[k];
+        const auto rank = [&](std::size_t i) {
+            return seen.lo[k] + static_cast<std::uint32_t>(ranks[i]);
+        };
+        const auto out = [&](std::size_t i) { return !(terms_[k][i] <= most); };
+        std::size_t first = 0;
+        while (first < size && (rank(first) < cell.lo[k] || out(first))) ++first;
+        std::size_t last = size;
+        while (last > first && (rank(last - 1) > cell.hi[k] || out(last - 1))) --last;
+        if (first == last) return false;
+        cell.lo[k] = rank(first);
+        cell.hi[k] = rank(last - 1);
+        return true;
+    }
+
+    std::size_t split_axis(const Cell& cell) const {
+        double volume = 1;
+        for (std::size_t k = 0; k < d_; ++k) volume *= value(k, cell.hi[k]);
+        std::size_t axis = 0;
+        double most = -1;
+        for (std::size_t k = 0; k < d_; ++k) {
+            if (cell.lo[k] == cell.hi[k]) continue;
+            std::uint32_t points = 0;
+            for (const auto bin : std::span(bins_[k]).subspan(dummy_bins))
+                points += bin & ~candidate;
+            const double width = 1 - value(k, cell.lo[k]) / value(k, cell.hi[k]);
+            const double weight = width * volume + points * inverse_ / 2;
+            if (weight <= most) continue;
+            most = weight;
+            axis = k;
+        }
+        return axis;
+    }
+
+    const BoxGrid& grid_;
+    const Axes& logs_;
+    WorstBox& worst_;
+    const RunContext& run_;
+    std::size_t d_;
+    double inverse_;   ///< 1 / n
+    double rounding_;  ///< more than the rounding errors of a bound
+    std::uint64_t work_ = 0;
+
+    // What is known of the cell at hand.
+    std::uint64_t inside_lo_ = 0;                   ///< points inside for all its corners
+    std::uint64_t inside_hi_ = 0;                   ///< for its largest corner
+    std::vector<std::vector<std::uint32_t>> bins_;  ///< see fill_bins
+    std::vector<Candidates> candidates_;            ///< of each axis
+    Axes terms_;                                    ///< of the bound, for each candidate
+    std::vector<double> least_;                     ///< of the terms of each axis
+
+    // Scratch space.
+    std::vector<std::int32_t> state_;
+    std::vector<std::uint32_t> kept_;
+    std::vector<std::uint32_t> on_face_;
+    std::vector<std::int32_t> packed_;
+    std::vector<std::int32_t> axes_;
+    std::vector<float> cost_;
+    std::vector<std::uint32_t> corner_;
+    Cell seen_{};
+};
+
+}  // namespace
+
+Cell whole_cell(const BoxGrid& grid, Side side) {
+    Cell cell{.side = side, .bound = 1, .lo = {}, .hi = {}};
+    const std::uint32_t shift = side == Side::open ? 0 : 1;
+    for (const auto& values : grid.values) {
+        cell.lo.push_back(shift);
+        cell.hi.push_back(static_cast<std::uint32_t>(values.size()) - 1 + shift);
+    }
+    return cell;
+}
+
+Active all_points(const BoxGrid& grid) {
+    Active all{.size = grid.count, .inside = 0, .decided = 0, .ranks = {}};
+    for (const auto& ranks : grid.ranks)
+        all.ranks.insert(all.ranks.end(), ranks.begin(), ranks.end());
+    return all;
+}
+
+std::vector<std::vector<double>> logarithms(const BoxGrid& grid) {
+    auto logs = grid.values;
+    for (auto& axis : logs)
+        for (double& x : axis) x = std::log(x);
+    return logs;
+}
+
+void explore(const BoxGrid& grid, const std::vector<std::vector<double>>& logs,
+             const Active& points, Task& task, const SearchLimits& limits, const RunContext& run) {
+    const auto on_side = [&]<Side side>() {
+        CellBounder<side> bounder(grid, logs, task.worst, run);
+        Explorer(bounder, points, task, limits, run).explore();
+    };
+    task.cell.side == Side::open ? on_side.template operator()<Side::open>()
+                                 : on_side.template operator()<Side::closed>();
+}
+
+}  // namespace stipple::discrepancy::star

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+//
+// A cover by a grid, or that the points are a net, gives a first upper bound where there are many
+// points: cells of these take long to get small. From time to time a threshold search looks for a
+// worse box: one that the cells would give only late.
+//
+// Source  the bounds are this program's own; earlier exact methods are surveyed in C. Doerr,
+//         M. Gnewuch, M. Wahlstroem, arXiv:1405.1653.
+#include "math/discrepancy/star/search.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/parallel.hpp"
+#include "math/discrepancy/coordinate_ascent.hpp"
+#include "math/discrepancy/star/cell.hpp"
+
+namespace stipple::discrepancy::star {
+namespace {
+
+class AnchoredBoxes final : public Problem {
+  public:
+    AnchoredBoxes(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run)
+        : grid_(grid),
+          logs_(logarithms(grid)),
+          points_(all_points(grid)),
+          limits_(limits),
+          run_(run) {}
+
+    [[nodiscard]] std::vector<Cell> all_cells() const override {
+        return {whole_cell(grid_, Side::open), whole_cell(grid_, Side::closed)};
+    }
+
+    void explore(Task& task) const override {
+        star::explore(grid_, logs_, points_, task, limits_, run_);
+    }
+
+    [[nodiscard]] bool by_stages(const Known& known) const override {
+        constexpr std::uint64_t part = 64;  // of the work, for what an exact value may be had with
+        return limits_.wants_bounds() ||
+               known.work > std::max(SearchLimits::short_work, limits_.work / part);
+    }
+
+    void look_around(Known& known, std::uint64_t work) override {
+        constexpr std::uint64_t short_work = SearchLimits::short_work;
+        if (known.work > short_work / 4) look_quickly(known.worst, known.upper);
+        constexpr std::uint64_t searches_apart = 16;  // in units of what they cost
+        if (known.work > short_work && searches_apart * threshold_work_ < known.work) {
+            const std::uint64_t cost =
+                accept_thresholds(grid_, rounds_, known.worst, limits_, run_);
+            ++rounds_;
+            threshold_work_ += cost;
+            known.work += cost;
+        }
+        if (!covered_ && (limits_.wants_bounds() || known.work > short_work)) cover(known, work);
+    }
+
+    /// The bounds that cost next to nothing, once.
+    void look_quickly(WorstBox& worst, double& upper) {
+        if (std::exchange(looked_, true)) return;
+        offer_axis_boxes(grid_, worst);
+        upper = std::max(worst.value(), std::min(upper, quick_bound(grid_, run_)));
+    }
+
+  private:
+    /// An upper bound for about an eighth of the work or time that is left.
+    void cover(Known& known, std::uint64_t work) {
+        covered_ = true;
+        constexpr double corners_a_second = 1e8;
+        const std::uint64_t d = grid_.dimension();
+        std::uint64_t corners = std::uint64_t{1} << 25;
+        corners = std::min(corners, (work - std::min(known.work, work)) / (16 * d));
+        corners = std::min(corners, run_.max_memory / 16);
+        if (!limits_.wants_bounds()) corners = std::min(corners, known.work / (16 * d));
+        if (limits_.wants_bounds() && run_.seconds)
+            corners = static_cast<std::uint64_t>(
+                std::clamp((limits_.deadline - run_.seconds()) / 16 * corners_a_second, 0.0,
+                           static_cast<double>(corners)));
+        known.upper = std::min(known.upper, cover_bound(grid_, corners, run_));
+        known.upper = std::min(known.upper, net_bound(grid_, known.upper, corners * d, run_));
+        known.work += 2 * corners * d;
+    }
+
+    const BoxGrid& grid_;
+    const std::vector<std::vector<double>> logs_;
+    const Active points_;
+    const SearchLimits& limits_;
+    const RunContext& run_;
+    std::uint64_t rounds_ = 0;  ///< of accepting thresholds
+    std::uint64_t threshold_work_ = 0;
+    bool looked_ = false;
+    bool covered_ = false;
+};
+
+}  // namespace
+
+double quick_bound(const BoxGrid& grid, const RunContext& run, double of_axis, double of_all) {
+    constexpr std::uint64_t few_corners = 1U << 17;
+    return std::min(axis_bound(grid, of_axis),
+                    of_all * cover_bound(grid, few_corners, unstopped(run)));
+}
+
+SearchResult search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits,
+                    const RunContext& run, Peers* peers) {
+    AnchoredBoxes problem(grid, limits, run);
+    SearchResult found =
+        branch_and_bound(problem, grid, {.worst = std::move(worst)}, limits, run, peers);
+    if (found.ending != Ending::complete) problem.look_quickly(found.worst, found.upper);
+    return found;
+}
+
+SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
+                        Peers* peers) {
+    const Ascent first = ascend(grid, limits, run);
+    return search(grid, first.worst, limits.after(first.work), run, peers);
+}
+
+double search_bytes(std::size_t count, std::size_t dimension, unsigned threads) {
+    // On the way down to a cell, about as many points again as it has stay behind.
+    constexpr double copies = 3;
+    return (1 + copies * threads) * static_cast<double>(count) * static_cast<double>(dimension) *
+           sizeof(std::int32_t);
+}
+
+}  // namespace stipple::discrepancy::star

@@ -1,0 +1,492 @@
+// SPDX-License-Identifier: MIT
+//
+// L2 discrepancies of points in any dimension from the sum over all pairs of points:
+//
+//     D^2 = C - 2/n sum_i prod_j f_j(x_ij) + n^-2 sum_ik prod_j K_j(x_ij, x_kj)
+//
+// with f_j the mean of K_j(x, .) and C the product of the means of f_j. What rounding takes from
+// every factor and product is kept: each is a double and an error term, which has its own rounding
+// alone. Of the sum over pairs, all but 2^-80 may cancel.
+//
+// On each axis K is one of these, times a constant, with t = |x - y|:
+//
+//     min(g_x, g_y)                     star, modified; two of them: extreme, centered
+//     a + t (t - 1)                     periodic, wraparound, diaphony
+//     h_x + h_y + t (t - 3/2)           mixture
+//     a - t                             average, symmetric
+//     a + min(x, y) min(1 - x, 1 - y)   extreme with weights
+//
+// Coordinates that are no multiples of 2^-53 have an error term, too. Factors are scaled by powers
+// of two so that the largest product of a point with itself stays near 1 from axis to axis: these
+// kernels are positive definite, so no product is larger.
+//
+// Shape   n x d points in [0, 1].
+// Cost    n^2 d / 2 factors, fewer where blocks of points lie beside each other on an axis; on one
+//         core with 512-bit vectors 0.25 ns each for the star, 0.2 for the centered kernel (half as
+//         much again where coordinates are no multiples of 2^-53), 0.6 for the wraparound and 0.75
+//         for the mixture one; with 256-bit vectors twice as long. Needs an instruction for a b + c
+//         with one rounding.
+// Promise the same for any number of threads and any width of vectors. `error` bounds what rounding
+//         did.
+// Source  T. Ogita, S. M. Rump, S. Oishi, SIAM J. Sci. Comput. 26 (2005) 1955-1988,
+//         doi:10.1137/030601818 (compensated sums); S. Graillat, IEEE Trans. Comput. 58 (2009)
+//         994-1000 (products).
+
+#include "math/l2/squares.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "math/l2/axis_factor.hpp"
+#include "math/l2/block_pairs.hpp"
+
+namespace stipple::l2 {
+namespace {
+
+/// Of a point for a factor.
+struct PointNumbers {
+    double position;  ///< in the order of the axis; a multiple of 2^-53 if distances count
+    double rest;      ///< of the position
+    DoubleDouble value;
+};
+
+/// The nearest multiple of 2^-53.
+double whole(double x) { return std::round(x * 0x1p53) * 0x1p-53; }
+
+/// The high part a multiple of `step`.
+DoubleDouble on_grid(const DoubleDouble& a, double step) {
+    const double high = std::round(a.high / step) * step;
+    return {high, (a.high - high) + a.low};
+}
+
+/// How the factor of an axis, over a constant scale, is worked out from numbers of either point.
+class FactorForm {
+  public:
+    /// @param two_sided whether the two minima of the centered kernel are one factor
+    FactorForm(Kind kind, bool alone, bool two_sided, double weight)
+        : kind_(kind), alone_(alone), two_sided_(two_sided) {
+        const double times = kind == Kind::diaphony    ? diaphony
+                             : kind == Kind::average   ? 0.5
+                             : kind == Kind::symmetric ? 2
+                                                       : 1;
+        const Quad curve = Quad(times) * weight;
+        inverse_ = alone ? Quad(0) : Quad(1) / curve;
+        scale_ = curve;
+        if (kind == Kind::centered) scale_ *= curve;
+        if (kind == Kind::mixture) scale_ /= 2;
+        const Quad top = kind == Kind::diaphony  ? Quad(1) / 6
+                         : kind == Kind::average ? Quad(1)
+                                                 : Quad(1) / 2;
+        if (is_of_distance()) base_ = inverse_ + top - reach();
+        if (kind == Kind::extreme) base_ = inverse_;
+        if (kind == Kind::mixture) {
+            base_ = inverse_ + Quad(7) / 8 - Quad(9) / 32;
+            const double twice = 2 * static_cast<double>(base_);
+            step_ = std::ldexp(1.0, std::ilogb(twice) - 52);
+        }
+        top_ = to_double_double(kind == Kind::centered  ? Quad(inverse_ + 0.5)
+                                : kind == Kind::mixture ? Quad(base_ + 0.25)
+                                                        : Quad(inverse_ + 1));
+        bottom_ = to_double_double(kind == Kind::mixture ? Quad(base_ - 0.25) : inverse_);
+    }
+
+    [[nodiscard]] const Quad& scale() const { return scale_; }
+    [[nodiscard]] bool is_bernoulli() const {
+        return kind_ == Kind::periodic || kind_ == Kind::wraparound || kind_ == Kind::diaphony;
+    }
+    [[nodiscard]] bool is_linear() const {
+        return kind_ == Kind::average || kind_ == Kind::symmetric;
+    }
+    [[nodiscard]] bool is_of_distance() const { return is_bernoulli() || is_linear(); }
+    [[nodiscard]] bool is_two_sided() const { return two_sided_; }
+    [[nodiscard]] bool is_one_plus_minima() const { return kind_ == Kind::extreme && !alone_; }
+    [[nodiscard]] bool is_from_vertex() const { return is_of_distance() || kind_ == Kind::mixture; }
+
+    /// Factors on the axis.
+    [[nodiscard]] std::size_t factors() const {
+        const bool two = kind_ == Kind::centered || (kind_ == Kind::extreme && alone_);
+        return two && !two_sided_ ? 2 : 1;
+    }
+
+    /// More than the factors over the scale.
+    [[nodiscard]] double most() const {
+        if (kind_ == Kind::mixture) return static_cast<double>(2 * inverse_ + Quad(7) / 4);
+        if (is_of_distance()) return static_cast<double>(base_) + reach();
+        const auto one = static_cast<double>(inverse_ + 1);
+        return factors() == 2 ? one * one : one;
+    }
+
+    /// What is added to a factor and taken off again, lest it come near 0 before.
+    [[nodiscard]] double offset() const {
+        const bool small =
+            (is_of_distance() && base_ < reach()) || (is_one_plus_minima() && base_ < Quad(0.5));
+        return small ? 1 : 0;
+    }
+
+    /// Whether factors may come near 0, so that they lose by what is largest.
+    [[nodiscard]] bool may_vanish() const { return is_of_distance() && offset() != 0; }
+
+    /// How much larger the numbers are that a factor is worked out from.
+    [[nodiscard]] double cancellation() const {
+        return is_one_plus_minima() ? static_cast<double>(1 / base_) : 0;
+    }
+
+    [[nodiscard]] AxisConstants constants() const {
+        AxisConstants axis;
+        axis.vertex = vertex();
+        if (!is_of_distance() && !is_one_plus_minima()) return axis;
+        const DoubleDouble base = to_double_double(base_ + offset());
+        axis.base = base.high;
+        axis.base_error = base.low;
+        axis.offset = offset();
+        return axis;
+    }
+
+    /// Writes the numbers of a point, for each factor of the axis; gives what is behind them.
+    PointNumbers* put(double x, PointNumbers* to) const {
+        const auto write = [&](double position, const DoubleDouble& value) {
+            const double at = is_from_vertex() ? whole(position) : position;
+            *to++ = {at, position - at, value};
+        };
+        if (two_sided_) {
+            write(x, {x - 0.5, 0.5 - x});
+        } else if (is_of_distance()) {
+            write(x, {0, 0});
+        } else if (kind_ == Kind::extreme) {
+            if (alone_) write(x, {x, 0});
+            write(alone_ ? -x : x, DoubleDouble{1, 0} + DoubleDouble{-x, 0});
+        } else if (kind_ == Kind::centered) {
+            write(x, bottom_ + DoubleDouble{std::max(x - 0.5, 0.0), 0});
+            write(-x, x < 0.5 ? top_ + DoubleDouble{-x, 0} : bottom_);
+        } else if (kind_ == Kind::mixture) {
+            write(x, on_grid(x < 0.5 ? bottom_ + DoubleDouble{x / 2, 0}
+                                     : top_ + DoubleDouble{-x / 2, 0},
+                             step_));
+        } else {
+            write(-x, top_ + DoubleDouble{-x, 0});
+        }
+        return to;
+    }
+
+    /// Nearly the factor of a point and itself.
+    [[nodiscard]] double diagonal(const PointNumbers& point) const {
+        if (two_sided_) return 1 + std::abs(point.value.high);
+        if (is_of_distance()) return static_cast<double>(base_) + reach();
+        if (kind_ == Kind::mixture) return 2 * point.value.high + 0.5625;
+        if (!is_one_plus_minima()) return point.value.high;
+        return static_cast<double>(base_) + point.position * point.value.high;
+    }
+
+  private:
+    /// How far a factor of the distance is from base_, at most.
+    [[nodiscard]] double reach() const { return is_linear() ? 0.5 : 0.25; }
+    [[nodiscard]] double vertex() const { return kind_ == Kind::mixture ? 0.75 : 0.5; }
+
+    Kind kind_;
+    bool alone_;
+    bool two_sided_;
+    Quad inverse_;  ///< 1 over the weight
+    Quad scale_;
+    Quad base_ = 0;
+    double step_ = 0;
+    DoubleDouble top_ = {};     ///< what coordinates are taken from
+    DoubleDouble bottom_ = {};  ///< what they are added to
+};
+
+/// The axes that have a weight.
+struct Axes {
+    std::vector<std::size_t> places;
+    std::vector<FactorForm> forms;
+    std::vector<AxisFactor> terms;
+};
+
+Axes axes_of(std::size_t dimension, Kind kind, const AxisWeights& weights, bool two_sided) {
+    const bool alone = is_kernel_alone(kind, weights);
+    Axes axes;
+    for (std::size_t j = 0; j < dimension; ++j) {
+        const double weight = weight_of(weights, j);
+        if (weight == 0) continue;
+        axes.places.push_back(j);
+        axes.forms.emplace_back(kind, alone, two_sided, weight);
+        axes.terms.emplace_back(kind, alone, weight);
+    }
+    return axes;
+}
+
+/// Whether the two minima of the centered kernel are what is more than 1 of one factor, exactly,
+/// and their products need no scale.
+bool is_two_sided(const PointSet& points, Kind kind, const AxisWeights& weights) {
+    constexpr std::size_t most_axes = 1500;  // 1.5^1500 is a double
+    if (kind != Kind::centered || points.dimension() > most_axes ||
+        std::ranges::any_of(weights, [](double w) { return w != 1; }))
+        return false;
+    return std::ranges::all_of(points.flat(), [](double x) { return x == whole(x); });
+}
+
+/// A product of any size, without the rounding of doubles.
+class LongProduct {
+  public:
+    void multiply(const DoubleDouble& factor) {
+        constexpr int safe = 300;
+        value_ = value_ * factor;
+        const int exponent = value_.high == 0 ? 0 : std::ilogb(value_.high);
+        if (std::abs(exponent) < safe) return;
+        value_ = {std::ldexp(value_.high, -exponent), std::ldexp(value_.low, -exponent)};
+        exponent_ += exponent;
+    }
+    [[nodiscard]] Quad value() const { return ldexp(Quad(value_.high) + value_.low, exponent_); }
+
+  private:
+    DoubleDouble value_{1, 0};
+    int exponent_ = 0;
+};
+
+/// The mean of an axis's factor over the other point, as a function of a coordinate.
+class Mean {
+  public:
+    explicit Mean(const AxisFactor& axis) {
+        std::ranges::transform(axis.mean, of_.begin(), to_double_double);
+    }
+
+    [[nodiscard]] DoubleDouble at(double x) const {
+        DoubleDouble mean = of_[0];
+        if (of_[2].high != 0)
+            mean = mean + (of_[1] + of_[2] * DoubleDouble{x, 0}) * DoubleDouble{x, 0};
+        else if (of_[1].high != 0)
+            mean = mean + of_[1] * DoubleDouble{x, 0};
+        const DoubleDouble place = exact_sum(x, -0.5);
+        const double sign = place.high < 0 ? -1 : 1;
+        if (of_[3].high != 0)
+            mean = mean + of_[3] * DoubleDouble{sign * place.high, sign * place.low};
+        return mean;
+    }
+
+  private:
+    std::array<DoubleDouble, 4> of_;
+};
+
+/// What FactorForm::put gives for all points, and what there is to heed.
+struct Numbers {
+    std::vector<PointNumbers> of;
+    std::size_t factors = 0;
+    Quad means = 0;  ///< mean of the products of the factors' means
+};
+
+Numbers numbers_of(const PointSet& points, const Axes& axes, const RunContext& run) {
+    const std::vector<Mean> means(axes.terms.begin(), axes.terms.end());
+    Numbers numbers;
+    for (const FactorForm& form : axes.forms) numbers.factors += form.factors();
+    numbers.of.resize(points.count() * numbers.factors);
+    PointNumbers* to = numbers.of.data();
+    for (std::size_t i = 0; i < points.count(); ++i) {
+        if (i % 256 == 0) run.check_stop();
+        LongProduct mean;
+        for (std::size_t j = 0; j < axes.places.size(); ++j) {
+            const double x = points[i][axes.places[j]] + 0.0;
+            to = axes.forms[j].put(x, to);
+            mean.multiply(means[j].at(x));
+        }
+        numbers.means += mean.value();
+    }
+    numbers.means /= points.count();
+    return numbers;
+}
+
+/// Powers of two over which factors are taken, so that the largest product of a point with itself,
+/// and with that every product, is near 1 or below after each factor.
+struct Scaling {
+    std::vector<int> exponents;  ///< even, of each factor
+    double any_order = 0;        ///< no product of some of the factors is above 2^any_order
+    double growth = 0;           ///< no product of the last factors is above 2^growth
+};
+
+Scaling scaling_of(const Numbers& numbers, const std::vector<const FactorForm*>& forms) {
+    Scaling scaling;
+    const std::size_t n = numbers.of.size() / numbers.factors;
+    std::vector<double> sizes(n, 0);     // binary logarithms of scaled products
+    std::vector<double> smallest(n, 0);  // of them so far
+    for (std::size_t f = 0; f < numbers.factors; ++f) {
+        double most = -std::numeric_limits<double>::infinity();
+        double largest = most;
+        for (std::size_t i = 0; i < n; ++i) {
+            const double size = std::log2(forms[f]->diagonal(numbers.of[i * numbers.factors + f]));
+            most = std::max(most, size);
+            sizes[i] += size;
+            largest = std::max(largest, sizes[i]);
+        }
+        const bool scaled = !forms[f]->is_two_sided() && std::isfinite(largest);
+        const int exponent = scaled ? 2 * static_cast<int>(std::lround(largest / 2)) : 0;
+        scaling.exponents.push_back(exponent);
+        scaling.any_order += std::max(most - exponent, 0.0);
+        for (std::size_t i = 0; i < n; ++i) {
+            sizes[i] -= exponent;
+            smallest[i] = std::min(smallest[i], sizes[i]);
+        }
+    }
+    for (std::size_t i = 0; i < n; ++i)
+        if (std::isfinite(sizes[i]))
+            scaling.growth = std::max(scaling.growth, sizes[i] - smallest[i]);
+    return scaling;
+}
+
+/// Halves points along an axis, and each half along the next, until they make one block.
+void halve(std::span<std::size_t> order, const PointSet& points, const Axes& axes, bool sides,
+           std::size_t depth) {
+    if (order.size() <= block_width) {
+        std::ranges::sort(order);
+        return;
+    }
+    const std::size_t axis = axes.places[depth % axes.places.size()];
+    const auto at = [&](std::size_t i) { return points[i][axis]; };
+    std::size_t middle = block_count(order.size(), block_width) / 2 * block_width;
+    if (sides && depth < axes.places.size()) {
+        const auto upper =
+            std::ranges::partition(order, [&](std::size_t i) { return at(i) < 0.5; });
+        middle = order.size() - upper.size();
+    } else {
+        std::ranges::nth_element(
+            order, order.begin() + static_cast<std::ptrdiff_t>(middle),
+            [&](std::size_t i, std::size_t j) { return at(i) != at(j) ? at(i) < at(j) : i < j; });
+    }
+    halve(order.first(middle), points, axes, sides, depth + 1);
+    halve(order.subspan(middle), points, axes, sides, depth + 1);
+}
+
+/// An order of the points in which blocks of them lie beside each other on as many axes as may be:
+/// parts are halved along one axis after the other, the first time in the middle of the cube if
+/// sides of it matter.
+std::vector<std::size_t> block_order(const PointSet& points, const Axes& axes, bool sides) {
+    std::vector<std::size_t> order(points.count());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    halve(order, points, axes, sides, 0);
+    return order;
+}
+
+PairForm form_of(const FactorForm& form, Kind kind) {
+    if (form.is_two_sided()) return PairForm::two_sided;
+    if (form.is_one_plus_minima()) return PairForm::one_plus_minima;
+    if (kind == Kind::mixture) return PairForm::mixture;
+    if (form.is_linear()) return PairForm::linear;
+    return form.is_bernoulli() ? PairForm::bernoulli : PairForm::minimum;
+}
+
+/// What distances are multiplied with where factors are with the root's square.
+double scale_of_distance(PairForm form, double root) {
+    return form == PairForm::linear ? root * root : root;
+}
+
+/// The columns of a point that the kernels of a form want, and what may follow them.
+std::array<double, 4> columns_of(PairForm form, const PointNumbers& point, double root) {
+    const double value = root * root * point.value.high;
+    const double error = root * root * point.value.low;
+    if (form == PairForm::two_sided) return {value, error};
+    if (form == PairForm::minimum || form == PairForm::one_plus_minima)
+        return {point.position, value, error};
+    const double along = scale_of_distance(form, root);
+    return {along * point.position, along * point.rest, value, error};
+}
+
+struct Factors {
+    std::vector<const FactorForm*> forms;
+    std::vector<AxisConstants> constants;
+};
+
+Factors factors_of(const Axes& axes) {
+    Factors factors;
+    for (const FactorForm& form : axes.forms) {
+        factors.forms.insert(factors.forms.end(), form.factors(), &form);
+        factors.constants.insert(factors.constants.end(), form.factors(), form.constants());
+    }
+    return factors;
+}
+
+/// Products may reach so far above 1, or come so far back from below, in binary digits.
+constexpr double safe_digits = 850;
+
+BlockTable table_of(PairForm form, const Numbers& numbers, const Scaling& scaling,
+                    std::vector<AxisConstants> constants, const std::vector<std::size_t>& order) {
+    std::vector<double> roots;
+    for (std::size_t f = 0; f < numbers.factors; ++f) {
+        const double root = std::ldexp(1.0, -scaling.exponents[f] / 2);
+        AxisConstants& axis = constants[f];
+        axis = {root * root * axis.base, root * root * axis.base_error, root * root * axis.offset,
+                scale_of_distance(form, root) * axis.vertex};
+        roots.push_back(root);
+    }
+    BlockTable table(form, order.size(), std::move(constants), scaling.any_order <= safe_digits);
+    for (std::size_t i = 0; i < order.size(); ++i)
+        for (std::size_t f = 0; f < numbers.factors; ++f) {
+            const PointNumbers& point = numbers.of[order[i] * numbers.factors + f];
+            table.put(i, f, columns_of(form, point, roots[f]).data(), point.position + point.rest);
+        }
+    return table;
+}
+
+/// What the axes' factors give together.
+struct AxisProducts {
+    Quad total = 1;  ///< mean of the products of means
+    Quad scale = 1;  ///< over which the sum over pairs is taken
+    Quad most = 1;   ///< more than any product
+    double cancellation = 0;
+    bool may_vanish = false;
+};
+
+AxisProducts products_of(const Axes& axes, const Scaling& scaling) {
+    AxisProducts of;
+    for (std::size_t j = 0, f = 0; j < axes.places.size(); ++j) {
+        const FactorForm& axis = axes.forms[j];
+        of.total *= axes.terms[j].total;
+        of.most *= axis.scale() * axis.most();
+        of.scale *= axis.scale();
+        for (const std::size_t end = f + axis.factors(); f < end; ++f)
+            of.scale = ldexp(of.scale, scaling.exponents[f]);
+        of.cancellation += axis.cancellation();
+        of.may_vanish = of.may_vanish || axis.may_vanish();
+    }
+    return of;
+}
+
+}  // namespace
+
+double pair_memory(std::size_t count, std::size_t dimension) {
+    constexpr std::size_t numbers = 2 * (sizeof(PointNumbers) / sizeof(double) + 3);
+    return static_cast<double>(numbers * dimension + 3) * static_cast<double>(count) * 8;
+}
+
+Square pair_square(const PointSet& points, Kind kind, const AxisWeights& weights,
+                   const RunContext& run, Vectors widest) {
+    const bool two_sided = is_two_sided(points, kind, weights);
+    const Axes axes = axes_of(points.dimension(), kind, weights, two_sided);
+    if (axes.places.empty()) {  // all weights are 0
+        run.tick(1, 1);
+        return {0, 0};
+    }
+    const Numbers numbers = numbers_of(points, axes, run);
+    const Factors factors = factors_of(axes);
+    const Scaling scaling = scaling_of(numbers, factors.forms);
+    const PairForm form = form_of(axes.forms[0], kind);
+    const BlockTable table = table_of(form, numbers, scaling, factors.constants,
+                                      block_order(points, axes, kind == Kind::centered));
+    const DoubleDouble sum = sum_over_pairs(table, widest, run);
+
+    const AxisProducts of = products_of(axes, scaling);
+    const Quad n = points.count();
+    const Quad pairs = of.scale * (Quad(sum.high) + sum.low) / (n * n);
+    const Quad squared = of.total - 2 * numbers.means + pairs;
+    // What is lost below the smallest double may grow again with the factors that follow.
+    const auto chain = static_cast<double>(numbers.factors + 8);
+    const double growth = table.any_order() ? scaling.any_order : scaling.growth;
+    const double relative = 0x1p-80 + 0x1p-98 * chain * chain + 0x1p-102 * of.cancellation;
+    const Quad error = relative * (of.may_vanish ? of.most : pairs) +
+                       of.scale * chain * std::exp2(growth - 1070) +
+                       0x1p-88 * (of.total + numbers.means) + 0x1p-53 * abs(squared);
+    return {static_cast<double>(squared), static_cast<double>(error)};
+}
+
+}  // namespace stipple::l2
