@@ -29,6 +29,9 @@ struct RunContext {
 
     std::stop_token stop = {};
 
+    /// Once a stop is requested, a search may end with the best that it has, in place of nothing.
+    bool keeps_best = false;
+
     /// Seconds that have passed since some moment; empty where nobody keeps time.
     std::function<double()> seconds = {};
 
@@ -40,6 +43,9 @@ struct RunContext {
 
     /// Number of threads meant by `threads`, at least 1.
     [[nodiscard]] unsigned thread_count() const;
+
+    /// Whether a stop was requested and the best so far will do.
+    [[nodiscard]] bool best_is_wanted() const { return keeps_best && stop.stop_requested(); }
 
     /// @throws Error(cancelled) once a stop was requested.
     void check_stop() const;

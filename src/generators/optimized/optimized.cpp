@@ -1,80 +1,332 @@
 // SPDX-License-Identifier: MIT
 //
-// The sets of least star discrepancy that a search finds, for a given number of points.
+// Sets for a given number of points that a search makes as even as it can, by one measure:
 //
-//     d = 1   (i + 1/2) / n, which is the least: 1 / (2 n)
-//     d = 2   a search over the orders of the points by x and by y, each solved exactly
-//             (planar_order.hpp, order_search.hpp)
+//     star, extreme, periodic   the largest local discrepancy of a kind of boxes
+//     dispersion                the volume of the largest empty box
+//     l2-KIND                   an L2 discrepancy of math/l2/kinds.hpp
 //
-// Shape   d = 1, 2; any n that the memory holds: 8 n^2 bytes a thread in the plane.
-// Cost    a budget of steps, never the clock: by default 2^20 n^2, at most 2^35, which one core
-//         takes 13 to 25 s for; 4 solved orders at least, 3 s each for n = 10 000.
-// Promise the discrepancy is the least of the points' order, to 1e-12 relatively; the provenance has
-//         it. Up to 20 points the default effort finds the optimum that is proven. A function of
-//         count, seed and effort, for any number of threads.
-// Beware  no prefix of the points is good by itself, and projections are as even as one allows.
+//     d = 1        (i + 1/2) / n, or for the dispersion (i + 1) / (n + 1): the least
+//     star, d = 2  a search over the orders of the points by x and by y, each solved exactly
+//                  (planar_order.hpp, order_search.hpp)
+//     others       descents along the gradient from many sets (coordinate_search.hpp): of the star
+//                  discrepancy of three axes by all boxes, of others with boxes by those near the
+//                  worst, and of L2 kinds by all pairs of points
+//
+// Shape   n <= 2^16; d <= 6 for boxes, up to 100 for L2 kinds. The search over orders needs 8 n^2
+//         bytes a thread.
+// Cost    a budget of steps, never the clock: some 20 s of one core by default, and more where one
+//         step of the search takes longer.
+// Promise the value in the provenance is exact, but with --weights for star in four and more
+//         dimensions, where it is that of the worst box found. In the plane the star discrepancy is
+//         the least of the points' order, to 1e-12 relatively; up to 20 points the default effort
+//         finds the optimum that is proven. A function of the request and the options, for any number
+//         of threads.
+// Beware  no prefix of the points is good by itself, but with --order; projections are as even as
+//         the measure asks for.
 // Source  F. Clement, C. Doerr, K. Klamroth, L. Paquete, arXiv:2311.17463 (optimal sets);
 //         T. K. Rusch, N. Kirk, M. M. Bronstein, C. Lemieux, D. Rus, arXiv:2405.15059.
 #include <algorithm>
+#include <cmath>
 
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/rng.hpp"
 #include "core/text.hpp"
 #include "generators/generator.hpp"
+#include "generators/optimized/coordinate_search.hpp"
+#include "generators/optimized/even_order.hpp"
 #include "generators/optimized/order_search.hpp"
+#include "generators/optimized/published.hpp"
+#include "generators/optimized/starts.hpp"
+#include "io/files.hpp"
+#include "math/l2/squares.hpp"
 
 namespace stipple::generators::optimized {
 namespace {
 
+using namespace stipple::optimized;
+
+constexpr Param<Choice> objective{
+    .name = "objective",
+    .fallback = "star",
+    .choices =
+        "star|extreme|periodic|dispersion|l2-star|l2-centered|l2-wraparound|l2-mixture|"
+        "l2-average",
+    .help =
+        "What is made small: the largest discrepancy of boxes at the origin, anywhere or on the "
+        "torus, the largest empty box, or an L2 discrepancy"};
 constexpr Param<double> effort{.name = "effort",
                                .fallback = 1,
                                .low = 1e-6,
                                .high = 1e6,
                                .help =
-                                   "Steps of the search in the plane: this times those of some "
-                                   "seconds (fewer for less than 180 points)"};
+                                   "Steps of the search: this times those of some 20 seconds of "
+                                   "one core (fewer in the plane for less than 180 points)"};
+constexpr Param<Text> initial{
+    {.name = "initial",
+     .help = "Generator to start from in place of Kronecker sets, such as sobol:scramble=owen"}};
+constexpr Param<Path> from{
+    {.name = "from",
+     .unit = "file",
+     .help = "Start from the points of a file; random ones follow where it has fewer than wanted"}};
+constexpr Param<std::int64_t> keep{.name = "keep",
+                                   .low = 1,
+                                   .optional = true,
+                                   .unit = "points",
+                                   .help = "The first so many points of the file stay as they are"};
+constexpr Param<Numbers> axis_weights{
+    {.name = "weights",
+     .help = "A weight for each coordinate, above 0: boxes count with the product of those of the "
+             "coordinates that they bound (star), projections with theirs (L2 kinds)"}};
+constexpr Param<bool> order{.name = "order",
+                            .help = "Put the points in an order whose beginnings are even, too"};
 
-Plan plan(const Request& request, const Values& /*options*/) { return default_plan(request, 64); }
+constexpr std::uint64_t max_count = std::uint64_t{1} << 16;
 
-/// Steps of the search by default.
-double usual_budget(double n) { return std::min(0x1p20 * n * n, 0x1p35); }
+bool is_l2(const Values& options) { return options[objective].starts_with("l2-"); }
+
+l2::Kind kind_of(const std::string& name) { return l2::parse_kinds(name).front(); }
+
+discrepancy::Family family_of(const Values& options) {
+    const std::string what = options[objective];
+    if (what == "star") return discrepancy::Family::anchored;
+    return what == "periodic" ? discrepancy::Family::torus : discrepancy::Family::cube;
+}
+
+/// The L2 kind by which prefixes are made even.
+l2::Kind order_kind(const Values& options) {
+    const std::string what = options[objective];
+    if (is_l2(options)) return kind_of(what.substr(3));
+    return kind_of(what == "dispersion" ? "periodic" : what);
+}
+
+l2::AxisWeights weights_of(const Values& options) {
+    return options.given(axis_weights) ? options[axis_weights] : l2::AxisWeights();
+}
+
+std::size_t kept(const Values& options) {
+    return options.given(keep) ? static_cast<std::size_t>(options[keep]) : 0;
+}
+
+PointSet given_points(const Values& options, const RunContext& run) {
+    PointSet points = io::read_given(from.name, options[from], {}, run);
+    for (std::size_t i = 0; i < points.count(); ++i)
+        for (const double x : points[i])
+            if (!(x >= 0 && x <= 1))
+                fail(ErrorKind::input, "{}: point {} is outside the unit cube; a coordinate is {}",
+                     options[from], i, format_number(x));
+    return points;
+}
+
+/// Count and dimension by the file's points. @throws Error(usage)
+Request fitted(Request request, const Values& options) {
+    if (options.given(initial))
+        fail(ErrorKind::usage, "--initial and --from are two ways to start; give one");
+    const PointSet points = given_points(options, {});
+    if (request.dimension.value_or(points.dimension()) != points.dimension())
+        fail(ErrorKind::usage, "--dimension: {}, but {} has points of {} coordinates",
+             *request.dimension, options[from], points.dimension());
+    request.dimension = points.dimension();
+    if (!request.count) request.count = points.count();
+    if (*request.count < points.count())
+        fail(ErrorKind::usage, "--count: {} is less than the {} points of {}", *request.count,
+             points.count(), options[from]);
+    if (options.given(keep) && options[keep] > static_cast<std::int64_t>(points.count()))
+        fail(ErrorKind::usage, "--keep: {} is more than the {} points of {}", options[keep],
+             points.count(), options[from]);
+    return request;
+}
+
+void check_weights(const Values& options, std::size_t dimension) {
+    if (!options.given(axis_weights)) return;
+    const std::vector<double> weights = options[axis_weights];
+    if (!is_l2(options) && options[objective] != "star")
+        fail(ErrorKind::usage, "--weights: objective {} has none; star and the L2 kinds do",
+             options[objective]);
+    if (weights.size() != dimension)
+        fail(ErrorKind::usage, "--weights: {} numbers for {} coordinates; one for each",
+             weights.size(), dimension);
+    for (const double weight : weights)
+        if (!(weight > 0 && weight <= 1000))
+            fail(ErrorKind::usage, "--weights: {} is outside (0, 1000]", format_number(weight));
+}
+
+Plan plan(const Request& request, const Values& options) {
+    constexpr std::size_t most_box_axes = 6;
+    if (options.given(keep) && !options.given(from))
+        fail(ErrorKind::usage, "--keep is of the points of a file; give --from too");
+    const Plan plan = default_plan(options.given(from) ? fitted(request, options) : request, 64);
+    if (plan.count > max_count)
+        fail(ErrorKind::usage, "optimized: {} points; up to {}", plan.count, max_count);
+    if (!is_l2(options) && plan.dimension > most_box_axes)
+        fail(ErrorKind::usage,
+             "optimized: objective {} is for 1 to {} dimensions; L2 kinds for more",
+             options[objective], most_box_axes);
+    check_weights(options, plan.dimension);
+    return plan;
+}
+
+/// Whether the best set is known.
+bool is_known(const Plan& plan, const Values& options) {
+    return plan.dimension == 1 && !options.given(keep);
+}
+
+/// Whether the search is one over orders of the plane.
+bool by_orders(const Plan& plan, const Values& options) {
+    return options[objective] == "star" && plan.dimension == 2 && !options.given(from) &&
+           !options.given(initial) && !options.given(axis_weights);
+}
+
+std::unique_ptr<Objective> make_objective(const Plan& plan, const Values& options) {
+    const std::string what = options[objective];
+    const std::vector<double> weights = weights_of(options);
+    const std::size_t n = plan.count;
+    const std::size_t d = plan.dimension;
+    if (is_l2(options)) return l2_objective(kind_of(what.substr(3)), weights, n, d);
+    if (what == "star" && (d == 2 || d == 3)) return anchored_objective(weights, n, d);
+    return box_objective(family_of(options), what == "dispersion", weights, n, d);
+}
+
+/// The i-th start.
+using Start = std::function<std::vector<double>(std::uint64_t, SplitMix64&)>;
+
+Start start_for(const Plan& plan, const Values& options, const RunContext& run) {
+    const std::size_t n = plan.count;
+    const std::size_t d = plan.dimension;
+    if (options.given(from)) {
+        const PointSet points = given_points(options, run);
+        std::vector<double> given(points.flat().begin(), points.flat().end());
+        for (double& x : given) x = std::min(x, one_minus_ulp);
+        return [=](std::uint64_t, SplitMix64& draws) {
+            std::vector<double> rows = given;
+            while (rows.size() < n * d) rows.push_back(to_unit(draws.next()));
+            return rows;
+        };
+    }
+    // Many points of many axes end lower from digital nets.
+    const bool many = is_l2(options) && d >= 3 && n >= 256;
+    const std::string spec = options.given(initial) ? options[initial]
+                             : many                 ? "sobol:scramble=owen"
+                                                    : "";
+    if (!spec.empty())
+        return [=, seed = plan.seed](std::uint64_t i, SplitMix64&) {
+            const PointSet points = generate(spec, {.count = n, .dimension = d, .seed = seed + i});
+            return std::vector<double>(points.flat().begin(), points.flat().end());
+        };
+    return [=, stepped = d < 3 || !is_l2(options)](std::uint64_t, SplitMix64& draws) {
+        return kronecker_rows(n, d, stepped && d > 1, draws);
+    };
+}
+
+CoordinateSearch search_for(const Plan& plan, const Values& options, const RunContext& run) {
+    constexpr double usual_budget = 5e9;
+    const double unit = 1 / static_cast<double>(plan.count);
+    const bool l2 = is_l2(options);
+    CoordinateSearch search{
+        .count = plan.count,
+        .dimension = plan.dimension,
+        .kept = kept(options),
+        .objective = [&plan, &options] { return make_objective(plan, options); },
+        .start = start_for(plan, options, run),
+        .from_start = {150, 0.5 * unit, 0.02 * unit, 20, 1000},
+        .from_hop = {100, 0.25 * unit, 0.02 * unit, 30, 1000},
+        .hop = unit,
+        .seed = plan.seed,
+        .budget = options[effort] * usual_budget};
+    if (l2) search.from_start.first_rate = search.from_hop.first_rate = 2 * unit;
+    search.one_start = options.given(from) && !options.given(keep);
+    return search;
+}
+
+/// What the analyzers say of the points; that of the search where there are weights on boxes.
+double judged(const PointSet& points, const Values& options, double found, const RunContext& run) {
+    const std::string what = options[objective];
+    const std::size_t d = points.dimension();
+    const std::vector<double> weights = weights_of(options);
+    if (is_l2(options)) {
+        const l2::Kind kind = kind_of(what.substr(3));
+        const double square = d <= 2
+                                  ? l2::plane_square(l2::plane_sums(points, run), d, kind, weights)
+                                  : l2::pair_square(points, kind, weights, run).squared;
+        return std::sqrt(std::max(square, 0.0));
+    }
+    if (!weights.empty()) return found;
+    return exact_value(points, family_of(options), what == "dispersion", run);
+}
+
+void record(PointSet& points, const Plan& plan, const Values& options, double value) {
+    std::string name = options[objective];
+    std::ranges::replace(name, '-', '_');
+    const bool box = !is_l2(options) && name != "dispersion";
+    auto& found = points.provenance.found;
+    found = {{is_l2(options) || box ? name + "_discrepancy" : name, format_number(value)}};
+    if (options[objective] != "star" || options.given(axis_weights)) return;
+    const auto known = published_star(plan.count, plan.dimension);
+    const bool proven = known && known->optimal && value <= known->value + 5.1e-5;
+    if (is_known(plan, options) || proven)
+        found.emplace_back("certificate", "optimal");
+    else if (by_orders(plan, options))
+        found.emplace_back("certificate", "optimal-for-its-order");
+    if (known) {
+        found.emplace_back("published", format_number(known->value));
+        found.emplace_back("published_in", std::string(known->source()));
+    }
+}
+
+/// The best set of the line.
+std::vector<double> on_the_line(std::size_t n, bool empty) {
+    std::vector<double> rows;
+    for (std::size_t i = 0; i < n; ++i)
+        rows.push_back(empty ? static_cast<double>(i + 1) / static_cast<double>(n + 1)
+                             : (static_cast<double>(i) + 0.5) / static_cast<double>(n));
+    return rows;
+}
 
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     run.tick(0, 1);
     const auto n = static_cast<double>(plan.count);
-    PointSet points(plan.count, plan.dimension);
-    double value = 1 / (2 * n);
-    if (plan.dimension == 1) {
-        for (std::size_t i = 0; i < plan.count; ++i)
-            points[i][0] = (static_cast<double>(i) + 0.5) / n;
+    OptimizedRows found;
+    if (is_known(plan, options)) {
+        found.rows = on_the_line(plan.count, options[objective] == "dispersion");
+    } else if (by_orders(plan, options)) {
+        const double budget = options[effort] * std::min(0x1p20 * n * n, 0x1p35);
+        found = least_star_discrepancy(plan.count, plan.seed, budget, run);
     } else {
-        const OptimizedSet found =
-            least_star_discrepancy(plan.count, plan.seed, options[effort] * usual_budget(n), run);
-        std::ranges::copy(found.rows, points.flat().begin());
-        value = found.discrepancy;
+        run.need_memory(40 * n * n + 100 * n * static_cast<double>(plan.dimension),
+                        "the search for coordinates");
+        found = search_coordinates(search_for(plan, options, run), options[objective], run);
     }
-    points.provenance.found = {{"star_discrepancy", format_number(value)}};
+    const RunContext last = found.stopped ? unstopped(run) : run;
+    if (found.stopped)
+        run.notify("interrupted: these are the best points so far, as their provenance says");
+    if (options[order])
+        found.rows = in_even_order(found.rows, plan.dimension, kept(options), order_kind(options),
+                                   weights_of(options), last);
+    PointSet points(std::move(found.rows), plan.dimension);
+    record(points, plan, options, judged(points, options, found.value, last));
+    if (found.stopped) points.provenance.found.emplace_back("ended", "interrupted");
     return points;
 }
 
 std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
-                               const Values& /*options*/) {
-    if (plan.dimension > 1) return {};
+                               const Values& options) {
+    if (!is_known(plan, options)) return {};
     return {"optimized: on the line the best set is known; seed and --effort change nothing"};
 }
 
-double seconds(double n, double d) {
-    constexpr double steps_a_second = 1.5e9;
-    return d < 2 ? 1e-8 * n : (usual_budget(n) + 120 * n * n) / steps_a_second;
-}
+double seconds(double n, double d) { return d < 2 ? 1e-8 * n : 20 + 1e-7 * n * n; }
 
 }  // namespace
 
 Generator unit() {
     return {.name = "optimized",
-            .summary = "Points of least star discrepancy for their number, found by a search",
+            .summary = "Points of least discrepancy or dispersion for their number, by a search",
             .source = "Clement, Doerr, Klamroth, Paquete 2023, arXiv:2311.17463",
-            .related = {"message-passing", "mpmc", "optimal", "low-discrepancy-set", "openevolve"},
-            .traits = {.max_dimension = 2, .sequence = false, .prefix = false},
-            .options = Schema(effort),
+            .related = {"message-passing", "mpmc", "optimal", "low-discrepancy-set", "openevolve",
+                        "minimal", "design-augmentation"},
+            .traits = {.max_dimension = 100, .sequence = false, .prefix = false},
+            .options = Schema(objective, effort, initial, from, keep, axis_weights, order),
             .plan = plan,
             .set = make,
             .notes = notes,

@@ -126,7 +126,8 @@ void kick(PlanarOrder& order, std::size_t n, SplitMix64& draws) {
 
 /// Goes on with a descent, after a kick where it is over, for so many steps at most.
 /// Returns the steps that it took.
-double go_on(Descent& descent, SplitMix64 draws, double steps, const RunContext& run) {
+double go_on(Descent& descent, SplitMix64 draws, double steps, const RunContext& run,
+             const RunContext& whole) {
     constexpr double equal = 1 + 1e-12;
     const std::size_t n = descent.ranks.size();
     PlanarOrder order(descent.ranks, run);
@@ -134,7 +135,8 @@ double go_on(Descent& descent, SplitMix64 draws, double steps, const RunContext&
     const auto most = static_cast<std::uint64_t>(patience * static_cast<double>(n));
     double lowest = order.level();
     std::uint64_t in_vain = 0;
-    while (in_vain < most && static_cast<double>(order.steps()) < steps) {
+    while (in_vain < most && static_cast<double>(order.steps()) < steps &&
+           !whole.best_is_wanted()) {
         ++in_vain;
         const bool critical = unit(draws) < on_cycle;
         const auto swap = critical ? order.critical_swap(draws) : any_swap(n, draws);
@@ -152,12 +154,16 @@ double go_on(Descent& descent, SplitMix64 draws, double steps, const RunContext&
 class OrderSearch {
   public:
     OrderSearch(std::size_t n, std::uint64_t seed, double budget, const RunContext& run)
-        : n_(n), rng_(seed), budget_(budget), run_(run) {}
+        : n_(n),
+          rng_(seed),
+          budget_(budget),
+          run_(run),
+          inner_(run.keeps_best ? unstopped(silent(run)) : silent(run)) {}
 
     Ranks best() {
         make_starts();
         std::vector<Descent> all;
-        for (std::size_t i = 0; spent_ < 0.4 * budget_;) {
+        for (std::size_t i = 0; spent_ < 0.4 * budget_ && !run_.best_is_wanted();) {
             std::vector<Descent> some;
             for (; some.size() < together(); ++i)
                 some.push_back(i < starts_.size() ? starts_[i] : another_start());
@@ -165,7 +171,7 @@ class OrderSearch {
             std::ranges::move(some, std::back_inserter(all));
         }
         if (all.empty()) all = starts_;
-        while (spent_ < budget_) {
+        while (spent_ < budget_ && !run_.best_is_wanted()) {
             keep_best(all, spent_ < 0.6 * budget_    ? 32
                            : spent_ < 0.75 * budget_ ? 16
                            : spent_ < 0.88 * budget_ ? 8
@@ -201,14 +207,18 @@ class OrderSearch {
         std::vector<SplitMix64> streams;
         for (std::size_t i = 0; i < all.size(); ++i) streams.push_back(draws());
         std::vector<double> steps(all.size());
-        for_each_block(run_.stage(0, 0.1), all.size(), 1, [&](const Block& block) {
-            SplitMix64 own = streams[block.index];
-            const Ranks ranks = start(n_, own);
-            const PlanarOrder order(ranks, silent(run_));
-            all[block.index] = {ranks, order.level()};
-            steps[block.index] = static_cast<double>(order.steps());
-        });
+        const RunContext shown = run_.stage(0, 0.1);
+        for_each_block(run_.keeps_best ? unstopped(shown) : shown, all.size(), 1,
+                       [&](const Block& block) {
+                           if (block.index > 0 && run_.best_is_wanted()) return;
+                           SplitMix64 own = streams[block.index];
+                           const Ranks ranks = start(n_, own);
+                           const PlanarOrder order(ranks, inner_);
+                           all[block.index] = {ranks, order.level()};
+                           steps[block.index] = static_cast<double>(order.steps());
+                       });
         spent_ += std::accumulate(steps.begin(), steps.end(), 0.0);
+        std::erase_if(all, [](const Descent& one) { return one.ranks.empty(); });
         keep_best(all, all.size());
         starts_ = std::move(all);
     }
@@ -227,22 +237,24 @@ class OrderSearch {
         std::vector<SplitMix64> streams;
         for (std::size_t i = 0; i < all.size(); ++i) streams.push_back(draws());
         std::vector<double> steps(all.size());
-        for_each_block(silent(run_), all.size(), 1, [&](const Block& block) {
+        for_each_block(inner_, all.size(), 1, [&](const Block& block) {
             const std::size_t i = block.index;
-            steps[i] = go_on(all[i], streams[i], share * budget_, silent(run_));
+            steps[i] = go_on(all[i], streams[i], share * budget_, inner_, run_);
         });
         spent_ += std::accumulate(steps.begin(), steps.end(), 0.0);
         const double level = std::ranges::min_element(all, better)->level;
         least_ = least_ > 0 ? std::min(least_, level) : level;
         constexpr std::uint64_t parts = 10'000;
-        run_.tick(static_cast<std::uint64_t>(std::min(1.0, spent_ / budget_) * parts), parts,
-                  fmt::format("star discrepancy {:.6f}", least_ / static_cast<double>(n_)));
+        const RunContext shown = run_.keeps_best ? unstopped(run_) : run_;
+        shown.tick(static_cast<std::uint64_t>(std::min(1.0, spent_ / budget_) * parts), parts,
+                   fmt::format("star discrepancy {:.6f}", least_ / static_cast<double>(n_)));
     }
 
     std::size_t n_;
     Rng rng_;
     double budget_;
     const RunContext& run_;
+    RunContext inner_;  ///< of descents
     std::uint64_t tasks_ = 0;
     double spent_ = 0;
     double least_ = 0;
@@ -251,8 +263,8 @@ class OrderSearch {
 
 }  // namespace
 
-OptimizedSet least_star_discrepancy(std::size_t n, std::uint64_t seed, double budget,
-                                    const RunContext& run) {
+optimized::OptimizedRows least_star_discrepancy(std::size_t n, std::uint64_t seed, double budget,
+                                                const RunContext& run) {
     const auto size = static_cast<double>(n);
     const double bytes = 8 * size * size + 200 * size;
     run.need_memory(bytes, "the search for an order");
@@ -260,8 +272,8 @@ OptimizedSet least_star_discrepancy(std::size_t n, std::uint64_t seed, double bu
     own.threads = static_cast<unsigned>(std::min(static_cast<double>(run.memory_left()) / bytes,
                                                  static_cast<double>(run.thread_count())));
     const Ranks ranks = n > 1 ? OrderSearch(n, seed, budget, own).best() : Ranks{0};
-    PlanarOrder order(ranks, run);
-    return {order.points(), order.level() / size};
+    PlanarOrder order(ranks, run.keeps_best ? unstopped(run) : run);
+    return {order.points(), order.level() / size, run.best_is_wanted()};
 }
 
 }  // namespace stipple

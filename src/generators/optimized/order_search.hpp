@@ -14,19 +14,13 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
-
+#include "generators/optimized/coordinate_search.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple {
 
-struct OptimizedSet {
-    std::vector<double> rows;
-    double discrepancy = 1;
-};
-
 /// @throws Error(limit, cancelled)
-OptimizedSet least_star_discrepancy(std::size_t n, std::uint64_t seed, double budget,
-                                    const RunContext& run);
+optimized::OptimizedRows least_star_discrepancy(std::size_t n, std::uint64_t seed, double budget,
+                                                const RunContext& run);
 
 }  // namespace stipple

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+//
+// The star discrepancy in two and three dimensions by all boxes that end at coordinates of points,
+//
+//     open    V - c / n     c points with all coordinates below the corner's
+//     closed  c / n - V     c points with none above it
+//
+// and V the product of the corner's coordinates: plane by plane along the first axis, with the
+// counts of a plane in memory. With weights w_j >= 0 a box counts with the product of those of the
+// axes on which it does not end at 1.
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "core/machine/wide.hpp"
+#include "core/parallel.hpp"
+#include "generators/optimized/objective.hpp"
+#include "math/functions/exponential.hpp"
+
+namespace stipple::optimized {
+namespace {
+
+/// A box by the places of its corner's coordinates in their orders.
+struct Hit {
+    std::uint32_t at[3];
+    float value;
+    bool open;
+};
+
+/// Appends to `hits` the k with values[k] * reach - counts[k] * share > least.
+STIPPLE_WIDE void find_above(const float* values, const float* counts, float reach, float share,
+                             float least, std::size_t size, std::vector<std::uint32_t>& hits) {
+    constexpr std::size_t lanes = 64;
+    for (std::size_t first = 0; first < size; first += lanes) {
+        const std::size_t last = std::min(first + lanes, size);
+        int any = 0;
+        for (std::size_t k = first; k < last; ++k)
+            any |= int{values[k] * reach - counts[k] * share > least};
+        for (std::size_t k = first; any != 0 && k < last; ++k)
+            if (values[k] * reach - counts[k] * share > least)
+                hits.push_back(static_cast<std::uint32_t>(k));
+    }
+}
+
+/// Adds a point to the counts beyond it.
+STIPPLE_WIDE void add_one(float* counts, std::size_t size) {
+    for (std::size_t k = 0; k < size; ++k) counts[k] += 1;
+}
+
+class AnchoredObjective final : public Objective {
+  public:
+    AnchoredObjective(const std::vector<double>& weights, std::size_t count, std::size_t dimension)
+        : n_(count), d_(dimension), stride_(count + 2) {
+        for (std::size_t j = 0; j < d_; ++j)
+            weights_[3 - d_ + j] = weights.empty() ? 1 : static_cast<float>(weights[j]);
+    }
+
+    double value(std::span<const double> rows, double sharpness, std::span<double> gradient,
+                 const RunContext& run) override {
+        sort_axes(rows);
+        if (last_ == 0) last_ = 1 / static_cast<double>(n_);
+        double most = 0;
+        for (double least = last_ * (1 - reach / sharpness); most == 0; least *= 0.8) {
+            look(static_cast<float>(std::max(least, 0.0)), run);
+            for (const auto& block : hits_)
+                for (const Hit& hit : block) most = std::max(most, static_cast<double>(hit.value));
+        }
+        last_ = most;
+        put_gradient(most, sharpness / most, gradient);
+        return most;
+    }
+
+    [[nodiscard]] double steps() const override {
+        const auto size = static_cast<double>(n_ + 1);
+        return size * (size * (d_ == 3 ? size : 1) / 4 + 300);
+    }
+
+  private:
+    static constexpr double reach = 7;  ///< boxes whose weights are below e^-reach do not count
+
+    void sort_axes(std::span<const double> rows) {
+        for (std::size_t axis = 3 - d_; axis < 3; ++axis) {
+            const std::size_t j = axis + d_ - 3;
+            auto& order = order_[axis];
+            order.resize(n_);
+            std::iota(order.begin(), order.end(), 0U);
+            const auto at = [&](std::uint32_t i) { return rows[i * d_ + j]; };
+            std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+                return at(a) != at(b) ? at(a) < at(b) : a < b;
+            });
+            values_[axis].assign(n_ + 1, 1);
+            ranks_[axis].resize(n_);
+            for (std::uint32_t place = 0; place < n_; ++place) {
+                values_[axis][place] = static_cast<float>(at(order[place]));
+                ranks_[axis][order[place]] = place;
+            }
+        }
+    }
+
+    /// Finds all boxes above `least`, by planes of the first axis; in the plane there is one.
+    void look(float least, const RunContext& run) {
+        constexpr std::size_t many = 100;
+        const std::size_t planes = d_ == 3 ? n_ + 1 : 1;
+        const std::size_t together = planes > many ? planes / 8 + 1 : planes;
+        hits_.assign(block_count(planes, together), {});
+        for_each_block(silent(worth_threads(run, steps() * 1e-9)), planes, together,
+                       [&](const Block& block) {
+                           std::vector<float> counts((n_ + 2) * stride_);
+                           const std::size_t shift = n_ + 1 - planes;
+                           for (std::uint32_t i = 0; i < n_; ++i)
+                               if (d_ == 2 || ranks_[0][i] < block.first) add(i, counts);
+                           for (std::uint64_t a = block.first; a < block.last; ++a)
+                               look_at(a + shift, counts, least, hits_[block.index]);
+                       });
+    }
+
+    void add(std::uint32_t point, std::vector<float>& counts) const {
+        const std::size_t first = ranks_[2][point] + 1;
+        for (std::size_t b = ranks_[1][point] + 1; b <= n_ + 1; ++b)
+            add_one(&counts[b * stride_ + first], n_ + 2 - first);
+    }
+
+    /// The boxes that end in a plane; adds its point to the counts.
+    void look_at(std::size_t a, std::vector<float>& counts, float least,
+                 std::vector<Hit>& hits) const {
+        for (std::size_t b = 0; b <= n_; ++b)
+            look_along(a, b, &counts[b * stride_], true, least, hits);
+        if (a < n_) add(order_[0][a], counts);
+        for (std::size_t b = 0; b <= n_; ++b)
+            look_along(a, b, &counts[std::min(b + 1, n_) * stride_] + 1, false, least, hits);
+    }
+
+    void look_along(std::size_t a, std::size_t b, const float* counts, bool open, float least,
+                    std::vector<Hit>& hits) const {
+        thread_local std::vector<std::uint32_t> found;
+        const float weight = (a < n_ ? weights_[0] : 1) * (b < n_ ? weights_[1] : 1);
+        const float sign = open ? weight : -weight;
+        const float area = (d_ == 3 ? values_[0][a] : 1) * values_[1][b];
+        const float share = sign / static_cast<float>(n_);
+        const auto take = [&](std::size_t first, std::size_t size, float times) {
+            found.clear();
+            find_above(values_[2].data() + first, counts + first, area * sign * times,
+                       share * times, least, size, found);
+            for (const std::uint32_t k : found) {
+                const std::size_t c = first + k;
+                const float value = (values_[2][c] * area * sign - counts[c] * share) * times;
+                hits.push_back({{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
+                                 static_cast<std::uint32_t>(c)},
+                                value,
+                                open});
+            }
+        };
+        take(0, n_, weights_[2]);
+        take(n_, 1, 1);
+    }
+
+    void put_gradient(double most, double sharpness, std::span<double> gradient) const {
+        std::ranges::fill(gradient, 0);
+        double total = 0;
+        for (const auto& block : hits_)
+            for (const Hit& hit : block) {
+                const double weight =
+                    exponential(sharpness * (static_cast<double>(hit.value) - most));
+                total += weight;
+                add_slopes(hit, hit.open ? weight : -weight, gradient);
+            }
+        for (double& slope : gradient) slope /= total;
+    }
+
+    void add_slopes(const Hit& hit, double weight, std::span<double> gradient) const {
+        for (std::size_t axis = 3 - d_; axis < 3; ++axis)
+            if (hit.at[axis] < n_) weight *= static_cast<double>(weights_[axis]);
+        for (std::size_t axis = 3 - d_; axis < 3; ++axis) {
+            if (hit.at[axis] == n_) continue;
+            double slope = weight;
+            for (std::size_t other = 3 - d_; other < 3; ++other)
+                if (other != axis) slope *= static_cast<double>(values_[other][hit.at[other]]);
+            gradient[order_[axis][hit.at[axis]] * d_ + axis + d_ - 3] += slope;
+        }
+    }
+
+    std::size_t n_;
+    std::size_t d_;
+    std::size_t stride_;
+    float weights_[3] = {1, 1, 1};
+    double last_ = 0;  ///< value
+    std::vector<std::uint32_t> order_[3];
+    std::vector<std::uint32_t> ranks_[3];
+    std::vector<float> values_[3];  ///< in order, and 1
+    std::vector<std::vector<Hit>> hits_;
+};
+
+}  // namespace
+
+std::unique_ptr<Objective> anchored_objective(const std::vector<double>& weights, std::size_t count,
+                                              std::size_t dimension) {
+    return std::make_unique<AnchoredObjective>(weights, count, dimension);
+}
+
+}  // namespace stipple::optimized

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "generators/optimized/coordinate_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/parallel.hpp"
+#include "core/rng.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
+
+namespace stipple::optimized {
+namespace {
+
+/// A number that goes from one value to another, by a factor from step to step.
+class Geometric {
+  public:
+    Geometric(double from, double to, std::size_t steps)
+        : value_(from),
+          factor_(steps > 1 ? exponential(logarithm(to / from) / static_cast<double>(steps - 1))
+                            : 1) {}
+    double next() {
+        const double now = value_;
+        value_ *= factor_;
+        return now;
+    }
+
+  private:
+    double value_;
+    double factor_;
+};
+
+/// The moving means of a gradient that Adam steps by.
+class Adam {
+  public:
+    explicit Adam(std::size_t size) : mean_(size), square_(size) {}
+
+    /// Moves the coordinates from the `first` on by at most about `rate`, within the unit cube.
+    void step(std::span<double> x, std::span<const double> gradient, double rate,
+              std::size_t first) {
+        mean_left_ *= memory;
+        square_left_ *= long_memory;
+        const double mean_part = 1 / (1 - mean_left_);
+        const double square_part = 1 / (1 - square_left_);
+        for (std::size_t i = first; i < x.size(); ++i) {
+            const double g = gradient[i];
+            mean_[i] = memory * mean_[i] + (1 - memory) * g;
+            square_[i] = long_memory * square_[i] + (1 - long_memory) * (g * g);
+            const double size = std::sqrt(square_[i] * square_part);
+            if (size > 0) x[i] -= rate * (mean_[i] * mean_part) / size;
+            x[i] = std::clamp(x[i], 0.0, one_minus_ulp);
+        }
+    }
+
+  private:
+    static constexpr double memory = 0.9;
+    static constexpr double long_memory = 0.99;
+    std::vector<double> mean_;
+    std::vector<double> square_;
+    double mean_left_ = 1;
+    double square_left_ = 1;
+};
+
+/// Where a descent ends; at once when the best so far is wanted.
+OptimizedRows descend(std::vector<double> rows, const CoordinateSearch& search,
+                      const Schedule& schedule, const RunContext& run, const RunContext& whole) {
+    const std::unique_ptr<Objective> objective = search.objective();
+    OptimizedRows best{{}, std::numeric_limits<double>::infinity()};
+    std::vector<double> gradient(rows.size());
+    Geometric rate(schedule.first_rate, schedule.last_rate, schedule.steps);
+    Geometric sharpness(schedule.first_sharpness, schedule.last_sharpness, schedule.steps);
+    Adam adam(rows.size());
+    constexpr double near = 1.001;
+    // True if there was no box worse than those it went by.
+    const auto go = [&](std::size_t steps, auto next_rate, auto next_sharpness) {
+        for (std::size_t step = 0; step < steps && !whole.best_is_wanted(); ++step) {
+            run.check_stop();
+            objective->value(rows, next_sharpness(), gradient, run);
+            adam.step(rows, gradient, next_rate(), search.kept * search.dimension);
+        }
+        const double known = objective->value(rows, 1e6, gradient, run);
+        const double value = objective->certain_value(rows, gradient, run);
+        if (value < best.value) best = {rows, value};
+        return value <= near * known;
+    };
+    bool over = go(
+        schedule.steps, [&] { return rate.next(); }, [&] { return sharpness.next(); });
+    for (int round = 0; round < 6 && !over && !whole.best_is_wanted(); ++round)
+        over = go(
+            10, [&] { return schedule.last_rate; }, [&] { return schedule.last_sharpness; });
+    return best;
+}
+
+bool better(const OptimizedRows& a, const OptimizedRows& b) { return a.value < b.value; }
+
+class Population {
+  public:
+    Population(const CoordinateSearch& search, const std::string& words, const RunContext& run)
+        : search_(search),
+          words_(words),
+          rng_(search.seed),
+          objective_(search.objective()),
+          run_(run),
+          inner_(run.keeps_best ? unstopped(silent(run)) : silent(run)) {}
+
+    OptimizedRows best() {
+        const double start_cost = cost(search_.from_start);
+        const double hop_cost = cost(search_.from_hop);
+        const double starts =
+            std::clamp(starts_share * search_.budget / start_cost, 1.0, 1e6 / start_cost + 1e4);
+        add_starts(search_.one_start ? 1 : static_cast<std::size_t>(starts));
+        while (!run_.best_is_wanted() &&
+               spent_ + hop_cost * static_cast<double>(all_.size()) <= search_.budget) {
+            const double done = spent_ / search_.budget;
+            keep_best(done < 0.5 ? 8 : done < 0.75 ? 4 : done < 0.9 ? 2 : 1);
+            hop();
+        }
+        keep_best(1);
+        all_.front().stopped = run_.best_is_wanted();
+        return all_.front();
+    }
+
+  private:
+    static constexpr double starts_share = 0.2;
+
+    [[nodiscard]] double cost(const Schedule& schedule) const {
+        return objective_->steps() * static_cast<double>(schedule.steps + 1);
+    }
+    [[nodiscard]] SplitMix64 draws() { return SplitMix64(rng_.bits(tasks_++)); }
+
+    void add_starts(std::size_t count) {
+        constexpr std::size_t together = 16;
+        for (std::size_t first = 0; first < count && (all_.empty() || !run_.best_is_wanted());
+             first += together) {
+            std::vector<std::vector<double>> rows;
+            for (std::size_t i = first; i < std::min(first + together, count); ++i) {
+                SplitMix64 own = draws();
+                rows.push_back(search_.start(i, own));
+            }
+            auto found = descended(std::move(rows), search_.from_start);
+            std::ranges::move(found, std::back_inserter(all_));
+            keep_best(8);
+        }
+    }
+
+    void hop() {
+        std::vector<std::vector<double>> rows;
+        for (const OptimizedRows& one : all_) {
+            SplitMix64 own = draws();
+            rows.push_back(one.rows);
+            const double reach = search_.hop * to_unit(own.next());
+            for (std::size_t i = search_.kept * search_.dimension; i < one.rows.size(); ++i)
+                rows.back()[i] = std::clamp(one.rows[i] + reach * (2 * to_unit(own.next()) - 1),
+                                            0.0, one_minus_ulp);
+        }
+        auto found = descended(std::move(rows), search_.from_hop);
+        for (std::size_t i = 0; i < all_.size(); ++i)
+            if (!better(all_[i], found[i])) all_[i] = std::move(found[i]);
+    }
+
+    /// Where descents from several sets end.
+    std::vector<OptimizedRows> descended(std::vector<std::vector<double>> rows,
+                                         const Schedule& schedule) {
+        std::vector<OptimizedRows> found(rows.size());
+        for_each_block(inner_, rows.size(), 1, [&](const Block& block) {
+            found[block.index] =
+                descend(std::move(rows[block.index]), search_, schedule, inner_, run_);
+        });
+        spent_ += cost(schedule) * static_cast<double>(rows.size());
+        for (const OptimizedRows& one : found) least_ = std::min(least_, one.value);
+        constexpr std::uint64_t parts = 10'000;
+        const RunContext shown = run_.keeps_best ? unstopped(run_) : run_;
+        shown.tick(static_cast<std::uint64_t>(std::min(1.0, spent_ / search_.budget) * parts),
+                   parts, fmt::format("{} {:.6g}", words_, objective_->reported(least_)));
+        return found;
+    }
+
+    void keep_best(std::size_t most) {
+        std::ranges::stable_sort(all_, better);
+        if (all_.size() > most) all_.resize(most);
+    }
+
+    const CoordinateSearch& search_;
+    const std::string& words_;
+    Rng rng_;
+    std::unique_ptr<Objective> objective_;
+    const RunContext& run_;
+    RunContext inner_;  ///< of descents
+    std::uint64_t tasks_ = 0;
+    double spent_ = 0;
+    double least_ = std::numeric_limits<double>::infinity();
+    std::vector<OptimizedRows> all_;
+};
+
+}  // namespace
+
+OptimizedRows search_coordinates(const CoordinateSearch& search, const std::string& words,
+                                 const RunContext& run) {
+    return Population(search, words, run).best();
+}
+
+}  // namespace stipple::optimized

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+//
+// The square of an L2 discrepancy and its gradient. With the factors K_j of math/l2/kinds.hpp,
+//
+//     d/dx_ij  =  -2/n f_j'(x_ij) prod_{l != j} f_l(x_il)
+//                 + 2/n^2 sum_k d_1 K_j(x_ij, x_kj) prod_{l != j} K_l(x_il, x_kl),
+//
+// where the slope of |x - y| at x = y is 0.
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "core/machine/wide.hpp"
+#include "core/parallel.hpp"
+#include "generators/optimized/l2_factor.hpp"
+#include "generators/optimized/objective.hpp"
+
+namespace stipple::optimized {
+namespace {
+
+constexpr std::size_t lanes = 64;  ///< points of a block
+
+/// The factors of one point with a block of others, axis after axis, and what comes of them.
+struct Row {
+    std::vector<double> factors;    ///< of each axis, `lanes` each
+    std::vector<double> before;     ///< products of those of the axes before
+    std::vector<double> slopes;     ///< sums of slopes times the other axes' factors
+    std::array<double, lanes> sum;  ///< of products
+};
+
+/// Of a point at x, whose number on the axis is `own`, with those of a block.
+STIPPLE_WIDE void multiply(double x, double own, const Factor& k, const double* __restrict others,
+                           const double* __restrict owns, std::size_t size,
+                           double* __restrict factors, double* __restrict before,
+                           double* __restrict product) {
+    for (std::size_t i = 0; i < size; ++i) {
+        const double t = x - others[i];
+        const double away = t < 0 ? -t : t;
+        const double factor = (own + owns[i]) + k.product * (x * others[i]) + k.distance * away;
+        factors[i] = factor;
+        before[i] = product[i];
+        product[i] *= factor;
+    }
+}
+
+/// Adds slopes along an axis times the factors of the axes before and behind it.
+STIPPLE_WIDE void add_slopes(double x, double own_slope, const Factor& k,
+                             const double* __restrict others, std::size_t size,
+                             const double* __restrict factors, const double* __restrict before,
+                             double* __restrict behind, double* __restrict slopes) {
+    const double product = k.product;
+    const double distance = k.distance;
+    for (std::size_t i = 0; i < size; ++i) {
+        const double t = x - others[i];
+        const double turn = t < 0 ? -distance : t > 0 ? distance : 0;
+        slopes[i] += before[i] * behind[i] * (own_slope + product * others[i] + turn);
+        behind[i] *= factors[i];
+    }
+}
+
+class L2Objective final : public Objective {
+  public:
+    L2Objective(l2::Kind kind, const l2::AxisWeights& weights, std::size_t count,
+                std::size_t dimension)
+        : n_(count), d_(dimension), factors_(factors_of(kind, weights, dimension)) {
+        for (const Factor& factor : factors_) total_ *= factor.total;
+    }
+
+    double value(std::span<const double> rows, double /*sharpness*/, std::span<double> gradient,
+                 const RunContext& run) override {
+        put_columns(rows);
+        std::vector<double> parts(block_count(n_, few));
+        for_each_block(silent(worth_threads(run, steps() * 1e-9)), n_, few,
+                       [&](const Block& block) {
+                           Row row{std::vector<double>(d_ * lanes),
+                                   std::vector<double>(d_ * lanes),
+                                   std::vector<double>(d_ * lanes),
+                                   {}};
+                           for (std::size_t i = block.first; i < block.last; ++i)
+                               parts[block.index] += add_point(i, row, gradient);
+                       });
+        double sum = total_;
+        for (const double part : parts) sum += part;
+        return sum;
+    }
+
+    [[nodiscard]] double steps() const override {
+        const auto n = static_cast<double>(n_);
+        return n * (n * static_cast<double>(d_) / 3 + 200);
+    }
+    [[nodiscard]] double reported(double value) const override {
+        return std::sqrt(std::max(value, 0.0));
+    }
+
+  private:
+    static constexpr std::size_t few = 16;  ///< points of a part of the sum
+
+    void put_columns(std::span<const double> rows) {
+        columns_.resize(n_ * d_);
+        owns_.resize(n_ * d_);
+        for (std::size_t j = 0; j < d_; ++j)
+            for (std::size_t i = 0; i < n_; ++i) {
+                columns_[j * n_ + i] = rows[i * d_ + j];
+                owns_[j * n_ + i] = factors_[j].own.at(rows[i * d_ + j]);
+            }
+    }
+
+    /// The i-th point's part of the sum, and its gradient.
+    double add_point(std::size_t i, Row& row, std::span<double> gradient) const {
+        row.sum.fill(0);
+        std::ranges::fill(row.slopes, 0);
+        for (std::size_t first = 0; first < n_; first += lanes)
+            add_pairs(i, first, std::min(lanes, n_ - first), row);
+        const auto n = static_cast<double>(n_);
+        double mean = 1;
+        for (std::size_t j = 0; j < d_; ++j) mean *= factors_[j].mean.at(columns_[j * n_ + i]);
+        for (std::size_t j = 0; j < d_; ++j) {
+            const double x = columns_[j * n_ + i];
+            double others = factors_[j].mean.slope(x);
+            for (std::size_t l = 0; l < d_; ++l)
+                if (l != j) others *= factors_[l].mean.at(columns_[l * n_ + i]);
+            double slope = 0;
+            for (std::size_t k = 0; k < lanes; ++k) slope += row.slopes[j * lanes + k];
+            gradient[i * d_ + j] = 2 / n * (slope / n - others);
+        }
+        double sum = 0;
+        for (const double part : row.sum) sum += part;
+        return (sum / n - 2 * mean) / n;
+    }
+
+    void add_pairs(std::size_t i, std::size_t first, std::size_t size, Row& row) const {
+        std::array<double, lanes> product;
+        product.fill(1);
+        for (std::size_t j = 0; j < d_; ++j)
+            multiply(columns_[j * n_ + i], owns_[j * n_ + i], factors_[j],
+                     &columns_[j * n_ + first], &owns_[j * n_ + first], size,
+                     &row.factors[j * lanes], &row.before[j * lanes], product.data());
+        for (std::size_t k = 0; k < size; ++k) row.sum[k] += product[k];
+        product.fill(1);
+        for (std::size_t j = d_; j-- > 0;)
+            add_slopes(columns_[j * n_ + i], factors_[j].own.slope(columns_[j * n_ + i]),
+                       factors_[j], &columns_[j * n_ + first], size, &row.factors[j * lanes],
+                       &row.before[j * lanes], product.data(), &row.slopes[j * lanes]);
+    }
+
+    std::size_t n_;
+    std::size_t d_;
+    std::vector<Factor> factors_;
+    double total_ = 1;
+    std::vector<double> columns_;  ///< coordinates, axis after axis
+    std::vector<double> owns_;     ///< own() of them
+};
+
+}  // namespace
+
+std::unique_ptr<Objective> l2_objective(l2::Kind kind, const l2::AxisWeights& weights,
+                                        std::size_t count, std::size_t dimension) {
+    return std::make_unique<L2Objective>(kind, weights, count, dimension);
+}
+
+}  // namespace stipple::optimized
