@@ -27,6 +27,7 @@
 #include "pipeline/units.hpp"
 #include "plot/drawing/sheet.hpp"
 #include "plot/drawing/ticks.hpp"
+#include "plot/local_discrepancy.hpp"
 #include "plot/points_picture.hpp"
 #include "plot/report_charts.hpp"
 #include "plot/spectral_table.hpp"
@@ -43,6 +44,9 @@ enum class Medium { svg, pdf, png, text };
 
 constexpr std::size_t most_overlaid = 7;  ///< sets in one frame: as many as there are colours
 constexpr std::size_t most_frames = 12;   ///< of sets, on one sheet
+
+/// Width that a bar of colours adds to the last frame of a row.
+constexpr double room_of_bar = plot::colour_bar_room - plot::picture_margin / 2;
 
 Medium medium_of(const Arguments& arguments, const std::string& path) {
     const bool terminal = is_terminal(path);
@@ -309,6 +313,7 @@ class Plot {
                 return saved(*found);
             }
         if (table) return spectrum();
+        if (chart_ == "local-discrepancy") return local_discrepancies();
         const bool frames = has_frames();
         if (!frames) require_one_dimension();
         keep_few_sets(frames ? most_frames : most_overlaid);
@@ -521,9 +526,8 @@ class Plot {
             return in_letters(found.size(), [&](std::size_t i, const plot::TextRoom& room) {
                 return plot::spectrum_as_text(grid_of(found[i]), found[i].source, room);
             });
-        const double bar = plot::colour_bar_room - plot::picture_margin / 2;
         return on_sheet(
-            found.size(), bar,
+            found.size(), room_of_bar,
             [&](std::size_t i, const plot::PictureStyle& style, bool last_in_row) {
                 const Loaded& first = sets_[firsts[i]];
                 const bool mean = found[i].sets > 1;
@@ -558,6 +562,42 @@ class Plot {
                     "--chart: a {} in the plane needs points of 2 coordinates; these have {}",
                     chart_, m.dimension);
         return found;
+    }
+
+    /// A frame for each set, in the same colours for all, whose bar stands at the end of each row.
+    std::string local_discrepancies() {
+        arguments_.refuse({"overlay", "draw"}, "is not for the local discrepancy");
+        refuse_scales("a local discrepancy");
+        keep_few_sets(most_frames);
+        std::vector<plot::WorstBoxes> worst;
+        double largest = 0;
+        for (const Loaded& set : sets_) {
+            worst.push_back(naming(
+                set.source, [&] { return plot::worst_boxes_of(set.points, session_.run()); }));
+            largest = std::max(largest, worst.back().star());
+        }
+        const bool single = sets_.size() == 1;
+        const auto title_of = [&](std::size_t i) {
+            if (!single) return sets_[i].title + number_of(sets_[i]);
+            return arguments_.get("title").value_or("Local discrepancy of " + sets_[i].title);
+        };
+        const auto write = [&](std::size_t i, const plot::TextRoom& room) {
+            return plot::local_discrepancy_as_text(sets_[i].points, worst[i], title_of(i), largest,
+                                                   room, session_.run());
+        };
+        const auto draw = [&](std::size_t i, const plot::PictureStyle& style, bool last_in_row) {
+            return plot::draw_local_discrepancy(
+                sets_[i].points, worst[i],
+                {.title = title_of(i),
+                 .subtitle = subtitle_of(sets_[i]) + (single ? number_of(sets_[i]) : ""),
+                 .largest = largest,
+                 .bar = last_in_row,
+                 .resolution = medium_ == Medium::png ? style.scale : std::max(style.scale, 2.0)},
+                style, session_.run());
+        };
+        if (medium_ == Medium::text)
+            return single ? write(0, room_) : in_letters(sets_.size(), write);
+        return single ? finished(draw(0, style_, true)) : on_sheet(sets_.size(), room_of_bar, draw);
     }
 
     std::string distances() {

@@ -396,6 +396,32 @@ void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Posi
     }
 }
 
+SquareDrawing square_drawing(TitledDrawing titled, const std::vector<LegendEntry>& legend,
+                             const Axis& x, const Axis& y, bool bar, const PictureStyle& style) {
+    constexpr double least = 60;
+    constexpr double above = 14;  // with the name of the bar
+    Drawing& drawing = titled.drawing;
+    double top = titled.top;
+    for (const LegendEntry& entry : legend) {
+        draw_legend(drawing, {entry}, {picture_margin, top}, drawing.width - 2 * picture_margin,
+                    *style.theme);
+        top += legend_row;
+    }
+    if (!legend.empty()) top += 5;
+    const double left = std::ceil(picture_margin / 2 + Panel::room_left(y, 500));
+    const double below = Panel::room_below(x) + picture_margin;
+    const double beside = bar ? colour_bar_room : picture_margin / 2;
+    const double wide = std::floor(drawing.width - left - beside - picture_margin);
+    require_height(style, top + above + least + below);
+    double side = wide;
+    if (style.height > 0) side = std::min(side, std::floor(style.height - top - below - above));
+    side = std::max(side, least);
+    drawing.height = std::ceil(top + above + side + below);
+    const double aside = std::max(std::floor((wide - side) / 2), 0.0);
+    return {.drawing = std::move(drawing),
+            .frame = {left + aside, std::ceil(top) + above, side, side}};
+}
+
 TitledDrawing titled_drawing(const std::string& title, const std::string& subtitle,
                              const PictureStyle& style, double usual_width, double usual_height) {
     const std::string& first = style.title.value_or(title);

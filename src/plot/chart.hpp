@@ -112,6 +112,20 @@ struct LegendEntry {
     double width = 2;  ///< of a line
 };
 
+/// A drawing with titles and a legend, row by row, above a square, which has room for its axes and,
+/// beside it, a bar of colours.
+struct SquareDrawing {
+    Drawing drawing;
+    Area frame;  ///< the square
+};
+SquareDrawing square_drawing(TitledDrawing titled, const std::vector<LegendEntry>& legend,
+                             const Axis& x, const Axis& y, bool bar, const PictureStyle& style);
+
+/// Where the bar of colours stands beside the square.
+inline Area bar_beside(const Area& frame) {
+    return {frame.right() + 14, frame.top, 14, frame.height};
+}
+
 /// A result's name as an axis has it: "radial power" of "radial.power".
 std::string words_of(std::string name);
 

@@ -110,24 +110,13 @@ Drawing draw_spectrum(const Grid& power, const std::string& title, const std::st
     const bool whole = names.cell == 1;
     const Axis x{.low = -last, .high = last, .whole = whole, .name = names.x};
     const Axis y{.low = -last, .high = last, .whole = whole, .name = names.y};
-    auto [drawing, top] = titled_drawing(title, subtitle, style, 640);
-    constexpr double least = 60;
-    const double left = std::ceil(picture_margin / 2 + Panel::room_left(y, 500));
-    const double below = Panel::room_below(x) + picture_margin;
-    const double beside = names.bar ? colour_bar_room : picture_margin / 2;
-    const double wide = std::floor(drawing.width - left - beside - picture_margin);
-    require_height(style, top + 14 + least + below);
-    double side = wide;
-    if (style.height > 0) side = std::min(side, std::floor(style.height - top - below - 14));
-    side = std::max(side, least);
-    drawing.height = std::ceil(top + 14 + side + below);
-    const double aside = std::max(std::floor((wide - side) / 2), 0.0);
-    const Area frame{left + aside, std::ceil(top) + 14, side, side};
+    auto [drawing, frame] =
+        square_drawing(titled_drawing(title, subtitle, style, 640), {}, x, y, names.bar, style);
     drawing.add(picture_of(power, frame));
     Panel(frame, x, y).draw_axes(drawing, theme, true);
     if (names.bar)
-        draw_colour_bar(drawing, {frame.right() + 14, frame.top, 14, side}, names.shade, theme,
-                        grey, {{0, "0"}, {0.2, "1/4"}, {0.5, "1"}, {0.8, "4"}, {1, "∞"}});
+        draw_colour_bar(drawing, bar_beside(frame), names.shade, theme, grey,
+                        {{0, "0"}, {0.2, "1/4"}, {0.5, "1"}, {0.8, "4"}, {1, "∞"}});
     return std::move(drawing);
 }
 

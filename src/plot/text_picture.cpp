@@ -301,4 +301,34 @@ std::string spectrum_as_text(const Grid& power, const std::string& title, const 
     return text + fmt::format("frequencies from −{0} to {0}\n", power.rows / 2);
 }
 
+std::string local_discrepancy_as_text(const PointSet& points, const WorstBoxes& worst,
+                                      const std::string& title, double largest,
+                                      const TextRoom& room, const RunContext& run) {
+    constexpr std::array<const char*, 5> few = {" ", "·", ":", "o", "O"};
+    constexpr std::array<const char*, 5> many = {" ", "░", "▒", "▓", "█"};
+    const std::size_t rows = std::min(inner(room.rows, frame_rows + 2, least_rows),
+                                      inner(room.columns, frame_columns, least_columns) / 2);
+    const Grid grid = local_discrepancy(points, 2 * rows, rows, run);
+    std::string text = fmt::format("{}\n┌{:─<{}}┐\n", printable(title), "", grid.columns);
+    for (std::size_t row = rows; row-- > 0;) {
+        text += "│";
+        for (std::size_t column = 0; column < grid.columns; ++column) {
+            const double share = grid.values[row * grid.columns + column] / largest;
+            const auto level = static_cast<std::size_t>(std::clamp(5 * std::abs(share), 0.0, 4.0));
+            const char* letter = (share < 0 ? few : many)[level];
+            text += level == 0 ? letter : in_colour(letter, share < 0 ? 0 : 1, room.coloured);
+        }
+        text += "│\n";
+    }
+    text += fmt::format("└{:─<{}}┘\n", "", grid.columns);
+    text += fmt::format("star discrepancy {}\n", rounded(worst.star(), 6));
+    const auto narrow = [](const std::optional<AnchoredBox>& box) {
+        std::string words = box ? text_of(*box, 3) : "nowhere";
+        std::erase(words, ' ');
+        return words;
+    };
+    return text +
+           fmt::format("few ·:oO {}\nmany ░▒▓█ {}\n", narrow(worst.open), narrow(worst.closed));
+}
+
 }  // namespace stipple::plot

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Pictures as text for terminals: points, the curves of a chart, a spectrum.
+// Pictures as text for terminals: points, the curves of a chart, a spectrum, a local discrepancy.
 #pragma once
 
 #include <string>
 #include <vector>
 
 #include "plot/chart.hpp"
+#include "plot/local_discrepancy.hpp"
 #include "plot/points_picture.hpp"
 #include "stipple/report.hpp"
 
@@ -29,6 +30,12 @@ std::string chart_as_text(const Chart& chart, PictureStyle style, const TextRoom
 
 /// A spectrum in five shades.
 std::string spectrum_as_text(const Grid& power, const std::string& title, const TextRoom& room);
+
+/// The local discrepancy in shades up to `largest`: blocks where there are too many points, letters
+/// where there are too few.
+std::string local_discrepancy_as_text(const PointSet& points, const WorstBoxes& worst,
+                                      const std::string& title, double largest,
+                                      const TextRoom& room, const RunContext& run);
 
 /// Room for each of several pictures.
 TextRoom shared_room(const TextRoom& room, std::size_t pictures);

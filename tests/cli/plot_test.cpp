@@ -197,6 +197,62 @@ TEST(Plot, DrawsWhatIsAnalyzedOnTheWay) {
     EXPECT_EQ(shapes("a.svg"), shapes("b.svg"));
 }
 
+// The value is the analyzer's; a file, a pipe and a generator give the same picture.
+TEST(Plot, DrawsTheLocalDiscrepancy) {
+    const Sandbox box;
+    const std::string plot = "stipple plot --chart local-discrepancy ";
+    good(box.shell("stipple generate sobol -n 64 -f json -o p.json"));
+    good(box.shell("stipple analyze star-discrepancy p.json --check value==0.0537109375"));
+    good(box.shell(
+        plot + "p.json -o a.svg && stipple plot --chart local-discrepancy < p.json > b.svg && " +
+        plot + "--generate sobol -n 64 -o c.svg"));
+    const std::string texts = xml(box, "a.svg", "text");
+    EXPECT_THAT(texts,
+                HasSubstr("Local discrepancy of sobol|star discrepancy 0.0537109 · 64 points|"
+                          "too few: [0, 0.7031) × [0, 0.7031): −0.02563|"
+                          "too many: [0, 0.8438] × [0, 0.8438]: 0.05371|"));
+    EXPECT_EQ(xml(box, "a.svg", "image"), "2\n");
+    EXPECT_EQ(xml(box, "a.svg", "circle"), "64\n");
+    const auto shapes = [&](const char* file) {
+        return box.read(file).substr(box.read(file).find("</metadata>"));
+    };
+    EXPECT_TRUE(shapes("a.svg") == shapes("b.svg") && shapes("a.svg") == shapes("c.svg"));
+    good(box.shell(plot + "p.json -o a.png --width 300 --height 350 && " + plot +
+                   "p.json -o a.pdf"));
+    EXPECT_TRUE(png(box, "a.png").starts_with("300 350\n"));
+    EXPECT_TRUE(box.read("a.pdf").starts_with("%PDF"));
+    EXPECT_LT(box.read("a.pdf").size(), 1'000'000U);
+    EXPECT_THAT(good(box.shell(plot + "p.json -f text --title T")),
+                ::testing::AllOf(HasSubstr("T\n┌"), HasSubstr("star discrepancy 0.0537109\n")));
+    // One bar of colours for all in a row.
+    good(box.shell(plot + "--generate sobol --generate random --generate halton -n 64 -o s.svg"));
+    EXPECT_EQ(xml(box, "s.svg", "image"), "4\n");
+    EXPECT_THAT(good(box.shell(plot + "--generate sobol --generate random -n 8 -f text")),
+                HasSubstr("random"));
+}
+
+TEST(Plot, RefusesALocalDiscrepancyOfOtherPoints) {
+    const Sandbox box;
+    const std::string plot = "stipple plot --chart local-discrepancy -o p.svg ";
+    box.write("far.csv", "0.5,0.5\n0.5,1.5\n");
+    box.write("empty.csv", "x,y\n");
+    for (const char* d : {"1", "3"})
+        expect_refusal(box.shell(plot + "--generate random -n 9 -d " + d), 3,
+                       std::string("the local discrepancy is drawn of points of 2 coordinates; "
+                                   "these have ") +
+                           d);
+    expect_refusal(
+        box.shell(plot + "far.csv"), 3,
+        "far.csv: 1 of 2 points are outside the unit cube [0, 1]^2; the first is point 1");
+    expect_refusal(box.shell(plot + "empty.csv"), 3, "empty.csv");
+    expect_refusal(box.shell(plot + "--generate random --overlay"), 2, "--overlay: is not for");
+    expect_refusal(box.shell(plot + "--generate random --draw cells"), 2, "--draw: is not for");
+    expect_refusal(box.shell(plot + "--generate random --width 300 --height 100"), 2,
+                   "--height: 100 leaves no room");
+    good(box.shell(plot + "far.csv --rescale"));
+    EXPECT_EQ(box.shell("stipple generate random -n 5 -m 13 -f json | " + plot).code, 0);
+}
+
 TEST(Plot, DrawsTheTableThatGridSaves) {
     const Sandbox box;
     good(
@@ -270,7 +326,8 @@ TEST(Plot, RefusesLogarithmicAxesOfWhatHasNone) {
     good(box.shell("stipple generate random -n 100 -o p.csv"));
     good(box.shell("stipple analyze periodogram p.csv --max-frequency 4 --grid g.npy"));
     for (const std::string axis : {"--x-scale", "--y-scale"}) {
-        for (const std::string chart : {"points", "density", "spectrum", "differential"})
+        for (const std::string chart :
+             {"points", "density", "spectrum", "differential", "local-discrepancy"})
             for (const std::string format : {"svg", "text"})
                 expect_refusal(
                     box.run({"plot", "p.csv", "--chart", chart, "-f", format, axis, "log"}), 2,

@@ -163,11 +163,13 @@ const std::vector<CommonOption> rows = {
      "points in the plane",
      analyze},
     {"--chart",
-     "points|density|pairs|histogram|distances|spectrum|radial|pair-correlation|differential",
+     "points|density|pairs|histogram|distances|spectrum|radial|pair-correlation|differential|"
+     "local-discrepancy",
      "points",
      "what to draw of points: their places (of three coordinates a view, of more each pair of the "
      "first 8), counts, each pair of coordinates, histograms, distances to the nearest neighbour, "
-     "or what analyze finds with its default options",
+     "what analyze finds with its default options, or the local discrepancy of the square with the "
+     "worst boxes of the star discrepancy",
      plot},
     {"--key", "KEY", "", "result to draw of a report, such as prefixes.value or minimum", plot},
     {"--set", "K", "", "draw only set or report K, from 0; default: all", plot},

@@ -72,6 +72,10 @@ Worst worst_of_axis(const BoxGrid& grid, std::size_t k, const std::vector<bool>&
 }  // namespace
 
 void offer_axis_boxes(const BoxGrid& grid, WorstBox& worst) {
+    offer_axis_boxes(grid, worst, worst);
+}
+
+void offer_axis_boxes(const BoxGrid& grid, WorstBox& worst_open, WorstBox& worst_closed) {
     const auto at_one = points_at_one(grid);
     std::vector<std::uint32_t> corner;
     for (const auto& values : grid.values)
@@ -80,9 +84,9 @@ void offer_axis_boxes(const BoxGrid& grid, WorstBox& worst) {
         const std::uint32_t whole = corner[k];
         const auto [open, closed] = worst_of_axis(grid, k, at_one);
         corner[k] = open.rank;
-        worst.offer(Side::open, corner, open.points);
+        worst_open.offer(Side::open, corner, open.points);
         corner[k] = closed.rank;
-        worst.offer(Side::closed, corner, closed.points);
+        worst_closed.offer(Side::closed, corner, closed.points);
         corner[k] = whole;
     }
 }

@@ -35,6 +35,9 @@ double search_bytes(std::size_t count, std::size_t dimension, unsigned threads);
 /// Offers the worst one-axis boxes of each axis and side: worse than 1/(2n), always.
 void offer_axis_boxes(const BoxGrid& grid, WorstBox& worst);
 
+/// The same with open and closed boxes apart, of which one kind may have none.
+void offer_axis_boxes(const BoxGrid& grid, WorstBox& open, WorstBox& closed);
+
 /// The upper bound, where the discrepancy on an axis is at most `times` that of anchored boxes.
 /// Below 1 for any dimension where points are many enough, but never small.
 double axis_bound(const BoxGrid& grid, double times);
@@ -55,5 +58,15 @@ SearchResult sweep_1d(const BoxGrid& grid, const RunContext& run);
 /// O(n^(4/3)) time in practice, O(n) memory; see strips.hpp. Ends early at the deadline, or when a
 /// stop is requested, with what it has.
 SearchResult sweep_2d(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run);
+
+/// The worst box of each side: too few points in an open one, too many in a closed one. Where no
+/// box of a side is so, its value is 0.
+struct WorstOfSides {
+    WorstBox open;
+    WorstBox closed;
+};
+
+/// By the same sweep. @throws Error(cancelled) when a stop is requested
+WorstOfSides worst_of_sides_2d(const BoxGrid& grid, const RunContext& run);
 
 }  // namespace stipple::discrepancy::star

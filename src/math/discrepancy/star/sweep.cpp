@@ -63,13 +63,19 @@ void sweep_parts(const Plane& points, std::vector<WorstBox>& worst, const Search
                    });
 }
 
+void need_memory_of_sweep(const BoxGrid& grid, const RunContext& run) {
+    const double each = 24 + 12 * std::min(4.0, static_cast<double>(run.thread_count()));
+    run.need_memory(each * static_cast<double>(grid.count), "the sweep over the square");
+}
+
+/// Each part takes in what lies left of it first, and has a worst box to find of its own.
+std::size_t parts_of_sweep(const BoxGrid& grid) { return grid.count < 100'000 ? 1 : 2; }
+
 }  // namespace
 
 SearchResult sweep_2d(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run) {
-    const double each = 24 + 12 * std::min(4.0, static_cast<double>(run.thread_count()));
-    run.need_memory(each * static_cast<double>(grid.count), "the sweep over the square");
-    // Each part takes in what lies left of it first, and has a worst box to find of its own.
-    const std::size_t parts = grid.count < 100'000 ? 1 : 2;
+    need_memory_of_sweep(grid, run);
+    const std::size_t parts = parts_of_sweep(grid);
     std::vector<WorstBox> worst(2 * parts, WorstBox(grid));
     bool complete = true;
     try {
@@ -84,6 +90,25 @@ SearchResult sweep_2d(const BoxGrid& grid, const SearchLimits& limits, const Run
     }
     for (std::size_t i = 1; i < worst.size(); ++i) worst[0].offer(worst[i]);
     return result_of_sweep(worst[0], complete, limits, run);
+}
+
+WorstOfSides worst_of_sides_2d(const BoxGrid& grid, const RunContext& run) {
+    need_memory_of_sweep(grid, run);
+    WorstOfSides found{.open = WorstBox(grid), .closed = WorstBox(grid)};
+    offer_axis_boxes(grid, found.open, found.closed);
+    std::vector<WorstBox> worst;
+    for (std::size_t part = 0; part < parts_of_sweep(grid); ++part) {
+        worst.push_back(found.open);
+        worst.push_back(found.closed);
+    }
+    try {
+        sweep_parts(plane(grid, run), worst, {}, run);
+    } catch (const Halt&) {  // there is no deadline: a stop was requested
+        run.check_stop();
+    }
+    for (std::size_t i = 0; i < worst.size(); ++i)
+        (i % 2 == 0 ? found.open : found.closed).offer(worst[i]);
+    return found;
 }
 
 }  // namespace stipple::discrepancy::star
