@@ -77,6 +77,9 @@ struct GeneratorTraits {
     std::string more_dimensions = {};  ///< option with a file that has more than max_dimension
 };
 
+/// What a search says of the points that it has found when it was stopped and the run keeps the best.
+inline constexpr std::pair<const char*, const char*> interrupted{"ended", "interrupted"};
+
 struct Generator {
     std::string name;
     std::string summary;

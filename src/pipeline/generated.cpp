@@ -237,7 +237,8 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
         generator_.traits.sequence ? this->side_files() : std::move(points.side_files);
     double efficiency = 1;
     if (!chain_->empty()) {
-        points = chain_for(set, run)->image(points, run.stage(1, 1), asked_.request.start);
+        const RunContext rest = run.best_is_wanted() ? unstopped(run) : run;
+        points = chain_for(set, rest)->image(points, rest.stage(1, 1), asked_.request.start);
         efficiency = points.provenance.efficiency;
     }
     if (scaling_) scaling_->apply(points.flat(), points.dimension());
@@ -245,8 +246,10 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
     points.provenance = provenance(set, points.count());
     points.provenance.efficiency = efficiency;
     if (!worked_out.empty()) points.provenance.options = std::move(worked_out);
-    // What was found is of the points in the unit cube.
-    if (!found.empty() && chain_->empty() && !scaling_) points.provenance.found = std::move(found);
+    // What was found is of the points in the unit cube, but for how the search ended.
+    if (!chain_->empty() || scaling_)
+        std::erase_if(found, [](const auto& one) { return one.first != interrupted.first; });
+    if (!found.empty()) points.provenance.found = std::move(found);
     points.side_files = std::move(side_files);
     return points;
 }

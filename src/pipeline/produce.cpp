@@ -102,6 +102,13 @@ void write_images(const std::vector<PointSet>& images, const WarpChain& chain,
     write_files(job, target, outputs, run);
 }
 
+/// The run for writing points: of a search that was stopped and has kept its best it goes on.
+RunContext run_for_writing(const PointSet& points, const RunContext& run) {
+    const bool kept = std::ranges::count(points.provenance.found,
+                                         std::pair<std::string, std::string>(interrupted)) > 0;
+    return kept ? unstopped(run) : run;
+}
+
 /// Makes and writes sets, in the memory of one.
 /// @param chain what gave them, for their density @param first_seed of the first one's name, those
 /// of the next go up; none: as their provenance says
@@ -116,7 +123,8 @@ void write_made(std::size_t sets, const MakeSet& make, const WarpChain& chain,
         for (std::size_t set = 0; set < sets; ++set) {
             if (set > 0) held[0] = make(set);
             const auto seed = first_seed ? std::optional(*first_seed + set) : std::nullopt;
-            write_images(held, chain, set, seed, target, outputs, part_of_run(run, set, sets));
+            write_images(held, chain, set, seed, target, outputs,
+                         run_for_writing(held[0], part_of_run(run, set, sets)));
         }
     } else if (traits.counts_first || traits.equal_sets || target.meta || target.take ||
                !held[0].side_files.empty()) {
@@ -396,7 +404,9 @@ class Producer {
 
     /// One set, made, warped and cut in memory.
     [[nodiscard]] PointSet made(std::size_t set) const {
-        PointSet points = sets_.made(set, part_of_run(run_, set, job_.sets));
+        RunContext run = part_of_run(run_, set, job_.sets);
+        run.keeps_best = job_.sets == 1 && target_.path != "-" && !target_.take;
+        PointSet points = sets_.made(set, run);
         const auto [first, last] = part(points.count());
         if (job_.shard.of > 1) {
             const std::size_t d = points.dimension();

@@ -305,7 +305,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
                                    weights_of(options), last);
     PointSet points(std::move(found.rows), plan.dimension);
     record(points, plan, options, judged(points, options, found.value, last));
-    if (found.stopped) points.provenance.found.emplace_back("ended", "interrupted");
+    if (found.stopped) points.provenance.found.emplace_back(interrupted);
     return points;
 }
 
