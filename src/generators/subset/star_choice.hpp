@@ -14,6 +14,8 @@
 //
 // Cost    the measures: in 6-D 2 to 50 ms each for 30 to 240 points. Some 2^12 N / 8 bytes.
 // Promise a function of the points, the start, the seed and the number of measures.
+// Beware  the exact search bounds cells by the C library's logarithms. Values do not depend on
+//         them, but which of several boxes that are equally bad is kept might, between machines.
 // Source  F. Clement, C. Doerr, L. Paquete, "Heuristic approaches to obtain low-discrepancy point
 //         sets via subset selection", J. Complexity 83 (2024) 101852, arXiv:2306.15276 (exchanges
 //         that break the worst box). The boxes that are kept: this program's own.

@@ -21,7 +21,7 @@
 //         bit, in the order in which they came; of stein with their scores.
 // Cost    kernels: N n values of K for the greedy choice, and --effort times up to 2^31 for
 //         exchanges: 512 of 2^18 points of the plane in 2.5 s on one core. star: --effort times
-//         20 s, less of few points.
+//         10 to 40 s, less of few points.
 // Promise a function of the points, the options and the seed, for any number of threads. The
 //         provenance has the value: star_discrepancy (or its bounds where it is not known), else
 //         squared; of several sets the largest and the smallest.
