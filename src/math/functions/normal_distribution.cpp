@@ -71,6 +71,11 @@ double normal_distribution(double z) {
     return z < 0 ? tail : 1 - tail;
 }
 
+double error_function(double x) {
+    if (std::abs(x) <= 15 / 32.0) return x * central_ratio(x * x);
+    return std::copysign(1 - 2 * normal_distribution(-std::numbers::sqrt2 * std::abs(x)), x);
+}
+
 void bounded_normal_quantiles(std::span<double> p) {
     std::array<double, most> x;
     for (std::size_t first = 0; first < p.size(); first += most) {

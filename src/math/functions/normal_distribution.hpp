@@ -40,6 +40,9 @@ namespace stipple {
 /// Phi(z), accurate in the lower tail, too.
 double normal_distribution(double z);
 
+/// erf(x), accurate near 0, too; within 4 units in the last place.
+double error_function(double x);
+
 namespace detail {
 
 /// Two polynomials of degree 7, from the constant term on.

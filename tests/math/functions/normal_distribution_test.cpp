@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/rng.hpp"
 #include "support/ulps.hpp"
@@ -29,6 +30,16 @@ TEST(NormalDistribution, IsWithinEightUnitsInTheLastPlace) {
 }
 
 // Printed in every table: Phi(1), Phi(-1.96), Phi(-3), Phi(-6).
+TEST(NormalDistribution, ErrorFunctionIsWithinFourUnitsInTheLastPlace) {
+    for (double x = -7; x <= 7; x += 1 / 512.0) {
+        const auto right = static_cast<double>(std::erf(static_cast<long double>(x)));
+        EXPECT_NEAR(error_function(x), right, 4 * 0x1p-53 * std::abs(right)) << x;
+    }
+    EXPECT_EQ(error_function(0), 0);
+    EXPECT_EQ(error_function(1e-300), 1e-300 * 2 * std::numbers::inv_sqrtpi);
+    EXPECT_EQ(error_function(-40), -1);
+}
+
 TEST(NormalDistribution, GivesPrintedValues) {
     EXPECT_DOUBLE_EQ(normal_distribution(1), 0.84134474606854294859);
     EXPECT_DOUBLE_EQ(normal_distribution(-1.96), 0.02499789514822044);

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+//
+// Kernel discrepancy, or maximum mean discrepancy: the largest error of the points' mean among all
+// functions of norm 1 in the Hilbert space of a kernel K. With y independent and of the target,
+//
+//     squared = E K(y, y')  -  2/n sum_i E K(x_i, y)  +  n^-2 sum_i sum_k K(x_i, x_k),
+//     value   = sqrt(squared)                                       (the V-statistic, biased).
+//
+//     periodic   prod 1 + 2 pi^2 (1/6 - t + t^2), t = |x - y|: squared is the squared diaphony
+//     gaussian   exp(-|x - y|^2 / (2 h^2))
+//     matern     prod p(a) exp(-a), a = sqrt(2 nu) t / h: a product over the axes, no function of
+//                the distance; p = 1, 1 + a, 1 + a + a^2 / 3 for nu = 1/2, 3/2, 5/2
+//     stein      the kernel Stein discrepancy, of the Langevin Stein kernel over the base kernel
+//                (1 + |x - y|^2 / h^2)^(-1/2) (math/kernels/stein.cpp); E K(x, y) = 0
+//
+// The target is the uniform distribution on the unit cube, with the expectations in closed form
+// (points of another domain are taken to the cube first); or, with --target, the points of a file;
+// or, for stein, the density whose scores grad log p stand behind the coordinates in each row.
+//
+// Shape   points n x d in [0, 1], in any domain, or with --target and stein anywhere; for stein n x
+//         2d, first d coordinates, then d scores.
+// Units   h is a length. By default sqrt(d / 6), the root mean square distance of two uniform
+//         points; with --target the median distance of all points; for stein 1.
+// Cost    n^2 / 2 values of K, with m points of a target (n + m)^2 / 2; each takes 0.5 to 2 ns in
+//         few dimensions on one core. The periodic kernel on a line or in the plane: O(n log n) for
+//         n > 4096 (math/l2). O(n) memory.
+// Promise the same for any number of threads. Values of K are added as whole numbers; `value` is
+//         off by `error` at most. 0 for points that are those of the target, in any order.
+// Beware  values of different kernels, or different h, do not compare.
+// Source  A. Gretton, K. M. Borgwardt, M. J. Rasch, B. Schoelkopf, A. Smola, J. Mach. Learn. Res.
+//         13 (2012) 723-773; J. Gorham, L. Mackey, ICML 2017, arXiv:1703.01717 (stein).
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "analyzers/analyzer.hpp"
+#include "analyzers/outside.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "io/files.hpp"
+#include "math/kernels/bandwidth.hpp"
+#include "math/kernels/pair_sums.hpp"
+#include "math/l2/squares.hpp"
+
+namespace stipple::analyzers::kernel_discrepancy {
+namespace {
+
+constexpr Param<Choice> kernel{
+    .name = "kernel",
+    .fallback = "periodic",
+    .choices = "periodic|gaussian|matern|stein",
+    .help =
+        "periodic: the diaphony's; gaussian, and matern (a product over the axes), of the length "
+        "--bandwidth; stein: rows are d coordinates, then the d scores grad log p of the target"};
+
+constexpr Param<Path> target{
+    {.name = "target",
+     .unit = "file",
+     .help = "Points to compare with; default: the uniform distribution on the unit cube"}};
+
+constexpr Param<double> bandwidth{
+    .name = "bandwidth",
+    .low = 1e-100,
+    .high = 1e100,
+    .optional = true,
+    .unit = "length",
+    .help =
+        "Length scale h of gaussian, matern and stein; default: sqrt(d/6), the root mean square "
+        "distance of two uniform points; with --target the median distance of all points; for "
+        "stein 1"};
+
+constexpr Param<Choice> smoothness{.name = "smoothness",
+                                   .fallback = "2.5",
+                                   .choices = "0.5|1.5|2.5",
+                                   .help = "The parameter nu of matern"};
+
+/// More pairs than anybody waits for; sums of them fit 128 bits.
+constexpr std::size_t max_count = std::size_t{1} << 26;
+
+/// Points to measure, and how.
+struct Setting {
+    kernels::Columns points;
+    std::size_t dimension;
+    std::optional<double> h = {};
+    const char* rule = "";  ///< where h is from
+    const char* method = "all-pairs";
+};
+
+void check_options(const Values& options) {
+    const std::string name = options[kernel];
+    if (options.given(bandwidth) && name == "periodic")
+        fail(ErrorKind::usage,
+             "--bandwidth: the kernel periodic has no length scale; gaussian, matern and stein do");
+    if (options.given(smoothness) && name != "matern")
+        fail(ErrorKind::usage, "--smoothness is of --kernel matern; this is {}", name);
+    if (options.given(target) && name == "stein")
+        fail(ErrorKind::usage,
+             "--target: the kernel stein knows its target by the scores in each row; leave "
+             "--target out, or choose another kernel");
+}
+
+/// @throws Error(input) where a number is not finite
+void require_finite(const PointSet& points, const std::string& file) {
+    const auto flat = points.flat();
+    const auto bad = std::ranges::find_if_not(flat, [](double x) { return std::isfinite(x); });
+    if (bad == flat.end()) return;
+    const auto at = static_cast<std::size_t>(bad - flat.begin());
+    fail(ErrorKind::input, "{}x{} of point {} is {}, not a finite number",
+         file.empty() ? "" : file + ": ", at % points.dimension() + 1, at / points.dimension(),
+         *bad);
+}
+
+/// The points on the unit cube, where those that follow the domain's density are uniform.
+/// @throws Error(input)
+PointSet on_cube(const PointSet& points) {
+    const Domain& domain = *points.domain;
+    if (!domain.even())
+        fail_with_hint(ErrorKind::input, "--target takes points to compare with",
+                       "kernel-discrepancy compares with the uniform distribution on the unit "
+                       "cube; no map takes {} to it evenly",
+                       domain.spec());
+    Outside outside;
+    const std::size_t d = domain.cube_dimension();
+    std::vector<double> rows(points.count() * d);
+    for (std::size_t i = 0; i < points.count(); ++i) {
+        if (!domain.contains(points[i])) {
+            outside.add(i, points[i]);
+            continue;
+        }
+        const auto row = std::span(rows).subspan(i * d, d);
+        domain.to_cube(points[i], row);
+        for (double& x : row) x = std::clamp(x, 0.0, 1.0);
+    }
+    if (outside.count > 0)
+        refuse(outside, points.count(), domain,
+               outside_hint(domain) + "; --target takes points anywhere");
+    return {std::move(rows), d};
+}
+
+/// h as it is given, or `fallback` by a rule.
+void set_bandwidth(Setting& setting, const Values& options, double fallback, const char* rule) {
+    const bool given = options.given(bandwidth);
+    setting.h = given ? options[bandwidth] : fallback;
+    setting.rule = given ? "given" : rule;
+}
+
+kernels::KernelPtr kernel_of(const Setting& setting, const Values& options) {
+    const std::string name = options[kernel];
+    if (name == "periodic") return kernels::periodic(setting.dimension);
+    if (name == "gaussian") return kernels::gaussian(setting.dimension, *setting.h);
+    if (name == "stein") return kernels::stein(setting.dimension, *setting.h);
+    const std::string nu = options[smoothness];
+    return kernels::matern(setting.dimension, *setting.h, nu == "0.5" ? 0 : nu == "1.5" ? 1 : 2);
+}
+
+/// The most that the root of a square is off which is off by `error`.
+double error_of_root(double squared, double error) {
+    if (squared > error) return std::sqrt(squared) - std::sqrt(squared - error);
+    return std::sqrt(squared + error);
+}
+
+Report report_of(const Setting& setting, const kernels::SquaredDiscrepancy& found,
+                 const char* compared, const Values& options) {
+    const double squared = std::max(found.squared, 0.0);
+    Report report;
+    report.add("value", std::sqrt(squared));
+    report.add("squared", squared);
+    report.add("expected_squared", found.expected);
+    report.add("error", error_of_root(squared, found.error));
+    report.add("kernel", options[kernel]);
+    if (setting.h) {
+        report.add("bandwidth", *setting.h);
+        report.add("bandwidth_rule", setting.rule);
+    }
+    report.add("target", compared);
+    report.add("method", setting.method);
+    return report;
+}
+
+/// The square by exact sums, where these are much sooner there than all pairs.
+std::optional<kernels::SquaredDiscrepancy> by_exact_sums(const PointSet& cube,
+                                                         const Values& options,
+                                                         const RunContext& run) {
+    constexpr std::size_t few = 4096;
+    const std::size_t d = cube.dimension();
+    if (options[kernel] != "periodic" || d > 2 || cube.count() <= few) return std::nullopt;
+    run.need_memory(static_cast<double>(cube.count()) * 48, "the sums of kernel-discrepancy");
+    const double squared = l2::plane_square(l2::plane_sums(cube, run), d, l2::Kind::diaphony, {});
+    const double one_point = kernels::periodic(d)->mean_diagonal() - 1;
+    return kernels::SquaredDiscrepancy{squared, 0x1p-50 * squared,
+                                       one_point / static_cast<double>(cube.count())};
+}
+
+Report against_uniform(const PointSet& points, const Values& options, const RunContext& run) {
+    const PointSet cube = on_cube(points);
+    const std::size_t d = cube.dimension();
+    Setting setting{.points = {cube.flat(), d}, .dimension = d};
+    if (options[kernel] != "periodic")
+        set_bandwidth(setting, options, kernels::uniform_distance(d), "uniform");
+    const bool same = points.domain->spec() == "unit-cube";
+    const char* compared = same ? "uniform" : "domain";
+    if (const auto found = by_exact_sums(cube, options, run)) {
+        setting.method = "exact-sums";
+        return report_of(setting, *found, compared, options);
+    }
+    const auto found =
+        kernels::squared_from_mean(*kernel_of(setting, options), setting.points, run);
+    return report_of(setting, found, compared, options);
+}
+
+/// @throws Error(input) for points that the periodic kernel does not take
+void require_cube(const PointSet& points, const std::string& what) {
+    for (std::size_t i = 0; i < points.count(); ++i)
+        for (const double x : points[i])
+            if (!(x >= 0 && x <= 1))
+                fail_with_hint(ErrorKind::input,
+                               "--kernel gaussian and matern take points anywhere",
+                               "{}: point {} is outside the unit cube, where the kernel periodic "
+                               "is defined; it has a coordinate {}",
+                               what, i, format_number(x));
+}
+
+Report against_file(const PointSet& points, const Values& options, const RunContext& run) {
+    const std::string file = options[target];
+    const std::size_t d = points.dimension();
+    const PointSet others = io::read_given(target.name, file, {}, run);
+    if (others.dimension() != d)
+        fail(ErrorKind::input, "{}: points of dimension {}; those to compare with it have {}", file,
+             others.dimension(), d);
+    if (others.count() > max_count)
+        fail(ErrorKind::limit, "kernel-discrepancy takes up to {} points; {} has {}", max_count,
+             file, others.count());
+    require_finite(points, "");
+    if (options[kernel] == "periodic") {
+        require_cube(points, "the points");
+        require_cube(others, file);
+    }
+    Setting setting{.points = {points.flat(), d}, .dimension = d};
+    const kernels::Columns columns(others.flat(), d);
+    if (options[kernel] != "periodic" && !options.given(bandwidth)) {
+        setting.h = kernels::median_distance(setting.points, columns, d);
+        setting.rule = "median";
+        if (!(*setting.h >= bandwidth.low && *setting.h <= bandwidth.high))
+            fail_with_hint(ErrorKind::input, "--bandwidth says a length scale",
+                           "the median distance of the points and those of {} is {}, which is no "
+                           "length scale",
+                           file, format_number(*setting.h));
+    } else if (options[kernel] != "periodic") {
+        set_bandwidth(setting, options, 0, "");
+    }
+    const auto found =
+        kernels::squared_from_points(*kernel_of(setting, options), setting.points, columns, run);
+    return report_of(setting, found, "file", options);
+}
+
+Report against_scores(const PointSet& points, const Values& options, const RunContext& run) {
+    const std::size_t width = points.dimension();
+    if (width % 2 != 0)
+        fail(ErrorKind::input,
+             "--kernel stein takes rows of d coordinates and d scores (grad log p); these have {} "
+             "number{}",
+             width, width == 1 ? "" : "s");
+    require_finite(points, "");
+    Setting setting{.points = {points.flat(), width}, .dimension = width / 2};
+    set_bandwidth(setting, options, 1, "unit");
+    const auto found =
+        kernels::squared_from_mean(*kernel_of(setting, options), setting.points, run);
+    return report_of(setting, found, "scores", options);
+}
+
+Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
+    check_options(options);
+    if (points.count() > max_count)
+        fail(ErrorKind::limit, "kernel-discrepancy takes up to {} points; these are {}", max_count,
+             points.count());
+    const auto numbers = static_cast<double>(points.count() * points.dimension());
+    run.need_memory(16 * numbers, "the columns of kernel-discrepancy");
+    if (options[kernel] == "stein") return against_scores(points, options, run);
+    return options.given(target) ? against_file(points, options, run)
+                                 : against_uniform(points, options, run);
+}
+
+}  // namespace
+
+Analyzer unit() {
+    return {
+        .name = "kernel-discrepancy",
+        .summary =
+            "Maximum mean discrepancy by a kernel: from uniform, from points, or by scores (Stein)",
+        .source = "Gretton et al. 2012, J. Mach. Learn. Res. 13, 723-773",
+        .related = {"mmd", "maximum-mean-discrepancy", "ksd", "stein", "discrepancy", "diaphony",
+                    "two-sample"},
+        .traits = {.max_dimension = 10'000, .unit_cube = false},
+        .options = Schema(kernel, target, bandwidth, smoothness),
+        .results =
+            {{"value", "the discrepancy, 0 where the points are as the target"},
+             {"squared",
+              "its square, the V-statistic: every pair counts, each point with itself, too"},
+             {"expected_squared",
+              "what `squared` is on average for as many independent points of the target (stein: "
+              "if these are such)"},
+             {"error", "the value is off by at most this, by rounding"},
+             {"kernel", "periodic, gaussian, matern or stein", true,
+              "periodic|gaussian|matern|stein"},
+             {"bandwidth", "the length scale h, not of the kernel periodic", false},
+             {"bandwidth_rule",
+              "given; or uniform: sqrt(d/6); median: the median distance of all points; unit: 1",
+              false, "given|uniform|median|unit"},
+             {"target",
+              "uniform: on the unit cube; domain: the density of the points' own domain; file: the "
+              "points of --target; scores: the density that has them",
+              true, "uniform|domain|file|scores"},
+             {"method",
+              "all-pairs, or exact-sums for the periodic kernel and many points in one and two "
+              "dimensions",
+              true, "all-pairs|exact-sums"}},
+        .analyze = analyze,
+        .cost = [](double n, double d) { return 0.5e-9 * n * n * d; }};
+}
+
+}  // namespace stipple::analyzers::kernel_discrepancy

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "generators/subset/partition.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+
+#include "core/parallel.hpp"
+#include "core/rng.hpp"
+
+namespace stipple::generators::subset {
+namespace {
+
+using kernels::Columns;
+using kernels::Kernel;
+using kernels::tile;
+
+/// The points of two sets, the first ones first, while these trade.
+class Trade {
+  public:
+    Trade(const Kernel& kernel, const Columns& points, Rows& first, Rows& second,
+          const RunContext& run)
+        : kernel_(kernel),
+          run_(run),
+          n_(first.size()),
+          rows_(joined(first, second)),
+          points_(columns_of(points, rows_)),
+          differences_(2 * n_),
+          diagonals_(2 * n_),
+          values_(2 * n_),
+          others_(2 * n_),
+          row_(points.width()) {
+        for (std::size_t x = 0; x < 2 * n_; ++x) {
+            fill(x, values_);
+            diagonals_[x] = kernel_.diagonal(row_.data());
+            largest_ = std::max(largest_, diagonals_[x]);
+            const double sign = x < n_ ? 1 : -1;
+            for (std::size_t y = 0; y < 2 * n_; ++y) differences_[y] += sign * values_[y];
+        }
+    }
+
+    /// Exchanges points until no i has a j that helps; gives their number.
+    std::size_t go() {
+        constexpr int most_sweeps = 8;
+        std::size_t all = 0;
+        for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+            std::size_t here = 0;
+            for (std::size_t i = 0; i < n_; ++i) here += exchange(i) ? 1U : 0U;
+            if (here == 0) break;
+            all += here;
+        }
+        return all;
+    }
+
+    void give(Rows& first, Rows& second) const {
+        const auto middle = rows_.begin() + static_cast<std::ptrdiff_t>(n_);
+        first.assign(rows_.begin(), middle);
+        second.assign(middle, rows_.end());
+    }
+
+  private:
+    static Rows joined(const Rows& first, const Rows& second) {
+        Rows rows = first;
+        rows.insert(rows.end(), second.begin(), second.end());
+        return rows;
+    }
+
+    /// Which columns hold a place's point: exchanges turn places, not columns.
+    void fill(std::size_t column, std::vector<double>& values) {
+        points_.row(column, row_.data());
+        for (std::size_t first = 0; first < 2 * n_; first += tile)
+            kernel_.fill(row_.data(), points_, first, std::min(tile, 2 * n_ - first),
+                         &values[first]);
+    }
+
+    /// Exchanges place i for the best place of the other set, if that helps.
+    bool exchange(std::size_t i) {
+        run_.check_stop();
+        fill(columns_[i], values_);
+        double least = 0;
+        std::size_t at = 0;
+        for (std::size_t j = n_; j < 2 * n_; ++j) {
+            const std::size_t y = columns_[j];
+            const double gain = differences_[y] + diagonals_[y] - 2 * values_[y];
+            if (at != 0 && !(gain < least)) continue;
+            least = gain;
+            at = j;
+        }
+        const std::size_t x = columns_[i];
+        if (!(least + diagonals_[x] - differences_[x] < -1e-10 * largest_)) return false;
+        fill(columns_[at], others_);
+        for (std::size_t y = 0; y < 2 * n_; ++y) differences_[y] += 2 * (others_[y] - values_[y]);
+        std::swap(columns_[i], columns_[at]);
+        std::swap(rows_[i], rows_[at]);
+        return true;
+    }
+
+    const Kernel& kernel_;
+    const RunContext& run_;
+    std::size_t n_;
+    Rows rows_;  ///< at each place
+    Columns points_;
+    Rows columns_ = places();          ///< of the point at each place
+    std::vector<double> differences_;  ///< D of each column's point
+    std::vector<double> diagonals_;
+    std::vector<double> values_;
+    std::vector<double> others_;
+    std::vector<double> row_;
+    double largest_ = 0;
+
+    [[nodiscard]] Rows places() const {
+        Rows all(2 * n_);
+        std::iota(all.begin(), all.end(), std::size_t{0});
+        return all;
+    }
+};
+
+/// All rows, dealt out at random.
+std::vector<Rows> dealt(std::size_t count, std::size_t sets, std::uint64_t seed) {
+    const Rng rng(seed, 4);
+    Rows rows(count);
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    for (std::size_t k = count; k > 1; --k)
+        std::swap(rows[k - 1], rows[static_cast<std::size_t>(rng.below(k, k))]);
+    std::vector<Rows> all(sets);
+    for (std::size_t i = 0; i < count; ++i) all[i % sets].push_back(rows[i]);
+    return all;
+}
+
+/// Who plays whom in a round of a tournament, by the circle method: the last one, of an even
+/// number, stays, the others go round.
+std::vector<std::array<std::size_t, 2>> pairs_of(std::size_t round, std::size_t sets) {
+    const std::size_t ring = sets % 2 == 0 ? sets - 1 : sets;
+    std::vector<std::array<std::size_t, 2>> pairs;
+    if (sets % 2 == 0) pairs.push_back({round % ring, sets - 1});
+    for (std::size_t k = 1; k <= (ring - 1) / 2; ++k)
+        pairs.push_back({(round + k) % ring, (round + ring - k) % ring});
+    return pairs;
+}
+
+}  // namespace
+
+std::vector<Rows> part_by_kernel(const Kernel& kernel, const Columns& points, std::size_t sets,
+                                 double values, std::uint64_t seed, const RunContext& run) {
+    std::vector<Rows> all = dealt(points.count(), sets, seed);
+    const std::size_t tournament = sets % 2 == 0 ? sets - 1 : sets;
+    const std::size_t least_rounds = std::bit_width(sets) + 1;
+    const double n = static_cast<double>(points.count() / sets);
+    const double round_values = 8 * n * n * static_cast<double>(sets / 2);
+    const auto rounds =
+        std::max<std::size_t>(least_rounds, static_cast<std::size_t>(values / round_values));
+    std::size_t idle = 0;  // rounds in a row in which nobody traded
+    for (std::size_t round = 0; round < rounds && idle < tournament; ++round) {
+        const auto pairs = pairs_of(round % tournament, sets);
+        std::vector<std::size_t> traded(pairs.size());
+        const auto at = static_cast<double>(round);
+        const auto end = static_cast<double>(rounds);
+        for_each_block(run.stage(at / end, (at + 1) / end), pairs.size(), 1,
+                       [&](const Block& block) {
+                           const auto [a, b] = pairs[block.index];
+                           Trade trade(kernel, points, all[a], all[b], run);
+                           traded[block.index] = trade.go();
+                           trade.give(all[a], all[b]);
+                       });
+        idle = std::ranges::max(traded) == 0 ? idle + 1 : 0;
+    }
+    for (Rows& rows : all) std::ranges::sort(rows);
+    return all;
+}
+
+}  // namespace stipple::generators::subset

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+//
+// Positive definite kernels K(x, y), and points stored so that loops over them vectorise.
+//
+// Promise the same bits on every machine with IEEE 754 arithmetic: subsets of points are chosen by
+//         them.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "math/l2/kinds.hpp"
+
+namespace stipple::kernels {
+
+/// Points by columns: all first coordinates, all second ones, and so on.
+class Columns {
+  public:
+    Columns(std::span<const double> rows, std::size_t width);
+
+    [[nodiscard]] std::size_t count() const { return count_; }
+    [[nodiscard]] std::size_t width() const { return width_; }
+    [[nodiscard]] const double* axis(std::size_t k) const { return numbers_.data() + k * count_; }
+
+    /// Writes point i as a row.
+    void row(std::size_t i, double* to) const {
+        for (std::size_t k = 0; k < width_; ++k) to[k] = axis(k)[i];
+    }
+
+  private:
+    std::size_t count_;
+    std::size_t width_;
+    std::vector<double> numbers_;
+};
+
+/// Points that Kernel::fill takes at a time, at most.
+inline constexpr std::size_t tile = 512;
+
+class Kernel {
+  public:
+    Kernel() = default;
+    Kernel(const Kernel&) = delete;
+    Kernel& operator=(const Kernel&) = delete;
+    virtual ~Kernel() = default;
+
+    /// values[j] = K(y, x_(first + j)) for j < count, up to `tile` of them.
+    virtual void fill(const double* y, const Columns& x, std::size_t first, std::size_t count,
+                      double* values) const = 0;
+
+    /// K(x, x)
+    [[nodiscard]] virtual double diagonal(const double* x) const = 0;
+
+    /// The mean of K(x, y) over the y of the target: the unit cube, or what scores belong to.
+    [[nodiscard]] virtual double mean(const double* x) const = 0;
+
+    /// The mean of that.
+    [[nodiscard]] virtual double total() const = 0;
+
+    /// The mean of K(x, x) over the unit cube; 0 where the target is not known.
+    [[nodiscard]] virtual double mean_diagonal() const = 0;
+
+    /// No value is off by more than this times the largest K(x, x).
+    [[nodiscard]] virtual double rounding() const = 0;
+};
+
+using KernelPtr = std::unique_ptr<const Kernel>;
+
+/// prod (1 + 2 pi^2 (1/6 - t + t^2)), t = |x - y|, on the unit cube: the diaphony's.
+KernelPtr periodic(std::size_t dimension);
+
+/// exp(-|x - y|^2 / (2 h^2))
+KernelPtr gaussian(std::size_t dimension, double bandwidth);
+
+/// prod p(a) exp(-a), a = sqrt(2 nu) |x - y| / h, with nu = 1/2, 3/2, 5/2 for the order 0, 1, 2 of
+/// p(a) = 1, 1 + a, 1 + a + a^2 / 3.
+KernelPtr matern(std::size_t dimension, double bandwidth, unsigned order);
+
+/// Of an L2 discrepancy, on the unit cube.
+KernelPtr of_l2(std::size_t dimension, l2::Kind kind);
+
+/// The Langevin Stein kernel; points have d coordinates and d scores. See stein.cpp.
+KernelPtr stein(std::size_t dimension, double bandwidth);
+
+}  // namespace stipple::kernels
