@@ -220,7 +220,7 @@ Start start_for(const Plan& plan, const Values& options, const RunContext& run) 
 }
 
 CoordinateSearch search_for(const Plan& plan, const Values& options, const RunContext& run) {
-    constexpr double usual_budget = 5e9;
+    const double usual_budget = is_l2(options) ? 5e9 : 8e9;
     const double unit = 1 / static_cast<double>(plan.count);
     const bool l2 = is_l2(options);
     CoordinateSearch search{
@@ -230,8 +230,8 @@ CoordinateSearch search_for(const Plan& plan, const Values& options, const RunCo
         .objective = [&plan, &options] { return make_objective(plan, options); },
         .start = start_for(plan, options, run),
         .from_start = {150, 0.5 * unit, 0.02 * unit, 20, 1000},
-        .from_hop = {100, 0.25 * unit, 0.02 * unit, 30, 1000},
-        .hop = unit,
+        .from_hop = {50, 0.25 * unit, 0.02 * unit, 100, 1000},
+        .hop = 1.5 * unit,
         .seed = plan.seed,
         .budget = options[effort] * usual_budget};
     if (l2) search.from_start.first_rate = search.from_hop.first_rate = 2 * unit;
