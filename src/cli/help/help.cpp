@@ -57,7 +57,7 @@ class HelpPage {
             return;
         }
         text_ += fmt::format(
-            ".TH {} {} \"\" \"stipple {}\" \"stipple manual\"\n.SH NAME\n{} \\- {}\n",
+            ".TH {} {} \"\" \"stipple {}\" \"stipple manual\"\n.ad l\n.SH NAME\n{} \\- {}\n",
             escaped(upper(name)), number, STIPPLE_VERSION, escaped(name), escaped(summary));
         if (!usage.empty()) {
             section("Synopsis");

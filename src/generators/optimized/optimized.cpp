@@ -13,8 +13,8 @@
 //                  discrepancy of three axes by all boxes, of others with boxes by those near the
 //                  worst, and of L2 kinds by all pairs of points
 //
-// Shape   n <= 2^16; d <= 6 for boxes, up to 100 for L2 kinds. The search over orders needs 8 n^2
-//         bytes a thread.
+// Shape   d <= 6 for boxes, up to 100 for L2 kinds. The search over orders needs 8 n^2 bytes a
+//         thread; one over coordinates takes up to 2^16 points.
 // Cost    a budget of steps, never the clock: some 20 s of one core by default, and more where one
 //         step of the search takes longer.
 // Promise the value in the provenance is exact, but with --weights for star in four and more
@@ -81,8 +81,6 @@ constexpr Param<Numbers> axis_weights{
              "coordinates that they bound (star), projections with theirs (L2 kinds)"}};
 constexpr Param<bool> order{.name = "order",
                             .help = "Put the points in an order whose beginnings are even, too"};
-
-constexpr std::uint64_t max_count = std::uint64_t{1} << 16;
 
 bool is_l2(const Values& options) { return options[objective].starts_with("l2-"); }
 
@@ -157,8 +155,6 @@ Plan plan(const Request& request, const Values& options) {
     if (options.given(keep) && !options.given(from))
         fail(ErrorKind::usage, "--keep is of the points of a file; give --from too");
     const Plan plan = default_plan(options.given(from) ? fitted(request, options) : request, 64);
-    if (plan.count > max_count)
-        fail(ErrorKind::usage, "optimized: {} points; up to {}", plan.count, max_count);
     if (!is_l2(options) && plan.dimension > most_box_axes)
         fail(ErrorKind::usage,
              "optimized: objective {} is for 1 to {} dimensions; L2 kinds for more",
@@ -258,7 +254,7 @@ double judged(const PointSet& points, const Values& options, double found, const
 void record(PointSet& points, const Plan& plan, const Values& options, double value) {
     std::string name = options[objective];
     std::ranges::replace(name, '-', '_');
-    const bool box = !is_l2(options) && name != "dispersion";
+    const bool box = !is_l2(options) && options[objective] != "dispersion";
     auto& found = points.provenance.found;
     found = {{is_l2(options) || box ? name + "_discrepancy" : name, format_number(value)}};
     if (options[objective] != "star" || options.given(axis_weights)) return;
@@ -283,6 +279,18 @@ std::vector<double> on_the_line(std::size_t n, bool empty) {
     return rows;
 }
 
+/// Every step of a search over coordinates takes n^2 pairs, or planes of n^2 boxes in memory.
+void check_size(const Plan& plan, const Values& options, const RunContext& run) {
+    constexpr std::uint64_t most = std::uint64_t{1} << 16;
+    const auto n = static_cast<double>(plan.count);
+    const double planes = is_l2(options) ? 0 : 4 * n * n * run.thread_count();
+    run.need_memory(planes + 200 * n * static_cast<double>(plan.dimension),
+                    "the search for coordinates");
+    if (plan.count > most)
+        fail(ErrorKind::limit, "optimized: {} points; a search over coordinates takes up to {}",
+             plan.count, most);
+}
+
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     run.tick(0, 1);
     const auto n = static_cast<double>(plan.count);
@@ -293,8 +301,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
         const double budget = options[effort] * std::min(0x1p20 * n * n, 0x1p35);
         found = least_star_discrepancy(plan.count, plan.seed, budget, run);
     } else {
-        run.need_memory(40 * n * n + 100 * n * static_cast<double>(plan.dimension),
-                        "the search for coordinates");
+        check_size(plan, options, run);
         found = search_coordinates(search_for(plan, options, run), options[objective], run);
     }
     const RunContext last = found.stopped ? unstopped(run) : run;

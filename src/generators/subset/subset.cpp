@@ -71,8 +71,8 @@ constexpr Param<Choice> by{
         "star|l2-star|l2-centered|l2-wraparound|l2-mixture|l2-average|periodic|gaussian|"
         "matern|stein",
     .help =
-        "The discrepancy that is to be small; stein: rows of --from are d coordinates, then d "
-        "scores grad log p, and are kept whole"};
+        "What is to be small; with stein, rows of --from have d coordinates, then d scores, the "
+        "gradient of log p, and stay whole"};
 
 constexpr Param<double> bandwidth{
     .name = "bandwidth",

@@ -266,7 +266,8 @@ TEST(Optimized, RefusesWhatItCannotMake) {
     EXPECT_THAT(error(points(9, 2), {{"weights", "1,0"}}), ::testing::HasSubstr("outside (0, "));
     EXPECT_THAT(error(points(9, 2), {{"weights", "1,2"}, {"objective", "dispersion"}}),
                 ::testing::HasSubstr("objective dispersion has none"));
-    EXPECT_THAT(error(points(100'000, 2), {}), ::testing::HasSubstr("up to 65536"));
+    EXPECT_EQ(error(points(100'000, 2), {{"objective", "l2-star"}}),
+              "limit: optimized: 100000 points; a search over coordinates takes up to 65536");
     EXPECT_THAT(
         error_of([] { make("optimized", points(20'000, 2), {}, {.max_memory = 1U << 30}); }),
         ::testing::HasSubstr("the search for an order needs"));
