@@ -107,11 +107,8 @@ class Population {
           inner_(run.keeps_best ? unstopped(silent(run)) : silent(run)) {}
 
     OptimizedRows best() {
-        const double start_cost = cost(search_.from_start);
         const double hop_cost = cost(search_.from_hop);
-        const double starts =
-            std::clamp(starts_share * search_.budget / start_cost, 1.0, 1e6 / start_cost + 1e4);
-        add_starts(search_.one_start ? 1 : static_cast<std::size_t>(starts));
+        make_starts();
         while (!run_.best_is_wanted() &&
                spent_ + hop_cost * static_cast<double>(all_.size()) <= search_.budget) {
             const double done = spent_ / search_.budget;
@@ -131,7 +128,21 @@ class Population {
     }
     [[nodiscard]] SplitMix64 draws() { return SplitMix64(rng_.bits(tasks_++)); }
 
-    void add_starts(std::size_t count) {
+    /// Several, or where the budget has few values in it, one with most of them.
+    void make_starts() {
+        constexpr double few = 1500;
+        const double values = search_.budget / objective_->steps();
+        if (values < few) {
+            Schedule longer = search_.from_start;
+            longer.steps = static_cast<std::size_t>(std::max(0.6 * values, 2.0));
+            return add_starts(1, longer);
+        }
+        const double starts = starts_share * search_.budget / cost(search_.from_start);
+        add_starts(search_.one_start ? 1 : static_cast<std::size_t>(std::clamp(starts, 1.0, 1e4)),
+                   search_.from_start);
+    }
+
+    void add_starts(std::size_t count, const Schedule& schedule) {
         constexpr std::size_t together = 16;
         for (std::size_t first = 0; first < count && (all_.empty() || !run_.best_is_wanted());
              first += together) {
@@ -140,7 +151,7 @@ class Population {
                 SplitMix64 own = draws();
                 rows.push_back(search_.start(i, own));
             }
-            auto found = descended(std::move(rows), search_.from_start);
+            auto found = descended(std::move(rows), schedule);
             std::ranges::move(found, std::back_inserter(all_));
             keep_best(8);
         }

@@ -215,8 +215,14 @@ Start start_for(const Plan& plan, const Values& options, const RunContext& run) 
     };
 }
 
+/// Of one value of an L2 objective.
+double l2_steps(const Plan& plan) {
+    const auto n = static_cast<double>(plan.count);
+    return n * n * static_cast<double>(plan.dimension) / 3;
+}
+
 CoordinateSearch search_for(const Plan& plan, const Values& options, const RunContext& run) {
-    const double usual_budget = is_l2(options) ? 5e9 : 8e9;
+    const double usual_budget = is_l2(options) ? std::max(5e9, 800.0 * l2_steps(plan)) : 8e9;
     const double unit = 1 / static_cast<double>(plan.count);
     const bool l2 = is_l2(options);
     CoordinateSearch search{
