@@ -27,18 +27,40 @@ struct Hit {
     bool open;
 };
 
-/// Appends to `hits` the k with values[k] * reach - counts[k] * share > least.
-STIPPLE_WIDE void find_above(const float* values, const float* counts, float reach, float share,
-                             float least, std::size_t size, std::vector<std::uint32_t>& hits) {
+/// Rows of counts, and what a box of each row has as its volume over the last coordinate and as a
+/// point's share, both with the sign of its side and its weight.
+struct Plane {
+    const float* counts;
+    std::size_t stride;
+    const float* reaches;
+    const float* shares;
+    std::size_t rows;
+};
+
+struct Place {
+    std::uint32_t row;
+    std::uint32_t column;
+};
+
+/// Writes the places with values[k] * reach - counts[k] * share > least of a plane, for k from
+/// `first` up to a multiple of 16; returns how many.
+STIPPLE_WIDE void find_above(const Plane& plane, const float* values, float least,
+                             std::size_t first, std::size_t last, std::vector<Place>& places) {
     constexpr std::size_t lanes = 64;
-    for (std::size_t first = 0; first < size; first += lanes) {
-        const std::size_t last = std::min(first + lanes, size);
-        int any = 0;
-        for (std::size_t k = first; k < last; ++k)
-            any |= int{values[k] * reach - counts[k] * share > least};
-        for (std::size_t k = first; any != 0 && k < last; ++k)
-            if (values[k] * reach - counts[k] * share > least)
-                hits.push_back(static_cast<std::uint32_t>(k));
+    for (std::size_t b = 0; b < plane.rows; ++b) {
+        const float* counts = plane.counts + b * plane.stride;
+        const float reach = plane.reaches[b];
+        const float share = plane.shares[b];
+        for (std::size_t from = first; from < last; from += lanes) {
+            const std::size_t to = std::min(from + lanes, last);
+            int any = 0;
+            for (std::size_t k = from; k < to; ++k)
+                any |= int{values[k] * reach - counts[k] * share > least};
+            for (std::size_t k = from; any != 0 && k < to; ++k)
+                if (values[k] * reach - counts[k] * share > least)
+                    places.push_back(
+                        {static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(k)});
+        }
     }
 }
 
@@ -50,7 +72,10 @@ STIPPLE_WIDE void add_one(float* counts, std::size_t size) {
 class AnchoredObjective final : public Objective {
   public:
     AnchoredObjective(const std::vector<double>& weights, std::size_t count, std::size_t dimension)
-        : n_(count), d_(dimension), stride_(count + 2) {
+        : n_(count),
+          d_(dimension),
+          width_((count + 1 + lanes - 1) / lanes * lanes),
+          stride_(width_ + lanes) {
         for (std::size_t j = 0; j < d_; ++j)
             weights_[3 - d_ + j] = weights.empty() ? 1 : static_cast<float>(weights[j]);
     }
@@ -76,6 +101,7 @@ class AnchoredObjective final : public Objective {
     }
 
   private:
+    static constexpr std::size_t lanes = 16;
     static constexpr double reach = 7;  ///< boxes whose weights are below e^-reach do not count
 
     void sort_axes(std::span<const double> rows) {
@@ -88,7 +114,8 @@ class AnchoredObjective final : public Objective {
             std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
                 return at(a) != at(b) ? at(a) < at(b) : a < b;
             });
-            values_[axis].assign(n_ + 1, 1);
+            values_[axis].assign(width_, 0);  // behind the 1 no box is above anything
+            values_[axis][n_] = 1;
             ranks_[axis].resize(n_);
             for (std::uint32_t place = 0; place < n_; ++place) {
                 values_[axis][place] = static_cast<float>(at(order[place]));
@@ -123,35 +150,40 @@ class AnchoredObjective final : public Objective {
     /// The boxes that end in a plane; adds its point to the counts.
     void look_at(std::size_t a, std::vector<float>& counts, float least,
                  std::vector<Hit>& hits) const {
-        for (std::size_t b = 0; b <= n_; ++b)
-            look_along(a, b, &counts[b * stride_], true, least, hits);
+        look_in(a, counts.data(), true, least, hits);
         if (a < n_) add(order_[0][a], counts);
-        for (std::size_t b = 0; b <= n_; ++b)
-            look_along(a, b, &counts[std::min(b + 1, n_) * stride_] + 1, false, least, hits);
+        look_in(a, counts.data(), false, least, hits);
     }
 
-    void look_along(std::size_t a, std::size_t b, const float* counts, bool open, float least,
-                    std::vector<Hit>& hits) const {
-        thread_local std::vector<std::uint32_t> found;
-        const float weight = (a < n_ ? weights_[0] : 1) * (b < n_ ? weights_[1] : 1);
-        const float sign = open ? weight : -weight;
-        const float area = (d_ == 3 ? values_[0][a] : 1) * values_[1][b];
-        const float share = sign / static_cast<float>(n_);
-        const auto take = [&](std::size_t first, std::size_t size, float times) {
-            found.clear();
-            find_above(values_[2].data() + first, counts + first, area * sign * times,
-                       share * times, least, size, found);
-            for (const std::uint32_t k : found) {
-                const std::size_t c = first + k;
-                const float value = (values_[2][c] * area * sign - counts[c] * share) * times;
-                hits.push_back({{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b),
-                                 static_cast<std::uint32_t>(c)},
-                                value,
-                                open});
+    /// Closed boxes have the counts of the next places, which behind the last are the same.
+    void look_in(std::size_t a, const float* counts, bool open, float least,
+                 std::vector<Hit>& hits) const {
+        const float weight = (a < n_ ? weights_[0] : 1) * (open ? 1 : -1);
+        const float width = d_ == 3 ? values_[0][a] : 1;
+        std::vector<float> reaches;
+        std::vector<float> shares;
+        for (std::size_t b = 0; b <= n_; ++b) {
+            const float times = weight * (b < n_ ? weights_[1] : 1);
+            reaches.push_back(width * values_[1][b] * times);
+            shares.push_back(times / static_cast<float>(n_));
+        }
+        const float* from = open ? counts : counts + stride_ + 1;
+        const auto take = [&](std::size_t first, std::size_t last, float times) {
+            for (std::size_t b = 0; times != 1 && b <= n_; ++b) {
+                reaches[b] *= times;
+                shares[b] *= times;
             }
+            std::vector<Place> places;
+            find_above({from, stride_, reaches.data(), shares.data(), n_ + 1}, values_[2].data(),
+                       least, first, last, places);
+            for (const auto& [b, c] : places)
+                hits.push_back({{static_cast<std::uint32_t>(a), b, c},
+                                values_[2][c] * reaches[b] - from[b * stride_ + c] * shares[b],
+                                open});
         };
-        take(0, n_, weights_[2]);
-        take(n_, 1, 1);
+        const bool even = weights_[2] == 1;
+        take(even ? 0 : n_, even ? width_ : n_ + 1, 1);
+        if (!even) take(0, n_, weights_[2]);
     }
 
     void put_gradient(double most, double sharpness, std::span<double> gradient) const {
@@ -181,7 +213,8 @@ class AnchoredObjective final : public Objective {
 
     std::size_t n_;
     std::size_t d_;
-    std::size_t stride_;
+    std::size_t width_;   ///< of values_, a multiple of what a vector holds
+    std::size_t stride_;  ///< of counts
     float weights_[3] = {1, 1, 1};
     double last_ = 0;  ///< value
     std::vector<std::uint32_t> order_[3];

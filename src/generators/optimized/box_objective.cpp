@@ -62,14 +62,16 @@ struct PoolBox {
     }
 };
 
-/// The search on from a box that is known.
-SearchResult worst_of_all(const BoxGrid& grid, const WorstBox& known, const RunContext& run) {
-    if (grid.family == Family::anchored)
-        return grid.dimension() == 2 ? star::sweep_2d(grid, {}, run)
-                                     : star::search(grid, known, {}, run);
+/// The search on from a box that is known, with so many comparisons.
+SearchResult worst_of_all(const BoxGrid& grid, const WorstBox& known, std::uint64_t work,
+                          const RunContext& run) {
+    const SearchLimits limits{.work = work};
+    if (grid.family == Family::anchored && grid.dimension() <= 2)
+        return grid.dimension() == 1 ? star::sweep_1d(grid, run) : star::sweep_2d(grid, {}, run);
+    if (grid.family == Family::anchored) return star::search(grid, known, limits, run);
     if (grid.measure == Measure::emptiness && grid.dimension() == 2)
         return largest_empty_rectangle(grid, {}, run);
-    return extreme::search(grid, known, {}, run);
+    return extreme::search(grid, known, limits, run);
 }
 
 class BoxObjective final : public Objective {
@@ -109,7 +111,7 @@ class BoxObjective final : public Objective {
         WorstBox known(grid);
         for (std::size_t k = 0; k < std::min<std::size_t>(pool_.size(), 8); ++k)
             known.offer(grid_box(pool_[k], grid));
-        const SearchResult found = worst_of_all(grid, known, run);
+        const SearchResult found = worst_of_all(grid, known, SearchLimits::short_work, run);
         pool_.push_back(pool_box(found.worst));
         return found.worst.value();
     }
@@ -362,10 +364,14 @@ class BoxObjective final : public Objective {
 
 }  // namespace
 
-double exact_value(const PointSet& points, Family family, bool empty, const RunContext& run) {
+Bounds bounds_of(const PointSet& points, Family family, bool empty, const RunContext& run) {
+    constexpr std::uint64_t work = std::uint64_t{1} << 37;
     const BoxGrid grid =
         box_grid(points, family, run, empty ? Measure::emptiness : Measure::discrepancy);
-    return worst_of_all(grid, WorstBox(grid), silent(run)).worst.value();
+    const SearchResult found = family == Family::anchored && grid.dimension() > 2
+                                   ? star::find_worst(grid, {.work = work}, silent(run))
+                                   : worst_of_all(grid, WorstBox(grid), work, silent(run));
+    return {found.worst.value(), std::max(found.upper, found.worst.value())};
 }
 
 std::unique_ptr<Objective> box_objective(Family family, bool empty,

@@ -132,6 +132,7 @@ class Population {
     void make_starts() {
         constexpr double few = 1500;
         const double values = search_.budget / objective_->steps();
+        if (search_.one_start) add_given();
         if (values < few) {
             Schedule longer = search_.from_start;
             longer.steps = static_cast<std::size_t>(std::max(0.6 * values, 2.0));
@@ -142,9 +143,19 @@ class Population {
                    search_.from_start);
     }
 
+    /// The start as it is.
+    void add_given() {
+        SplitMix64 own = draws();
+        OptimizedRows given{search_.start(0, own), 0};
+        std::vector<double> gradient(given.rows.size());
+        objective_->value(given.rows, 1, gradient, inner_);
+        given.value = objective_->certain_value(given.rows, gradient, inner_);
+        all_.push_back(std::move(given));
+    }
+
     void add_starts(std::size_t count, const Schedule& schedule) {
         constexpr std::size_t together = 16;
-        for (std::size_t first = 0; first < count && (all_.empty() || !run_.best_is_wanted());
+        for (std::size_t first = 0; first < count && (first == 0 || !run_.best_is_wanted());
              first += together) {
             std::vector<std::vector<double>> rows;
             for (std::size_t i = first; i < std::min(first + together, count); ++i) {
@@ -157,15 +168,22 @@ class Population {
         }
     }
 
+    /// Moves half of the points a little.
+    void disturb(std::vector<double>& rows, SplitMix64& draws) const {
+        const double reach = search_.hop * to_unit(draws.next());
+        for (std::size_t i = search_.kept; i < search_.count; ++i) {
+            if (draws.below(2) == 0) continue;
+            for (double& x : std::span(rows).subspan(i * search_.dimension, search_.dimension))
+                x = std::clamp(x + reach * (2 * to_unit(draws.next()) - 1), 0.0, one_minus_ulp);
+        }
+    }
+
     void hop() {
         std::vector<std::vector<double>> rows;
         for (const OptimizedRows& one : all_) {
             SplitMix64 own = draws();
             rows.push_back(one.rows);
-            const double reach = search_.hop * to_unit(own.next());
-            for (std::size_t i = search_.kept * search_.dimension; i < one.rows.size(); ++i)
-                rows.back()[i] = std::clamp(one.rows[i] + reach * (2 * to_unit(own.next()) - 1),
-                                            0.0, one_minus_ulp);
+            disturb(rows.back(), own);
         }
         auto found = descended(std::move(rows), search_.from_hop);
         for (std::size_t i = 0; i < all_.size(); ++i)

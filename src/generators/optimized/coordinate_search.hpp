@@ -3,7 +3,7 @@
 // A search over coordinates for points of least objective, by descents along its gradient.
 //
 // Starts    sets that are given or made, each descended from; the best are kept.
-// Hops      each that was kept is disturbed and descended from again, and takes the new set's place
+// Hops      half of the points of each are moved; a descent follows, and takes the new set's place
 //           unless that is worse; fewer and fewer are kept: 8, 4, 2, 1.
 // Descents  steps that adapt to each coordinate's gradient (Adam), shorter and shorter, while the
 //           soft maximum comes nearer to the maximum.

@@ -49,10 +49,15 @@ std::unique_ptr<Objective> l2_objective(l2::Kind kind, const l2::AxisWeights& we
 std::unique_ptr<Objective> anchored_objective(const std::vector<double>& weights, std::size_t count,
                                               std::size_t dimension);
 
+struct Bounds {
+    double lower;
+    double upper;
+};
+
 /// Of points in the unit cube: the largest discrepancy of a family of boxes, or the volume of the
-/// largest without a point.
-double exact_value(const PointSet& points, discrepancy::Family family, bool empty,
-                   const RunContext& run);
+/// largest without a point; both bounds the same unless that takes more than some minutes.
+Bounds bounds_of(const PointSet& points, discrepancy::Family family, bool empty,
+                 const RunContext& run);
 
 /// A discrepancy or, of empty boxes, the dispersion, by the boxes of a family that are near the worst.
 std::unique_ptr<Objective> box_objective(discrepancy::Family family, bool empty,

@@ -17,8 +17,10 @@
 //         thread; one over coordinates takes up to 2^16 points.
 // Cost    a budget of steps, never the clock: some 20 s of one core by default, and more where one
 //         step of the search takes longer.
-// Promise the value in the provenance is exact, but with --weights for star in four and more
-//         dimensions, where it is that of the worst box found. In the plane the star discrepancy is
+// Promise the value in the provenance is what the analyzers say, exact; with bounds where the worst
+//         box of many points in many dimensions takes too long to find. With --weights of boxes it
+//         is that of the search: to six digits in the plane and in space, beyond of the worst box
+//         that was found. In the plane the star discrepancy is
 //         the least of the points' order, to 1e-12 relatively; up to 20 points the default effort
 //         finds the optimum that is proven. A function of the request and the options, for any number
 //         of threads.
@@ -187,19 +189,22 @@ std::unique_ptr<Objective> make_objective(const Plan& plan, const Values& option
 /// The i-th start.
 using Start = std::function<std::vector<double>(std::uint64_t, SplitMix64&)>;
 
-Start start_for(const Plan& plan, const Values& options, const RunContext& run) {
+/// The rows of a file, with random ones behind them.
+Start start_from(const PointSet& points, const Plan& plan, std::size_t fixed) {
+    std::vector<double> given(points.flat().begin(), points.flat().end());
+    for (std::size_t i = fixed * plan.dimension; i < given.size(); ++i)
+        given[i] = std::min(given[i], one_minus_ulp);
+    return [given = std::move(given), size = plan.count * plan.dimension](std::uint64_t,
+                                                                          SplitMix64& draws) {
+        std::vector<double> rows = given;
+        while (rows.size() < size) rows.push_back(to_unit(draws.next()));
+        return rows;
+    };
+}
+
+Start start_without_file(const Plan& plan, const Values& options) {
     const std::size_t n = plan.count;
     const std::size_t d = plan.dimension;
-    if (options.given(from)) {
-        const PointSet points = given_points(options, run);
-        std::vector<double> given(points.flat().begin(), points.flat().end());
-        for (double& x : given) x = std::min(x, one_minus_ulp);
-        return [=](std::uint64_t, SplitMix64& draws) {
-            std::vector<double> rows = given;
-            while (rows.size() < n * d) rows.push_back(to_unit(draws.next()));
-            return rows;
-        };
-    }
     // Many points of many axes end lower from digital nets.
     const bool many = is_l2(options) && d >= 3 && n >= 256;
     const std::string spec = options.given(initial) ? options[initial]
@@ -230,19 +235,25 @@ CoordinateSearch search_for(const Plan& plan, const Values& options, const RunCo
         .dimension = plan.dimension,
         .kept = kept(options),
         .objective = [&plan, &options] { return make_objective(plan, options); },
-        .start = start_for(plan, options, run),
+        .start = {},
         .from_start = {150, 0.5 * unit, 0.02 * unit, 20, 1000},
         .from_hop = {50, 0.25 * unit, 0.02 * unit, 100, 1000},
         .hop = 1.5 * unit,
         .seed = plan.seed,
         .budget = options[effort] * usual_budget};
     if (l2) search.from_start.first_rate = search.from_hop.first_rate = 2 * unit;
-    search.one_start = options.given(from) && !options.given(keep);
+    if (!options.given(from)) {
+        search.start = start_without_file(plan, options);
+        return search;
+    }
+    const PointSet points = given_points(options, run);
+    search.start = start_from(points, plan, kept(options));
+    search.one_start = points.count() == plan.count;
     return search;
 }
 
 /// What the analyzers say of the points; that of the search where there are weights on boxes.
-double judged(const PointSet& points, const Values& options, double found, const RunContext& run) {
+Bounds judged(const PointSet& points, const Values& options, double found, const RunContext& run) {
     const std::string what = options[objective];
     const std::size_t d = points.dimension();
     const std::vector<double> weights = weights_of(options);
@@ -251,21 +262,26 @@ double judged(const PointSet& points, const Values& options, double found, const
         const double square = d <= 2
                                   ? l2::plane_square(l2::plane_sums(points, run), d, kind, weights)
                                   : l2::pair_square(points, kind, weights, run).squared;
-        return std::sqrt(std::max(square, 0.0));
+        const double value = std::sqrt(std::max(square, 0.0));
+        return {value, value};
     }
-    if (!weights.empty()) return found;
-    return exact_value(points, family_of(options), what == "dispersion", run);
+    if (!weights.empty()) return {found, found};
+    return bounds_of(points, family_of(options), what == "dispersion", run);
 }
 
-void record(PointSet& points, const Plan& plan, const Values& options, double value) {
+void record(PointSet& points, const Plan& plan, const Values& options, const Bounds& value) {
     std::string name = options[objective];
     std::ranges::replace(name, '-', '_');
     const bool box = !is_l2(options) && options[objective] != "dispersion";
     auto& found = points.provenance.found;
-    found = {{is_l2(options) || box ? name + "_discrepancy" : name, format_number(value)}};
+    if (is_l2(options) || box) name += "_discrepancy";
+    found = {{name, format_number(value.lower)}};
+    if (value.upper > value.lower)
+        found = {{name + "_lower", format_number(value.lower)},
+                 {name + "_upper", format_number(value.upper)}};
     if (options[objective] != "star" || options.given(axis_weights)) return;
     const auto known = published_star(plan.count, plan.dimension);
-    const bool proven = known && known->optimal && value <= known->value + 5.1e-5;
+    const bool proven = known && known->optimal && value.upper <= known->value + 5.1e-5;
     if (is_known(plan, options) || proven)
         found.emplace_back("certificate", "optimal");
     else if (by_orders(plan, options))
