@@ -117,7 +117,8 @@ class BoxObjective final : public Objective {
     }
 
     [[nodiscard]] double steps() const override {
-        return (ascents * 10 + 200.0) * static_cast<double>(n_ * d_) / 4;
+        return 500.0 *
+               static_cast<double>(n_ * d_);  // with the search for the worst box now and then
     }
 
   private:
