@@ -37,6 +37,7 @@
 #include "generators/box_space.hpp"
 #include "generators/density_options.hpp"
 #include "generators/generator.hpp"
+#include "generators/given_points.hpp"
 #include "io/files.hpp"
 #include "math/combinatorics/draws.hpp"
 
@@ -102,9 +103,7 @@ Plan plan_for_file(const Request& request, const Values& options) {
              "--density is followed by random points; those of --from are as dense as they are");
     const PointSet points = points_of_file(options, {});
     const std::size_t d = points.dimension();
-    if (request.dimension.value_or(d) != d)
-        fail(ErrorKind::usage, "--dimension: {}, but {} has points of {} coordinates",
-             *request.dimension, options[from], d);
+    require_dimension(request, points, options[from]);
     Request complete = request;
     complete.dimension = d;
     if (!request.count) complete.count = std::max<std::uint64_t>(1, points.count() / 5);

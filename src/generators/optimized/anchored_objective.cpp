@@ -9,12 +9,12 @@
 // counts of a plane in memory. With weights w_j >= 0 a box counts with the product of those of the
 // axes on which it does not end at 1.
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 #include "core/machine/wide.hpp"
 #include "core/parallel.hpp"
 #include "generators/optimized/objective.hpp"
+#include "math/combinatorics/order.hpp"
 #include "math/functions/exponential.hpp"
 
 namespace stipple::optimized {
@@ -42,8 +42,8 @@ struct Place {
     std::uint32_t column;
 };
 
-/// Writes the places with values[k] * reach - counts[k] * share > least of a plane, for k from
-/// `first` up to a multiple of 16; returns how many.
+/// Appends the places of a plane with values[k] * reach - counts[k] * share > least, for k in
+/// [first, last).
 STIPPLE_WIDE void find_above(const Plane& plane, const float* values, float least,
                              std::size_t first, std::size_t last, std::vector<Place>& places) {
     constexpr std::size_t lanes = 64;
@@ -107,13 +107,8 @@ class AnchoredObjective final : public Objective {
     void sort_axes(std::span<const double> rows) {
         for (std::size_t axis = 3 - d_; axis < 3; ++axis) {
             const std::size_t j = axis + d_ - 3;
-            auto& order = order_[axis];
-            order.resize(n_);
-            std::iota(order.begin(), order.end(), 0U);
             const auto at = [&](std::uint32_t i) { return rows[i * d_ + j]; };
-            std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
-                return at(a) != at(b) ? at(a) < at(b) : a < b;
-            });
+            const auto& order = order_[axis] = order_by(n_, at);
             values_[axis].assign(width_, 0);  // behind the 1 no box is above anything
             values_[axis][n_] = 1;
             ranks_[axis].resize(n_);

@@ -10,15 +10,13 @@
 // boxes that belong into it: they take the worst interval on one axis after the other until none is
 // worse. So the value is that of the worst box which was found, a lower bound.
 #include <algorithm>
-#include <limits>
 #include <numeric>
-#include <set>
 #include <vector>
 
 #include "core/machine/wide.hpp"
 #include "core/parallel.hpp"
-#include "core/rng.hpp"
 #include "generators/optimized/objective.hpp"
+#include "math/combinatorics/order.hpp"
 #include "math/combinatorics/splitmix64.hpp"
 #include "math/discrepancy/empty_rectangle.hpp"
 #include "math/discrepancy/extreme/search.hpp"
@@ -66,9 +64,7 @@ struct PoolBox {
 SearchResult worst_of_all(const BoxGrid& grid, const WorstBox& known, std::uint64_t work,
                           const RunContext& run) {
     const SearchLimits limits{.work = work};
-    if (grid.family == Family::anchored && grid.dimension() <= 2)
-        return grid.dimension() == 1 ? star::sweep_1d(grid, run) : star::sweep_2d(grid, {}, run);
-    if (grid.family == Family::anchored) return star::search(grid, known, limits, run);
+    if (grid.family == Family::anchored) return star::sweep_or_search(grid, known, limits, run);
     if (grid.measure == Measure::emptiness && grid.dimension() == 2)
         return largest_empty_rectangle(grid, {}, run);
     return extreme::search(grid, known, limits, run);
@@ -98,13 +94,12 @@ class BoxObjective final : public Objective {
         return most;
     }
 
-    double certain_value(std::span<const double> rows, std::span<double> /*gradient*/,
+    double certain_value(std::span<const double> rows, double /*known*/,
                          const RunContext& run) override {
         if (std::ranges::any_of(weights_, [](double w) { return w != 1; })) {
             for (int k = 0; k < 20; ++k) ascend(1e6);
             return pool_.front().value;
         }
-        put_columns(rows);
         const PointSet points(std::vector<double>(rows.begin(), rows.end()), d_);
         const BoxGrid grid =
             box_grid(points, family_, run, empty_ ? Measure::emptiness : Measure::discrepancy);
@@ -117,8 +112,7 @@ class BoxObjective final : public Objective {
     }
 
     [[nodiscard]] double steps() const override {
-        return 500.0 *
-               static_cast<double>(n_ * d_);  // with the search for the worst box now and then
+        return 500.0 * static_cast<double>(n_ * d_);  // the exact search now and then included
     }
 
   private:
@@ -159,13 +153,7 @@ class BoxObjective final : public Objective {
         for (std::size_t j = 0; j < d_; ++j) {
             columns_[j].resize(n_);
             for (std::size_t i = 0; i < n_; ++i) columns_[j][i] = rows[i * d_ + j];
-            auto& order = order_[j];
-            order.resize(n_);
-            std::iota(order.begin(), order.end(), 0U);
-            const auto& x = columns_[j];
-            std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
-                return x[a] != x[b] ? x[a] < x[b] : a < b;
-            });
+            order_[j] = order_by(n_, [&](std::uint32_t i) { return columns_[j][i]; });
         }
     }
 
@@ -215,15 +203,12 @@ class BoxObjective final : public Objective {
         }
     }
 
-    [[nodiscard]] double value_with(const PoolBox& box, std::int64_t points) const {
+    double value_of(const PoolBox& box) {
+        mark_inside(box, d_);
+        const auto points = std::accumulate(inside_.begin(), inside_.end(), std::int64_t{0});
         if (empty_) return points > 0 ? 0 : volume(box);
         const double share = static_cast<double>(points) / static_cast<double>(n_);
         return weight(box) * (box.open ? volume(box) - share : share - volume(box));
-    }
-
-    double value_of(const PoolBox& box) {
-        mark_inside(box, d_);
-        return value_with(box, std::accumulate(inside_.begin(), inside_.end(), std::int64_t{0}));
     }
 
     /// Takes the worst interval on an axis with the others fixed; true if the box got worse.

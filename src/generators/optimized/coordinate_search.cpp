@@ -82,7 +82,7 @@ OptimizedRows descend(std::vector<double> rows, const CoordinateSearch& search,
             adam.step(rows, gradient, next_rate(), search.kept * search.dimension);
         }
         const double known = objective->value(rows, 1e6, gradient, run);
-        const double value = objective->certain_value(rows, gradient, run);
+        const double value = objective->certain_value(rows, known, run);
         if (value < best.value) best = {rows, value};
         return value <= near * known;
     };
@@ -104,7 +104,7 @@ class Population {
           rng_(search.seed),
           objective_(search.objective()),
           run_(run),
-          inner_(run.keeps_best ? unstopped(silent(run)) : silent(run)) {}
+          inner_(until_best_is_wanted(silent(run))) {}
 
     OptimizedRows best() {
         const double hop_cost = cost(search_.from_hop);
@@ -148,8 +148,8 @@ class Population {
         SplitMix64 own = draws();
         OptimizedRows given{search_.start(0, own), 0};
         std::vector<double> gradient(given.rows.size());
-        objective_->value(given.rows, 1, gradient, inner_);
-        given.value = objective_->certain_value(given.rows, gradient, inner_);
+        const double known = objective_->value(given.rows, 1, gradient, inner_);
+        given.value = objective_->certain_value(given.rows, known, inner_);
         all_.push_back(std::move(given));
     }
 
@@ -200,10 +200,8 @@ class Population {
         });
         spent_ += cost(schedule) * static_cast<double>(rows.size());
         for (const OptimizedRows& one : found) least_ = std::min(least_, one.value);
-        constexpr std::uint64_t parts = 10'000;
-        const RunContext shown = run_.keeps_best ? unstopped(run_) : run_;
-        shown.tick(static_cast<std::uint64_t>(std::min(1.0, spent_ / search_.budget) * parts),
-                   parts, fmt::format("{} {:.6g}", words_, objective_->reported(least_)));
+        report_search(run_, spent_ / search_.budget,
+                      fmt::format("{} {:.6g}", words_, objective_->reported(least_)));
         return found;
     }
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "generators/optimized/objective.hpp"
+#include "generators/optimized/search_run.hpp"
 #include "math/combinatorics/splitmix64.hpp"
 #include "stipple/run.hpp"
 
@@ -45,12 +46,6 @@ struct CoordinateSearch {
     std::uint64_t seed;
     double budget;           ///< in steps of the objective
     bool one_start = false;  ///< all starts are the same
-};
-
-struct OptimizedRows {
-    std::vector<double> rows;
-    double value = 0;
-    bool stopped = false;  ///< before the budget was used up, since the run keeps the best
 };
 
 /// Reports progress with the least value so far, as reports have it, behind `words`.

@@ -28,10 +28,11 @@ class Objective {
     virtual double value(std::span<const double> rows, double sharpness, std::span<double> gradient,
                          const RunContext& run) = 0;
 
-    /// The value for sure, where value() may miss the worst; value() knows then what that is.
-    virtual double certain_value(std::span<const double> rows, std::span<double> gradient,
-                                 const RunContext& run) {
-        return value(rows, 1e6, gradient, run);
+    /// The value for sure of points whose value() came last and was `known`, where that may miss the
+    /// worst; the next one knows then what that is.
+    virtual double certain_value(std::span<const double> /*rows*/, double known,
+                                 const RunContext& /*run*/) {
+        return known;
     }
 
     /// Steps that one value takes, of which one core does some 10^9 a second.

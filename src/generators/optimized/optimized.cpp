@@ -36,6 +36,7 @@
 #include "core/rng.hpp"
 #include "core/text.hpp"
 #include "generators/generator.hpp"
+#include "generators/given_points.hpp"
 #include "generators/optimized/coordinate_search.hpp"
 #include "generators/optimized/even_order.hpp"
 #include "generators/optimized/order_search.hpp"
@@ -111,11 +112,7 @@ std::size_t kept(const Values& options) {
 
 PointSet given_points(const Values& options, const RunContext& run) {
     PointSet points = io::read_given(from.name, options[from], {}, run);
-    for (std::size_t i = 0; i < points.count(); ++i)
-        for (const double x : points[i])
-            if (!(x >= 0 && x <= 1))
-                fail(ErrorKind::input, "{}: point {} is outside the unit cube; a coordinate is {}",
-                     options[from], i, format_number(x));
+    require_in_cube(points, options[from]);
     return points;
 }
 
@@ -124,9 +121,7 @@ Request fitted(Request request, const Values& options) {
     if (options.given(initial))
         fail(ErrorKind::usage, "--initial and --from are two ways to start; give one");
     const PointSet points = given_points(options, {});
-    if (request.dimension.value_or(points.dimension()) != points.dimension())
-        fail(ErrorKind::usage, "--dimension: {}, but {} has points of {} coordinates",
-             *request.dimension, options[from], points.dimension());
+    require_dimension(request, points, options[from]);
     request.dimension = points.dimension();
     if (!request.count) request.count = points.count();
     if (*request.count < points.count())

@@ -11,10 +11,13 @@
 #include "core/rng.hpp"
 #include "core/text.hpp"
 #include "generators/optimized/planar_order.hpp"
+#include "math/combinatorics/order.hpp"
 
 namespace stipple {
 namespace {
 
+using optimized::report_search;
+using optimized::until_best_is_wanted;
 using Ranks = PlanarOrder::Ranks;
 
 const double golden = (std::sqrt(5.0) - 1) / 2;
@@ -39,12 +42,7 @@ double unit(SplitMix64& draws) { return to_unit(draws.next()); }
 /// The order of points with different coordinates.
 Ranks order_of(const std::vector<double>& x, const std::vector<double>& y) {
     const auto sorted = [](const std::vector<double>& values) {
-        std::vector<std::uint32_t> order(values.size());
-        std::iota(order.begin(), order.end(), 0U);
-        std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
-            return values[a] != values[b] ? values[a] < values[b] : a < b;
-        });
-        return order;
+        return order_by(values.size(), [&](std::uint32_t i) { return values[i]; });
     };
     const auto by_x = sorted(x);
     const auto by_y = sorted(y);
@@ -158,7 +156,7 @@ class OrderSearch {
           rng_(seed),
           budget_(budget),
           run_(run),
-          inner_(run.keeps_best ? unstopped(silent(run)) : silent(run)) {}
+          inner_(until_best_is_wanted(silent(run))) {}
 
     Ranks best() {
         make_starts();
@@ -207,8 +205,7 @@ class OrderSearch {
         std::vector<SplitMix64> streams;
         for (std::size_t i = 0; i < all.size(); ++i) streams.push_back(draws());
         std::vector<double> steps(all.size());
-        const RunContext shown = run_.stage(0, 0.1);
-        for_each_block(run_.keeps_best ? unstopped(shown) : shown, all.size(), 1,
+        for_each_block(until_best_is_wanted(run_.stage(0, 0.1)), all.size(), 1,
                        [&](const Block& block) {
                            if (block.index > 0 && run_.best_is_wanted()) return;
                            SplitMix64 own = streams[block.index];
@@ -244,10 +241,8 @@ class OrderSearch {
         spent_ += std::accumulate(steps.begin(), steps.end(), 0.0);
         const double level = std::ranges::min_element(all, better)->level;
         least_ = least_ > 0 ? std::min(least_, level) : level;
-        constexpr std::uint64_t parts = 10'000;
-        const RunContext shown = run_.keeps_best ? unstopped(run_) : run_;
-        shown.tick(static_cast<std::uint64_t>(std::min(1.0, spent_ / budget_) * parts), parts,
-                   fmt::format("star discrepancy {:.6f}", least_ / static_cast<double>(n_)));
+        report_search(run_, spent_ / budget_,
+                      fmt::format("star discrepancy {:.6f}", least_ / static_cast<double>(n_)));
     }
 
     std::size_t n_;
@@ -272,7 +267,7 @@ optimized::OptimizedRows least_star_discrepancy(std::size_t n, std::uint64_t see
     own.threads = static_cast<unsigned>(std::min(static_cast<double>(run.memory_left()) / bytes,
                                                  static_cast<double>(run.thread_count())));
     const Ranks ranks = n > 1 ? OrderSearch(n, seed, budget, own).best() : Ranks{0};
-    PlanarOrder order(ranks, run.keeps_best ? unstopped(run) : run);
+    PlanarOrder order(ranks, until_best_is_wanted(run));
     return {order.points(), order.level() / size, run.best_is_wanted()};
 }
 

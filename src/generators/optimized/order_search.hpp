@@ -14,7 +14,7 @@
 #pragma once
 
 #include <cstdint>
-#include "generators/optimized/coordinate_search.hpp"
+#include "generators/optimized/search_run.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple {

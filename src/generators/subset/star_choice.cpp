@@ -47,14 +47,6 @@ PointSet set_of(const PointSet& points, const Rows& rows) {
 /// Comparisons of coordinates that one measure may take while sets are compared.
 constexpr std::uint64_t work_of_measure = std::uint64_t{1} << 30;
 
-discrepancy::SearchResult search(const discrepancy::BoxGrid& grid, discrepancy::WorstBox worst,
-                                 std::uint64_t work, const RunContext& run) {
-    const discrepancy::SearchLimits limits{.work = work};
-    if (grid.dimension() == 1) return discrepancy::star::sweep_1d(grid, run);
-    if (grid.dimension() == 2) return discrepancy::star::sweep_2d(grid, limits, run);
-    return discrepancy::star::search(grid, std::move(worst), limits, run);
-}
-
 /// The worst box, or one that is as bad as `enough`.
 Measured measure(const PointSet& set, double enough, const RunContext& run) {
     const auto grid = discrepancy::box_grid(set, discrepancy::Family::anchored, run);
@@ -68,7 +60,8 @@ Measured measure(const PointSet& set, double enough, const RunContext& run) {
         worst = discrepancy::ascend(grid, {.work = some}, run).worst;
         if (worst.value() >= enough) return told(worst, false);
     }
-    const auto found = search(grid, std::move(worst), work_of_measure, run);
+    const auto found =
+        discrepancy::star::sweep_or_search(grid, std::move(worst), {.work = work_of_measure}, run);
     run.check_stop();
     return told(found.worst, true);
 }
@@ -393,7 +386,8 @@ StarBounds star_discrepancy(const PointSet& points, const Rows& rows, const RunC
     const auto grid = discrepancy::box_grid(set, discrepancy::Family::anchored, run);
     discrepancy::WorstBox worst(grid);
     if (grid.dimension() > 2) worst = discrepancy::ascend(grid, {}, run).worst;
-    const auto found = search(grid, std::move(worst), work, run);
+    const auto found =
+        discrepancy::star::sweep_or_search(grid, std::move(worst), {.work = work}, run);
     run.check_stop();
     const bool known = found.ending == discrepancy::Ending::complete;
     return {found.worst.value(), known ? found.worst.value() : found.upper};

@@ -35,6 +35,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "generators/generator.hpp"
+#include "generators/given_points.hpp"
 #include "generators/subset/partition.hpp"
 #include "generators/subset/star_choice.hpp"
 #include "io/files.hpp"
@@ -188,16 +189,6 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-/// @throws Error(input) naming the first point outside the unit cube
-void check_inside(const PointSet& points, const std::string& file) {
-    for (std::size_t i = 0; i < points.count(); ++i)
-        for (const double x : points[i])
-            if (!(x >= 0 && x <= 1))
-                fail_with_hint(ErrorKind::input, "--by stein takes points anywhere",
-                               "{}: point {} is outside the unit cube; it has a coordinate {}",
-                               file, i, format_number(x));
-}
-
 PointSet points_for(const Plan& plan, const Values& options, const RunContext& run) {
     const auto needed = [&](double count) {
         const auto d = static_cast<double>(plan.dimension);
@@ -208,7 +199,8 @@ PointSet points_for(const Plan& plan, const Values& options, const RunContext& r
     if (options.given(from)) {
         PointSet points = points_of_file(options, run);
         needed(static_cast<double>(points.count()));
-        if (!is_stein(options)) check_inside(points, options[from]);
+        if (!is_stein(options))
+            require_in_cube(points, options[from], "--by stein takes points anywhere");
         return points;
     }
     const std::uint64_t all = candidates_for(plan.count, options);

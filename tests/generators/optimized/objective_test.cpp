@@ -86,7 +86,7 @@ TEST(BoxObjective, FindsTheWorstBoxOfEveryFamily) {
             const auto objective = box_objective(family, empty, {}, 30, 2);
             std::vector<double> gradient(60);
             const double found = objective->value(set.flat(), 1000, gradient, {});
-            EXPECT_DOUBLE_EQ(objective->certain_value(set.flat(), gradient, {}),
+            EXPECT_DOUBLE_EQ(objective->certain_value(set.flat(), found, {}),
                              bounds_of(set, family, empty, {}).upper);
             expect_gradient(*objective, set, 1e7, 1e-3);
             return found;

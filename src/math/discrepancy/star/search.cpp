@@ -109,6 +109,13 @@ SearchResult search(const BoxGrid& grid, WorstBox worst, const SearchLimits& lim
     return found;
 }
 
+SearchResult sweep_or_search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits,
+                             const RunContext& run) {
+    if (grid.dimension() == 1) return sweep_1d(grid, run);
+    if (grid.dimension() == 2) return sweep_2d(grid, limits, run);
+    return search(grid, std::move(worst), limits, run);
+}
+
 SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
                         Peers* peers) {
     const Ascent first = ascend(grid, limits, run);

@@ -17,6 +17,10 @@ namespace stipple::discrepancy::star {
 SearchResult search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits,
                     const RunContext& run, Peers* peers = nullptr);
 
+/// The same, by a sweep in one and two dimensions, where nothing need be known.
+SearchResult sweep_or_search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits,
+                             const RunContext& run);
+
 /// The same from nothing: coordinate ascents first, which are a part of the work.
 SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
                         Peers* peers = nullptr);

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// What searches for optimized sets give, and how they report progress and end when they are stopped.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "stipple/run.hpp"
+
+namespace stipple::optimized {
+
+struct OptimizedRows {
+    std::vector<double> rows;
+    double value = 0;
+    bool stopped = false;  ///< before the budget was used up, since the run keeps the best
+};
+
+/// The run, which goes on when a stop is requested if it keeps the best: searches look for that.
+inline RunContext until_best_is_wanted(const RunContext& run) {
+    return run.keeps_best ? unstopped(run) : run;
+}
+
+/// Reports that so much of the budget is used up.
+inline void report_search(const RunContext& run, double share, const std::string& words) {
+    constexpr std::uint64_t parts = 10'000;
+    until_best_is_wanted(run).tick(static_cast<std::uint64_t>(std::min(1.0, share) * parts), parts,
+                                   words);
+}
+
+}  // namespace stipple::optimized
