@@ -105,7 +105,7 @@ class BoxObjective final : public Objective {
             box_grid(points, family_, run, empty_ ? Measure::emptiness : Measure::discrepancy);
         WorstBox known(grid);
         for (std::size_t k = 0; k < std::min<std::size_t>(pool_.size(), 8); ++k)
-            known.offer(grid_box(pool_[k], grid));
+            if (!grid.torus() || ends_at_points(pool_[k])) known.offer(grid_box(pool_[k], grid));
         const SearchResult found = worst_of_all(grid, known, SearchLimits::short_work, run);
         pool_.push_back(pool_box(found.worst));
         return found.worst.value();
@@ -134,6 +134,13 @@ class BoxObjective final : public Objective {
         return of;
     }
 
+    /// The torus has no rim for the grid: boxes that end there are other ways to say the same.
+    [[nodiscard]] bool ends_at_points(const PoolBox& box) const {
+        return std::ranges::none_of(box.axes, [&](const Sides& sides) {
+            return sides.lower == rim_ || sides.upper == rim_;
+        });
+    }
+
     /// With points at its sides.
     [[nodiscard]] PoolBox pool_box(const WorstBox& worst) const {
         PoolBox box{.open = !worst.closed()};
@@ -149,10 +156,15 @@ class BoxObjective final : public Objective {
         return box;
     }
 
+    /// On the torus 1 is 0, as in the grid of boxes.
+    [[nodiscard]] double place(double x) const {
+        return family_ == Family::torus && x == 1 ? 0 : x;
+    }
+
     void put_columns(std::span<const double> rows) {
         for (std::size_t j = 0; j < d_; ++j) {
             columns_[j].resize(n_);
-            for (std::size_t i = 0; i < n_; ++i) columns_[j][i] = rows[i * d_ + j];
+            for (std::size_t i = 0; i < n_; ++i) columns_[j][i] = place(rows[i * d_ + j]);
             order_[j] = order_by(n_, [&](std::uint32_t i) { return columns_[j][i]; });
         }
     }

@@ -101,4 +101,23 @@ TEST(BoxObjective, FindsTheWorstBoxOfEveryFamily) {
     }
 }
 
+// On the torus 1 is 0, and boxes around the whole of an axis have no side among the points.
+TEST(BoxObjective, OfFewPointsAndOfPointsAtOneIsRight) {
+    for (const Family family : {Family::anchored, Family::cube, Family::torus})
+        for (const std::size_t n : {1, 2, 3, 4})
+            for (const std::uint64_t seed : {1, 2, 3}) {
+                PointSet set = random_set(n, 3, seed);
+                if (seed > 1) set[0][seed % 3] = 1;
+                if (seed > 2) set[n - 1][2] = 0;
+                const auto objective = box_objective(family, false, {}, n, 3);
+                std::vector<double> gradient(3 * n);
+                for (const double sharpness : {1., 20., 1000.}) {
+                    const double found = objective->value(set.flat(), sharpness, gradient, {});
+                    const double worst = bounds_of(set, family, false, {}).upper;
+                    EXPECT_LE(found, worst * (1 + 1e-12));
+                    EXPECT_DOUBLE_EQ(objective->certain_value(set.flat(), found, {}), worst);
+                }
+            }
+}
+
 }  // namespace stipple::testing::objective_test
