@@ -42,21 +42,29 @@ struct Place {
     std::uint32_t column;
 };
 
+/// Whether values[k] * reach - counts[k] * share > least for a k in [first, last).
+inline bool any_above(const float* values, const float* counts, float reach, float share,
+                      float least, std::size_t first, std::size_t last) {
+    int any = 0;
+    for (std::size_t k = first; k < last; ++k)
+        any |= int{values[k] * reach - counts[k] * share > least};
+    return any != 0;
+}
+
 /// Appends the places of a plane with values[k] * reach - counts[k] * share > least, for k in
-/// [first, last).
+/// [first, last): most rows have none.
 STIPPLE_WIDE void find_above(const Plane& plane, const float* values, float least,
                              std::size_t first, std::size_t last, std::vector<Place>& places) {
-    constexpr std::size_t lanes = 64;
+    constexpr std::size_t lanes = 32;
     for (std::size_t b = 0; b < plane.rows; ++b) {
         const float* counts = plane.counts + b * plane.stride;
         const float reach = plane.reaches[b];
         const float share = plane.shares[b];
+        if (!any_above(values, counts, reach, share, least, first, last)) continue;
         for (std::size_t from = first; from < last; from += lanes) {
             const std::size_t to = std::min(from + lanes, last);
-            int any = 0;
+            if (!any_above(values, counts, reach, share, least, from, to)) continue;
             for (std::size_t k = from; k < to; ++k)
-                any |= int{values[k] * reach - counts[k] * share > least};
-            for (std::size_t k = from; any != 0 && k < to; ++k)
                 if (values[k] * reach - counts[k] * share > least)
                     places.push_back(
                         {static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(k)});
@@ -83,12 +91,13 @@ class AnchoredObjective final : public Objective {
     double value(std::span<const double> rows, double sharpness, std::span<double> gradient,
                  const RunContext& run) override {
         sort_axes(rows);
-        if (last_ == 0) last_ = 1 / static_cast<double>(n_);
+        if (last_ == 0) last_ = static_cast<double>(d_ + 1) / static_cast<double>(n_);  // a guess
         double most = 0;
         for (double least = last_ * (1 - reach / sharpness); most == 0; least *= 0.8) {
             look(static_cast<float>(std::max(least, 0.0)), run);
-            for (const auto& block : hits_)
-                for (const Hit& hit : block) most = std::max(most, static_cast<double>(hit.value));
+            for (const Part& part : parts_)
+                for (const Hit& hit : part.hits)
+                    most = std::max(most, static_cast<double>(hit.value));
         }
         last_ = most;
         put_gradient(most, sharpness / most, gradient);
@@ -97,11 +106,21 @@ class AnchoredObjective final : public Objective {
 
     [[nodiscard]] double steps() const override {
         const auto size = static_cast<double>(n_ + 1);
-        return size * (size * (d_ == 3 ? size : 1) / 4 + 300);
+        return d_ == 3 ? size * size * (20 + size / 9) : size * (size / 4 + 300);
     }
 
   private:
     static constexpr std::size_t lanes = 16;
+
+    /// What a thread finds in its planes, and finds it with.
+    struct Part {
+        std::vector<float> counts;
+        std::vector<float> reaches;
+        std::vector<float> shares;
+        std::vector<Place> places;
+        std::vector<Hit> hits;
+    };
+
     static constexpr double reach = 7;  ///< boxes whose weights are below e^-reach do not count
 
     void sort_axes(std::span<const double> rows) {
@@ -119,21 +138,25 @@ class AnchoredObjective final : public Objective {
         }
     }
 
-    /// Finds all boxes above `least`, by planes of the first axis; in the plane there is one.
+    /// Finds all boxes above `least`, by planes of the first axis; in the plane there is one. A part
+    /// of the planes begins by counting the points before it, so there are no more than threads.
     void look(float least, const RunContext& run) {
-        constexpr std::size_t many = 100;
+        constexpr std::size_t few = 100;
         const std::size_t planes = d_ == 3 ? n_ + 1 : 1;
-        const std::size_t together = planes > many ? planes / 8 + 1 : planes;
-        hits_.assign(block_count(planes, together), {});
-        for_each_block(silent(worth_threads(run, steps() * 1e-9)), planes, together,
-                       [&](const Block& block) {
-                           std::vector<float> counts((n_ + 2) * stride_);
-                           const std::size_t shift = n_ + 1 - planes;
-                           for (std::uint32_t i = 0; i < n_; ++i)
-                               if (d_ == 2 || ranks_[0][i] < block.first) add(i, counts);
-                           for (std::uint64_t a = block.first; a < block.last; ++a)
-                               look_at(a + shift, counts, least, hits_[block.index]);
-                       });
+        const RunContext inner = silent(worth_threads(run, steps() * 1e-9));
+        const std::size_t parts = planes < few ? 1 : inner.thread_count();
+        const std::size_t together = (planes + parts - 1) / parts;
+        parts_.resize(block_count(planes, together));
+        for_each_block(inner, planes, together, [&](const Block& block) {
+            Part& part = parts_[block.index];
+            part.counts.assign((n_ + 2) * stride_, 0);
+            part.hits.clear();
+            const std::size_t shift = n_ + 1 - planes;
+            for (std::uint32_t i = 0; i < n_; ++i)
+                if (d_ == 2 || ranks_[0][i] < block.first) add(i, part.counts);
+            for (std::uint64_t a = block.first; a < block.last; ++a)
+                look_at(a + shift, least, part);
+        });
     }
 
     void add(std::uint32_t point, std::vector<float>& counts) const {
@@ -143,38 +166,37 @@ class AnchoredObjective final : public Objective {
     }
 
     /// The boxes that end in a plane; adds its point to the counts.
-    void look_at(std::size_t a, std::vector<float>& counts, float least,
-                 std::vector<Hit>& hits) const {
-        look_in(a, counts.data(), true, least, hits);
-        if (a < n_) add(order_[0][a], counts);
-        look_in(a, counts.data(), false, least, hits);
+    void look_at(std::size_t a, float least, Part& part) const {
+        look_in(a, true, least, part);
+        if (a < n_) add(order_[0][a], part.counts);
+        look_in(a, false, least, part);
     }
 
     /// Closed boxes have the counts of the next places, which behind the last are the same.
-    void look_in(std::size_t a, const float* counts, bool open, float least,
-                 std::vector<Hit>& hits) const {
+    void look_in(std::size_t a, bool open, float least, Part& part) const {
         const float weight = (a < n_ ? weights_[0] : 1) * (open ? 1 : -1);
         const float width = d_ == 3 ? values_[0][a] : 1;
-        std::vector<float> reaches;
-        std::vector<float> shares;
+        part.reaches.resize(n_ + 1);
+        part.shares.resize(n_ + 1);
         for (std::size_t b = 0; b <= n_; ++b) {
             const float times = weight * (b < n_ ? weights_[1] : 1);
-            reaches.push_back(width * values_[1][b] * times);
-            shares.push_back(times / static_cast<float>(n_));
+            part.reaches[b] = width * values_[1][b] * times;
+            part.shares[b] = times / static_cast<float>(n_);
         }
-        const float* from = open ? counts : counts + stride_ + 1;
+        const float* from = part.counts.data() + (open ? 0 : stride_ + 1);
         const auto take = [&](std::size_t first, std::size_t last, float times) {
             for (std::size_t b = 0; times != 1 && b <= n_; ++b) {
-                reaches[b] *= times;
-                shares[b] *= times;
+                part.reaches[b] *= times;
+                part.shares[b] *= times;
             }
-            std::vector<Place> places;
-            find_above({from, stride_, reaches.data(), shares.data(), n_ + 1}, values_[2].data(),
-                       least, first, last, places);
-            for (const auto& [b, c] : places)
-                hits.push_back({{static_cast<std::uint32_t>(a), b, c},
-                                values_[2][c] * reaches[b] - from[b * stride_ + c] * shares[b],
-                                open});
+            part.places.clear();
+            find_above({from, stride_, part.reaches.data(), part.shares.data(), n_ + 1},
+                       values_[2].data(), least, first, last, part.places);
+            for (const auto& [b, c] : part.places)
+                part.hits.push_back(
+                    {{static_cast<std::uint32_t>(a), b, c},
+                     values_[2][c] * part.reaches[b] - from[b * stride_ + c] * part.shares[b],
+                     open});
         };
         const bool even = weights_[2] == 1;
         take(even ? 0 : n_, even ? width_ : n_ + 1, 1);
@@ -184,8 +206,8 @@ class AnchoredObjective final : public Objective {
     void put_gradient(double most, double sharpness, std::span<double> gradient) const {
         std::ranges::fill(gradient, 0);
         double total = 0;
-        for (const auto& block : hits_)
-            for (const Hit& hit : block) {
+        for (const Part& part : parts_)
+            for (const Hit& hit : part.hits) {
                 const double weight =
                     exponential(sharpness * (static_cast<double>(hit.value) - most));
                 total += weight;
@@ -215,7 +237,7 @@ class AnchoredObjective final : public Objective {
     std::vector<std::uint32_t> order_[3];
     std::vector<std::uint32_t> ranks_[3];
     std::vector<float> values_[3];  ///< in order, and 1
-    std::vector<std::vector<Hit>> hits_;
+    std::vector<Part> parts_;
 };
 
 }  // namespace

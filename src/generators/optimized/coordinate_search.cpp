@@ -64,11 +64,15 @@ class Adam {
     double square_left_ = 1;
 };
 
-/// Where a descent ends; at once when the best so far is wanted.
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Where a descent ends; at once when the best so far is wanted. The value is infinite if it is
+/// above `enough`: to be certain of a value can take longer than the descent.
 OptimizedRows descend(std::vector<double> rows, const CoordinateSearch& search,
-                      const Schedule& schedule, const RunContext& run, const RunContext& whole) {
+                      const Schedule& schedule, double enough, const RunContext& run,
+                      const RunContext& whole) {
     const std::unique_ptr<Objective> objective = search.objective();
-    OptimizedRows best{{}, std::numeric_limits<double>::infinity()};
+    OptimizedRows best{{}, infinity};
     std::vector<double> gradient(rows.size());
     Geometric rate(schedule.first_rate, schedule.last_rate, schedule.steps);
     Geometric sharpness(schedule.first_sharpness, schedule.last_sharpness, schedule.steps);
@@ -82,6 +86,7 @@ OptimizedRows descend(std::vector<double> rows, const CoordinateSearch& search,
             adam.step(rows, gradient, next_rate(), search.kept * search.dimension);
         }
         const double known = objective->value(rows, 1e6, gradient, run);
+        if (known > enough) return true;
         const double value = objective->certain_value(rows, known, run);
         if (value < best.value) best = {rows, value};
         return value <= near * known;
@@ -104,24 +109,33 @@ class Population {
           rng_(search.seed),
           objective_(search.objective()),
           run_(run),
+          most_sets_(sets_for(search.budget / objective_->steps())),
           inner_(until_best_is_wanted(silent(run))) {}
 
     OptimizedRows best() {
         const double hop_cost = cost(search_.from_hop);
         make_starts();
-        while (!run_.best_is_wanted() &&
-               spent_ + hop_cost * static_cast<double>(all_.size()) <= search_.budget) {
+        while (!run_.best_is_wanted() && spent_ + hop_cost * static_cast<double>(all_.size()) <=
+                                             (1 - polish_share) * search_.budget) {
             const double done = spent_ / search_.budget;
-            keep_best(done < 0.5 ? 8 : done < 0.75 ? 4 : done < 0.9 ? 2 : 1);
+            const std::size_t part = done < 0.5 ? 1 : done < 0.75 ? 2 : done < 0.9 ? 4 : most_sets_;
+            keep_best(std::max<std::size_t>(most_sets_ / part, 1));
             hop();
         }
         keep_best(1);
+        if (!run_.best_is_wanted()) polish();
         all_.front().stopped = run_.best_is_wanted();
         return all_.front();
     }
 
   private:
-    static constexpr double starts_share = 0.2;
+    static constexpr double starts_share = 0.4;
+    static constexpr double polish_share = 0.05;
+
+    /// So many that each has time to get better.
+    static std::size_t sets_for(double values) {
+        return static_cast<std::size_t>(std::clamp(values / 3000, 2.0, 16.0));
+    }
 
     [[nodiscard]] double cost(const Schedule& schedule) const {
         return objective_->steps() * static_cast<double>(schedule.steps + 1);
@@ -153,18 +167,32 @@ class Population {
         all_.push_back(std::move(given));
     }
 
+    /// Of some sets the one of least value.
+    [[nodiscard]] std::vector<double> first_rows(std::size_t start, SplitMix64 draws) const {
+        const std::size_t sets = search_.one_start ? 1 : search_.sets_a_start;
+        OptimizedRows least{{}, infinity};
+        std::vector<double> gradient(search_.count * search_.dimension);
+        for (std::size_t k = 0; k < sets; ++k) {
+            std::vector<double> rows = search_.start(start * sets + k, draws);
+            const double value = search_.objective()->value(rows, 1e3, gradient, inner_);
+            if (value < least.value) least = {std::move(rows), value};
+        }
+        return std::move(least.rows);
+    }
+
     void add_starts(std::size_t count, const Schedule& schedule) {
-        constexpr std::size_t together = 16;
         for (std::size_t first = 0; first < count && (first == 0 || !run_.best_is_wanted());
-             first += together) {
-            std::vector<std::vector<double>> rows;
-            for (std::size_t i = first; i < std::min(first + together, count); ++i) {
-                SplitMix64 own = draws();
-                rows.push_back(search_.start(i, own));
-            }
-            auto found = descended(std::move(rows), schedule);
+             first += most_sets_) {
+            std::vector<std::vector<double>> rows(std::min(most_sets_, count - first));
+            std::vector<SplitMix64> streams;
+            while (streams.size() < rows.size()) streams.push_back(draws());
+            for_each_block(inner_, rows.size(), 1, [&](const Block& block) {
+                rows[block.index] = first_rows(first + block.index, streams[block.index]);
+            });
+            const double enough = all_.size() < most_sets_ ? infinity : all_.back().value;
+            auto found = descended(std::move(rows), schedule, [&](std::size_t) { return enough; });
             std::ranges::move(found, std::back_inserter(all_));
-            keep_best(8);
+            keep_best(most_sets_);
         }
     }
 
@@ -185,18 +213,31 @@ class Population {
             rows.push_back(one.rows);
             disturb(rows.back(), own);
         }
-        auto found = descended(std::move(rows), search_.from_hop);
+        auto found = descended(std::move(rows), search_.from_hop,
+                               [&](std::size_t i) { return all_[i].value; });
         for (std::size_t i = 0; i < all_.size(); ++i)
             if (!better(all_[i], found[i])) all_[i] = std::move(found[i]);
     }
 
-    /// Where descents from several sets end.
+    /// Descends from the best in ever smaller steps to where hops, which end sooner, do not reach.
+    void polish() {
+        const Schedule& hop = search_.from_hop;
+        const double values = search_.budget / objective_->steps();
+        const auto steps = static_cast<std::size_t>(std::clamp(polish_share * values, 2.0, 300.0));
+        auto found = descended({all_.front().rows},
+                               {steps, hop.last_rate, 0.01 * hop.last_rate, hop.last_sharpness,
+                                100 * hop.last_sharpness},
+                               [&](std::size_t) { return all_.front().value; });
+        if (better(found.front(), all_.front())) all_.front() = std::move(found.front());
+    }
+
+    /// Where descents from several sets end; from the i-th, values above enough(i) are of no use.
     std::vector<OptimizedRows> descended(std::vector<std::vector<double>> rows,
-                                         const Schedule& schedule) {
+                                         const Schedule& schedule, auto enough) {
         std::vector<OptimizedRows> found(rows.size());
         for_each_block(inner_, rows.size(), 1, [&](const Block& block) {
-            found[block.index] =
-                descend(std::move(rows[block.index]), search_, schedule, inner_, run_);
+            found[block.index] = descend(std::move(rows[block.index]), search_, schedule,
+                                         enough(block.index), inner_, run_);
         });
         spent_ += cost(schedule) * static_cast<double>(rows.size());
         for (const OptimizedRows& one : found) least_ = std::min(least_, one.value);
@@ -215,10 +256,11 @@ class Population {
     Rng rng_;
     std::unique_ptr<Objective> objective_;
     const RunContext& run_;
-    RunContext inner_;  ///< of descents
+    std::size_t most_sets_;  ///< that are kept at first
+    RunContext inner_;       ///< of descents
     std::uint64_t tasks_ = 0;
     double spent_ = 0;
-    double least_ = std::numeric_limits<double>::infinity();
+    double least_ = infinity;
     std::vector<OptimizedRows> all_;
 };
 

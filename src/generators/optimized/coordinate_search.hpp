@@ -2,9 +2,10 @@
 //
 // A search over coordinates for points of least objective, by descents along its gradient.
 //
-// Starts    sets that are given or made, each descended from; the best are kept.
+// Starts    sets that are given, or the best of some that are made; each is descended from, and the
+//           best are kept: the more, the more values the budget has.
 // Hops      half of the points of each are moved; a descent follows, and takes the new set's place
-//           unless that is worse; fewer and fewer are kept: 8, 4, 2, 1.
+//           unless that is worse; fewer and fewer are kept.
 // Descents  steps that adapt to each coordinate's gradient (Adam), shorter and shorter, while the
 //           soft maximum comes nearer to the maximum.
 //
@@ -38,7 +39,7 @@ struct CoordinateSearch {
     std::size_t dimension;
     std::size_t kept;  ///< the first so many points stay where they are
     std::function<std::unique_ptr<Objective>()> objective;
-    /// Rows of the i-th start.
+    /// Rows of the i-th set that a start is chosen from.
     std::function<std::vector<double>(std::uint64_t i, SplitMix64& draws)> start;
     Schedule from_start;
     Schedule from_hop;
@@ -46,6 +47,7 @@ struct CoordinateSearch {
     std::uint64_t seed;
     double budget;           ///< in steps of the objective
     bool one_start = false;  ///< all starts are the same
+    std::size_t sets_a_start = 16;
 };
 
 /// Reports progress with the least value so far, as reports have it, behind `words`.

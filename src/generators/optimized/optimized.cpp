@@ -200,18 +200,16 @@ Start start_from(const PointSet& points, const Plan& plan, std::size_t fixed) {
 Start start_without_file(const Plan& plan, const Values& options) {
     const std::size_t n = plan.count;
     const std::size_t d = plan.dimension;
-    // Many points of many axes end lower from digital nets.
-    const bool many = is_l2(options) && d >= 3 && n >= 256;
-    const std::string spec = options.given(initial) ? options[initial]
-                             : many                 ? "sobol:scramble=owen"
-                                                    : "";
-    if (!spec.empty())
-        return [=, seed = plan.seed](std::uint64_t i, SplitMix64&) {
+    if (options.given(initial))
+        return [=, spec = options[initial], seed = plan.seed](std::uint64_t i, SplitMix64&) {
             const PointSet points = generate(spec, {.count = n, .dimension = d, .seed = seed + i});
             return std::vector<double>(points.flat().begin(), points.flat().end());
         };
-    return [=, stepped = d < 3 || !is_l2(options)](std::uint64_t, SplitMix64& draws) {
-        return kronecker_rows(n, d, stepped && d > 1, draws);
+    // By turns, since it depends on the count which ends lower; but in the plane's torus.
+    const bool lattices = d > 2 || (d == 2 && options[objective] != "periodic");
+    return [=](std::uint64_t i, SplitMix64& draws) {
+        if (lattices && i % 2 == 0) return lattice_rows(n, d, draws);
+        return d > 2 ? net_rows(n, d, draws) : golden_rows(n, d, draws);
     };
 }
 
@@ -221,8 +219,13 @@ double l2_steps(const Plan& plan) {
     return n * n * static_cast<double>(plan.dimension) / 3;
 }
 
+/// In steps, of the default effort.
+double usual_budget(const Plan& plan, const Values& options) {
+    if (is_l2(options)) return std::max(5e9, 800.0 * l2_steps(plan));
+    return options[objective] == "star" && plan.dimension > 2 ? 2e10 : 8e9;
+}
+
 CoordinateSearch search_for(const Plan& plan, const Values& options, const RunContext& run) {
-    const double usual_budget = is_l2(options) ? std::max(5e9, 800.0 * l2_steps(plan)) : 8e9;
     const double unit = 1 / static_cast<double>(plan.count);
     const bool l2 = is_l2(options);
     CoordinateSearch search{
@@ -231,12 +234,17 @@ CoordinateSearch search_for(const Plan& plan, const Values& options, const RunCo
         .kept = kept(options),
         .objective = [&plan, &options] { return make_objective(plan, options); },
         .start = {},
-        .from_start = {150, 0.5 * unit, 0.02 * unit, 20, 1000},
+        .from_start = {150, 0.5 * unit, 0.02 * unit, 50, 1000},
         .from_hop = {50, 0.25 * unit, 0.02 * unit, 100, 1000},
         .hop = 1.5 * unit,
         .seed = plan.seed,
-        .budget = options[effort] * usual_budget};
-    if (l2) search.from_start.first_rate = search.from_hop.first_rate = 2 * unit;
+        .budget = options[effort] * usual_budget(plan, options)};
+    if (l2) {
+        search.from_start.first_rate = 2 * unit;
+        search.from_hop.first_rate = 0.5 * unit;
+        search.hop = 0.7 * unit;
+        search.sets_a_start = 1;
+    }
     if (!options.given(from)) {
         search.start = start_without_file(plan, options);
         return search;

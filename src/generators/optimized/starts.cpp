@@ -3,39 +3,82 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/rng.hpp"
+#include "stipple/generate.hpp"
 
 namespace stipple::optimized {
 namespace {
 
-/// The root above 1 of g^(m+1) = g + 1, by Newton's method.
-double golden_root(std::size_t m) {
-    double g = 2;
-    for (int i = 0; i < 60; ++i) {
-        double power = 1;
-        for (std::size_t k = 0; k < m; ++k) power *= g;
-        g -= (power * g - g - 1) / ((static_cast<double>(m) + 1) * power - 1);
+double turned(double x) { return std::min(x - std::floor(x), one_minus_ulp); }
+
+/// The lattice's part of its squared wraparound discrepancy that its vector decides.
+double wraparound_sum(std::size_t count, const std::vector<std::size_t>& vector) {
+    std::vector<std::size_t> at(vector.size());
+    double sum = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        double product = 1;
+        for (std::size_t j = 0; j < vector.size(); ++j) {
+            const double x = static_cast<double>(at[j]) / static_cast<double>(count);
+            product *= 1.5 - x * (1 - x);
+            at[j] = (at[j] + vector[j]) % count;
+        }
+        sum += product;
     }
-    return g;
+    return sum;
+}
+
+/// Of more vectors the best of more, but not the same again and again.
+std::size_t vectors_to_draw(std::size_t count, std::size_t dimension) {
+    double all = 1;
+    for (std::size_t j = 1; j < dimension; ++j) all *= static_cast<double>(count);
+    return static_cast<std::size_t>(std::clamp(all / 50, 10.0, 1000.0));
 }
 
 }  // namespace
 
-std::vector<double> kronecker_rows(std::size_t count, std::size_t dimension, bool stepped,
-                                   SplitMix64& draws) {
-    const double root = golden_root(stepped ? dimension - 1 : dimension);
+std::vector<double> golden_rows(std::size_t count, std::size_t dimension, SplitMix64& draws) {
+    constexpr double step = 0.61803398874989485;
+    const double shift[] = {to_unit(draws.next()), to_unit(draws.next())};
+    std::vector<double> rows;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto at = static_cast<double>(i);
+        if (dimension == 2) rows.push_back((at + shift[0]) / static_cast<double>(count));
+        rows.push_back(turned(at * step + shift[1]));
+    }
+    return rows;
+}
+
+std::vector<double> lattice_rows(std::size_t count, std::size_t dimension, SplitMix64& draws) {
+    std::vector<std::size_t> best;
+    double least = std::numeric_limits<double>::infinity();
+    std::vector<std::size_t> vector(dimension, 1);
+    for (std::size_t k = vectors_to_draw(count, dimension); k > 0; --k) {
+        for (std::size_t j = 1; j < dimension; ++j) vector[j] = draws.below(count);
+        const double sum = wraparound_sum(count, vector);
+        if (sum >= least) continue;
+        least = sum;
+        best = vector;
+    }
     std::vector<double> rows(count * dimension);
-    double step = 1;
     for (std::size_t j = 0; j < dimension; ++j) {
         const double shift = to_unit(draws.next());
-        const bool even = stepped && j == 0;
-        if (!even) step /= root;
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto at = static_cast<double>(i);
-            const double x = even ? (at + shift) / static_cast<double>(count) : at * step + shift;
-            rows[i * dimension + j] = std::min(x - std::floor(x), one_minus_ulp);
-        }
+        for (std::size_t i = 0; i < count; ++i)
+            rows[i * dimension + j] = turned(
+                static_cast<double>(i * best[j] % count) / static_cast<double>(count) + shift);
+    }
+    return rows;
+}
+
+std::vector<double> net_rows(std::size_t count, std::size_t dimension, SplitMix64& draws) {
+    const double shift = to_unit(draws.next());
+    const PointSet net = generate(
+        "sobol:scramble=owen", {.count = count, .dimension = dimension - 1, .seed = draws.next()});
+    std::vector<double> rows;
+    for (std::size_t i = 0; i < count; ++i) {
+        rows.push_back((static_cast<double>(i) + shift) / static_cast<double>(count));
+        rows.insert(rows.end(), net[i].begin(), net[i].end());
     }
     return rows;
 }

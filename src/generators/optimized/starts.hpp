@@ -10,11 +10,16 @@
 
 namespace stipple::optimized {
 
-/// Rows of a Kronecker set: multiples of the powers of 1 / g, shifted at random, where
-/// g^(m+1) = g + 1 for m coordinates; the first coordinate is i / n, shifted, and not counted in m,
-/// if `stepped`.
-/// Source  the generalized golden ratios of M. Roberts (2018).
-std::vector<double> kronecker_rows(std::size_t count, std::size_t dimension, bool stepped,
-                                   SplitMix64& draws);
+/// Rows of multiples of the golden ratio in one dimension or two, there behind i / n; shifted at
+/// random.
+std::vector<double> golden_rows(std::size_t count, std::size_t dimension, SplitMix64& draws);
+
+/// Rows of a lattice of rank 1, shifted at random: of some vectors that are drawn, the one with the
+/// least wraparound L2 discrepancy.
+std::vector<double> lattice_rows(std::size_t count, std::size_t dimension, SplitMix64& draws);
+
+/// Rows of i / n, shifted at random, before the first points of Sobol's sequence, scrambled as Owen
+/// does: of powers of two a net. Two or more coordinates.
+std::vector<double> net_rows(std::size_t count, std::size_t dimension, SplitMix64& draws);
 
 }  // namespace stipple::optimized
