@@ -7,11 +7,13 @@
 //     l2-KIND                   an L2 discrepancy of math/l2/kinds.hpp
 //
 //     d = 1        (i + 1/2) / n, or for the dispersion (i + 1) / (n + 1): the least
+//     n = 1        of boxes at the origin x + x^d = 1, of others the middle: the least
 //     star, d = 2  a search over the orders of the points by x and by y, each solved exactly
 //                  (planar_order.hpp, order_search.hpp)
 //     others       descents along the gradient from many sets (coordinate_search.hpp): of the star
 //                  discrepancy of three axes by all boxes, of others with boxes by those near the
 //                  worst, and of L2 kinds by all pairs of points
+//     --lattice    all lattices of Korobov's form (lattice_search.hpp)
 //
 // Shape   d <= 6 for boxes, up to 100 for L2 kinds. The search over orders needs 8 n^2 bytes a
 //         thread; one over coordinates takes up to 2^16 points.
@@ -39,6 +41,7 @@
 #include "generators/given_points.hpp"
 #include "generators/optimized/coordinate_search.hpp"
 #include "generators/optimized/even_order.hpp"
+#include "generators/optimized/lattice_search.hpp"
 #include "generators/optimized/order_search.hpp"
 #include "generators/optimized/published.hpp"
 #include "generators/optimized/starts.hpp"
@@ -68,7 +71,7 @@ constexpr Param<double> effort{.name = "effort",
                                    "one core (fewer in the plane for less than 180 points)"};
 constexpr Param<Text> initial{
     {.name = "initial",
-     .help = "Generator to start from in place of Kronecker sets, such as sobol:scramble=owen"}};
+     .help = "Generator to start from in place of lattices and nets, such as sobol:scramble=owen"}};
 constexpr Param<Path> from{
     {.name = "from",
      .unit = "file",
@@ -82,6 +85,11 @@ constexpr Param<Numbers> axis_weights{
     {.name = "weights",
      .help = "A weight for each coordinate, above 0: boxes count with the product of those of the "
              "coordinates that they bound (star), projections with theirs (L2 kinds)"}};
+constexpr Param<bool> lattice{
+    .name = "lattice",
+    .help =
+        "The lattice of least objective, periodic or l2-wraparound: of all i (1, g, g^2, ...) / n "
+        "modulo 1, whatever the seed"};
 constexpr Param<bool> order{.name = "order",
                             .help = "Put the points in an order whose beginnings are even, too"};
 
@@ -147,6 +155,19 @@ void check_weights(const Values& options, std::size_t dimension) {
             fail(ErrorKind::usage, "--weights: {} is outside (0, 1000]", format_number(weight));
 }
 
+/// Only on the torus does it not matter where a lattice lies.
+void check_lattice(const Values& options) {
+    if (!options[lattice]) return;
+    const std::string what = options[objective];
+    if (what != "periodic" && what != "l2-wraparound")
+        fail(ErrorKind::usage,
+             "--lattice: objective {} depends on the lattice's place; periodic and "
+             "l2-wraparound do not",
+             what);
+    if (options.given(from) || options.given(initial))
+        fail(ErrorKind::usage, "--lattice tries all lattices; it has no points to start from");
+}
+
 Plan plan(const Request& request, const Values& options) {
     constexpr std::size_t most_box_axes = 6;
     if (options.given(keep) && !options.given(from))
@@ -157,12 +178,15 @@ Plan plan(const Request& request, const Values& options) {
              "optimized: objective {} is for 1 to {} dimensions; L2 kinds for more",
              options[objective], most_box_axes);
     check_weights(options, plan.dimension);
+    check_lattice(options);
     return plan;
 }
 
 /// Whether the best set is known.
 bool is_known(const Plan& plan, const Values& options) {
-    return plan.dimension == 1 && !options.given(keep);
+    if (options.given(keep)) return false;
+    return plan.dimension == 1 ||
+           (plan.count == 1 && !is_l2(options) && !options.given(axis_weights));
 }
 
 /// Whether the search is one over orders of the plane.
@@ -219,10 +243,12 @@ double l2_steps(const Plan& plan) {
     return n * n * static_cast<double>(plan.dimension) / 3;
 }
 
-/// In steps, of the default effort.
+/// In steps, of the default effort: less for few points, which need no more than some values each.
 double usual_budget(const Plan& plan, const Values& options) {
-    if (is_l2(options)) return std::max(5e9, 800.0 * l2_steps(plan));
-    return options[objective] == "star" && plan.dimension > 2 ? 2e10 : 8e9;
+    const double most =
+        1e6 * static_cast<double>(plan.count) * make_objective(plan, options)->steps();
+    if (is_l2(options)) return std::min(most, std::max(5e9, 800.0 * l2_steps(plan)));
+    return std::min(most, options[objective] == "star" && plan.dimension > 2 ? 2e10 : 8e9);
 }
 
 CoordinateSearch search_for(const Plan& plan, const Values& options, const RunContext& run) {
@@ -282,6 +308,8 @@ void record(PointSet& points, const Plan& plan, const Values& options, const Bou
     if (value.upper > value.lower)
         found = {{name + "_lower", format_number(value.lower)},
                  {name + "_upper", format_number(value.upper)}};
+    if (options[lattice] && value.upper == value.lower)
+        found.emplace_back("certificate", "optimal-of-lattices");
     if (options[objective] != "star" || options.given(axis_weights)) return;
     const auto known = published_star(plan.count, plan.dimension);
     const bool proven = known && known->optimal && value.upper <= known->value + 5.1e-5;
@@ -304,6 +332,26 @@ std::vector<double> on_the_line(std::size_t n, bool empty) {
     return rows;
 }
 
+/// The best point for the boxes at the origin: x + x^d = 1, of which one is empty and one has it.
+double coordinate_for_star(std::size_t dimension) {
+    double low = 0;
+    double high = 1;
+    for (int step = 0; step < 60; ++step) {
+        const double x = (low + high) / 2;
+        double power = x;
+        for (std::size_t j = 1; j < dimension; ++j) power *= x;
+        (x + power < 1 ? low : high) = x;
+    }
+    return low;
+}
+
+std::vector<double> known_rows(const Plan& plan, const Values& options) {
+    const std::string what = options[objective];
+    if (plan.dimension == 1) return on_the_line(plan.count, what == "dispersion");
+    const double x = what == "star" ? coordinate_for_star(plan.dimension) : 0.5;
+    return std::vector<double>(plan.dimension, x);
+}
+
 /// Every step of a search over coordinates takes n^2 pairs, or planes of n^2 boxes in memory.
 void check_size(const Plan& plan, const Values& options, const RunContext& run) {
     constexpr std::uint64_t most = std::uint64_t{1} << 16;
@@ -321,10 +369,15 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     const auto n = static_cast<double>(plan.count);
     OptimizedRows found;
     if (is_known(plan, options)) {
-        found.rows = on_the_line(plan.count, options[objective] == "dispersion");
+        found.rows = known_rows(plan, options);
     } else if (by_orders(plan, options)) {
         const double budget = options[effort] * std::min(0x1p20 * n * n, 0x1p35);
         found = least_star_discrepancy(plan.count, plan.seed, budget, run);
+    } else if (options[lattice]) {
+        check_size(plan, options, run);
+        found = least_lattice(
+            plan.count, plan.dimension, [&] { return make_objective(plan, options); },
+            options[objective], run);
     } else {
         check_size(plan, options, run);
         found = search_coordinates(search_for(plan, options, run), options[objective], run);
@@ -344,7 +397,9 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
 std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
                                const Values& options) {
     if (!is_known(plan, options)) return {};
-    return {"optimized: on the line the best set is known; seed and --effort change nothing"};
+    return {
+        "optimized: the best set is known, of one point or on the line; seed and --effort change "
+        "nothing"};
 }
 
 double seconds(double n, double d) { return d < 2 ? 1e-8 * n : 20 + 1e-7 * n * n; }
@@ -358,7 +413,7 @@ Generator unit() {
             .related = {"message-passing", "mpmc", "optimal", "low-discrepancy-set", "openevolve",
                         "minimal", "design-augmentation"},
             .traits = {.max_dimension = 100, .sequence = false, .prefix = false},
-            .options = Schema(objective, effort, initial, from, keep, axis_weights, order),
+            .options = Schema(objective, effort, initial, from, keep, axis_weights, lattice, order),
             .plan = plan,
             .set = make,
             .notes = notes,

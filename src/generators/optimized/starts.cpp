@@ -50,6 +50,16 @@ std::vector<double> golden_rows(std::size_t count, std::size_t dimension, SplitM
     return rows;
 }
 
+std::vector<double> rank1_rows(std::size_t count, std::span<const std::size_t> vector,
+                               std::span<const double> shift) {
+    const auto n = static_cast<double>(count);
+    std::vector<double> rows;
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = 0; j < vector.size(); ++j)
+            rows.push_back(turned(static_cast<double>(i * vector[j] % count) / n + shift[j]));
+    return rows;
+}
+
 std::vector<double> lattice_rows(std::size_t count, std::size_t dimension, SplitMix64& draws) {
     std::vector<std::size_t> best;
     double least = std::numeric_limits<double>::infinity();
@@ -61,14 +71,9 @@ std::vector<double> lattice_rows(std::size_t count, std::size_t dimension, Split
         least = sum;
         best = vector;
     }
-    std::vector<double> rows(count * dimension);
-    for (std::size_t j = 0; j < dimension; ++j) {
-        const double shift = to_unit(draws.next());
-        for (std::size_t i = 0; i < count; ++i)
-            rows[i * dimension + j] = turned(
-                static_cast<double>(i * best[j] % count) / static_cast<double>(count) + shift);
-    }
-    return rows;
+    std::vector<double> shift;
+    while (shift.size() < dimension) shift.push_back(to_unit(draws.next()));
+    return rank1_rows(count, best, shift);
 }
 
 std::vector<double> net_rows(std::size_t count, std::size_t dimension, SplitMix64& draws) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "math/combinatorics/splitmix64.hpp"
@@ -13,6 +14,10 @@ namespace stipple::optimized {
 /// Rows of multiples of the golden ratio in one dimension or two, there behind i / n; shifted at
 /// random.
 std::vector<double> golden_rows(std::size_t count, std::size_t dimension, SplitMix64& draws);
+
+/// Rows of a lattice of rank 1: i times a vector over n, and a shift, modulo 1.
+std::vector<double> rank1_rows(std::size_t count, std::span<const std::size_t> vector,
+                               std::span<const double> shift);
 
 /// Rows of a lattice of rank 1, shifted at random: of some vectors that are drawn, the one with the
 /// least wraparound L2 discrepancy.

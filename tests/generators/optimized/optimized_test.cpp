@@ -137,6 +137,24 @@ TEST(Optimized, OnTheLineIsBestUnderAnyObjective) {
                 0.125, 1e-15);
 }
 
+// x + x^d = 1 by hand: the golden ratio's inverse, and the real root of a cubic.
+TEST(Optimized, OfOnePointIsBestUnderAnyObjective) {
+    EXPECT_NEAR(star_of(make("optimized", points(1, 2))), 0.6180339887498949, 1e-15);
+    EXPECT_NEAR(star_of(make("optimized", points(1, 3))), 0.6823278038280193, 1e-15);
+    EXPECT_THAT(make("optimized", points(1, 6)).provenance.found,
+                ::testing::Contains(::testing::Pair("certificate", "optimal")));
+    for (const Judged& one : objectives) {
+        const PointSet set = make("optimized", points(1, one.dimension),
+                                  {{"objective", one.objective}, {"effort", "0.1"}});
+        const double least = measure(one.analyzer, one.key, set, one.settings);
+        for (const std::uint64_t seed : {1, 2, 3}) {
+            const PointSet other = make("random", points(1, one.dimension), {}, {.seed = seed});
+            EXPECT_LE(least, measure(one.analyzer, one.key, other, one.settings) + 1e-12)
+                << one.objective;
+        }
+    }
+}
+
 TEST(Optimized, KeepsTheFirstPointsOfAFile) {
     const PointSet given = make("random", points(10, 2));
     const TemporaryFile file(text_of(given), ".csv");
@@ -205,6 +223,38 @@ TEST(Optimized, WeightsMakeACoordinateMoreEven) {
     }
 }
 
+// Of all lattices of the plane, as the analyzer measures them.
+TEST(Optimized, FindsTheLatticeOfLeastPeriodicDiscrepancy) {
+    const auto value_of = [](const PointSet& set) {
+        return measure("star-discrepancy", "value", set, {{"kind", "periodic"}});
+    };
+    for (const std::size_t n : {2, 3, 7, 21, 32}) {
+        double least = 1;
+        for (std::size_t g = 1; g <= n; ++g)
+            least = std::min(least, value_of(make("rank1-lattice", points(n, 2),
+                                                  {{"vector", "1," + std::to_string(g)}})));
+        const PointSet found =
+            make("optimized", points(n, 2), {{"objective", "periodic"}, {"lattice", "true"}});
+        EXPECT_EQ(value_of(found), least) << n;
+        for (const double x : found.flat())
+            EXPECT_EQ(x * static_cast<double>(n), std::round(x * static_cast<double>(n)));
+    }
+}
+
+TEST(Optimized, FindsTheLatticeOfLeastWraparoundDiscrepancyInSpace) {
+    const auto value_of = [](const PointSet& set) {
+        return measure("l2-discrepancy", "wraparound.value", set);
+    };
+    double least = 1;
+    for (int g = 1; g < 31; ++g)
+        least = std::min(least,
+                         value_of(make("rank1-lattice", points(31, 3),
+                                       {{"rule", "korobov"}, {"multiplier", std::to_string(g)}})));
+    const PointSet found =
+        make("optimized", points(31, 3), {{"objective", "l2-wraparound"}, {"lattice", "true"}});
+    EXPECT_NEAR(value_of(found), least, 1e-12);
+}
+
 TEST(Optimized, TellsWhatIsPublishedAndWhatIsCertain) {
     const auto entries = [](const PointSet& set) {
         std::map<std::string, std::string> all(set.provenance.found.begin(),
@@ -266,6 +316,11 @@ TEST(Optimized, RefusesWhatItCannotMake) {
     EXPECT_THAT(error(points(9, 2), {{"weights", "1,0"}}), ::testing::HasSubstr("outside (0, "));
     EXPECT_THAT(error(points(9, 2), {{"weights", "1,2"}, {"objective", "dispersion"}}),
                 ::testing::HasSubstr("objective dispersion has none"));
+    EXPECT_THAT(error(points(9, 2), {{"lattice", "true"}}),
+                ::testing::HasSubstr("objective star depends on the lattice's place"));
+    EXPECT_THAT(
+        error(points(10, 2), {{"objective", "periodic"}, {"lattice", "true"}, {"from", ten}}),
+        ::testing::HasSubstr("no points to start from"));
     EXPECT_EQ(error(points(100'000, 2), {{"objective", "l2-star"}}),
               "limit: optimized: 100000 points; a search over coordinates takes up to 65536");
     EXPECT_THAT(

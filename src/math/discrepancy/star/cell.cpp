@@ -37,6 +37,8 @@
 #include <span>
 
 #include "core/machine/wide.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
 
 namespace stipple::discrepancy::star {
 namespace {
@@ -251,7 +253,7 @@ class CellBounder {
             const double low = std::max(value(k, cell.lo[k]), tiny);
             const double steps = cell.hi[k] - cell.lo[k] + 1;
             const double price =
-                std::log(value(k, cell.hi[k]) / low + 1e-9) / steps;  // a rough one
+                logarithm(value(k, cell.hi[k]) / low + 1e-9) / steps;  // a rough one
             assign_to(active.axis(k), inside, signed_rank(cell.lo[k]),
                       std::max(1e-30F, static_cast<float>(price)), static_cast<std::int32_t>(k),
                       cost_.data(), axes_.data());
@@ -319,15 +321,15 @@ class CellBounder {
         }
         const double share = static_cast<double>(inside_lo_) * inverse_;
         if (side == Side::open) {
-            const double most = std::exp(high);
+            const double most = exponential(high);
             const double margin = rounding_ + most * -high * rounding_;
-            return {most - share + margin, -chord(std::exp(low), most), margin};
+            return {most - share + margin, -chord(exponential(low), most), margin};
         }
         if (low == -infinity) return {share + rounding_, 0, rounding_};  // no tangent
         const double most = static_cast<double>(inside_hi_) * inverse_ - worst_.value();
-        const double top = std::min(high, std::log(std::max(most, tiny)));
+        const double top = std::min(high, logarithm(std::max(most, tiny)));
         const double at = low + 0.6 * std::max(0.0, top - low);  // found by trial
-        const double weight = std::exp(at);
+        const double weight = exponential(at);
         const double margin = rounding_ + weight * -low * rounding_;
         return {share - weight * (1 + low - at) + margin, weight, margin};
     }
@@ -362,7 +364,7 @@ class CellBounder {
         // The slope is the logarithmic mean; the geometric one is a little less, and safe near m =
         // high.
         if (m > 0.999 * high) return std::sqrt(std::min(m, high) * high) * (1 - 1e-12);
-        return (high - m) / std::log(high / m) * (1 - 1e-12);
+        return (high - m) / logarithm(high / m) * (1 - 1e-12);
     }
 
     /// Takes the ends of an axis without a candidate whose term is at most this; false if none is left.
@@ -451,7 +453,7 @@ Active all_points(const BoxGrid& grid) {
 std::vector<std::vector<double>> logarithms(const BoxGrid& grid) {
     auto logs = grid.values;
     for (auto& axis : logs)
-        for (double& x : axis) x = std::log(x);
+        for (double& x : axis) x = x > 0 ? logarithm(x) : -infinity;
     return logs;
 }
 

@@ -22,14 +22,17 @@
 #include <cmath>
 #include <vector>
 
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
+
 namespace stipple::discrepancy::star {
 namespace {
 
 /// The grid's values on each axis, rising from 0 to 1.
 std::vector<double> cuts_for(double delta, double dimension) {
     std::vector<double> cuts{1};
-    const double first = std::pow(1 - delta, 1 / dimension);
-    const double stretch = std::pow(first, 1 - dimension);
+    const double first = exponential(logarithm(1 - delta) / dimension);
+    const double stretch = exponential(logarithm(first) * (1 - dimension));
     for (double x = first; x > 0; x = (x - delta) * stretch) cuts.push_back(x);
     cuts.push_back(0);
     std::ranges::reverse(cuts);
@@ -39,7 +42,7 @@ std::vector<double> cuts_for(double delta, double dimension) {
 /// The finest grid that has no more corners; empty if it would have no inner ones.
 std::vector<double> finest_cuts(std::size_t dimension, double most_corners) {
     const auto d = static_cast<double>(dimension);
-    const double most = std::floor(std::pow(most_corners, 1 / d) + 1e-9);
+    const double most = std::floor(exponential(logarithm(most_corners) / d) + 1e-9);
     if (most < 6) return {};  // delta would be above 1/2
     double coarse = 1 - 1e-9;
     double fine = 1e-7;

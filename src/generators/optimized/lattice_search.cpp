@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "generators/optimized/lattice_search.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+#include "core/parallel.hpp"
+#include "generators/optimized/starts.hpp"
+
+namespace stipple::optimized {
+namespace {
+
+std::vector<double> korobov_rows(std::size_t count, std::size_t dimension, std::size_t g) {
+    std::vector<std::size_t> vector(dimension, 1 % count);
+    for (std::size_t j = 1; j < dimension; ++j) vector[j] = vector[j - 1] * g % count;
+    return rank1_rows(count, vector, std::vector<double>(dimension));
+}
+
+}  // namespace
+
+OptimizedRows least_lattice(std::size_t count, std::size_t dimension,
+                            const std::function<std::unique_ptr<Objective>()>& objective,
+                            const std::string& words, const RunContext& run) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr std::size_t together = 16;
+    const RunContext inner = until_best_is_wanted(silent(run));
+    const std::size_t last = count / 2 + 1;
+    OptimizedRows best{{}, infinity};
+    for (std::size_t first = 1; first <= last && (first == 1 || !run.best_is_wanted());
+         first += together) {
+        std::vector<OptimizedRows> found(std::min(together, last + 1 - first));
+        for_each_block(inner, found.size(), 1, [&](const Block& block) {
+            OptimizedRows& one = found[block.index];
+            one = {korobov_rows(count, dimension, first + block.index), infinity};
+            std::vector<double> gradient(one.rows.size());
+            const auto measure = objective();
+            const double known = measure->value(one.rows, 1e3, gradient, inner);
+            if (known < best.value) one.value = measure->certain_value(one.rows, known, inner);
+        });
+        for (OptimizedRows& one : found)
+            if (one.value < best.value) best = std::move(one);
+        report_search(run,
+                      static_cast<double>(first + found.size()) / static_cast<double>(last + 1),
+                      fmt::format("{} {:.6g}", words, objective()->reported(best.value)));
+    }
+    best.stopped = run.best_is_wanted();
+    return best;
+}
+
+}  // namespace stipple::optimized
