@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "generators/optimized/coordinate_search.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -66,8 +64,8 @@ class Adam {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Where a descent ends; at once when the best so far is wanted. The value is infinite if it is
-/// above `enough`: to be certain of a value can take longer than the descent.
+/// Where a descent ends; at once when the best so far is wanted. No rows, and a value that may be too
+/// small, if it is above `enough`: to be certain of it can take longer than the descent.
 OptimizedRows descend(std::vector<double> rows, const CoordinateSearch& search,
                       const Schedule& schedule, double enough, const RunContext& run,
                       const RunContext& whole) {
@@ -86,7 +84,10 @@ OptimizedRows descend(std::vector<double> rows, const CoordinateSearch& search,
             adam.step(rows, gradient, next_rate(), search.kept * search.dimension);
         }
         const double known = objective->value(rows, 1e6, gradient, run);
-        if (known > enough) return true;
+        if (known > enough) {
+            if (best.rows.empty()) best.value = known;
+            return true;
+        }
         const double value = objective->certain_value(rows, known, run);
         if (value < best.value) best = {rows, value};
         return value <= near * known;
@@ -240,9 +241,10 @@ class Population {
                                          enough(block.index), inner_, run_);
         });
         spent_ += cost(schedule) * static_cast<double>(rows.size());
-        for (const OptimizedRows& one : found) least_ = std::min(least_, one.value);
-        report_search(run_, spent_ / search_.budget,
-                      fmt::format("{} {:.6g}", words_, objective_->reported(least_)));
+        const double value = std::ranges::min_element(found, better)->value;
+        least_ = std::min(least_, value);
+        report_search(run_, spent_ / search_.budget, words_, objective_->reported(value),
+                      objective_->reported(least_));
         return found;
     }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "generators/optimized/lattice_search.hpp"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <limits>
 
 #include "core/parallel.hpp"
@@ -27,22 +26,25 @@ OptimizedRows least_lattice(std::size_t count, std::size_t dimension,
     const RunContext inner = until_best_is_wanted(silent(run));
     const std::size_t last = count / 2 + 1;
     OptimizedRows best{{}, infinity};
+    const auto named = objective();
     for (std::size_t first = 1; first <= last && (first == 1 || !run.best_is_wanted());
          first += together) {
         std::vector<OptimizedRows> found(std::min(together, last + 1 - first));
         for_each_block(inner, found.size(), 1, [&](const Block& block) {
             OptimizedRows& one = found[block.index];
-            one = {korobov_rows(count, dimension, first + block.index), infinity};
+            one = {korobov_rows(count, dimension, first + block.index), 0};
             std::vector<double> gradient(one.rows.size());
             const auto measure = objective();
-            const double known = measure->value(one.rows, 1e3, gradient, inner);
-            if (known < best.value) one.value = measure->certain_value(one.rows, known, inner);
+            one.value = measure->value(one.rows, 1e3, gradient, inner);
+            if (one.value < best.value)
+                one.value = measure->certain_value(one.rows, one.value, inner);
         });
+        const double value = std::ranges::min_element(found, {}, &OptimizedRows::value)->value;
         for (OptimizedRows& one : found)
             if (one.value < best.value) best = std::move(one);
         report_search(run,
                       static_cast<double>(first + found.size()) / static_cast<double>(last + 1),
-                      fmt::format("{} {:.6g}", words, objective()->reported(best.value)));
+                      words, named->reported(value), named->reported(best.value));
     }
     best.stopped = run.best_is_wanted();
     return best;

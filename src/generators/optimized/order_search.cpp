@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "generators/optimized/order_search.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -241,8 +239,8 @@ class OrderSearch {
         spent_ += std::accumulate(steps.begin(), steps.end(), 0.0);
         const double level = std::ranges::min_element(all, better)->level;
         least_ = least_ > 0 ? std::min(least_, level) : level;
-        report_search(run_, spent_ / budget_,
-                      fmt::format("star discrepancy {:.6f}", least_ / static_cast<double>(n_)));
+        const auto n = static_cast<double>(n_);
+        report_search(run_, spent_ / budget_, "star", level / n, least_ / n);
     }
 
     std::size_t n_;

@@ -3,6 +3,8 @@
 // What searches for optimized sets give, and how they report progress and end when they are stopped.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -24,11 +26,12 @@ inline RunContext until_best_is_wanted(const RunContext& run) {
     return run.keeps_best ? unstopped(run) : run;
 }
 
-/// Reports that so much of the budget is used up.
-inline void report_search(const RunContext& run, double share, const std::string& words) {
+/// Reports that so much of the budget is used up, the value just found, and the best so far.
+inline void report_search(const RunContext& run, double share, const std::string& words,
+                          double value, double best) {
     constexpr std::uint64_t parts = 10'000;
     until_best_is_wanted(run).tick(static_cast<std::uint64_t>(std::min(1.0, share) * parts), parts,
-                                   words);
+                                   fmt::format("{} {:.6g}, best {:.6g}", words, value, best));
 }
 
 }  // namespace stipple::optimized
