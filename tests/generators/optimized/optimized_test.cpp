@@ -108,10 +108,10 @@ TEST(Optimized, SaysWhatTheAnalyzersSayAndIsBelowLatticesAndNets) {
 
 TEST(Optimized, InSpaceIsBelowWhatIsPublished) {
     // F. Clement et al., arXiv:2311.17463: no set of 8 points has less than 0.1875 (rounded).
-    const PointSet few = make("optimized", points(8, 3), {{"effort", "0.1"}});
+    const PointSet few = make("optimized", points(8, 3), {{"effort", "0.03"}});
     EXPECT_LT(star_of(few), 0.189);
     EXPECT_GT(star_of(few), 0.18745);
-    EXPECT_LT(star_of(make("optimized", points(32, 3), {{"effort", "0.05"}})), 0.075);
+    EXPECT_LT(star_of(make("optimized", points(32, 3), {{"effort", "0.02"}})), 0.075);
 }
 
 TEST(Optimized, DoesNotDependOnThreadsUnderAnyObjective) {
@@ -279,8 +279,8 @@ TEST(Optimized, KeepsTheBestWhenItIsStopped) {
             run.progress = [&](double done) {
                 if (done > 0) source.request_stop();
             };
-            const Request request = points(64, one.dimension);
-            const Settings settings{{"objective", one.objective}, {"effort", "1000"}};
+            const Request request = points(24, one.dimension);
+            const Settings settings{{"objective", one.objective}, {"effort", "20"}};
             if (!keeps) {
                 EXPECT_EQ(error_of([&] { make("optimized", request, settings, run); }),
                           "cancelled: interrupted");
