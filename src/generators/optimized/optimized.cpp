@@ -68,7 +68,7 @@ constexpr Param<double> effort{.name = "effort",
                                .high = 1e6,
                                .help =
                                    "Steps of the search: this times those of some 20 seconds of "
-                                   "one core (fewer in the plane for less than 180 points)"};
+                                   "one core (fewer where points are few)"};
 constexpr Param<Text> initial{
     {.name = "initial",
      .help = "Generator to start from in place of lattices and nets, such as sobol:scramble=owen"}};
