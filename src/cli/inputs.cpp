@@ -12,6 +12,7 @@
 #include "io/source_text.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/units.hpp"
+#include "warps/parameters/parameter_file.hpp"
 
 namespace stipple::cli {
 
@@ -49,6 +50,11 @@ Reading reading_of(const std::string& path, const Arguments& arguments) {
     if (const auto d = arguments.integer("dimension")) options.dimension = *d;
     if (const auto columns = arguments.get("column"))
         for (const auto column : split(*columns, ',')) options.columns.emplace_back(trim(column));
+    if (const auto file = arguments.get("parameters")) {
+        const auto named = parameters::read_parameters(*file);
+        options.levels = named.levels;
+        if (arguments.verb != Verb::warp && options.columns.empty()) options.columns = named.names;
+    }
     return {std::move(options), from.empty() ? nullptr : &io::format_named(from)};
 }
 
@@ -99,7 +105,10 @@ std::string only_input(const Arguments& arguments, const std::string& hint) {
 
 DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
                        const Arguments& arguments, const RunContext& run) {
-    const std::string& domain = provenance.domain;
+    const auto file = arguments.get("parameters");
+    const std::string domain = file && arguments.verb != Verb::warp
+                                   ? parameters::read_parameters(*file).domain
+                                   : provenance.domain;
     // Columns picked by hand are not what the file's domain speaks of.
     if (arguments.has("column") || domain == "unit-cube" || domain.empty())
         return unit_cube(dimension);
@@ -338,6 +347,15 @@ SetsToMake sets_asked(const Generator& generator, Values options, const Argument
     asked.request.start = arguments.integer("start").value_or(0);
     asked.sets = arguments.integer("sets").value_or(1);
     for (const auto& text : arguments.all("warp")) asked.warps.push_back(parse_spec(text));
+    if (const auto file = arguments.get("parameters")) {
+        const auto named = parameters::read_parameters(*file);
+        if (!asked.request.dimension) asked.request.dimension = named.names.size();
+        asked.warps.push_back(named.spec);
+        if (arguments.has("unit-cube"))
+            asked.warps.back().settings.emplace_back("unit-cube", "true");
+    } else {
+        arguments.refuse({"unit-cube"}, "is of --parameters, which is not given");
+    }
     return asked;
 }
 

@@ -103,7 +103,7 @@ std::uint64_t largest_seed(const Generator& generator, const Values& values);
 std::uint64_t seed_for(const Arguments& arguments, std::span<const std::string> specs,
                        Session& session);
 
-/// What -n, -d, --start, --sets and --warp ask of a generator; without seed and bounds.
+/// What -n, -d, --start, --sets, --warp and --parameters ask of a generator; without seed and bounds.
 SetsToMake sets_asked(const Generator& generator, Values options, const Arguments& arguments);
 
 /// What --generate names, with -n, -d, --start and --warp.

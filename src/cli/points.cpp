@@ -180,6 +180,8 @@ int warp(const Arguments& arguments, Session& session) {
     const Scramble* scrambled = scramble_named(arguments.unit);
     settings_of(scrambled ? scrambled->options : find_warp(arguments.unit).options, arguments);
     Spec spec{.name = arguments.unit, .coordinates = {}, .settings = arguments.settings};
+    if (const auto file = arguments.get("parameters"))
+        spec.settings.emplace_back("parameters", *file);
     if (const auto coordinates = arguments.get("coordinates"))
         spec.coordinates = parse_spec(spec.name + "@" + *coordinates).coordinates;
     if (!scrambled)

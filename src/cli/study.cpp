@@ -21,6 +21,7 @@
 #include "study/study_run.hpp"
 #include "study/study_summary.hpp"
 #include "study/work_queue.hpp"
+#include "warps/parameters/parameter_file.hpp"
 
 namespace stipple::cli {
 namespace {
@@ -90,6 +91,11 @@ SweepRequest request_of(const Arguments& arguments, const Ranks& ranks, Session&
     request.first_seed = seed_of(arguments, ~std::uint64_t{0}, session);
     request.seeds = arguments.integer("seeds").value_or(1);
     request.warps = arguments.all("warp");
+    if (const auto file = arguments.get("parameters")) {
+        const auto named = parameters::read_parameters(*file);
+        request.warps.push_back(named.domain);
+        if (!arguments.has("dimension")) request.dimensions = {named.names.size()};
+    }
     if (const auto keys = arguments.get("keys"))
         for (const auto key : split(*keys, ',')) request.keys.emplace_back(trim(key));
     if (std::ranges::find(request.keys, "") != request.keys.end())

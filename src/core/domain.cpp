@@ -43,7 +43,8 @@ void place_moments(const Moments& part, std::span<const std::size_t> at, Moments
 
 class BoxDomain final : public Domain {
   public:
-    BoxDomain(Box box, std::string spec) : box_(std::move(box)), spec_(std::move(spec)) {}
+    BoxDomain(Box box, std::string spec, std::vector<std::string> names = {})
+        : box_(std::move(box)), spec_(std::move(spec)), names_(std::move(names)) {}
     std::string spec() const override { return spec_; }
     std::size_t dimension() const override { return box_.dimension(); }
     double measure() const override { return volume_of(box_); }
@@ -62,10 +63,12 @@ class BoxDomain final : public Domain {
     }
     std::optional<Moments> moments() const override { return moments_of(box_); }
     std::vector<std::string> cube_axes() const override { return axis_names(dimension()); }
+    std::vector<std::string> names() const override { return names_; }
 
   private:
     Box box_;
     std::string spec_;
+    std::vector<std::string> names_;
 };
 
 class ProductDomain final : public Domain {
@@ -221,9 +224,9 @@ Estimate box_mass_by_axes(const Domain& domain, const Box& box) {
     return domain.probability(cell);
 }
 
-DomainPtr unit_cube(std::size_t dimension) {
+DomainPtr unit_cube(std::size_t dimension, std::vector<std::string> names) {
     const Box cube{std::vector<double>(dimension, 0), std::vector<double>(dimension, 1)};
-    return std::make_shared<BoxDomain>(cube, "unit-cube");
+    return std::make_shared<BoxDomain>(cube, "unit-cube", std::move(names));
 }
 DomainPtr box_domain(Box box) {
     const std::string spec = "box:bounds=[" + format_box(box) + "]";

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "stipple/points.hpp"
@@ -152,6 +153,15 @@ class Domain {
         return std::nullopt;
     }
 
+    /// Names of the coordinates; none: x, y, ...
+    [[nodiscard]] virtual std::vector<std::string> names() const { return {}; }
+
+    /// Of coordinates whose numbers 0, 1, ... stand for words, by name: the words.
+    [[nodiscard]] virtual std::vector<std::pair<std::string, std::vector<std::string>>> levels()
+        const {
+        return {};
+    }
+
     /// Of directions whose cube has a share of them nearer to the axis first, then a longitude.
     [[nodiscard]] virtual std::optional<Pole> pole() const { return std::nullopt; }
 };
@@ -160,7 +170,8 @@ class Domain {
 /// rises or falls with it.
 Estimate box_mass_by_axes(const Domain& domain, const Box& box);
 
-DomainPtr unit_cube(std::size_t dimension);
+/// @param names of its coordinates; none: x, y, ...
+DomainPtr unit_cube(std::size_t dimension, std::vector<std::string> names = {});
 DomainPtr box_domain(Box box);
 
 /// Domains side by side: factor j lives on coordinates[j] of the row. Flattens nothing, sorts

@@ -14,13 +14,7 @@ bool measures_points(const std::string& name) { return name == "pdf" || name == 
 
 /// Whether a header's field with this name reads back as such.
 bool is_name(const std::string& name) {
-    constexpr std::size_t longest = 200;
-    double number = 0;
-    const char* const last = name.data() + name.size();
-    return !name.empty() && name.size() <= longest && name == printable(name) &&
-           name == trim(name) && name.find('"') == std::string::npos &&
-           std::string_view("#[{").find(name[0]) == std::string_view::npos && name != "set" &&
-           !measures_points(name) && read_number(name.data(), last, number) != last;
+    return is_word(name) && name != "set" && !measures_points(name);
 }
 
 std::size_t find_column(const std::string& wanted, const std::vector<std::string>& names,
@@ -64,6 +58,16 @@ void pick(Columns& columns, const std::vector<std::string>& names, const ReadOpt
 }
 
 }  // namespace
+
+bool is_word(const std::string& text) {
+    constexpr std::size_t longest = 200;
+    double number = 0;
+    const char* const last = text.data() + text.size();
+    return !text.empty() && text.size() <= longest && text == printable(text) &&
+           text == trim(text) && text.find('"') == std::string::npos &&
+           std::string_view("#[{").find(text[0]) == std::string_view::npos &&
+           read_number(text.data(), last, number) != last;
+}
 
 bool Columns::plain() const { return dimension == width() && std::ranges::is_sorted(role); }
 

@@ -23,7 +23,9 @@ struct Columns {
     std::vector<std::size_t> role;
     std::size_t dimension = 0;
     std::vector<std::string> names =
-        {};                    ///< of the coordinates, in their order, where there are any
+        {};  ///< of the coordinates, in their order, where there are any
+    /// Of coordinates whose numbers 0, 1, ... stand for words: the words; of others none.
+    std::vector<std::vector<std::string>> words = {};
     std::string density = {};  ///< name of the column behind the coordinates, where it tells it
 
     [[nodiscard]] std::size_t width() const { return role.size(); }
@@ -35,6 +37,10 @@ struct Columns {
 /// Names of coordinates as a provenance keeps them: none where they are x, y, ..., or where a header
 /// with them would not be read as one.
 std::vector<std::string> kept_names(std::vector<std::string> names);
+
+/// Whether a text may be a word of a column: the same when it was written and read back, and no
+/// number.
+bool is_word(const std::string& text);
 
 /// Decides what the columns are. Without names they are called x, y, ... (see coordinate_names).
 /// Columns called pdf or weight are coordinates only when picked, or all are; so is a first one

@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/options.hpp"
@@ -80,10 +81,12 @@ struct ReadOptions {
     std::string source = "-";                   ///< for messages and reports
     std::optional<std::size_t> dimension = {};  ///< needed by bin; checked by the others
     std::vector<std::string> columns = {};  ///< names, or numbers from 1; empty: all coordinates
-    bool any_count = false;                 ///< a head may announce another number of points
-    bool all_columns = false;               ///< those called pdf or weight are coordinates, too
-    bool densities = false;  ///< a column called pdf or weight is a number behind the coordinates
-    bool single = false;     ///< bin holds float32
+    /// Of columns that hold words: the words, by name, in the order of the numbers 0, 1, ...
+    std::vector<std::pair<std::string, std::vector<std::string>>> levels = {};
+    bool any_count = false;    ///< a head may announce another number of points
+    bool all_columns = false;  ///< those called pdf or weight are coordinates, too
+    bool densities = false;    ///< a column called pdf or weight is a number behind the coordinates
+    bool single = false;       ///< bin holds float32
     std::string strengths = {};  ///< column that becomes a number behind the coordinates
 };
 

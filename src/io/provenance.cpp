@@ -66,6 +66,16 @@ bool take_columns(const Json& value, std::vector<std::string>& names) {
     return texts;
 }
 
+bool take_levels(const Json& value,
+                 std::vector<std::pair<std::string, std::vector<std::string>>>& levels) {
+    if (!value.is_object()) return false;
+    levels.clear();
+    for (const auto& [column, words] : value.items())
+        if (!take(words, levels.emplace_back(column, std::vector<std::string>()).second))
+            return false;
+    return true;
+}
+
 bool take_precision(const Json& value, std::optional<int>& digits) {
     constexpr std::int64_t most = 1000;
     const auto whole = value.is_number_integer() ? value.get<std::int64_t>() : -1;
@@ -103,6 +113,7 @@ std::optional<bool> take_value(std::string_view key, const Json& value, Provenan
     if (key == "count") return take_whole(value, to.count);
     if (key == "dimension") return take_whole(value, to.dimension);
     if (key == "columns") return take_columns(value, to.columns);
+    if (key == "levels") return take_levels(value, to.levels);
     if (key == "start") return take_whole(value, to.start);
     if (key == "domain") return take(value, to.domain);
     if (key == "bounds") return take(value, to.bounds);
@@ -137,6 +148,7 @@ Json to_json(const Provenance& provenance) {
     meta["count"] = provenance.count;
     meta["dimension"] = provenance.dimension;
     if (!provenance.columns.empty()) meta["columns"] = provenance.columns;
+    for (const auto& [column, words] : provenance.levels) meta["levels"][column] = words;
     meta["start"] = provenance.start;
     meta["warps"] = provenance.warps;
     meta["domain"] = provenance.domain;

@@ -12,7 +12,7 @@
 namespace stipple::io {
 
 /// Keys tool, version, generator, options, seed, count, dimension, start, warps, domain, command;
-/// also columns, bounds and shard where they are set, efficiency where points were dropped, precision and
+/// also columns, levels, bounds and shard where they are set, efficiency where points were dropped, precision and
 /// dtype where numbers were cut, inputs where files were read, found where a search was made,
 /// stream_versions above 1.
 nlohmann::ordered_json to_json(const Provenance& provenance);

@@ -72,10 +72,10 @@ void keep_rows(std::vector<double>& rows, std::size_t width, std::span<const std
 /// Where " x " parts a factor of a domain from the next; not in brackets, where a file's name may
 /// hold it.
 std::size_t end_of_factor(std::string_view text) {
-    bool bracketed = false;
+    int open = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == '[' || text[i] == ']') bracketed = text[i] == '[';
-        if (!bracketed && text.substr(i).starts_with(" x ")) return i;
+        if (text[i] == '[' || text[i] == ']') open += text[i] == '[' ? 1 : -1;
+        if (open == 0 && text.substr(i).starts_with(" x ")) return i;
     }
     return std::string_view::npos;
 }
@@ -317,6 +317,11 @@ bool WarpChain::drops() const {
         steps_, [](const Step& step) { return step.mapping && step.mapping->drops(); });
 }
 
+bool WarpChain::refills() const {
+    return std::ranges::any_of(
+        steps_, [](const Step& step) { return step.mapping && step.mapping->refills(); });
+}
+
 void WarpChain::note_infinite(const Step& step, std::span<const double> cube,
                               std::uint64_t first) const {
     if (step.mapping->domain()->measure() < std::numeric_limits<double>::infinity()) return;
@@ -406,13 +411,17 @@ std::vector<double> WarpChain::mapped(std::span<const double> rows, bool back, s
 }
 
 std::vector<std::string> WarpChain::names(std::vector<std::string> before, bool back) const {
-    if (before.size() != (back ? dimension_out_ : dimension_in_)) return {};
+    const std::size_t d = back ? dimension_out_ : dimension_in_;
+    if (before.size() != d) before.assign(d, "");
     const auto pass = [&](const Step& step) {
         if (!step.mapping) return;
         std::vector<std::string> after(back ? step.width_in : step.width_out);
         const auto& from = back ? step.others : step.rest;
         const auto& to = back ? step.rest : step.others;
         for (std::size_t i = 0; i < from.size(); ++i) after[to[i]] = std::move(before[from[i]]);
+        const auto own = step.domain->names();  // such points have a cube with as many coordinates
+        const auto& places = back ? step.coordinates : step.at;
+        for (std::size_t k = 0; k < own.size(); ++k) after[places[k]] = own[k];
         before = std::move(after);
     };
     if (back)
@@ -426,6 +435,13 @@ std::vector<std::string> WarpChain::names(std::vector<std::string> before, bool 
     return before;
 }
 
+std::vector<std::pair<std::string, std::vector<std::string>>> WarpChain::levels() const {
+    std::vector<std::pair<std::string, std::vector<std::string>>> all;
+    for (const Step& step : steps_)
+        if (step.domain) std::ranges::move(step.domain->levels(), std::back_inserter(all));
+    return all;
+}
+
 PointSet WarpChain::image(const PointSet& points, const RunContext& run,
                           std::uint64_t start) const {
     if (points.dimension() != dimension_in_)
@@ -436,6 +452,7 @@ PointSet WarpChain::image(const PointSet& points, const RunContext& run,
     image.domain = domain_;
     image.provenance = points.provenance;
     image.provenance.columns = names(points.provenance.columns, false);
+    std::ranges::move(levels(), std::back_inserter(image.provenance.levels));
     image.provenance.efficiency *=
         static_cast<double>(image.count()) / static_cast<double>(points.count());
     return image;

@@ -62,6 +62,9 @@ class WarpChain {
     /// Whether some points may have no image.
     [[nodiscard]] bool drops() const;
 
+    /// Whether a set shall have as many images as points are asked for.
+    [[nodiscard]] bool refills() const;
+
     /// Whether the images depend on the set's seed.
     [[nodiscard]] bool seeded() const { return seeded_; }
 
@@ -74,9 +77,13 @@ class WarpChain {
     /// Error(input) for points off the domain.
     [[nodiscard]] std::vector<double> inverse(std::vector<double> rows) const;
 
-    /// Names of the coordinates of images of points whose coordinates have these or, with `back`, of
-    /// what they are the images of. What a warp gives has the usual names.
+    /// Names of the coordinates of images of points whose coordinates have these (none: the usual
+    /// ones) or, with `back`, of what they are the images of. What a warp gives has the names that
+    /// its domain has, else the usual ones. Empty: all are usual.
     [[nodiscard]] std::vector<std::string> names(std::vector<std::string> before, bool back) const;
+
+    /// What numbers of the images stand for, as the warps' domains tell.
+    [[nodiscard]] std::vector<std::pair<std::string, std::vector<std::string>>> levels() const;
 
     /// What forward() or, with `back`, inverse() gives, on all threads; the first row is row `first`
     /// of the set. @throws as these do; Error(cancelled), Error(limit)

@@ -238,7 +238,9 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
     double efficiency = 1;
     if (!chain_->empty()) {
         const RunContext rest = run.best_is_wanted() ? unstopped(run) : run;
-        points = chain_for(set, rest)->image(points, rest.stage(1, 1), asked_.request.start);
+        points = chain_->refills() && plan_.count > 0
+                     ? filled_up(set, points, rest)
+                     : chain_for(set, rest)->image(points, rest.stage(1, 1), asked_.request.start);
         efficiency = points.provenance.efficiency;
     }
     if (scaling_) scaling_->apply(points.flat(), points.dimension());
@@ -251,6 +253,98 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
         std::erase_if(found, [](const auto& one) { return one.first != interrupted.first; });
     if (!found.empty()) points.provenance.found = std::move(found);
     points.side_files = std::move(side_files);
+    return points;
+}
+
+namespace {
+
+/// Refuses what would take days. @throws Error(input)
+void check_share(std::uint64_t kept, std::uint64_t made, std::uint64_t most) {
+    if (made < most || static_cast<double>(kept) >= 1e-9 * static_cast<double>(made)) return;
+    fail(ErrorKind::input, "the constraints hold for {} of {:.2g} points: a share below {:.1g}",
+         kept == 0 ? "none" : std::to_string(kept), static_cast<double>(made),
+         3 / static_cast<double>(made));
+}
+
+}  // namespace
+
+std::vector<double> GeneratedSets::next_images(std::uint64_t set, const PointSet& first,
+                                               std::uint64_t& made, const RunContext& run) const {
+    const auto chain = chain_for(set, run);
+    const RunContext quiet = silent(run);
+    const auto points = sequence(set, quiet);
+    std::vector<double> kept = chain->mapped(first.flat(), false, asked_.request.start, quiet);
+    const std::size_t d = dimension();
+    for (bool told = false; kept.size() / d < plan_.count; told = true) {
+        const std::uint64_t have = kept.size() / d;
+        const double share = std::max(static_cast<double>(have), 1.0) / static_cast<double>(made);
+        const double more = 1.1 * static_cast<double>(plan_.count - have) / share;
+        if (!told && more > 1e7)
+            run.notify(
+                fmt::format("the constraints hold for a share of {:.2g}{}: some {:.1g} points "
+                            "are made",
+                            share, have == 0 ? " or less" : "", more));
+        check_share(have, made, 3'000'000'000);
+        Plan plan = plan_;
+        plan.count = static_cast<std::uint64_t>(std::clamp(more, 4096.0, 0x1p20));
+        const std::uint64_t at = asked_.request.start + made;
+        const PointSet next = points_of(*points, plan, at, quiet);
+        const auto images = chain->mapped(next.flat(), false, at, quiet);
+        kept.insert(kept.end(), images.begin(), images.end());
+        made += plan.count;
+        run.tick(std::min<std::uint64_t>(kept.size() / d, plan_.count), plan_.count);
+    }
+    return kept;
+}
+
+std::vector<double> GeneratedSets::images_of_more(std::uint64_t set, const PointSet& first,
+                                                  std::uint64_t& made,
+                                                  const RunContext& run) const {
+    const auto chain = chain_for(set, run);
+    const RunContext quiet = silent(run);
+    const std::size_t d = dimension();
+    std::vector<double> kept = chain->mapped(first.flat(), false, asked_.request.start, quiet);
+    std::vector<double> best;
+    std::uint64_t count = made;
+    for (int step = 0; step < 12; ++step) {
+        const std::uint64_t have = kept.size() / d;
+        if (have >= plan_.count && (best.empty() || count < made)) {
+            best = kept;
+            made = count;
+        }
+        if (!best.empty() && have >= plan_.count && have <= plan_.count + 2 + plan_.count / 50)
+            break;
+        check_share(have, count, 1'000'000'000);
+        const double ratio =
+            have == 0 ? 32 : static_cast<double>(plan_.count) / static_cast<double>(have);
+        const double next = static_cast<double>(count) * ratio * 1.005 + 1;
+        if (!best.empty() && next >= static_cast<double>(made)) break;
+        Request request = asked_.request;
+        request.count = count = static_cast<std::uint64_t>(next);
+        request.seed = plan_.seed + set;
+        kept = chain->mapped(make_points(generator_, request, asked_.options, run).flat(), false,
+                             request.start, quiet);
+    }
+    if (best.empty())
+        fail(ErrorKind::input, "the constraints hold for {} of {} points", kept.size() / d, count);
+    run.notify(
+        fmt::format("{} points were made, of which the constraints keep {}: what {} promises "
+                    "is true of them before",
+                    made, plan_.count, generator_.name));
+    return best;
+}
+
+PointSet GeneratedSets::filled_up(std::uint64_t set, const PointSet& first,
+                                  const RunContext& run) const {
+    std::uint64_t made = first.count();
+    const bool goes_on = generator_.traits.sequence && generator_.traits.prefix;
+    std::vector<double> rows =
+        goes_on ? next_images(set, first, made, run) : images_of_more(set, first, made, run);
+    const std::size_t d = dimension();
+    const double share = static_cast<double>(rows.size() / d) / static_cast<double>(made);
+    rows.resize(plan_.count * d);
+    PointSet points(std::move(rows), d);
+    points.provenance.efficiency = share;
     return points;
 }
 
@@ -276,6 +370,8 @@ Provenance GeneratedSets::provenance(std::uint64_t set, std::uint64_t count) con
                     .shard = {},
                     .command = {},
                     .independent = generator_.traits.independent};
+    meta.columns = chain_->names({}, false);
+    meta.levels = chain_->levels();
     if (asked_.request.bounds) meta.bounds = format_box(*asked_.request.bounds);
     meta.inputs = inputs_;
     if (sequence_) meta.found = sequence_->found();

@@ -280,6 +280,7 @@ struct DensityAt {
 Provenance without_making(const Provenance& meta) {
     Provenance known;
     known.columns = meta.columns;
+    known.levels = meta.levels;
     known.count = meta.count;
     known.dimension = meta.dimension;
     known.domain = meta.domain;
@@ -503,6 +504,8 @@ void write_warped(io::PointStream& stream, const DomainPtr& on, const Spec& warp
                      [&](std::size_t) {
                          Provenance meta = stream.provenance();
                          meta.columns = chain->names(std::move(meta.columns), inverse);
+                         if (!inverse)
+                             std::ranges::move(chain->levels(), std::back_inserter(meta.levels));
                          return meta;
                      },
                  .counts = Counts::equal(sets, 0)},

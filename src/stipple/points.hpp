@@ -74,8 +74,10 @@ struct Provenance {
     std::size_t dimension = 0;
     std::uint64_t start = 0;
     std::vector<std::string> warps;  ///< specs, in order
-    /// Names of the coordinates, where a file gave them others than x, y, ...
+    /// Names of the coordinates, where they have others than x, y, ...
     std::vector<std::string> columns = {};
+    /// Of coordinates whose numbers 0, 1, ... stand for words, by name: the words.
+    std::vector<std::pair<std::string, std::vector<std::string>>> levels = {};
     std::string domain = "unit-cube";
     std::string bounds;     ///< empty: none
     std::string shard;      ///< "I/K"; empty: the whole

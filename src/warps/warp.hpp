@@ -43,6 +43,9 @@ class Mapping {
     /// Whether some points may have no image.
     [[nodiscard]] virtual bool drops() const { return false; }
 
+    /// Whether a set shall have as many points as are asked for, in spite of those that have none.
+    [[nodiscard]] virtual bool refills() const { return false; }
+
     /// Whether the image of a row of the cube is infinitely far, and a finite one stands for it:
     /// asked where the domain's measure is infinite.
     [[nodiscard]] virtual bool infinite(std::span<const double> /*row*/) const { return false; }

@@ -18,6 +18,15 @@ using namespace stipple::cli;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
+/// The text of a file that a topic shows: the indented lines below one that ends with its name.
+std::string shown_file(std::istringstream& lines) {
+    std::string text;
+    std::string line;
+    std::getline(lines, line);  // empty
+    while (std::getline(lines, line) && line.starts_with("    ")) text += line + '\n';
+    return text;
+}
+
 // What a topic shows works: its examples run one after the other in one folder.
 TEST(Topics, ExamplesRun) {
     for (const Topic& topic : topics()) {
@@ -26,6 +35,9 @@ TEST(Topics, ExamplesRun) {
         int examples = 0;
         for (std::string line; std::getline(lines, line);) {
             EXPECT_LE(line.size(), 96U) << line;
+            if (line.ends_with(".json:"))
+                box.write(line.substr(line.rfind(' ') + 1, line.size() - line.rfind(' ') - 2),
+                          shown_file(lines));
             if (!line.starts_with("    stipple ")) continue;
             ++examples;
             const Outcome outcome = box.shell(line);

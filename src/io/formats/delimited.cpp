@@ -13,6 +13,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <set>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -192,6 +193,30 @@ class RowReader {
     }
 
   private:
+    /// The words that a column holds; null: it holds numbers.
+    const std::vector<std::string>* words_of(std::size_t c) const {
+        const std::size_t role = columns_.role[c];
+        const bool some = role < columns_.words.size() && !columns_.words[role].empty();
+        return some ? &columns_.words[role] : nullptr;
+    }
+
+    /// The number that a field of a column stands for. @throws Error(input)
+    double number_in(std::string_view line, const Field& field, std::size_t c) const {
+        if (const auto* words = words_of(c)) {
+            const auto at = std::ranges::find(*words, field.text);
+            if (at == words->end())
+                refuse(line, field.at,
+                       shown(field.text) + " is no word of its column; expected one of " +
+                           shown(join(*words, ", ")));
+            return static_cast<double>(at - words->begin());
+        }
+        double value = 0;
+        const bool taken =
+            dialect_.comma ? take_number_with_comma(field, value) : take_number(field, value);
+        if (!taken) refuse(line, field.at, trouble_with(field, dialect_.comma));
+        return value;
+    }
+
     /// Puts a value where its column belongs; false where it cannot be.
     bool store(std::size_t c, double value, double* row, double& set) const {
         const std::size_t role = columns_.role[c];
@@ -212,11 +237,7 @@ class RowReader {
         for (Field field{}; fields.next(field); ++count) {
             if (count == columns_.width()) surplus = field.at;
             if (count >= columns_.width() || columns_.role[count] == Columns::skipped) continue;
-            double value = 0;
-            const bool taken =
-                dialect_.comma ? take_number_with_comma(field, value) : take_number(field, value);
-            if (!taken) refuse(line, field.at, trouble_with(field, dialect_.comma));
-            if (!store(count, value, row, set))
+            if (!store(count, number_in(line, field, count), row, set))
                 refuse(line, field.at,
                        shown(field.text) + " is not the number of a set; expected 0, 1, 2...");
         }
@@ -447,6 +468,7 @@ struct TableHead {
     std::string counter = {};  ///< the first column, taken for a coordinate, that counts the rows
     std::string measure = {};  ///< the column pdf or weight beside columns with names of their own
     const char* body = nullptr;  ///< where rows begin
+    bool words_to_find = false;  ///< the first row has words that nothing above it tells of
 
     void tell_row_names(const std::string& source, const RunContext& run) const {
         if (row_names)
@@ -508,8 +530,74 @@ bool has_decimal_comma(const SourceText& text, const char* body, char separator)
     return comma;
 }
 
+/// Whether a field holds a word that stands for a number, rather than a number with a mistake.
+bool holds_word(const Field& field) {
+    const auto is_letter = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+               static_cast<unsigned char>(c) > 127;
+    };
+    return is_word(std::string(field.text)) && std::ranges::any_of(field.text, is_letter);
+}
+
+/// The words of a column, sorted; none where it holds numbers, too, or more words than are levels.
+std::vector<std::string> words_in_column(const SourceText& text, const TableHead& head,
+                                         std::size_t c) {
+    constexpr std::size_t most = 10'000;
+    std::set<std::string, std::less<>> words;
+    for (const char* at = head.body; at != text.end(); at = next_line(text, at)) {
+        const std::string_view line = line_at(text, at);
+        if (trim(line).empty() || trim(line).starts_with('#')) continue;
+        const auto fields = fields_of(line, head.dialect.separator);
+        if (fields.size() <= c) break;  // the row is refused later
+        if (!holds_word(fields[c]) || words.size() > most) return {};
+        words.emplace(fields[c].text);
+    }
+    return {words.begin(), words.end()};
+}
+
+/// Finds the words of columns of which nothing tells them.
+void find_words(TableHead& head, const SourceText& text, const std::string& source,
+                const RunContext& run) {
+    for (std::size_t c = 0; head.words_to_find && c < head.columns.width(); ++c) {
+        const std::size_t role = head.columns.role[c];
+        if (role >= head.columns.names.size() || !head.columns.words[role].empty()) continue;
+        auto words = words_in_column(text, head, c);
+        if (words.empty()) continue;
+        std::vector<std::string> told;
+        for (const std::string& word : words)
+            told.push_back(fmt::format("{} {}", told.size(), word));
+        run.notify(fmt::format("{}: the column '{}' holds words, which are taken for numbers: {}",
+                               source_name(source), head.columns.names[role],
+                               shown(join(told, ", "))));
+        head.top.provenance.levels.emplace_back(head.columns.names[role], words);
+        head.columns.words[role] = std::move(words);
+    }
+}
+
+/// Which columns hold words, as the provenance tells, and whether others do.
+void take_words(TableHead& head, const SourceText& text) {
+    Columns& columns = head.columns;
+    columns.words.resize(columns.names.size());
+    for (const auto& [name, words] : head.top.provenance.levels) {
+        const auto at = std::ranges::find(columns.names, name);
+        if (at != columns.names.end())
+            columns.words[static_cast<std::size_t>(at - columns.names.begin())] = words;
+    }
+    look_at_rows(text, head.body, head.dialect.separator, [&](const std::vector<Field>& fields) {
+        for (std::size_t c = 0; c < std::min(fields.size(), columns.width()); ++c) {
+            const std::size_t role = columns.role[c];
+            if (role >= columns.words.size()) continue;
+            // They were written as numbers.
+            if (is_number(fields[c].text)) columns.words[role].clear();
+            head.words_to_find |= columns.words[role].empty() && holds_word(fields[c]);
+        }
+        return false;
+    });
+}
+
 TableHead read_head(const SourceText& text, const ReadOptions& options) {
     TableHead head{.top = read_top(text), .dialect = {}, .columns = {}};
+    if (!options.levels.empty()) head.top.provenance.levels = options.levels;
     const std::string_view line = line_at(text, head.top.first);
     head.dialect.separator = separator_of(line);
     const std::vector<Field> fields = fields_of(line, head.dialect.separator);
@@ -528,6 +616,7 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
     head.top.provenance.columns = kept_names(head.columns.names);
     head.body = head.names ? head.top.next : head.top.first;
     head.dialect.comma = has_decimal_comma(text, head.body, head.dialect.separator);
+    if (head.names) take_words(head, text);
     if (head.names && !head.row_names && fields.size() > 1 && options.columns.empty() &&
         !options.all_columns && names[0] != "set" &&
         counts_rows(text, head.body, head.dialect.separator))
@@ -701,8 +790,9 @@ class DelimitedStream final : public PointStream {
 std::vector<PointSet> read_delimited(std::string_view bytes, const ReadOptions& options,
                                      const RunContext& run) {
     const SourceText text(bytes, options.source);
-    const TableHead head = read_head(text, options);
+    TableHead head = read_head(text, options);
     head.tell_row_names(options.source, run);
+    find_words(head, text, options.source, run);
     const Columns& columns = head.columns;
     Rows rows = read_rows(text, head.body, columns, head.dialect, run);
     if (rows.numbers.empty())
@@ -726,7 +816,7 @@ std::unique_ptr<PointStream> stream_delimited(std::unique_ptr<Feed>& feed,
         return nullptr;  // the whole text says better what is wrong
     }
     const bool cut_off = std::find(head->body, front.end(), front.newline()) == front.end();
-    if (cut_off) return nullptr;
+    if (cut_off || head->words_to_find) return nullptr;
     head->tell_row_names(options.source, run);
     return std::make_unique<DelimitedStream>(std::move(feed), *head, front, options, run);
 }

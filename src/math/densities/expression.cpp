@@ -151,11 +151,17 @@ int read_number(const char* text, int* at, double* value) {
 
 constexpr char power_mark = '~';  // ^ is built in and the C library's; this one is ours
 
+constexpr std::string_view name_letters =
+    "0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
+
+/// Names of variables, each with the coordinate that it is.
+using Names = std::vector<std::pair<std::string, std::size_t>>;
+
 /// muParser with our functions and none of its own.
 class Parser final : public mu::ParserBase {
   public:
-    Parser(const std::string& text, std::vector<double>& variables) {
-        DefineNameChars("0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
+    Parser(const std::string& text, const Names& names, std::vector<double>& variables) {
+        DefineNameChars(std::string(name_letters).c_str());
         DefineOprtChars("+-*/^?<>=!&|~");
         DefineInfixOprtChars("+-");
         AddValIdent(read_number);
@@ -163,12 +169,7 @@ class Parser final : public mu::ParserBase {
         InitConst();
         InitOprt();
         EnableOptimizer(false);
-        const std::string_view letters = "xyz";
-        for (std::size_t k = 0; k < variables.size(); ++k) {
-            DefineVar(fmt::format("x{}", k + 1), &variables[k]);
-            if (variables.size() <= letters.size())
-                DefineVar(std::string(1, letters[k]), &variables[k]);
-        }
+        for (const auto& [name, k] : names) DefineVar(name, &variables[k]);
         std::string marked = text;
         std::ranges::replace(marked, '^', power_mark);
         SetExpr(marked);
@@ -194,18 +195,12 @@ class Parser final : public mu::ParserBase {
     }
 };
 
-std::string names_of(std::size_t dimension) {
-    constexpr std::string_view letters = "xyz";
-    if (dimension > letters.size()) return fmt::format("x1 to x{}", dimension);
-    return fmt::format("{}", fmt::join(letters.substr(0, dimension), ", "));
-}
-
 /// What would have been right where muParser met something else.
-std::string expectation(const mu::ParserError& error, std::size_t dimension) {
+std::string expectation(const mu::ParserError& error, const std::string& variables) {
     switch (error.GetCode()) {
         case mu::ecUNASSIGNABLE_TOKEN:
             return fmt::format("expected a number, an operator, {}pi, e or a function such as exp",
-                               dimension > 0 ? names_of(dimension) + ", " : "");
+                               variables.empty() ? "" : variables + ", ");
         case mu::ecTOO_MANY_PARAMS:
             return "expected fewer arguments";
         case mu::ecTOO_FEW_PARAMS:
@@ -260,7 +255,7 @@ std::string_view first_word(std::string_view rest) {
 
 /// Says what muParser found wrong.
 [[noreturn]] void explain(std::string_view option, std::string_view text,
-                          const mu::ParserError& error, std::size_t dimension,
+                          const mu::ParserError& error, const std::string& variables,
                           const mu::funmap_type& functions) {
     const std::size_t end = text.find_last_not_of(" \t") + 1;  // 0 for blanks alone
     if (end == 0) refuse(option, text, 1, "", "expected a formula");
@@ -272,11 +267,11 @@ std::string_view first_word(std::string_view rest) {
     if (code != mu::ecUNASSIGNABLE_TOKEN) {
         std::string token = error.GetToken();
         std::ranges::replace(token, power_mark, '^');
-        refuse(option, text, at + 1, token, expectation(error, dimension));
+        refuse(option, text, at + 1, token, expectation(error, variables));
     }
     const std::string word(first_word(text.substr(at)));
     refuse(option, text, at + 1, word,
-           functions.contains(word) ? "expected '(' behind it" : expectation(error, dimension));
+           functions.contains(word) ? "expected '(' behind it" : expectation(error, variables));
 }
 
 /// A lone = would change a variable.
@@ -295,8 +290,8 @@ void check_characters(std::string_view option, std::string_view text) {
 
 /// A parser with its variables.
 struct Machine {
-    Machine(const std::string& text, std::size_t dimension)
-        : variables(dimension), parser(text, variables) {}
+    Machine(const std::string& text, const Names& names, std::size_t dimension)
+        : variables(dimension), parser(text, names, variables) {}
 
     std::vector<double> variables;
     Parser parser;
@@ -306,28 +301,75 @@ struct Machine {
 
 /// One for each thread.
 struct Expression::Machines {
-    Machines(const std::string& text, std::size_t dimension) : of_threads(text, dimension) {}
+    Machines(const std::string& text, const Names& names, std::size_t dimension)
+        : of_threads(text, names, dimension) {}
 
     tbb::enumerable_thread_specific<Machine> of_threads;
 };
 
+/// The coordinates of a point as formulas call them.
+struct Expression::Variables {
+    std::size_t dimension = 0;
+    Names names = {};
+    std::string told = {};  ///< for messages
+
+    /// x, y, z where they are no more; else x1, x2, ...
+    static Variables usual(std::size_t dimension) {
+        constexpr std::string_view letters = "xyz";
+        Variables all{.dimension = dimension};
+        for (std::size_t k = 0; k < dimension; ++k) {
+            all.names.emplace_back(fmt::format("x{}", k + 1), k);
+            if (dimension <= letters.size()) all.names.emplace_back(letters.substr(k, 1), k);
+        }
+        all.told = dimension > letters.size()
+                       ? fmt::format("x1 to x{}", dimension)
+                       : fmt::format("{}", fmt::join(letters.substr(0, dimension), ", "));
+        return all;
+    }
+
+    static Variables named(const std::vector<std::string>& names) {
+        Variables all{.dimension = names.size()};
+        for (std::size_t k = 0; k < names.size(); ++k)
+            if (may_name_variable(names[k])) {
+                all.names.emplace_back(names[k], k);
+                all.told += (all.told.empty() ? "" : ", ") + names[k];
+            }
+        return all;
+    }
+};
+
 Expression::Expression(std::string_view option, std::string_view text, std::size_t dimension)
-    : dimension_(dimension) {
+    : Expression(option, text, Variables::usual(dimension)) {}
+
+Expression::Expression(std::string_view option, std::string_view text,
+                       const std::vector<std::string>& names)
+    : Expression(option, text, Variables::named(names)) {}
+
+Expression::Expression(std::string_view option, std::string_view text, const Variables& variables)
+    : dimension_(variables.dimension) {
     check_characters(option, text);
     for (const char c : text)
         if (c != ' ' && c != '\t') text_ += c;
     std::optional<Machine> machine;
     try {
-        machine.emplace(std::string(text), dimension);
+        machine.emplace(std::string(text), variables.names, dimension_);
         machine->parser.Eval();
         if (machine->parser.GetNumResults() > 1)
             refuse(option, text, text.rfind(',') + 1, ",",
                    "expected one formula, with commas between arguments of a function only");
     } catch (const mu::ParserError& error) {
-        explain(option, text, error, dimension,
+        explain(option, text, error, variables.told,
                 machine ? machine->parser.GetFunDef() : mu::funmap_type());
     }
-    machines_ = std::make_shared<Machines>(text_, dimension);
+    machines_ = std::make_shared<Machines>(text_, variables.names, dimension_);
+}
+
+bool may_name_variable(std::string_view name) {
+    if (name.empty() || name.find_first_not_of(name_letters) != std::string_view::npos)
+        return false;
+    const auto functions = formula_functions();
+    return !(name[0] >= '0' && name[0] <= '9') && name != "e" && name != "pi" &&
+           std::ranges::find(functions, name) == functions.end();
 }
 
 double formula_value(std::string_view option, std::string_view text) {

@@ -24,6 +24,11 @@ class Expression {
     /// @throws Error(usage) "--OPTION: 'TEXT', column N: what is wrong; what is expected"
     Expression(std::string_view option, std::string_view text, std::size_t dimension);
 
+    /// Of a point whose coordinates have names of their own; those that are no words of a formula
+    /// (length, x_1) cannot stand in it. @throws Error(usage) as above
+    Expression(std::string_view option, std::string_view text,
+               const std::vector<std::string>& names);
+
     /// The formula without blanks.
     [[nodiscard]] const std::string& text() const { return text_; }
     [[nodiscard]] std::size_t dimension() const { return dimension_; }
@@ -35,11 +40,17 @@ class Expression {
 
   private:
     struct Machines;
+    struct Variables;
+
+    Expression(std::string_view option, std::string_view text, const Variables& variables);
 
     std::string text_;
     std::size_t dimension_;
     std::shared_ptr<Machines> machines_;
 };
+
+/// Whether a text is a word of a formula, and none that means something else there.
+bool may_name_variable(std::string_view name);
 
 /// Names of all functions.
 std::vector<std::string> formula_functions();

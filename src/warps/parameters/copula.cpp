@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "warps/parameters/copula.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "math/functions/cholesky.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/normal_distribution.hpp"
+
+namespace stipple::parameters {
+namespace {
+
+using Student = boost::math::students_t;
+
+/// The smaller of the two shares; an end, which is infinitely far, as the random number next to it.
+double tail(const Share& share) {
+    const double m = std::min(share.below, share.above);
+    return m > 0 ? std::max(m, 1e-300) : 0x1p-54;
+}
+
+std::size_t square(std::size_t i, std::size_t j, std::size_t d) { return i * d + j; }
+
+}  // namespace
+
+Copula::Copula(const std::vector<double>& correlations, std::optional<double> degrees)
+    : d_(static_cast<std::size_t>(std::lround(std::sqrt(correlations.size())))),
+      factor_(cholesky(correlations, d_).factor),
+      degrees_(degrees) {}
+
+double Copula::score(const Share& share, double degrees) const {
+    const double m = tail(share);
+    const bool low = share.below < share.above;
+    if (!degrees_) return detail::normal_quantile(low ? share.below - 0.5 : 0.5 - share.above, m);
+    const double far = boost::math::quantile(Student(degrees), m);
+    return low ? far : -far;
+}
+
+Share Copula::share(double score, double degrees) const {
+    if (!degrees_) return {normal_distribution(score), normal_distribution(-score)};
+    const Student law(degrees);
+    return {boost::math::cdf(law, score), boost::math::cdf(boost::math::complement(law, score))};
+}
+
+void Copula::forward(std::span<Share> row) const {
+    std::vector<double> y(d_);  // L y are the scores
+    double squares = 0;
+    for (std::size_t i = 0; i < d_; ++i) {
+        double middle = 0;
+        for (std::size_t j = 0; j < i; ++j) middle += factor_[square(i, j, d_)] * y[j];
+        const auto before = static_cast<double>(i);
+        const double nu = degrees_.value_or(0);
+        const double spread = degrees_ ? std::sqrt((nu + squares) / (nu + before)) : 1;
+        y[i] = spread * score(row[i], nu + before);
+        squares += y[i] * y[i];
+        row[i] = share(middle + factor_[square(i, i, d_)] * y[i], nu);
+    }
+}
+
+void Copula::inverse(std::span<Share> row) const {
+    std::vector<double> y(d_);
+    double squares = 0;
+    for (std::size_t i = 0; i < d_; ++i) {
+        double middle = 0;
+        for (std::size_t j = 0; j < i; ++j) middle += factor_[square(i, j, d_)] * y[j];
+        const auto before = static_cast<double>(i);
+        const double nu = degrees_.value_or(0);
+        const double spread = degrees_ ? std::sqrt((nu + squares) / (nu + before)) : 1;
+        y[i] = (score(row[i], nu) - middle) / factor_[square(i, i, d_)];
+        squares += y[i] * y[i];
+        row[i] = share(y[i] / spread, nu + before);
+    }
+}
+
+double Copula::density(std::span<const Share> row) const {
+    std::vector<double> y(d_);
+    double log_density = 0;
+    double squares = 0;
+    const double nu = degrees_.value_or(0);
+    for (std::size_t i = 0; i < d_; ++i) {
+        const double at = score(row[i], nu);
+        double rest = at;
+        for (std::size_t j = 0; j < i; ++j) rest -= factor_[square(i, j, d_)] * y[j];
+        y[i] = rest / factor_[square(i, i, d_)];
+        squares += y[i] * y[i];
+        log_density -= logarithm(factor_[square(i, i, d_)]);
+        if (degrees_)
+            log_density += (nu + 1) / 2 * log_1p(at * at / nu);
+        else
+            log_density += at * at / 2;
+    }
+    if (!degrees_) return exponential(log_density - squares / 2);
+    const auto d = static_cast<double>(d_);
+    log_density += std::lgamma((nu + d) / 2) - std::lgamma(nu / 2) -
+                   d * (std::lgamma((nu + 1) / 2) - std::lgamma(nu / 2));
+    return exponential(log_density - (nu + d) / 2 * log_1p(squares / nu));
+}
+
+bool is_correlation(const std::vector<double>& matrix, std::size_t d) {
+    return cholesky(matrix, d).failed == 0;
+}
+
+namespace {
+
+/// Eigenvalues of a symmetric matrix, and its eigenvectors as columns, by Jacobi's rotations.
+struct Eigen {
+    std::vector<double> values;
+    std::vector<double> vectors;
+};
+
+Eigen eigen(std::vector<double> a, std::size_t d) {
+    Eigen out{.values = std::vector<double>(d), .vectors = std::vector<double>(d * d)};
+    auto& v = out.vectors;
+    for (std::size_t i = 0; i < d; ++i) v[i * d + i] = 1;
+    for (int sweep = 0; sweep < 60; ++sweep) {
+        double off = 0;
+        for (std::size_t p = 0; p < d; ++p)
+            for (std::size_t q = p + 1; q < d; ++q) {
+                const double pq = a[p * d + q];
+                off = std::max(off, std::abs(pq));
+                if (std::abs(pq) < 1e-300) continue;
+                const double theta = (a[q * d + q] - a[p * d + p]) / (2 * pq);
+                const double t =
+                    std::copysign(1, theta) / (std::abs(theta) + std::sqrt(theta * theta + 1));
+                const double c = 1 / std::sqrt(t * t + 1);
+                const double s = t * c;
+                const auto turn = [&](double& x, double& y) {
+                    const double old = x;
+                    x = c * old - s * y;
+                    y = s * old + c * y;
+                };
+                for (std::size_t k = 0; k < d; ++k) turn(a[k * d + p], a[k * d + q]);
+                for (std::size_t k = 0; k < d; ++k) turn(a[p * d + k], a[q * d + k]);
+                for (std::size_t k = 0; k < d; ++k) turn(v[k * d + p], v[k * d + q]);
+            }
+        if (off < 1e-15) break;
+    }
+    for (std::size_t i = 0; i < d; ++i) out.values[i] = a[i * d + i];
+    return out;
+}
+
+/// The nearest matrix whose eigenvalues are not below `least`.
+std::vector<double> lifted(const std::vector<double>& matrix, std::size_t d, double least) {
+    const auto [values, vectors] = eigen(matrix, d);
+    std::vector<double> out(d * d);
+    for (std::size_t i = 0; i < d; ++i)
+        for (std::size_t j = 0; j < d; ++j)
+            for (std::size_t k = 0; k < d; ++k)
+                out[i * d + j] +=
+                    std::max(values[k], least) * vectors[i * d + k] * vectors[j * d + k];
+    return out;
+}
+
+}  // namespace
+
+std::vector<double> nearest_correlation(std::vector<double> matrix, std::size_t d) {
+    constexpr double least = 1e-6;
+    std::vector<double> correction(d * d);  // Dykstra's, of the projection that is not linear
+    for (int step = 0; step < 2000; ++step) {
+        std::vector<double> shifted(d * d);
+        for (std::size_t i = 0; i < d * d; ++i) shifted[i] = matrix[i] - correction[i];
+        std::vector<double> next = lifted(shifted, d, least);
+        for (std::size_t i = 0; i < d * d; ++i) correction[i] = next[i] - shifted[i];
+        double change = 0;
+        for (std::size_t i = 0; i < d; ++i) next[i * d + i] = 1;
+        for (std::size_t i = 0; i < d * d; ++i)
+            change = std::max(change, std::abs(next[i] - matrix[i]));
+        matrix = std::move(next);
+        if (change < 1e-12) break;
+    }
+    // The last step set the diagonal, and may have taken a hair off the least eigenvalue.
+    while (!is_correlation(matrix, d))
+        for (std::size_t i = 0; i < d * d; ++i)
+            if (i % (d + 1) != 0) matrix[i] *= 1 - 1e-9;
+    return matrix;
+}
+
+}  // namespace stipple::parameters

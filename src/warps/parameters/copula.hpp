@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+//
+// Copulas: how coordinates that are uniform, each by itself, depend on each other. With L L^T = R, a
+// matrix of correlations, and independent uniform u,
+//
+//     Gaussian   z_i = Phi^-1(u_i),    v_i = Phi((L z)_i)
+//     Student    v_i = T_nu(t_i),      t_i = m_i + s_i T_(nu+i)^-1(u_i),
+//
+// where m_i and s_i^2 = L_ii^2 (nu + q_i) / (nu + i) are those of Student's distribution given the i
+// coordinates before, and q_i is the sum of squares of the y with L y = t up to there. Both are
+// Rosenblatt's map: u_i decides v_i given those before, so that strata of the first coordinate are
+// kept, and there is a way back.
+//
+// Shape   d coordinates; each as the probability p below and the probability q = 1 - p above, so
+//         that both tails keep all their digits.
+// Cost    d^2 / 2 multiplications and d quantiles a point.
+// Promise Gaussian: the same bits on every machine. Student's quantiles are Boost's, which calls the
+//         C library.
+// Source  M. Rosenblatt, Ann. Math. Statist. 23 (1952) 470-472, doi:10.1214/aoms/1177729394;
+//         P. Ding, Amer. Statist. 70 (2016) 293-295, doi:10.1080/00031305.2016.1164756 (Student's
+//         distribution given some coordinates).
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace stipple::parameters {
+
+/// The probability of what is below a place, and of what is above.
+struct Share {
+    double below = 0.5;
+    double above = 0.5;
+};
+
+class Copula {
+  public:
+    /// @param correlations d x d, row after row; a valid matrix
+    /// @param degrees of freedom of Student's copula; none: Gaussian
+    Copula(const std::vector<double>& correlations, std::optional<double> degrees);
+
+    /// From independent coordinates to those that depend on each other, in place.
+    void forward(std::span<Share> row) const;
+    void inverse(std::span<Share> row) const;
+
+    /// With respect to the uniform distribution.
+    [[nodiscard]] double density(std::span<const Share> row) const;
+
+  private:
+    [[nodiscard]] double score(const Share& share, double degrees) const;
+    [[nodiscard]] Share share(double score, double degrees) const;
+
+    std::size_t d_;
+    std::vector<double> factor_;
+    std::optional<double> degrees_;
+};
+
+/// Whether a symmetric matrix with ones on its diagonal has a Cholesky factor.
+bool is_correlation(const std::vector<double>& matrix, std::size_t d);
+
+/// The nearest such matrix, in the sum of squares, that has one; eigenvalues are at least 1e-6.
+///
+/// Source  N. J. Higham, IMA J. Numer. Anal. 22 (2002) 329-343, doi:10.1093/imanum/22.3.329.
+std::vector<double> nearest_correlation(std::vector<double> matrix, std::size_t d);
+
+}  // namespace stipple::parameters

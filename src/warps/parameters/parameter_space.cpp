@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "warps/parameters/parameter_space.hpp"
+
+#include <algorithm>
+
+namespace stipple::parameters {
+namespace {
+
+double place(const Marginal& law, const Share& share) {
+    return share.below <= share.above ? law.quantile(share.below, Tail::lower)
+                                      : law.quantile(share.above, Tail::upper);
+}
+
+/// Of an outcome, the middle of its interval.
+Share share_of(const Marginal& law, double x) {
+    const Share at{law.probability(x, Tail::lower), law.probability(x, Tail::upper)};
+    if (!law.discrete()) return at;
+    const double half = law.density(x) / 2;
+    return {at.below - half, at.above + half};
+}
+
+}  // namespace
+
+ParameterSpace::ParameterSpace(std::vector<Parameter> parameters, std::optional<Copula> copula,
+                               std::vector<Expression> constraints)
+    : parameters_(std::move(parameters)),
+      copula_(std::move(copula)),
+      constraints_(std::move(constraints)) {
+    for (const Parameter& parameter : parameters_) {
+        conditional_ |= !parameter.law;
+        discrete_ |= parameter.law && parameter.law->discrete();
+    }
+}
+
+const Marginal& ParameterSpace::law(std::size_t k, std::span<const double> row,
+                                    MarginalPtr& held) const {
+    const Parameter& parameter = parameters_[k];
+    if (parameter.law) return *parameter.law;
+    held = parameter.law_given(row.first(k));
+    return *held;
+}
+
+bool ParameterSpace::from_cube(std::span<const double> cube, std::span<double> row) const {
+    std::vector<Share> shares(cube.size());
+    for (std::size_t k = 0; k < cube.size(); ++k) shares[k] = {cube[k], 1 - cube[k]};
+    if (copula_) copula_->forward(shares);
+    MarginalPtr held;
+    for (std::size_t k = 0; k < row.size(); ++k) row[k] = place(law(k, row, held), shares[k]);
+    return allowed(row);
+}
+
+std::vector<Share> ParameterSpace::shares(std::span<const double> row) const {
+    std::vector<Share> shares(row.size());
+    MarginalPtr held;
+    for (std::size_t k = 0; k < row.size(); ++k) shares[k] = share_of(law(k, row, held), row[k]);
+    return shares;
+}
+
+void ParameterSpace::to_cube(std::span<const double> row, std::span<double> cube) const {
+    auto at = shares(row);
+    if (copula_) copula_->inverse(at);
+    for (std::size_t k = 0; k < row.size(); ++k) cube[k] = std::clamp(at[k].below, 0.0, 1.0);
+}
+
+bool ParameterSpace::allowed(std::span<const double> row) const {
+    return std::ranges::all_of(constraints_, [&](const Expression& constraint) {
+        const double holds = constraint.at(row);
+        return holds != 0 && holds == holds;
+    });
+}
+
+bool ParameterSpace::contains(std::span<const double> row) const {
+    MarginalPtr held;
+    for (std::size_t k = 0; k < row.size(); ++k) {
+        const Marginal& of = law(k, row, held);
+        const auto [low, high] = of.support();
+        if (!(row[k] >= low && row[k] <= high) || (of.discrete() && !(of.density(row[k]) > 0)))
+            return false;
+    }
+    return allowed(row);
+}
+
+double ParameterSpace::density(std::span<const double> row) const {
+    double product = copula_ ? copula_->density(shares(row)) : 1;
+    MarginalPtr held;
+    for (std::size_t k = 0; k < row.size(); ++k) product *= law(k, row, held).density(row[k]);
+    return product;
+}
+
+}  // namespace stipple::parameters

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+//
+// Named parameters: what each of them follows, how they depend on each other, and what holds of all
+// of them together.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "math/densities/expression.hpp"
+#include "math/distributions/marginal.hpp"
+#include "warps/parameters/copula.hpp"
+
+namespace stipple::parameters {
+
+struct Parameter {
+    std::string name;
+    std::string unit;
+    std::vector<std::string> levels;  ///< words that its numbers 0, 1, ... stand for; none: numbers
+    MarginalPtr law;                  ///< none: it depends on the parameters before
+    /// Makes it, given the parameters before.
+    std::function<MarginalPtr(std::span<const double> before)> law_given = {};
+};
+
+class ParameterSpace {
+  public:
+    /// @param constraints formulas in all parameters, which hold where they are not 0
+    ParameterSpace(std::vector<Parameter> parameters, std::optional<Copula> copula,
+                   std::vector<Expression> constraints);
+
+    [[nodiscard]] const std::vector<Parameter>& parameters() const { return parameters_; }
+    [[nodiscard]] const std::vector<Expression>& constraints() const { return constraints_; }
+    [[nodiscard]] bool has_copula() const { return copula_.has_value(); }
+    [[nodiscard]] bool conditional() const {
+        return conditional_;
+    }                                                          ///< some law is not known before
+    [[nodiscard]] bool discrete() const { return discrete_; }  ///< some parameter is
+
+    /// The parameters that a row of the unit cube gives. False: a constraint does not hold.
+    [[nodiscard]] bool from_cube(std::span<const double> cube, std::span<double> row) const;
+
+    /// The way back; of a number that stands for an interval of the cube, to its middle.
+    void to_cube(std::span<const double> row, std::span<double> cube) const;
+
+    /// Whether each is a number that it may be, and all constraints hold.
+    [[nodiscard]] bool contains(std::span<const double> row) const;
+
+    /// Of the parameters before constraints; of those that are discrete, their probability.
+    [[nodiscard]] double density(std::span<const double> row) const;
+
+  private:
+    [[nodiscard]] bool allowed(std::span<const double> row) const;
+    /// @param held keeps a law that was made for this row
+    [[nodiscard]] const Marginal& law(std::size_t k, std::span<const double> row,
+                                      MarginalPtr& held) const;
+    [[nodiscard]] std::vector<Share> shares(std::span<const double> row) const;
+
+    std::vector<Parameter> parameters_;
+    std::optional<Copula> copula_;
+    std::vector<Expression> constraints_;
+    bool discrete_ = false;
+    bool conditional_ = false;
+};
+
+}  // namespace stipple::parameters
