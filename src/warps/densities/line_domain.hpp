@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -130,7 +131,12 @@ class LineDomain final : public NamedDomain {
     }
     std::optional<Moments> moments() const override {
         std::vector<LineMoments> each;
-        for (const auto& axis : axes_) each.push_back(axis->moments());
+        for (const auto& axis : axes_) {
+            each.push_back(axis->moments());
+            const auto [mean, variance, third] = each.back();
+            if (!std::isfinite(mean) || !std::isfinite(variance) || std::isnan(third))
+                return std::nullopt;
+        }
         return independent_moments(each);
     }
     std::vector<std::string> cube_axes() const override {

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+//
+// Distributions whose quantiles are closed forms, through math/functions. With E(p) = -log(1 - p),
+// the quantile of the standard exponential distribution, and Phi^-1 that of the normal:
+//
+//     uniform      low + p (high - low)            log-uniform  low (high / low)^p
+//     exponential  E(p) / rate                     weibull      scale E(p)^(1 / shape)
+//     gumbel       location - scale log(-log p)    lognormal    exp(mu + sigma Phi^-1(p))
+//     triangular   low + sqrt(p (high - low) (mode - low)), and its mirror image above the mode
+//
+// Beware  exp(y) is off by |y| / 2^53 of itself, at most 8e-14.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "math/distributions/laws.hpp"
+#include "math/distributions/marginal_of.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/incomplete_functions.hpp"
+#include "math/functions/logarithm.hpp"
+#include "math/functions/normal_distribution.hpp"
+
+namespace stipple {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+struct Uniform {
+    static constexpr std::string_view name = "uniform";
+    double low;
+    double high;
+
+    double quantile(double p, Tail tail) const {
+        return tail == Tail::lower ? low + p * (high - low) : high - p * (high - low);
+    }
+    double probability(double x, Tail tail) const {
+        return (tail == Tail::lower ? x - low : high - x) / (high - low);
+    }
+    double density(double /*x*/) const { return 1 / (high - low); }
+    MarginalMoments moments() const {
+        return {low + 0.5 * (high - low), (high - low) * (high - low) / 12, 0};
+    }
+    std::pair<double, double> support() const { return {low, high}; }
+};
+
+struct LogUniform {
+    static constexpr std::string_view name = "log-uniform";
+    double low;
+    double high;
+    double log_ratio = log_1p((high - low) / low);
+
+    double quantile(double p, Tail tail) const {
+        return tail == Tail::lower ? low * real_power(high / low, p)
+                                   : high * real_power(high / low, -p);
+    }
+    double probability(double x, Tail tail) const {
+        return (tail == Tail::lower ? log_1p((x - low) / low) : log_1p((high - x) / x)) / log_ratio;
+    }
+    double density(double x) const { return 1 / (x * log_ratio); }
+    std::pair<double, double> support() const { return {low, high}; }
+};
+
+struct Triangular {
+    static constexpr std::string_view name = "triangular";
+    double low;
+    double mode;
+    double high;
+    double below = (mode - low) / (high - low);  ///< probability below the mode
+
+    double quantile(double p, Tail tail) const {
+        const double from_low = tail == Tail::lower ? p : 1 - p;
+        const double from_high = tail == Tail::lower ? 1 - p : p;
+        const double left = std::sqrt(from_low * below) * (high - low);
+        const double right = std::sqrt(from_high * (1 - below)) * (high - low);
+        return from_low < below ? low + left : high - right;
+    }
+    double probability(double x, Tail tail) const {
+        const double y = x < mode ? (x - low) / (high - low) : (high - x) / (high - low);
+        const double share = y * y / (x < mode ? below : (high - mode) / (high - low));
+        return (x < mode) == (tail == Tail::lower) ? share : 1 - share;
+    }
+    double density(double x) const {
+        const double rise = x < mode ? (x - low) / (mode - low) : (high - x) / (high - mode);
+        return 2 * (x == mode ? 1 : rise) / (high - low);
+    }
+    MarginalMoments moments() const {
+        const double q = high - low;
+        const double p = (mode - low) / q;
+        const double square = 1 - p + p * p;
+        const double skewness = std::numbers::sqrt2 * (1 - 2 * p) * (1 + p) * (2 - p) /
+                                (5 * square * std::sqrt(square));
+        return {low + q * (1 + p) / 3, q * q * square / 18, skewness};
+    }
+    std::pair<double, double> support() const { return {low, high}; }
+};
+
+/// Of the normal distribution, from either tail.
+double standard_quantile(double p, Tail tail) {
+    const double z = normal_quantile(p);
+    return tail == Tail::lower ? z : -z;
+}
+double standard_probability(double z, Tail tail) {
+    return normal_distribution(tail == Tail::lower ? z : -z);
+}
+double standard_density(double z) {
+    return stipple::exponential(-0.5 * z * z) *
+           (0.5 * std::numbers::inv_sqrtpi * std::numbers::sqrt2);
+}
+
+struct Normal {
+    static constexpr std::string_view name = "normal";
+    double mean;
+    double deviation;
+
+    double quantile(double p, Tail tail) const {
+        return mean + deviation * standard_quantile(p, tail);
+    }
+    double probability(double x, Tail tail) const {
+        return standard_probability((x - mean) / deviation, tail);
+    }
+    double density(double x) const { return standard_density((x - mean) / deviation) / deviation; }
+    MarginalMoments moments() const { return {mean, deviation * deviation, 0}; }
+    std::pair<double, double> support() const { return {-infinite, infinite}; }
+};
+
+struct Lognormal {
+    static constexpr std::string_view name = "lognormal";
+    double mu;
+    double sigma;
+
+    double quantile(double p, Tail tail) const {
+        return stipple::exponential(mu + sigma * standard_quantile(p, tail));
+    }
+    double probability(double x, Tail tail) const { return standard_probability(place(x), tail); }
+    double density(double x) const { return x > 0 ? standard_density(place(x)) / (sigma * x) : 0; }
+    MarginalMoments moments() const {
+        const double more = std::expm1(sigma * sigma);
+        return {std::exp(mu + 0.5 * sigma * sigma), more * std::exp(2 * mu + sigma * sigma),
+                (more + 3) * std::sqrt(more)};
+    }
+    std::pair<double, double> support() const { return {0, infinite}; }
+
+  private:
+    double place(double x) const { return (logarithm(x) - mu) / sigma; }
+};
+
+/// E(p), or with 1 - p in place of p.
+double standard_decay(double p, Tail tail) {
+    return tail == Tail::lower ? 0.0 - log_1p(-p) : 0.0 - logarithm(p);
+}
+double decayed(double x, Tail tail) {
+    return tail == Tail::lower ? 0.0 - exp_minus_1(-x) : stipple::exponential(-x);
+}
+
+struct Exponential {
+    static constexpr std::string_view name = "exponential";
+    double rate;
+
+    double quantile(double p, Tail tail) const { return standard_decay(p, tail) / rate; }
+    double probability(double x, Tail tail) const { return decayed(rate * x, tail); }
+    double density(double x) const { return rate * stipple::exponential(-rate * x); }
+    MarginalMoments moments() const { return {1 / rate, 1 / (rate * rate), 2}; }
+    std::pair<double, double> support() const { return {0, infinite}; }
+};
+
+struct Weibull {
+    static constexpr std::string_view name = "weibull";
+    double shape;
+    double scale;
+
+    double quantile(double p, Tail tail) const {
+        return scale * real_power(standard_decay(p, tail), 1 / shape);
+    }
+    double probability(double x, Tail tail) const {
+        return decayed(real_power(x / scale, shape), tail);
+    }
+    double density(double x) const {
+        const double y = x / scale;
+        return shape / scale * real_power(y, shape - 1) *
+               stipple::exponential(-real_power(y, shape));
+    }
+    std::pair<double, double> support() const { return {0, infinite}; }
+};
+
+struct Gumbel {
+    static constexpr std::string_view name = "gumbel";
+    double location;
+    double scale;
+
+    double quantile(double p, Tail tail) const {
+        const double small = tail == Tail::lower ? 1 - p : p;  // exact where it is small
+        const double near = 0.0 - log_1p(-small);
+        const double far = 0.0 - logarithm(p);
+        const double decay = tail == Tail::lower && p < 0.5 ? far : near;
+        return location - scale * logarithm(decay);
+    }
+    double probability(double x, Tail tail) const {
+        const double decay = power(x);
+        return decayed(decay, tail == Tail::lower ? Tail::upper : Tail::lower);
+    }
+    double density(double x) const {
+        const double decay = power(x);
+        return decay * stipple::exponential(-decay) / scale;
+    }
+    MarginalMoments moments() const {
+        return {location + scale * std::numbers::egamma,
+                scale * scale * std::numbers::pi * std::numbers::pi / 6, 1.1395470994046486};
+    }
+    std::pair<double, double> support() const { return {-infinite, infinite}; }
+
+  private:
+    double power(double x) const {
+        return stipple::exponential(std::min((location - x) / scale, 709.0));
+    }
+};
+
+}  // namespace
+
+MarginalPtr uniform_law(double low, double high) { return marginal_of(Uniform{low, high}); }
+MarginalPtr log_uniform_law(double low, double high) {
+    return marginal_of(LogUniform{.low = low, .high = high});
+}
+MarginalPtr triangular_law(double low, double mode, double high) {
+    return marginal_of(Triangular{.low = low, .mode = mode, .high = high});
+}
+MarginalPtr normal_law(double mean, double deviation) {
+    return marginal_of(Normal{mean, deviation});
+}
+MarginalPtr lognormal_law(double mu, double sigma) { return marginal_of(Lognormal{mu, sigma}); }
+MarginalPtr exponential_law(double rate) { return marginal_of(Exponential{rate}); }
+MarginalPtr weibull_law(double shape, double scale) { return marginal_of(Weibull{shape, scale}); }
+MarginalPtr gumbel_law(double location, double scale) {
+    return marginal_of(Gumbel{location, scale});
+}
+
+}  // namespace stipple

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+//
+// Discrete distributions: a table of outcomes with their running sums from both ends, and whole
+// numbers of a range. The weights of Poisson's and the binomial distribution are products of ratios
+//
+//     p(k + 1) / p(k) = mean / (k + 1)    or    (n - k) / (k + 1) * p / (1 - p)
+//
+// from the likeliest outcome on, to twice the digits of a double, and divided by their sum.
+//
+// Cost    32 bytes an outcome; the tables reach as far as outcomes are not 1e-306 times as likely
+//         as the likeliest: 75 standard deviations where those are many.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "math/arithmetic/double_double.hpp"
+#include "math/densities/guide_table.hpp"
+#include "math/distributions/laws.hpp"
+#include "math/distributions/outcomes.hpp"
+
+namespace stipple {
+namespace {
+
+std::vector<double> sums_from_above(const std::vector<double>& weights) {
+    std::vector<double> sums = running_sums(std::vector(weights.rbegin(), weights.rend()));
+    std::ranges::reverse(sums);
+    return sums;
+}
+
+/// F at each outcome, from whichever end is nearer.
+std::vector<double> cell_ends(const std::vector<double>& weights,
+                              const std::vector<double>& above) {
+    std::vector<double> ends = running_sums(weights);
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+        if (ends[i] > 0.5) ends[i] = 1 - above[i];
+        if (i > 0) ends[i] = std::max(ends[i], ends[i - 1]);
+    }
+    return ends;
+}
+
+}  // namespace
+
+Outcomes::Outcomes(std::string_view name, std::vector<double> values, std::vector<double> weights)
+    : name_(name), values_(std::move(values)), weights_(std::move(weights)) {
+    const double total = running_sums(weights_).back();
+    for (double& w : weights_) w /= total;
+    above_ = sums_from_above(weights_);
+    above_.erase(above_.begin());
+    above_.push_back(0);
+    ends_ = GuideTable(cell_ends(weights_, above_), 2 * values_.size());
+}
+
+double Outcomes::quantile(double p, Tail tail) const {
+    if (tail == Tail::lower || p > 0.5) return values_[ends_.at(tail == Tail::lower ? p : 1 - p)];
+    const auto at = std::ranges::partition_point(above_, [&](double q) { return q >= p && q > 0; });
+    return values_[static_cast<std::size_t>(at - above_.begin())];
+}
+
+double Outcomes::probability(double x, Tail tail) const {
+    const auto after = std::ranges::upper_bound(values_, x);
+    if (after == values_.begin()) return tail == Tail::lower ? 0 : 1;
+    const auto i = static_cast<std::size_t>(after - values_.begin()) - 1;
+    return tail == Tail::lower ? ends_.end(i) : above_[i];
+}
+
+double Outcomes::density(double x) const {
+    const auto at = std::ranges::lower_bound(values_, x);
+    const auto i = static_cast<std::size_t>(at - values_.begin());
+    return at != values_.end() && *at == x ? weights_[i] : 0;
+}
+
+MarginalMoments Outcomes::moments() const {
+    double mean = 0;
+    for (std::size_t i = 0; i < values_.size(); ++i) mean += weights_[i] * values_[i];
+    double variance = 0;
+    double third = 0;
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+        const double from = values_[i] - mean;
+        variance += weights_[i] * from * from;
+        third += weights_[i] * from * from * from;
+    }
+    return {mean, variance, variance > 0 ? third / (variance * std::sqrt(variance)) : 0};
+}
+
+void Outcomes::quantiles(std::span<double> p) const {
+    for (double& x : p) x = values_[ends_.at(std::max(x, 0.0))];
+}
+
+MarginalPtr Outcomes::between(double low, double high) const {
+    std::vector<double> values;
+    std::vector<double> weights;
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+        if (values_[i] < low || values_[i] > high) continue;
+        values.push_back(values_[i]);
+        weights.push_back(weights_[i]);
+    }
+    const double most = weights.empty() ? 0 : std::ranges::max(weights);
+    if (!(most > 1e-290)) return nullptr;
+    for (double& w : weights) w /= most;
+    return std::make_shared<Outcomes>(name_, std::move(values), std::move(weights));
+}
+
+Integers::Integers(double low, double high) : low_(low), count_(high - low + 1) {}
+
+double Integers::quantile(double p, Tail tail) const {
+    if (tail == Tail::lower) return low_ + std::min(std::floor(p * count_), count_ - 1);
+    return low_ + count_ - std::clamp(std::ceil(p * count_), 1.0, count_);
+}
+double Integers::probability(double x, Tail tail) const {
+    const double below = std::clamp(std::floor(x) - low_ + 1, 0.0, count_);
+    return (tail == Tail::lower ? below : count_ - below) / count_;
+}
+double Integers::density(double x) const {
+    return x >= low_ && x - low_ < count_ && std::floor(x) == x ? 1 / count_ : 0;
+}
+MarginalMoments Integers::moments() const {
+    return {low_ + 0.5 * (count_ - 1), (count_ - 1) * (count_ + 1) / 12, 0};
+}
+void Integers::quantiles(std::span<double> p) const {
+    for (double& x : p) x = quantile(std::max(x, 0.0), Tail::lower);
+}
+MarginalPtr Integers::between(double low, double high) const {
+    const double from = std::max(low_, std::ceil(low));
+    const double to = std::min(low_ + count_ - 1, std::floor(high));
+    return from <= to ? std::make_shared<Integers>(from, to) : nullptr;
+}
+
+namespace {
+
+DoubleDouble quotient(const DoubleDouble& a, const DoubleDouble& b) {
+    const double q = a.high / b.high;
+    const DoubleDouble back = DoubleDouble{q, 0} * b;
+    return exact_sum(q, ((a.high - back.high) + (a.low - back.low)) / b.high);
+}
+
+/// Weights of first, ..., mode, ..., last, from ratios up(k) = p(k + 1) / p(k).
+template <class Ratio>
+MarginalPtr by_ratios(std::string_view name, double mode, double last, const Ratio& up) {
+    constexpr double rare = 1e-306;
+    std::vector<double> values, weights;
+    DoubleDouble w{1, 0};
+    for (double k = mode; k >= 0 && w.high > rare; --k) {
+        values.push_back(k);
+        weights.push_back(w.high);
+        if (k > 0) w = quotient(w, up(k - 1));
+    }
+    std::ranges::reverse(values);
+    std::ranges::reverse(weights);
+    w = up(mode);
+    for (double k = mode + 1; k <= last && w.high > rare; ++k) {
+        values.push_back(k);
+        weights.push_back(w.high);
+        w = w * up(k);
+    }
+    return std::make_shared<Outcomes>(name, std::move(values), std::move(weights));
+}
+
+}  // namespace
+
+MarginalPtr integers_law(double low, double high) { return std::make_shared<Integers>(low, high); }
+
+MarginalPtr poisson_law(double mean) {
+    return by_ratios("poisson", std::floor(mean), 1e15, [&](double k) {
+        return quotient({mean, 0}, {k + 1, 0});
+    });
+}
+
+MarginalPtr binomial_law(double trials, double probability) {
+    const double mode = std::min(trials, std::floor((trials + 1) * probability));
+    const DoubleDouble odds = quotient({probability, 0}, exact_sum(1, -probability));
+    return by_ratios("binomial", mode, trials, [&](double k) {
+        return quotient({trials - k, 0}, {k + 1, 0}) * odds;
+    });
+}
+
+MarginalPtr empirical_law(std::vector<double> values) {
+    std::ranges::sort(values);
+    std::vector<double> counts;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (i == 0 || values[i] != values[i - 1])
+            counts.push_back(1);
+        else
+            ++counts.back();
+    }
+    values.erase(std::ranges::unique(values).begin(), values.end());
+    return std::make_shared<Outcomes>("empirical", std::move(values), std::move(counts));
+}
+
+}  // namespace stipple

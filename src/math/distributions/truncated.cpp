@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+//
+// A distribution between two ends a and b. With m = F(b) - F(a), all of it by sums of numbers above
+// 0, in whichever tail the probability is smaller:
+//
+//     quantile of p:   of F(a) + p m from below, or of (1 - F(b)) + (1 - p) m from above.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "core/error.hpp"
+#include "math/densities/quadrature.hpp"
+#include "math/distributions/laws.hpp"
+#include "math/distributions/marginal.hpp"
+#include "math/distributions/marginal_of.hpp"
+#include "math/distributions/outcomes.hpp"
+
+namespace stipple {
+namespace {
+
+/// Probability between a < b, without digits lost to that of both sides.
+double mass_between(const Marginal& law, double a, double b) {
+    const double below = law.probability(a, Tail::lower);
+    const double above = law.probability(b, Tail::upper);
+    const double with_b = law.probability(b, Tail::lower);
+    const double with_a = law.probability(a, Tail::upper);
+    if (with_b <= 0.5) return with_b - below;
+    return with_a <= 0.5 ? with_a - above : 1 - (below + above);
+}
+
+class Truncated final : public Marginal {
+  public:
+    Truncated(MarginalPtr law, double low, double high)
+        : law_(std::move(law)),
+          low_(std::max(low, law_->support().first)),
+          high_(std::min(high, law_->support().second)),
+          below_(law_->probability(low_, Tail::lower)),
+          above_(law_->probability(high_, Tail::upper)),
+          mass_(mass_between(*law_, low_, high_)) {}
+
+    double mass() const { return mass_; }
+
+    std::string_view name() const override { return "truncated"; }
+    double quantile(double p, Tail tail) const override {
+        if (p <= 0 || p >= 1) return (p <= 0) == (tail == Tail::lower) ? low_ : high_;
+        const double from_low = below_ + (tail == Tail::lower ? p : 1 - p) * mass_;
+        const double from_high = above_ + (tail == Tail::lower ? 1 - p : p) * mass_;
+        const double x = from_low <= from_high ? law_->quantile(from_low, Tail::lower)
+                                               : law_->quantile(from_high, Tail::upper);
+        return std::clamp(x, low_, high_);
+    }
+    double probability(double x, Tail tail) const override {
+        const double inside = std::clamp(x, low_, high_);
+        const double part = tail == Tail::lower ? mass_between(*law_, low_, inside)
+                                                : mass_between(*law_, inside, high_);
+        return std::clamp(part / mass_, 0.0, 1.0);
+    }
+    double density(double x) const override {
+        return x >= low_ && x <= high_ ? law_->density(x) / mass_ : 0;
+    }
+    MarginalMoments moments() const override { return moments_by_quadrature(*this); }
+    std::pair<double, double> support() const override { return {low_, high_}; }
+    void quantiles(std::span<double> p) const override {
+        for (double& x : p) x = quantile(x, Tail::lower);
+    }
+
+  private:
+    MarginalPtr law_;
+    double low_;
+    double high_;
+    double below_;
+    double above_;
+    double mass_;
+};
+
+/// E (x - about)^n over both halves, with p = t^4 / 2 from their ends, where x may be endless.
+double moment_about(const Marginal& law, double about, int n) {
+    double sum = 0;
+    for (const Tail tail : {Tail::lower, Tail::upper}) {
+        const auto f = [&](double t) {
+            const double p = 0.5 * t * t * t * t;
+            if (p < 1e-300) return 0.0;
+            double power = 2 * t * t * t;
+            for (int i = 0; i < n; ++i) power *= law.quantile(p, tail) - about;
+            return power;
+        };
+        sum += integrate_interval(f, 0, 1).value;
+    }
+    return sum;
+}
+
+}  // namespace
+
+MarginalMoments moments_by_quadrature(const Marginal& law) {
+    const double middle = law.quantile(0.5);
+    const double mean = middle + moment_about(law, middle, 1);
+    const double variance = moment_about(law, mean, 2);
+    const double third = moment_about(law, mean, 3);
+    return {mean, variance, variance > 0 ? third / (variance * std::sqrt(variance)) : 0};
+}
+
+MarginalPtr truncated(MarginalPtr law, double low, double high, std::string_view where) {
+    if (!(low < high))
+        fail(ErrorKind::usage, "{}low: {} is not below {}high, {}", where, low, where, high);
+    if (const auto* discrete = dynamic_cast<const DiscreteMarginal*>(law.get())) {
+        MarginalPtr part = discrete->between(low, high);
+        if (!part)
+            fail(ErrorKind::usage,
+                 "{}low: {} has no outcome of a probability above 1e-290 from {} "
+                 "to {}",
+                 where, law->name(), low, high);
+        return part;
+    }
+    auto part = std::make_shared<const Truncated>(law, low, high);
+    const auto [from, to] = part->support();
+    if (!(from < to && part->mass() > 1e-290))
+        fail(ErrorKind::usage,
+             "{}low: {} has the probability {:.3g} from {} to {}; above 1e-290 is needed", where,
+             law->name(), from < to ? part->mass() : 0.0, low, high);
+    const double beside =
+        std::min(law->probability(from, Tail::upper), law->probability(to, Tail::lower));
+    if (part->mass() < 1e-6 * beside)
+        fail(ErrorKind::usage,
+             "{}low: of the probability of {} beyond it, less than 1e-6 is from {} to {}: too "
+             "narrow for its digits",
+             where, law->name(), low, high);
+    return part;
+}
+
+}  // namespace stipple

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+//
+// A double whose elementary functions are those of this folder. Boost.Math's functions are templates
+// on the type of numbers: of this one, they call no function of the C library whose last bit differs
+// between machines, and do not change to wider types where there are some.
+//
+// Promise + - * / and square roots are those of double; exp, log and powers as in exponential.hpp and
+//         logarithm.hpp; sine, cosine, and their inverses for x in [0, 1], within 1e-15. The same
+//         bits on every machine for the same release of Boost.
+#pragma once
+
+#include <boost/math/policies/policy.hpp>
+#include <cmath>
+#include <compare>
+#include <limits>
+#include <numbers>
+#include <type_traits>
+
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
+#include "math/functions/trigonometry.hpp"
+
+namespace stipple {
+
+struct PortableDouble {
+    double value = 0;
+
+    PortableDouble() = default;
+    template <class Number>
+    requires std::is_arithmetic_v<Number>
+    constexpr PortableDouble(Number x)
+        : value(static_cast<double>(x)) {}  // NOLINT: a number is one
+    template <class Number>
+    requires std::is_arithmetic_v<Number>
+    explicit operator Number() const { return static_cast<Number>(value); }
+
+    PortableDouble& operator+=(PortableDouble b) { return *this = value + b.value; }
+    PortableDouble& operator-=(PortableDouble b) { return *this = value - b.value; }
+    PortableDouble& operator*=(PortableDouble b) { return *this = value * b.value; }
+    PortableDouble& operator/=(PortableDouble b) { return *this = value / b.value; }
+    PortableDouble& operator++() { return *this += 1; }
+    PortableDouble& operator--() { return *this -= 1; }
+    PortableDouble operator-() const { return -value; }
+    PortableDouble operator+() const { return *this; }
+    friend PortableDouble operator+(PortableDouble a, PortableDouble b) { return a += b; }
+    friend PortableDouble operator-(PortableDouble a, PortableDouble b) { return a -= b; }
+    friend PortableDouble operator*(PortableDouble a, PortableDouble b) { return a *= b; }
+    friend PortableDouble operator/(PortableDouble a, PortableDouble b) { return a /= b; }
+    friend auto operator<=>(PortableDouble a, PortableDouble b) { return a.value <=> b.value; }
+    friend bool operator==(PortableDouble a, PortableDouble b) { return a.value == b.value; }
+
+    /// For the messages of Boost's errors.
+    template <class Stream>
+    friend Stream& operator<<(Stream& out, PortableDouble x) {
+        out << x.value;
+        return out;
+    }
+};
+
+inline PortableDouble exp(PortableDouble x) {
+    return x.value <= 709 ? exponential(x.value) : std::numeric_limits<double>::infinity();
+}
+inline PortableDouble log(PortableDouble x) {
+    return x.value > 0 ? logarithm(x.value) : -std::numeric_limits<double>::infinity();
+}
+inline PortableDouble pow(PortableDouble x, PortableDouble y) {
+    return real_power(x.value, y.value);
+}
+inline PortableDouble sqrt(PortableDouble x) { return std::sqrt(x.value); }
+inline PortableDouble fabs(PortableDouble x) { return std::abs(x.value); }
+inline PortableDouble abs(PortableDouble x) { return std::abs(x.value); }
+inline PortableDouble floor(PortableDouble x) { return std::floor(x.value); }
+inline PortableDouble ceil(PortableDouble x) { return std::ceil(x.value); }
+inline PortableDouble fmod(PortableDouble x, PortableDouble y) {
+    return std::fmod(x.value, y.value);
+}
+inline PortableDouble ldexp(PortableDouble x, int exponent) {
+    return std::ldexp(x.value, exponent);
+}
+inline PortableDouble frexp(PortableDouble x, int* exponent) {
+    return std::frexp(x.value, exponent);
+}
+
+namespace detail {
+
+inline CosSin cos_sin_radians(double x) {
+    const double turns = x / (2 * std::numbers::pi);
+    return cos_sin_turns(turns - std::floor(turns));
+}
+
+inline double other_leg(double x) { return std::sqrt((1 - x) * (1 + x)); }
+
+}  // namespace detail
+
+inline PortableDouble cos(PortableDouble x) { return detail::cos_sin_radians(x.value).cos; }
+inline PortableDouble sin(PortableDouble x) { return detail::cos_sin_radians(x.value).sin; }
+inline PortableDouble acos(PortableDouble x) {
+    return 2 * std::numbers::pi * turns_of(x.value, detail::other_leg(x.value));
+}
+inline PortableDouble asin(PortableDouble x) {
+    return 2 * std::numbers::pi * turns_of(detail::other_leg(x.value), x.value);
+}
+
+namespace detail {
+
+namespace policies = boost::math::policies;
+
+/// Infinity or NaN for what has no value, and no exceptions.
+using NoErrors = policies::policy<policies::domain_error<policies::ignore_error>,
+                                  policies::pole_error<policies::ignore_error>,
+                                  policies::overflow_error<policies::ignore_error>,
+                                  policies::underflow_error<policies::ignore_error>,
+                                  policies::denorm_error<policies::ignore_error>,
+                                  policies::rounding_error<policies::ignore_error>,
+                                  policies::evaluation_error<policies::ignore_error>,
+                                  policies::indeterminate_result_error<policies::ignore_error>>;
+
+}  // namespace detail
+
+}  // namespace stipple
+
+template <>
+class std::numeric_limits<stipple::PortableDouble> : public std::numeric_limits<double> {
+    using Number = stipple::PortableDouble;
+    using Double = std::numeric_limits<double>;
+
+  public:
+    static Number min() { return Double::min(); }
+    static Number max() { return Double::max(); }
+    static Number lowest() { return Double::lowest(); }
+    static Number epsilon() { return Double::epsilon(); }
+    static Number infinity() { return Double::infinity(); }
+    static Number quiet_NaN() { return Double::quiet_NaN(); }
+    static Number denorm_min() { return Double::denorm_min(); }
+};

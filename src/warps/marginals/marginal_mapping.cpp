@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "warps/marginals/marginal_mapping.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "warps/densities/line_domain.hpp"
+
+namespace stipple::warps {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A distribution as the line's domain and mapping take it. Endless tails end where random numbers
+/// do: 0 is taken as 2^-54, and 1 as 1 - 2^-55.
+class MarginalLine final : public LineDistribution {
+  public:
+    explicit MarginalLine(MarginalPtr law)
+        : law_(std::move(law)), ends_(law_->support()), inside_(ends_) {
+        auto& [low, high] = inside_;
+        if (std::isinf(low)) low = std::numeric_limits<double>::lowest();
+        if (std::isinf(high)) high = std::numeric_limits<double>::max();
+        if (!has_density(ends_.first)) low = std::nextafter(low, infinity);
+        if (!has_density(ends_.second)) high = std::nextafter(high, -infinity);
+    }
+
+    /// Where the density is 0 or infinite at an end, rounding does not reach the end.
+    void forward_all(std::span<double> numbers) const {
+        if (law_->discrete()) return law_->quantiles(numbers);
+        std::array<double, 256> u;
+        for (std::size_t first = 0; first < numbers.size(); first += u.size()) {
+            const auto some = numbers.subspan(first, std::min(u.size(), numbers.size() - first));
+            std::ranges::copy(some, u.begin());
+            law_->quantiles(some);
+            for (std::size_t i = 0; i < some.size(); ++i)
+                some[i] = std::max(inside_.first, std::min(some[i], inside_.second));
+            for (std::size_t i = 0; i < some.size(); ++i)
+                if (u[i] <= 0 || u[i] >= 1) some[i] = end(u[i] <= 0 ? Tail::lower : Tail::upper);
+        }
+    }
+    bool infinite(double u) const {
+        return !law_->discrete() &&
+               ((u <= 0 && std::isinf(ends_.first)) || (u >= 1 && std::isinf(ends_.second)));
+    }
+    double inverse(double x) const override {
+        if (!law_->discrete()) return law_->probability(x);
+        const auto [begin, close] = cell(x);
+        const double middle = begin + 0.5 * (close - begin);
+        return middle < close ? middle : begin;
+    }
+    double density(double x) const override { return law_->density(x); }
+    bool contains(double x) const override {
+        if (law_->discrete()) return law_->density(x) > 0;
+        return x >= ends_.first && x <= ends_.second && std::isfinite(x);
+    }
+    double measure() const override {
+        return law_->discrete() ? law_->outcomes() : ends_.second - ends_.first;
+    }
+    LineMoments moments() const override {
+        const auto [mean, variance, skewness] = law_->moments();
+        return {mean, variance, skewness * variance * std::sqrt(variance)};
+    }
+    /// In an endless direction, all but exp(-10) = 4.5e-5.
+    std::pair<double, double> range() const override {
+        constexpr double beyond = 4.5399929762484854e-5;
+        const bool table = law_->discrete();
+        return {
+            std::isinf(ends_.first) || table ? law_->quantile(beyond, Tail::lower) : ends_.first,
+            std::isinf(ends_.second) || table ? law_->quantile(beyond, Tail::upper) : ends_.second};
+    }
+    Positive positive() const override {
+        if (law_->discrete()) return {{}, law_->outcomes()};
+        return {{range()}, measure()};
+    }
+
+    /// The middle of an outcome's cell.
+    bool even() const override { return !law_->discrete(); }
+    double cube_coordinate(double x) const override {
+        const auto [begin, close] = cell(x);
+        return law_->discrete() ? begin + 0.5 * (close - begin) : inverse(x);
+    }
+    Estimate probability(double low, double high) const override {
+        if (!law_->discrete()) return {high - low, 0};
+        return {std::max(mass_before(high) - mass_before(low), 0.0), 0};
+    }
+
+  private:
+    bool has_density(double x) const {
+        const double density = std::isfinite(x) ? law_->density(x) : 1;
+        return density > 0 && std::isfinite(density);
+    }
+    double end(Tail tail) const {
+        const double x = tail == Tail::lower ? ends_.first : ends_.second;
+        if (std::isfinite(x)) return x;
+        return law_->quantile(tail == Tail::lower ? 0x1p-54 : 0x1p-55, tail);
+    }
+    /// Of an outcome: F just below it, and at it.
+    std::pair<double, double> cell(double x) const {
+        return {law_->probability(std::nextafter(x, -infinity)), law_->probability(x)};
+    }
+    /// Of the outcomes the middle of whose cell is below u.
+    double mass_before(double u) const {
+        if (u <= 0 || u >= 1) return u <= 0 ? 0 : 1;
+        const double x = law_->quantile(u);
+        const auto [begin, close] = cell(x);
+        return cube_coordinate(x) < u ? close : begin;
+    }
+
+    MarginalPtr law_;
+    std::pair<double, double> ends_;
+    std::pair<double, double> inside_;  ///< the ends, or next to them
+};
+
+}  // namespace
+
+Option describe(const ParameterOption& parameter) {
+    const MarginalParameter& of = parameter.of;
+    std::vector<double> fallback;
+    if (of.fallback) fallback.push_back(*of.fallback);
+    return {.name = std::string(of.name),
+            .type = "numbers",
+            .fallback = fallback,
+            .optional = fallback.empty(),
+            .help = fmt::format("{}: one number for all coordinates, or one for each", of.help)};
+}
+
+ParameterOption parameter(std::string_view family, std::string_view name) {
+    return {marginal_family(family).parameter(name)};
+}
+
+std::vector<MarginalPtr> family_members(std::string_view family, const ParameterLists& lists) {
+    std::size_t members = 1;
+    for (const auto& [name, numbers] : lists) {
+        if (numbers.size() <= 1) continue;
+        if (members > 1 && numbers.size() != members)
+            fail(ErrorKind::usage,
+                 "--{}: {} numbers for {} coordinates; one for all, or one for each", name,
+                 numbers.size(), members);
+        members = numbers.size();
+    }
+    std::vector<MarginalPtr> laws;
+    for (std::size_t k = 0; k < members; ++k) {
+        NamedNumbers given;
+        for (const auto& [name, numbers] : lists)
+            if (!numbers.empty()) given.emplace_back(name, numbers[numbers.size() > 1 ? k : 0]);
+        laws.push_back(make_marginal(family, given, "--"));
+    }
+    return laws;
+}
+
+std::unique_ptr<Mapping> marginal_mapping(const std::vector<MarginalPtr>& marginals, std::size_t d,
+                                          std::string spec) {
+    std::vector<std::shared_ptr<const MarginalLine>> axes;
+    for (const MarginalPtr& law : marginals) axes.push_back(std::make_shared<MarginalLine>(law));
+    return line_mapping(std::move(axes), d, std::move(spec), "probability below x");
+}
+
+std::unique_ptr<Mapping> family_mapping(const WarpRequest& want) {
+    ParameterLists lists;
+    for (const auto& item : want.options.items())
+        lists.emplace_back(item.name, std::get<std::vector<double>>(item.value));
+    return marginal_mapping(family_members(want.warp.name, lists), want.given, want.spec());
+}
+
+}  // namespace stipple::warps

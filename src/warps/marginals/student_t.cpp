@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+//
+// Unit cube onto the whole line, each coordinate by itself, by inversion:
+//
+//     x = location + scale t,    P(T > t) = I_z(nu / 2, 1 / 2) / 2,    z = nu / (nu + t^2)
+//     for nu degrees of freedom; 1 of them is Cauchy's distribution
+//
+// Shape   any number of coordinates; one number for all coordinates, or one for each, for each
+//         parameter.
+// Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the same
+//         order. The first and the last are endless; 0 is taken as 2^-54 and 1 as 1 - 2^-55.
+// Cost    O(1) a coordinate; 1 to 3 us on one core.
+// Promise quantiles within 1e-13 of themselves in both tails. The same bits on every machine for the same
+//         release of Boost, whose functions are computed through math/functions.
+
+#include "warps/marginals/marginal_mapping.hpp"
+
+namespace stipple::warps::student_t {
+
+Warp unit() {
+    return {.name = "student-t",
+            .summary = "Student's t distribution on each coordinate, by inversion",
+            .source = "Inverse of the regularised incomplete beta function",
+            .related = {"cauchy"},
+            .strata = "xi is the probability below x, as it is: small xi is far below",
+            .options = Schema(parameter("student-t", "degrees"), parameter("student-t", "location"),
+                              parameter("student-t", "scale")),
+            .mapping = family_mapping};
+}
+
+}  // namespace stipple::warps::student_t

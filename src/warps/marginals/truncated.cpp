@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+//
+// Any other distribution on the line between two ends a and b, each coordinate by itself, by
+// inversion of
+//
+//     (F(x) - F(a)) / (F(b) - F(a)) = xi,
+//
+// all from the tail in which probabilities are smaller (math/distributions/truncated.cpp), so that
+// the part of a normal distribution from 30 standard deviations on keeps its digits.
+//
+// Shape   any number of coordinates; one end or both; for each end one number for all coordinates, or
+//         one for each.
+// Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the
+//         same order.
+// Cost    that of the distribution, and about 15 ns a coordinate on one core.
+// Promise x in [a, b]. Of continuous distributions the part must have a probability above 1e-290, and
+//         of discrete ones it is cut exactly. The same bits on every machine.
+// Beware  in an interval of a share s of the probability beyond its ends, x is rounded to steps of
+//         1e-16 / s of its width.
+
+#include <algorithm>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/spec.hpp"
+#include "warps/marginals/marginal_mapping.hpp"
+
+namespace stipple::warps::truncated {
+namespace {
+
+constexpr Param<Text> of{
+    {.name = "of",
+     .fallback = "normal",
+     .help = "The distribution, as a spec: normal:deviation=2, gamma:shape=3"}};
+constexpr Param<Numbers> low{
+    {.name = "low",
+     .help = "Lower end: one number for all coordinates, or one for each; default: none"}};
+constexpr Param<Numbers> high{
+    {.name = "high",
+     .help = "Upper end: one number for all coordinates, or one for each; default: none"}};
+
+/// Members of the family that --of names. @throws Error(usage)
+std::vector<MarginalPtr> members_of(const std::string& text) {
+    const Spec spec = parse_spec(text);
+    if (!spec.coordinates.empty())
+        fail(ErrorKind::usage, "--of: '{}' has coordinates; a name and its options are expected",
+             text);
+    ParameterLists lists;
+    for (const auto& [name, numbers] : spec.settings)
+        lists.emplace_back(name, parse_numbers(name, numbers));
+    return family_members(spec.name, lists);
+}
+
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const std::vector<MarginalPtr> laws = members_of(want.options[of]);
+    const std::vector<double> lows = want.options[low];
+    const std::vector<double> highs = want.options[high];
+    if (lows.empty() && highs.empty()) fail(ErrorKind::usage, "--low: give --low, --high or both");
+    const std::size_t members = std::max({laws.size(), lows.size(), highs.size()});
+    const auto at = [&](const auto& list, std::size_t k, auto none) {
+        if (list.size() > 1 && list.size() != members)
+            fail(ErrorKind::usage,
+                 "--low: {} and {} ends for {} coordinates; one for all, or one for each",
+                 lows.size(), highs.size(), members);
+        return list.empty() ? none : list[list.size() > 1 ? k : 0];
+    };
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    std::vector<MarginalPtr> parts;
+    for (std::size_t k = 0; k < members; ++k)
+        parts.push_back(stipple::truncated(at(laws, k, MarginalPtr()), at(lows, k, -endless) + 0.0,
+                                           at(highs, k, endless) + 0.0, "--"));
+    return marginal_mapping(parts, want.given, want.spec());
+}
+
+}  // namespace
+
+Warp unit() {
+    return {.name = "truncated",
+            .summary = "Any other distribution on the line between two ends, on each coordinate",
+            .source = "Inverse of the distribution function, from the nearer tail",
+            .related = {"truncated-normal", "clipped", "bounded"},
+            .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
+            .options = Schema(of, low, high),
+            .mapping = make};
+}
+
+}  // namespace stipple::warps::truncated

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+//
+// Unit cube onto a box, each coordinate by itself, by inversion:
+//
+//     x = low + xi (high - low),    density 1 / (high - low)
+//
+// Shape   any number of coordinates; one number for all coordinates, or one for each, for each
+//         parameter.
+// Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the same
+//         order.
+// Cost    O(1) a coordinate; about 1 ns on one core.
+// Promise x in [low, high], and high only by rounding. The same bits on every machine.
+
+#include "warps/marginals/marginal_mapping.hpp"
+
+namespace stipple::warps::uniform {
+
+Warp unit() {
+    return {.name = "uniform",
+            .summary = "Uniform distribution between two ends, on each coordinate",
+            .source = "Inverse of the distribution function, a straight line",
+            .related = {"box", "interval", "bounds"},
+            .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
+            .options = Schema(parameter("uniform", "low"), parameter("uniform", "high")),
+            .mapping = family_mapping};
+}
+
+}  // namespace stipple::warps::uniform
