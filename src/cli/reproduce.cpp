@@ -70,6 +70,20 @@ Arguments arguments_of(const Provenance& meta, const std::string& name) {
     return typed;
 }
 
+/// Puts the warp that the provenance holds in place of the parameter file that was typed.
+void take_parameters(Arguments& typed, const Provenance& meta) {
+    if (!typed.has("parameters")) return;
+    const std::size_t before = typed.all("warp").size();
+    if (meta.warps.size() <= before)
+        fail(ErrorKind::usage, "its command names parameters, which its warps do not hold");
+    std::erase_if(typed.common, [](const auto& option) {
+        return option.first == "parameters" || option.first == "unit-cube";
+    });
+    typed.common.emplace_back("warp", meta.warps[before]);
+    if (!typed.has("dimension"))
+        typed.common.emplace_back("dimension", std::to_string(meta.dimension));
+}
+
 /// What was typed, as the provenance's command says.
 Arguments typed_for(const Original& original) {
     const auto words = shell_words(original.meta.command);
@@ -77,7 +91,9 @@ Arguments typed_for(const Original& original) {
         return arguments_of(original.meta, original.name);
     std::vector<const char*> argv;
     for (const std::string& word : words) argv.push_back(word.c_str());
-    return parse_arguments(static_cast<int>(argv.size()), argv.data());
+    Arguments typed = parse_arguments(static_cast<int>(argv.size()), argv.data());
+    take_parameters(typed, original.meta);
+    return typed;
 }
 
 /// What makes the file again, and how its numbers were written.

@@ -259,8 +259,9 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
 namespace {
 
 /// Refuses what would take days. @throws Error(input)
-void check_share(std::uint64_t kept, std::uint64_t made, std::uint64_t most) {
-    if (made < most || static_cast<double>(kept) >= 1e-9 * static_cast<double>(made)) return;
+void check_share(std::uint64_t kept, std::uint64_t made) {
+    constexpr std::uint64_t enough = 3'000'000'000;
+    if (made < enough || static_cast<double>(kept) >= 1e-9 * static_cast<double>(made)) return;
     fail(ErrorKind::input, "the constraints hold for {} of {:.2g} points: a share below {:.1g}",
          kept == 0 ? "none" : std::to_string(kept), static_cast<double>(made),
          3 / static_cast<double>(made));
@@ -284,7 +285,7 @@ std::vector<double> GeneratedSets::next_images(std::uint64_t set, const PointSet
                 fmt::format("the constraints hold for a share of {:.2g}{}: some {:.1g} points "
                             "are made",
                             share, have == 0 ? " or less" : "", more));
-        check_share(have, made, 3'000'000'000);
+        check_share(have, made);
         Plan plan = plan_;
         plan.count = static_cast<std::uint64_t>(std::clamp(more, 4096.0, 0x1p20));
         const std::uint64_t at = asked_.request.start + made;
@@ -314,7 +315,7 @@ std::vector<double> GeneratedSets::images_of_more(std::uint64_t set, const Point
         }
         if (!best.empty() && have >= plan_.count && have <= plan_.count + 2 + plan_.count / 50)
             break;
-        check_share(have, count, 1'000'000'000);
+        if (have == 0 && count > 10'000'000) break;
         const double ratio =
             have == 0 ? 32 : static_cast<double>(plan_.count) / static_cast<double>(have);
         const double next = static_cast<double>(count) * ratio * 1.005 + 1;
@@ -329,7 +330,7 @@ std::vector<double> GeneratedSets::images_of_more(std::uint64_t set, const Point
         fail(ErrorKind::input, "the constraints hold for {} of {} points", kept.size() / d, count);
     run.notify(
         fmt::format("{} points were made, of which the constraints keep {}: what {} promises "
-                    "is true of them before",
+                    "holds for all that were made",
                     made, plan_.count, generator_.name));
     return best;
 }

@@ -14,7 +14,7 @@ void require_even(const Domain& domain, std::string_view analyzer) {
     if (domain.even()) return;
     fail_with_hint(ErrorKind::input, "chi-square takes every domain",
                    "{} needs coordinates that preserve probability; {} has none", analyzer,
-                   domain.spec());
+                   split(domain.spec(), ':').front());
 }
 
 void tell_axes(const Domain& domain, Report& report) {

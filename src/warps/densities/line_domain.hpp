@@ -116,7 +116,9 @@ class LineDomain final : public NamedDomain {
         for (std::size_t k = 0; k < axes_.size(); ++k)
             cube[k] = std::clamp(axes_[k]->cube_coordinate(point[k]), 0.0, 1.0);
     }
-    bool even() const override { return axes_[0]->even(); }
+    bool even() const override {
+        return std::ranges::all_of(axes_, [](const auto& axis) { return axis->even(); });
+    }
     Estimate probability(const Box& cell) const override {
         Estimate product{1, 0};
         for (std::size_t k = 0; k < axes_.size(); ++k) {

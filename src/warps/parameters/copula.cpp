@@ -2,18 +2,17 @@
 #include "warps/parameters/copula.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "math/distributions/laws.hpp"
 #include "math/functions/cholesky.hpp"
 #include "math/functions/exponential.hpp"
+#include "math/functions/incomplete_functions.hpp"
 #include "math/functions/normal_distribution.hpp"
 
 namespace stipple::parameters {
 namespace {
-
-using Student = boost::math::students_t;
 
 /// The smaller of the two shares; an end, which is infinitely far, as the random number next to it.
 double tail(const Share& share) {
@@ -21,41 +20,45 @@ double tail(const Share& share) {
     return m > 0 ? std::max(m, 1e-300) : 0x1p-54;
 }
 
-std::size_t square(std::size_t i, std::size_t j, std::size_t d) { return i * d + j; }
-
 }  // namespace
 
 Copula::Copula(const std::vector<double>& correlations, std::optional<double> degrees)
     : d_(static_cast<std::size_t>(std::lround(std::sqrt(correlations.size())))),
       factor_(cholesky(correlations, d_).factor),
-      degrees_(degrees) {}
+      degrees_(degrees) {
+    for (std::size_t i = 0; degrees && i < d_; ++i)
+        laws_.push_back(student_t_law(*degrees + static_cast<double>(i), 0, 1));
+}
 
-double Copula::score(const Share& share, double degrees) const {
+double Copula::score(const Share& share, std::size_t given) const {
     const double m = tail(share);
     const bool low = share.below < share.above;
     if (!degrees_) return detail::normal_quantile(low ? share.below - 0.5 : 0.5 - share.above, m);
-    const double far = boost::math::quantile(Student(degrees), m);
-    return low ? far : -far;
+    return laws_[given]->quantile(m, low ? Tail::lower : Tail::upper);
 }
 
-Share Copula::share(double score, double degrees) const {
+Share Copula::share(double score, std::size_t given) const {
     if (!degrees_) return {normal_distribution(score), normal_distribution(-score)};
-    const Student law(degrees);
-    return {boost::math::cdf(law, score), boost::math::cdf(boost::math::complement(law, score))};
+    const Marginal& law = *laws_[given];
+    return {law.probability(score, Tail::lower), law.probability(score, Tail::upper)};
+}
+
+Copula::Place Copula::place(std::size_t i, std::span<const double> y, double squares) const {
+    Place at{.middle = 0, .spread = 1};
+    for (std::size_t j = 0; j < i; ++j) at.middle += factor_[i * d_ + j] * y[j];
+    if (degrees_)
+        at.spread = std::sqrt((*degrees_ + squares) / (*degrees_ + static_cast<double>(i)));
+    return at;
 }
 
 void Copula::forward(std::span<Share> row) const {
     std::vector<double> y(d_);  // L y are the scores
     double squares = 0;
     for (std::size_t i = 0; i < d_; ++i) {
-        double middle = 0;
-        for (std::size_t j = 0; j < i; ++j) middle += factor_[square(i, j, d_)] * y[j];
-        const auto before = static_cast<double>(i);
-        const double nu = degrees_.value_or(0);
-        const double spread = degrees_ ? std::sqrt((nu + squares) / (nu + before)) : 1;
-        y[i] = spread * score(row[i], nu + before);
+        const auto [middle, spread] = place(i, y, squares);
+        y[i] = spread * score(row[i], i);
         squares += y[i] * y[i];
-        row[i] = share(middle + factor_[square(i, i, d_)] * y[i], nu);
+        row[i] = share(middle + factor_[i * d_ + i] * y[i], 0);
     }
 }
 
@@ -63,14 +66,10 @@ void Copula::inverse(std::span<Share> row) const {
     std::vector<double> y(d_);
     double squares = 0;
     for (std::size_t i = 0; i < d_; ++i) {
-        double middle = 0;
-        for (std::size_t j = 0; j < i; ++j) middle += factor_[square(i, j, d_)] * y[j];
-        const auto before = static_cast<double>(i);
-        const double nu = degrees_.value_or(0);
-        const double spread = degrees_ ? std::sqrt((nu + squares) / (nu + before)) : 1;
-        y[i] = (score(row[i], nu) - middle) / factor_[square(i, i, d_)];
+        const auto [middle, spread] = place(i, y, squares);
+        y[i] = (score(row[i], 0) - middle) / factor_[i * d_ + i];
         squares += y[i] * y[i];
-        row[i] = share(y[i] / spread, nu + before);
+        row[i] = share(y[i] / spread, i);
     }
 }
 
@@ -80,12 +79,10 @@ double Copula::density(std::span<const Share> row) const {
     double squares = 0;
     const double nu = degrees_.value_or(0);
     for (std::size_t i = 0; i < d_; ++i) {
-        const double at = score(row[i], nu);
-        double rest = at;
-        for (std::size_t j = 0; j < i; ++j) rest -= factor_[square(i, j, d_)] * y[j];
-        y[i] = rest / factor_[square(i, i, d_)];
+        const double at = score(row[i], 0);
+        y[i] = (at - place(i, y, 0).middle) / factor_[i * d_ + i];
         squares += y[i] * y[i];
-        log_density -= logarithm(factor_[square(i, i, d_)]);
+        log_density -= logarithm(factor_[i * d_ + i]);
         if (degrees_)
             log_density += (nu + 1) / 2 * log_1p(at * at / nu);
         else
@@ -93,8 +90,8 @@ double Copula::density(std::span<const Share> row) const {
     }
     if (!degrees_) return exponential(log_density - squares / 2);
     const auto d = static_cast<double>(d_);
-    log_density += std::lgamma((nu + d) / 2) - std::lgamma(nu / 2) -
-                   d * (std::lgamma((nu + 1) / 2) - std::lgamma(nu / 2));
+    log_density += log_gamma((nu + d) / 2) - log_gamma(nu / 2) -
+                   d * (log_gamma((nu + 1) / 2) - log_gamma(nu / 2));
     return exponential(log_density - (nu + d) / 2 * log_1p(squares / nu));
 }
 
@@ -158,7 +155,7 @@ std::vector<double> lifted(const std::vector<double>& matrix, std::size_t d, dou
 std::vector<double> nearest_correlation(std::vector<double> matrix, std::size_t d) {
     constexpr double least = 1e-6;
     std::vector<double> correction(d * d);  // Dykstra's, of the projection that is not linear
-    for (int step = 0; step < 2000; ++step) {
+    for (int step = 0; step < 500; ++step) {
         std::vector<double> shifted(d * d);
         for (std::size_t i = 0; i < d * d; ++i) shifted[i] = matrix[i] - correction[i];
         std::vector<double> next = lifted(shifted, d, least);
@@ -168,7 +165,7 @@ std::vector<double> nearest_correlation(std::vector<double> matrix, std::size_t 
         for (std::size_t i = 0; i < d * d; ++i)
             change = std::max(change, std::abs(next[i] - matrix[i]));
         matrix = std::move(next);
-        if (change < 1e-12) break;
+        if (change < 1e-10) break;
     }
     // The last step set the diagonal, and may have taken a hair off the least eigenvalue.
     while (!is_correlation(matrix, d))

@@ -14,8 +14,7 @@
 // Shape   d coordinates; each as the probability p below and the probability q = 1 - p above, so
 //         that both tails keep all their digits.
 // Cost    d^2 / 2 multiplications and d quantiles a point.
-// Promise Gaussian: the same bits on every machine. Student's quantiles are Boost's, which calls the
-//         C library.
+// Promise the same bits on every machine.
 // Source  M. Rosenblatt, Ann. Math. Statist. 23 (1952) 470-472, doi:10.1214/aoms/1177729394;
 //         P. Ding, Amer. Statist. 70 (2016) 293-295, doi:10.1080/00031305.2016.1164756 (Student's
 //         distribution given some coordinates).
@@ -25,6 +24,8 @@
 #include <optional>
 #include <span>
 #include <vector>
+
+#include "math/distributions/marginal.hpp"
 
 namespace stipple::parameters {
 
@@ -48,12 +49,21 @@ class Copula {
     [[nodiscard]] double density(std::span<const Share> row) const;
 
   private:
-    [[nodiscard]] double score(const Share& share, double degrees) const;
-    [[nodiscard]] Share share(double score, double degrees) const;
+    /// Of the score of coordinate i, given those before: score = middle + L_ii y_i, and y_i has
+    /// the distribution for i given coordinates, times the spread.
+    struct Place {
+        double middle;
+        double spread;
+    };
+    [[nodiscard]] Place place(std::size_t i, std::span<const double> y, double squares) const;
+    /// By the distribution for some coordinates given.
+    [[nodiscard]] double score(const Share& share, std::size_t given) const;
+    [[nodiscard]] Share share(double score, std::size_t given) const;
 
     std::size_t d_;
-    std::vector<double> factor_;
+    std::vector<double> factor_;  ///< L, row after row
     std::optional<double> degrees_;
+    std::vector<MarginalPtr> laws_;  ///< Student's, for 0, 1, ... coordinates given
 };
 
 /// Whether a symmetric matrix with ones on its diagonal has a Cholesky factor.

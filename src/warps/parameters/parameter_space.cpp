@@ -2,13 +2,16 @@
 #include "warps/parameters/parameter_space.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace stipple::parameters {
 namespace {
 
+/// An end that is infinitely far is put where random numbers end.
 double place(const Marginal& law, const Share& share) {
-    return share.below <= share.above ? law.quantile(share.below, Tail::lower)
-                                      : law.quantile(share.above, Tail::upper);
+    const Tail tail = share.below <= share.above ? Tail::lower : Tail::upper;
+    const double x = law.quantile(std::min(share.below, share.above), tail);
+    return std::isfinite(x) ? x : law.quantile(0x1p-54, tail);
 }
 
 /// Of an outcome, the middle of its interval.

@@ -10,8 +10,7 @@
 // Strata  without a copula, xi as it is; with one, those of the first parameter that it joins.
 // Cost    that of the quantiles, and d^2 / 2 multiplications of a copula; some 50 ns a constraint.
 // Promise a point breaks no constraint. The way back of outcomes is the middle of their interval.
-//         The same bits on every machine where those of the distributions are; Student's copula
-//         calls the C library.
+//         The same bits on every machine.
 // Beware  constraints leave a density that is known up to a factor: it, and cells of known
 //         probability, are refused.
 

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/warping.hpp"
+#include "warps/parameters/parameter_file.hpp"
+
+namespace stipple::testing::parameters_test {
+namespace {
+
+using parameters::parse_parameters;
+using ::testing::HasSubstr;
+
+std::unique_ptr<Mapping> parameters_of(const std::string& json) {
+    const Spec spec = parse_spec("parameters:json=[" + json + "]");
+    return find_warp(spec.name).make(spec.values(find_warp(spec.name).options), 0, {});
+}
+
+/// Three parameters joined by a copula.
+std::string joined(const std::string& correlation) {
+    return R"({"parameters":[{"name":"a","range":[0,1]},{"name":"b","range":[0,1]},)"
+           R"({"name":"c","range":[0,1]}],"correlation":)" +
+           correlation + "}";
+}
+
+const std::vector<std::string> copulas = {
+    R"({"spearman":[["a","b",0.7],["b","c",-0.4]]})",
+    R"({"copula":"student","degrees":3.5,"kendall":[["a","b",0.5],["a","c",0.2]]})"};
+
+TEST(Parameters, CopulasHaveTheDensityOfTheirMap) {
+    for (const std::string& correlation : copulas) {
+        const auto map = parameters_of(joined(correlation));
+        expect_density_is_one_over_stretch(*map, 2e-5);
+        PointSet some(200, 3);
+        Rng(3).fill(0, some.flat());
+        PointSet back(200, 3);
+        map->inverse(warped(*map, some).flat(), back.flat());
+        for (std::size_t i = 0; i < 600; ++i) EXPECT_NEAR(back.flat()[i], some.flat()[i], 1e-9);
+    }
+}
+
+std::vector<double> ranks(const PointSet& points, std::size_t k) {
+    std::vector<std::size_t> order(points.count());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::ranges::sort(order, {}, [&](std::size_t i) { return points[i][k]; });
+    std::vector<double> rank(order.size());
+    for (std::size_t r = 0; r < order.size(); ++r) rank[order[r]] = static_cast<double>(r);
+    return rank;
+}
+
+double linear(const std::vector<double>& x, const std::vector<double>& y) {
+    double mx = 0, my = 0, xx = 0, yy = 0, xy = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        mx += x[i] / static_cast<double>(x.size());
+        my += y[i] / static_cast<double>(x.size());
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        xx += (x[i] - mx) * (x[i] - mx);
+        yy += (y[i] - my) * (y[i] - my);
+        xy += (x[i] - mx) * (y[i] - my);
+    }
+    return xy / std::sqrt(xx * yy);
+}
+
+double kendall(const PointSet& points, std::size_t a, std::size_t b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < points.count(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            sum += (points[i][a] - points[j][a]) * (points[i][b] - points[j][b]) > 0 ? 1 : -1;
+    const auto n = static_cast<double>(points.count());
+    return sum / (n * (n - 1) / 2);
+}
+
+// 2^14 scrambled points; the correlations of such sets were within a third of these bounds.
+TEST(Parameters, HaveTheCorrelationsThatAreAskedFor) {
+    const PointSet cube = make("sobol", points(1 << 14, 3), {{"scramble", std::string("owen")}});
+    const PointSet gauss = warped(*parameters_of(joined(copulas[0])), cube);
+    EXPECT_NEAR(linear(ranks(gauss, 0), ranks(gauss, 1)), 0.7, 2e-3);
+    EXPECT_NEAR(linear(ranks(gauss, 1), ranks(gauss, 2)), -0.4, 2e-3);
+    EXPECT_NEAR(linear(ranks(gauss, 0), ranks(gauss, 2)), 0, 2e-3);
+
+    const PointSet few = make("sobol", points(1 << 11, 3), {{"scramble", std::string("owen")}});
+    const PointSet student = warped(*parameters_of(joined(copulas[1])), few);
+    EXPECT_NEAR(kendall(student, 0, 1), 0.5, 5e-3);
+    EXPECT_NEAR(kendall(student, 0, 2), 0.2, 5e-3);
+    EXPECT_NEAR(kendall(student, 1, 2), 0, 5e-3);
+
+    // Linear correlation of what is far from normal: skew, and a coin.
+    const PointSet skew = warped(
+        *parameters_of(R"({"parameters":[{"name":"a","distribution":"lognormal","sigma":0.8},)"
+                       R"({"name":"b","range":[2,7]},{"name":"c","levels":[0,1]}],)"
+                       R"("correlation":{"pearson":[["a","b",0.6],["b","c",0.5]]}})"),
+        cube);
+    const auto column = [&](std::size_t k) {
+        std::vector<double> x;
+        for (std::size_t i = 0; i < skew.count(); ++i) x.push_back(skew[i][k]);
+        return x;
+    };
+    EXPECT_NEAR(linear(column(0), column(1)), 0.6, 5e-3);
+    EXPECT_NEAR(linear(column(1), column(2)), 0.5, 5e-3);
+}
+
+// The matrix and its nearest correlation matrix in Higham 2002, section 4.
+TEST(Parameters, OfferTheNearestCorrelations) {
+    const auto near = parameters::nearest_correlation({1, 1, 0, 1, 1, 1, 0, 1, 1}, 3);
+    EXPECT_NEAR(near[1], 0.7607, 5e-5);
+    EXPECT_NEAR(near[2], 0.1573, 5e-5);
+    EXPECT_NEAR(near[5], 0.7607, 5e-5);
+    EXPECT_TRUE(parameters::is_correlation(near, 3));
+    try {
+        parameters_of(joined(R"({"kendall":[["a","b",0.9],["b","c",0.9],["a","c",-0.9]]})"));
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_THAT(e.what(),
+                    HasSubstr("$.correlation: no parameters have all these correlations"));
+        EXPECT_THAT(e.hint(), HasSubstr("a and b 0."));
+    }
+}
+
+TEST(Parameters, AreInversesOfTheirDistributions) {
+    const auto map = parameters_of(
+        R"({"parameters":[{"name":"a","range":[1,100],"scale":"log"},)"
+        R"({"name":"b","distribution":"normal","mean":5,"truncate":[4,9]},)"
+        R"({"name":"c","integers":[3,5]},{"name":"d","levels":["x","y z"],"probabilities":[3,1]},)"
+        R"({"name":"e","levels":[7,2.5],"probabilities":[0.25,0.75]}]})");
+    const auto low = image_of(*map, {0.5, 0, 0, 0.74, 0.7});
+    EXPECT_NEAR(low[0], 10, 1e-14);
+    EXPECT_EQ(low[1], 4);
+    EXPECT_EQ(low[2], 3);
+    EXPECT_EQ(low[3], 0);
+    EXPECT_EQ(low[4], 2.5);
+    const auto high = image_of(*map, {0.75, 0.5, 0.99, 0.76, 0.8});
+    EXPECT_NEAR(high[0], std::pow(10, 1.5), 1e-13);
+    EXPECT_EQ(high[2], 5);
+    EXPECT_EQ(high[3], 1);
+    EXPECT_EQ(high[4], 7);
+    EXPECT_THAT(map->domain()->names(), ::testing::ElementsAre("a", "b", "c", "d", "e"));
+    ASSERT_EQ(map->domain()->levels().size(), 1U);
+    EXPECT_THAT(map->domain()->levels()[0].second, ::testing::ElementsAre("x", "y z"));
+    EXPECT_GT(p_of_random(*map, 20000), 1e-4);
+}
+
+TEST(Parameters, DependOnThoseBefore) {
+    const auto map = parameters_of(R"({"parameters":[{"name":"length","range":[2,4]},)"
+                                   R"({"name":"height","range":["length/2","length"]},)"
+                                   R"({"name":"many","distribution":"binomial","trials":10,)"
+                                   R"("probability":"height/10"}]})");
+    const auto point = image_of(*map, {0.5, 0.5, 0.5});
+    EXPECT_EQ(point[0], 3);
+    EXPECT_EQ(point[1], 2.25);
+    EXPECT_EQ(point[2], 2);  // the median of 10 trials of 0.225
+    EXPECT_EQ(inverse_of(*map, point)[1], 0.5);
+    EXPECT_FALSE(map->domain()->contains(std::vector<double>{3, 1.4, 2}));
+    EXPECT_NEAR(map->density(point), 0.5 / 1.5 * 45 * std::pow(0.225, 2) * std::pow(0.775, 8),
+                1e-12);
+}
+
+TEST(Parameters, HoldTheirConstraints) {
+    const auto map =
+        parameters_of(R"({"parameters":[{"name":"a","range":[0,2]},)"
+                      R"({"name":"b","range":[0,2]}],"constraints":["a+b<2","a>0.5"]})");
+    const PointSet all = make("sobol", points(4096, 2));
+    const PointSet kept = warped(*map, all);
+    EXPECT_NEAR(static_cast<double>(kept.count()), 4096 * 1.125 / 4, 20);
+    for (std::size_t i = 0; i < kept.count(); ++i)
+        EXPECT_TRUE(kept[i][0] + kept[i][1] < 2 && kept[i][0] > 0.5);
+    EXPECT_THROW(static_cast<void>(map->density(kept[0])), Error);
+}
+
+struct Wrong {
+    const char* json;
+    const char* says;
+};
+
+TEST(Parameters, SayWhatIsWrongAndWhere) {
+    const Wrong cases[] = {
+        {"{", "t.json: line 1:"},
+        {"[]", "t.json: $: expected an object"},
+        {R"({"parameter":[]})", "$: the key 'parameter' is not known"},
+        {R"({"parameters":[]})", "$.parameters: expected a list"},
+        {R"({"parameters":[{"name":"a"}]})", "$.parameters[0]: expected one of the keys"},
+        {R"({"parameters":[{"name":"a","range":[0,1],"levels":[1]}]})", "there are several"},
+        {R"({"parameters":[{"range":[0,1]}]})", "$.parameters[0]: the name is missing"},
+        {R"({"parameters":[{"name":"a","range":[1,0]}]})",
+         "$.parameters[0].range: low: 1 is not below high, 0"},
+        {R"({"parameters":[{"name":"a","range":[1]}]})", "$.parameters[0].range: expected two"},
+        {R"({"parameters":[{"name":"a","range":[0,1],"skale":"log"}]})", "'skale' is not known"},
+        {R"({"parameters":[{"name":"a","range":[0,1],"scale":"ln"}]})",
+         "$.parameters[0].scale: 'ln' is not log or linear"},
+        {R"({"parameters":[{"name":"a","range":[-1,1],"scale":"log"}]})",
+         "$.parameters[0].range: low: -1 is outside"},
+        {R"({"parameters":[{"name":"a","range":[0,1]},{"name":"a","range":[0,1]}]})",
+         "$.parameters[1].name: 'a' stands twice"},
+        {R"({"parameters":[{"name":"a\u0007","range":[0,1]}]})", "cannot be a name"},
+        {R"({"parameters":[{"name":"12","range":[0,1]}]})", "cannot be a name"},
+        {R"({"parameters":[{"name":"a","distribution":"norml"}]})",
+         "$.parameters[0].distribution: there is no distribution 'norml'"},
+        {R"({"parameters":[{"name":"a","distribution":"normal","sd":1}]})", "'sd' is not known"},
+        {R"({"parameters":[{"name":"a","distribution":"normal","mean":"b"}]})",
+         "$.parameters[0].mean: 'b', column 1: 'b':"},
+        {R"({"parameters":[{"name":"a","levels":["x","y"],"probabilities":[0.5,0.4]}]})",
+         "$.parameters[0].probabilities: they sum to 0.9, not to 1"},
+        {R"({"parameters":[{"name":"a","levels":["x","y"],"probabilities":[1]}]})",
+         "1 probabilities for 2 levels"},
+        {R"({"parameters":[{"name":"a","levels":["x","x"]}]})",
+         R"($.parameters[0].levels[1]: "x" stands twice)"},
+        {R"({"parameters":[{"name":"a","integers":[0.5,3]}]})",
+         "$.parameters[0].integers: low: 0.5 is not a whole number"},
+        {R"({"parameters":[{"name":"a","range":[0,1]}],"constraints":["a<"]})",
+         "$.constraints[0]: 'a<': the formula ends"},
+        {R"({"parameters":[{"name":"a","range":[0,1]}],"constraints":["b<1"]})",
+         "$.constraints[0]: 'b<1', column 1: 'b':"},
+        {R"({"parameters":[{"name":"a","range":[0,1]}],"correlation":{"spearman":[["a","b",1]]}})",
+         "$.correlation.spearman[0][1]: there is no parameter 'b'"},
+        {R"({"parameters":[{"name":"a","range":[0,1]}],"correlation":{"spearman":[["a","a",0]]}})",
+         "a parameter with itself"},
+        {R"({"parameters":[{"name":"a","range":[0,1]},{"name":"b","levels":[0,1]}],)"
+         R"("correlation":{"pearson":[["a","b",0.95]]}})",
+         "0.95 is out of reach: these two have correlations in [-0.86"},
+    };
+    for (const auto& [json, says] : cases) {
+        try {
+            static_cast<void>(parse_parameters(json, "t.json"));
+            ADD_FAILURE() << json;
+        } catch (const Error& e) {
+            EXPECT_EQ(e.kind(), ErrorKind::input) << json;
+            EXPECT_THAT(std::string(e.what()), HasSubstr(says)) << json;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace stipple::testing::parameters_test
