@@ -33,7 +33,9 @@ struct Uniform {
     double high;
 
     double quantile(double p, Tail tail) const {
-        return tail == Tail::lower ? low + p * (high - low) : high - p * (high - low);
+        const double from_low = tail == Tail::lower ? p : 1 - p;
+        const double from_high = tail == Tail::lower ? 1 - p : p;
+        return from_low < 0.5 ? low + from_low * (high - low) : high - from_high * (high - low);
     }
     double probability(double x, Tail tail) const {
         return (tail == Tail::lower ? x - low : high - x) / (high - low);
