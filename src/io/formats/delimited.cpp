@@ -135,6 +135,14 @@ bool take_number_with_comma(const Field& field, double& value) {
     return !number.empty() && take_number({number, field.at}, value);
 }
 
+/// Whether a field says that its number is missing.
+bool is_gap(const Field& field) {
+    double value = 0;
+    const char* const last = field.text.data() + field.text.size();
+    return field.text.empty() || field.text == "NA" ||
+           (read_number(field.text.data(), last, value) == last && std::isnan(value));
+}
+
 /// What is wrong with a field that does not hold one.
 std::string trouble_with(const Field& field, bool decimal_comma) {
     if (field.text.empty()) return "an empty field; expected a number";
@@ -163,7 +171,8 @@ class RowReader {
     /// Rows that the lines in [p, last) hold at most.
     [[nodiscard]] std::uint64_t most_rows(const char* p, const char* last) const {
         const auto lines = 1 + static_cast<std::uint64_t>(std::count(p, last, text_.newline()));
-        const std::uint64_t least_bytes = columns_.width() + columns_.dimension;  // of a row
+        const std::uint64_t least_bytes =  // of a row
+            columns_.width() + (dialect_.gaps ? 0 : columns_.dimension);
         return std::min(lines, 1 + static_cast<std::uint64_t>(last - p) / least_bytes);
     }
 
@@ -179,6 +188,9 @@ class RowReader {
             const bool aside = first != end && *first == (dialect_.brackets ? '{' : '#');
             if (aside && (dialect_.brackets || trim(line) == "#"))
                 marks.push_back({count, p, unknown});
+            // A table of one column holds nothing where its number is missing.
+            const bool gap = first == end && dialect_.gaps && columns_.width() == 1;
+            if (gap) room[count++] = unknown;
             if (first != end && !aside) {
                 double number = set;
                 read_row(line, room.data() + count * columns_.dimension, number);
@@ -212,9 +224,10 @@ class RowReader {
         for (Field field{}; fields.next(field); ++count) {
             if (count == columns_.width()) surplus = field.at;
             if (count >= columns_.width() || columns_.role[count] == Columns::skipped) continue;
-            double value = 0;
+            double value = unknown;
             const bool taken =
-                dialect_.comma ? take_number_with_comma(field, value) : take_number(field, value);
+                (dialect_.gaps && is_gap(field)) ||
+                (dialect_.comma ? take_number_with_comma(field, value) : take_number(field, value));
             if (!taken) refuse(line, field.at, trouble_with(field, dialect_.comma));
             if (!store(count, value, row, set))
                 refuse(line, field.at,
@@ -512,6 +525,7 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
     TableHead head{.top = read_top(text), .dialect = {}, .columns = {}};
     const std::string_view line = line_at(text, head.top.first);
     head.dialect.separator = separator_of(line);
+    head.dialect.gaps = options.gaps;
     const std::vector<Field> fields = fields_of(line, head.dialect.separator);
     std::vector<std::string> names;
     if (is_header(fields))
