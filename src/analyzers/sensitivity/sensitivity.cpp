@@ -185,8 +185,7 @@ void tell_failures(const Response& out, const Effects& effects, const RunContext
 /// The name as a part of a key, another than those before it.
 std::string key_of(std::string name, const Report& taken) {
     std::ranges::replace(name, '.', '_');
-    if (name.empty()) name = "_";
-    while (taken.find(name) != nullptr) name += '_';
+    while (name.empty() || taken.find(name) != nullptr) name += '_';
     return name;
 }
 
