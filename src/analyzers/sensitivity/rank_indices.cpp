@@ -16,47 +16,55 @@ struct Ordered {
     double z;
 };
 
-/// The mean over all orders of equal x of the sum of z_(j) z_(j+1), cyclic.
-double neighbor_products(std::span<const Ordered> runs) {
-    double sum = 0;
-    double first_mean = 0;
-    double last_mean = 0;  // of the group before
+/// Sums over a window: of products of different runs, over its size less 1; of squares; and what the
+/// variance of the first is where all windows have the mean 0.
+struct Window {
+    double products = 0;
+    double squares = 0;
+    double null_variance = 0;
+};
+
+/// Windows of at least `least` runs, two or more, none of which parts equal inputs.
+std::vector<Window> windows_of(std::span<const Ordered> runs, std::size_t least) {
+    std::vector<Window> windows;
     for (std::size_t first = 0, last = 0; first < runs.size(); first = last) {
         double total = 0;
-        double squares = 0;
-        for (; last < runs.size() && runs[last].x == runs[first].x; ++last) {
+        Window window;
+        const auto goes_on = [&] {
+            const bool few = last - first < least || runs.size() - last < least;
+            return last < runs.size() && (few || runs[last].x == runs[last - 1].x);
+        };
+        for (; goes_on(); ++last) {
             total += runs[last].z;
-            squares += runs[last].z * runs[last].z;
+            window.squares += runs[last].z * runs[last].z;
         }
-        const auto m = static_cast<double>(last - first);
-        // Of its m (m - 1) ordered pairs m - 1 are neighbors; of a cycle of equal runs alone, m.
-        if (m > 1) sum += (total * total - squares) / (last - first == runs.size() ? m - 1 : m);
-        if (first == 0)
-            first_mean = total / m;
-        else
-            sum += last_mean * (total / m);
-        last_mean = total / m;
+        const auto size = static_cast<double>(last - first);
+        window.products = (total * total - window.squares) / (size - 1);
+        const double variance = (window.squares - total * total / size) / (size - 1);
+        window.null_variance = 2 * size / (size - 1) * variance * variance;
+        windows.push_back(window);
     }
-    return runs.front().x == runs.back().x ? sum : sum + last_mean * first_mean;
+    return windows;
 }
 
-/// The standard error of a sum of products over n, with index S.
-double standard_error(std::span<const Ordered> runs, double index, double variance) {
-    const std::size_t n = runs.size();
-    std::vector<double> w(n);
-    double mean = 0;
-    for (std::size_t j = 0; j < n; ++j) {
-        const double a = runs[j].z;
-        const double b = runs[j + 1 < n ? j + 1 : 0].z;
-        w[j] = a * b - index * (a * a + b * b) / 2;
-        mean += w[j] / static_cast<double>(n);
-    }
+Index index_of(std::span<const Ordered> runs, double variance, double level) {
+    const auto least = static_cast<std::size_t>(std::sqrt(static_cast<double>(runs.size())));
+    const auto windows = windows_of(runs, least);
+    const double whole = variance * static_cast<double>(runs.size());
     double sum = 0;
-    for (std::size_t j = 0; j < n; ++j) {
-        const double next = w[(j + 1) % n] - w[(j + 2) % n];
-        sum += (w[j] - mean) * (w[j] - mean) + 2 * w[j] * next;
+    for (const Window& window : windows) sum += window.products;
+    const double index = sum / whole;
+    double squares = 0;
+    double before = 0;
+    double null_variance = 0;
+    const double mean_size = static_cast<double>(runs.size()) / static_cast<double>(windows.size());
+    for (const Window& window : windows) {
+        const double w = window.products - index * window.squares;
+        squares += w * w - (1 - 1 / mean_size) * w * before;
+        before = w;
+        null_variance += window.null_variance;
     }
-    return std::sqrt(std::max(sum, 0.0)) / static_cast<double>(n) / variance;
+    return normal_interval(index, std::sqrt(std::max(squares, null_variance)) / whole, level);
 }
 
 }  // namespace
@@ -83,10 +91,7 @@ Effects rank_indices(const Inputs& inputs, const Response& response, const Setti
         for (std::size_t j = 0; j < runs.size(); ++j)
             ordered[j] = {inputs.values[runs[j]][i], f.z[j]};
         std::ranges::stable_sort(ordered, {}, &Ordered::x);
-        const double index =
-            neighbor_products(ordered) / static_cast<double>(runs.size()) / variance;
-        effects.kinds[0].of[i] =
-            normal_interval(index, standard_error(ordered, index, variance), setting.level);
+        effects.kinds[0].of[i] = index_of(ordered, variance, setting.level);
     });
     return effects;
 }

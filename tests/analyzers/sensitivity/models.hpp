@@ -60,7 +60,7 @@ inline PointSet with_outputs(const std::vector<std::vector<double>>& rows, const
 
 using Rows = std::vector<std::vector<double>>;
 
-inline Rows rows_of(const PointSet& points) {
+inline Rows points_in(const PointSet& points) {
     Rows rows;
     for (std::size_t i = 0; i < points.count(); ++i)
         rows.emplace_back(points[i].begin(), points[i].end());

@@ -165,7 +165,7 @@ TEST(PickFreeze, LeavesOutBaseRowsWithFailedRuns) {
     some[5 * 3 + 4][3] = std::nan("");
     some[5 * 3 + 1][3] = std::nan("");
     some[5 * 17][3] = std::nan("");
-    Rows kept = rows_of(base);
+    Rows kept = points_in(base);
     kept.erase(kept.begin() + 17);
     kept.erase(kept.begin() + 3);
     const Report all =

