@@ -36,7 +36,7 @@ class Pursuit {
     }
 
     SparseFit best() {
-        const std::size_t most = std::min({candidates_.columns, z_.size() / 2, std::size_t{400}});
+        const std::size_t most = std::min({candidates_.columns, z_.size() / 2, most_terms});
         constexpr std::size_t patience = 10;
         constexpr double exact = 1e-24;
         std::size_t best = 0;

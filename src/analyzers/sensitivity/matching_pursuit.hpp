@@ -11,6 +11,8 @@
 
 namespace stipple::analyzers::sensitivity {
 
+inline constexpr std::size_t most_terms = 300;  ///< of a fit
+
 /// Candidates: the columns of a table, row after row.
 struct Candidates {
     std::span<const double> values;

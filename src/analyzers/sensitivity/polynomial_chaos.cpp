@@ -26,7 +26,7 @@ struct Expansion {
 Expansion expanded(std::size_t p, std::span<const double> u, std::size_t k,
                    std::span<const double> z, const RunContext& run) {
     const double rows = static_cast<double>(z.size());
-    run.need_memory(8 * rows * (term_count(k, p) + 400), "polynomial chaos");
+    run.need_memory(8 * rows * (term_count(k, p) + most_terms), "polynomial chaos");
     Expansion out{.degree = p, .terms = basis_terms(k, p)};
     const auto values = basis_values(u, k, out.terms, run);
     out.fit = sparse_fit({values, out.terms.size()}, z, run);
@@ -42,7 +42,7 @@ Expansion best_expansion(std::span<const double> u, std::size_t k, std::span<con
     if (degree) return expanded(*degree, u, k, z, run);
     constexpr double enough = 1e-6;
     constexpr std::size_t patience = 3;  // even and odd terms come by turns
-    const double most = std::min(3000.0, 1.6e7 / static_cast<double>(z.size()));
+    const double most = std::min(2000.0, 1e7 / static_cast<double>(z.size()));
     Expansion best;
     for (std::size_t p = 1; p <= max_degree; ++p) {
         run.tick(p - 1, max_degree);

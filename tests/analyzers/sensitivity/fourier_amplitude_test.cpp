@@ -47,8 +47,7 @@ TEST(FourierAmplitude, IsWhatTheFormulasSay) {
     }
 }
 
-// Totals are off by more, as SALib's are: the harmonics of a smooth input's curve above w / 2 count as
-// those of w.
+// Totals are off by more: harmonics above w / 2 of other inputs count for the curve's own.
 TEST(FourierAmplitude, FindsIshigamisIndices) {
     const Report report = analyze(unit, with_outputs(fast_rows(4096, 3, 1), ishigami));
     for (std::size_t i = 0; i < 3; ++i) {
