@@ -413,8 +413,9 @@ void add_bars(std::vector<ChartPanel>& panels, const std::string& output, const 
         if (panel == nullptr) {
             const auto same = std::ranges::find_if(
                 panels, [&](const ChartPanel& p) { return p.series[0].name == words_of(name); });
-            panel =
-                same == panels.end() ? &panels.emplace_back(ChartPanel{.y_name = output}) : &*same;
+            panel = same == panels.end()
+                        ? &panels.emplace_back(ChartPanel{.x_name = "", .y_name = output})
+                        : &*same;
             panel->categories.push_back(label);
             panel->from_zero = true;
         }
