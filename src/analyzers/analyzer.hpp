@@ -28,6 +28,7 @@ struct AnalyzerTraits {
     bool unit_cube = true;   ///< takes points of the closed unit cube only
     bool boxed = false;      ///< takes points of the unit cube or a box only
     bool densities = false;  ///< looks at what is known of the points' own densities
+    bool table = false;      ///< takes rows of any numbers, of which some may be missing: NaN
 };
 
 /// One key of the results, for help and `list`.

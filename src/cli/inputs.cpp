@@ -40,9 +40,12 @@ Reading reading_of(const std::string& path, const Arguments& arguments) {
     ReadOptions options{.source = path};
     std::string from = arguments.get("from").value_or("");
     options.single = from == "f32";
-    options.densities = std::ranges::any_of(analyzers_of(arguments), [](const Analyzer* analyzer) {
-        return analyzer->traits.densities;
-    });
+    const auto analyzers = analyzers_of(arguments);
+    options.densities = std::ranges::any_of(
+        analyzers, [](const Analyzer* analyzer) { return analyzer->traits.densities; });
+    options.gaps = !analyzers.empty() &&
+                   std::ranges::all_of(
+                       analyzers, [](const Analyzer* analyzer) { return analyzer->traits.table; });
     auto type = arguments.get("input-dtype");
     if (!type && arguments.verb != Verb::convert) type = arguments.get("dtype");
     if (type) options.single = *type == "f32";

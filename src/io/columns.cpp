@@ -17,18 +17,6 @@ bool is_name(const std::string& name) {
     return is_word(name) && name != "set" && !measures_points(name);
 }
 
-std::size_t find_column(const std::string& wanted, const std::vector<std::string>& names,
-                        const std::string& place, const char* option = "column") {
-    const auto it = std::ranges::find(names, wanted);
-    if (it != names.end()) return static_cast<std::size_t>(it - names.begin());
-    const auto number = parse_integer(wanted);
-    if (number && *number >= 1 && static_cast<std::size_t>(*number) <= names.size())
-        return static_cast<std::size_t>(*number) - 1;
-    fail_with_hint(ErrorKind::usage, suggest(wanted, names),
-                   "--{}: {} has no column '{}'; its columns are 1 to {}", option, place, wanted,
-                   names.size());
-}
-
 /// Puts pdf or, where there is none, weight behind the coordinates.
 void add_density(Columns& columns, const std::vector<std::string>& names) {
     for (const char* name : {"pdf", "weight"}) {
@@ -67,6 +55,18 @@ bool is_word(const std::string& text) {
            text == trim(text) && text.find('"') == std::string::npos &&
            std::string_view("#[{").find(text[0]) == std::string_view::npos &&
            read_number(text.data(), last, number) != last;
+}
+
+std::size_t find_column(const std::string& wanted, const std::vector<std::string>& names,
+                        const std::string& place, const char* option) {
+    const auto it = std::ranges::find(names, wanted);
+    if (it != names.end()) return static_cast<std::size_t>(it - names.begin());
+    const auto number = parse_integer(wanted);
+    if (number && *number >= 1 && static_cast<std::size_t>(*number) <= names.size())
+        return static_cast<std::size_t>(*number) - 1;
+    fail_with_hint(ErrorKind::usage, suggest(wanted, names),
+                   "--{}: {} has no column '{}'; its columns are 1 to {}", option, place, wanted,
+                   names.size());
 }
 
 bool Columns::plain() const { return dimension == width() && std::ranges::is_sorted(role); }

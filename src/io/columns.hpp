@@ -42,6 +42,11 @@ std::vector<std::string> kept_names(std::vector<std::string> names);
 /// number.
 bool is_word(const std::string& text);
 
+/// The column of that name or, where there is none, of that number from 1. `place` and the name of
+/// the option that has it are for the message. @throws Error(usage)
+std::size_t find_column(const std::string& wanted, const std::vector<std::string>& names,
+                        const std::string& place, const char* option = "column");
+
 /// Decides what the columns are. Without names they are called x, y, ... (see coordinate_names).
 /// Columns called pdf or weight are coordinates only when picked, or all are; so is a first one
 /// whose name is empty, which holds row names. A first column `set` tells the set. `place` begins

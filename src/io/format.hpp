@@ -87,6 +87,7 @@ struct ReadOptions {
     bool all_columns = false;  ///< those called pdf or weight are coordinates, too
     bool densities = false;    ///< a column called pdf or weight is a number behind the coordinates
     bool single = false;       ///< bin holds float32
+    bool gaps = false;         ///< text: an empty field, and nan, is a coordinate NaN
     std::string strengths = {};  ///< column that becomes a number behind the coordinates
 };
 

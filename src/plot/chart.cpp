@@ -71,6 +71,11 @@ bool only_powers_of_two(std::span<const ChartPanel> panels) {
 
 Axis x_axis(std::span<const ChartPanel> panels, const PictureStyle& style) {
     const ChartPanel& last = panels.back();
+    if (!last.categories.empty())
+        return {.low = 0.5,
+                .high = static_cast<double>(last.categories.size()) + 0.5,
+                .words = last.categories,
+                .name = last.x_name};
     Span span{.log = style.log_x.value_or(last.log_x)};
     for (const ChartPanel& panel : panels) {
         for (const Series& series : panel.series) span.take(series.x);
@@ -147,10 +152,11 @@ std::vector<LegendEntry> legend_of(const ChartPanel& panel, bool sets_named, con
     const std::size_t curves = panel.series.size() + panel.bars.size();
     const bool named = curves > 1 && !sets_named;
     for (std::size_t i = 0; named && i < panel.series.size(); ++i)
-        entries.push_back({.kind = LegendEntry::Kind::line,
-                           .name = panel.series[i].name,
-                           .colour = theme.series_colour(colour_of(panel, i)),
-                           .dash = dash_of(colour_of(panel, i), theme)});
+        entries.push_back(
+            {.kind = panel.categories.empty() ? LegendEntry::Kind::line : LegendEntry::Kind::box,
+             .name = panel.series[i].name,
+             .colour = theme.series_colour(colour_of(panel, i)),
+             .dash = dash_of(colour_of(panel, i), theme)});
     for (std::size_t i = 0; named && i < panel.bars.size(); ++i)
         entries.push_back({.kind = LegendEntry::Kind::line,
                            .name = panel.bars[i].name,
@@ -272,6 +278,30 @@ void draw_series(Drawing& drawing, const Panel& panel, const Series& series, Col
     }
 }
 
+/// The bars of one series of several in each category, and its intervals over them.
+void draw_columns(Drawing& drawing, const Panel& panel, const ChartPanel& content, std::size_t i,
+                  const Theme& theme) {
+    const Series& series = content.series[i];
+    const auto several = static_cast<double>(content.series.size());
+    const double width = 0.8 / several;
+    for (std::size_t c = 0; c < series.x.size(); ++c) {
+        if (!std::isfinite(series.y[c])) continue;
+        const double middle = series.x[c] + width * (static_cast<double>(i) - (several - 1) / 2);
+        const double left = panel.x(middle - 0.45 * width);
+        const double right = panel.x(middle + 0.45 * width);
+        const auto [top, bottom] = std::minmax(panel.y(0), panel.y(series.y[c]));
+        drawing.rectangle({left, top, right - left, bottom - top},
+                          theme.series_colour(colour_of(content, i)));
+        if (series.low.empty() || !std::isfinite(series.low[c])) continue;
+        const double x = panel.x(middle);
+        const double cap = std::min(4.0, (right - left) / 3);
+        for (const double end : {panel.y(series.low[c]), panel.y(series.high[c])})
+            drawing.add(Line{.vertices = {{x - cap, end}, {x + cap, end}}, .colour = theme.ink});
+        drawing.add(Line{.vertices = {{x, panel.y(series.low[c])}, {x, panel.y(series.high[c])}},
+                         .colour = theme.ink});
+    }
+}
+
 void draw_rug(Drawing& drawing, const Panel& panel, const std::vector<double>& values,
               Colour colour) {
     constexpr std::size_t most = 4000;  // more are indistinguishable
@@ -307,6 +337,12 @@ void draw_panel(Drawing& drawing, const ChartPanel& content, const Panel& panel,
         draw_bars(drawing, panel, content.bars[i], theme.series_colour(i));
     for (std::size_t i = 0; several && i < content.bars.size(); ++i)
         draw_steps(drawing, panel, content.bars[i], theme.series_colour(i));
+    if (!content.categories.empty()) {
+        for (std::size_t i = 0; i < content.series.size(); ++i)
+            draw_columns(drawing, panel, content, i, theme);
+        drawing.add(ClipWindow{.open = true});
+        return panel.draw_axes(drawing, theme, false);
+    }
     for_each_series(drawing, content, [&](const Series& series, std::size_t colour) {
         draw_band(drawing, panel, series.x, series.low, series.high, theme.series_colour(colour),
                   0.25);

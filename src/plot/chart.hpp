@@ -64,6 +64,9 @@ struct ChartPanel {
     std::vector<Series> bands = {};  ///< behind the curves: what chance allows, low and high alone
     std::vector<Guide> guides = {};
     std::vector<Bars> bars = {};
+    /// Names along the x axis, at 1, 2, ...: the series are bars side by side there, from 0 on, each
+    /// with an interval from low to high.
+    std::vector<std::string> categories = {};
     std::vector<double> rug = {};  ///< marks below, one for each value
     bool log_x = false;
     bool log_y = false;

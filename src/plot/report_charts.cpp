@@ -399,6 +399,64 @@ std::optional<Chart> curves_chart(Measurements ms, const std::string& key) {
     return chart;
 }
 
+// ---------------------------------------------------------------- indices with intervals
+
+/// Puts the numbers of a group, but the ends of their intervals, into the panel that has such bars.
+void add_bars(std::vector<ChartPanel>& panels, const std::string& output, const std::string& label,
+              const Report& group, const std::string& kind) {
+    ChartPanel* panel = nullptr;
+    for (const auto& entry : group.entries()) {
+        const std::string& name = entry.name;
+        const auto number = number_at(group, name);
+        if (!number || name.ends_with("_low") || name.ends_with("_high")) continue;
+        if (!kind.empty() && name != kind) continue;
+        if (panel == nullptr) {
+            const auto same = std::ranges::find_if(
+                panels, [&](const ChartPanel& p) { return p.series[0].name == words_of(name); });
+            panel = same == panels.end()
+                        ? &panels.emplace_back(ChartPanel{.x_name = "", .y_name = output})
+                        : &*same;
+            panel->categories.push_back(label);
+            panel->from_zero = true;
+        }
+        auto at = std::ranges::find(panel->series, words_of(name), &Series::name);
+        if (at == panel->series.end())
+            at = panel->series.insert(at, Series{.name = words_of(name)});
+        at->x.push_back(static_cast<double>(panel->categories.size()));
+        at->y.push_back(*number);
+        at->low.push_back(number_at(group, name + "_low").value_or(NAN));
+        at->high.push_back(number_at(group, name + "_high").value_or(NAN));
+    }
+}
+
+/// The indices of inputs, and of pairs of them, output by output. The key picks an output, a kind of
+/// index, or both: "y", "total", "y.total".
+Chart indices_chart(Measurements ms, const std::string& key) {
+    constexpr std::size_t most_panels = 4;
+    Chart chart = titled(capitalised(words_of(ms[0].analyzer)), ms);
+    chart.subtitle = fmt::format("{} runs", ms[0].count);
+    chart.own_x = true;
+    for (const auto& [output, value, unit] : ms[0].results.entries()) {
+        const auto* group = std::get_if<Report>(&value);
+        if (group == nullptr) continue;
+        const bool named = key == output || key.starts_with(output + ".");
+        const std::string kind = !named ? key : key.substr(std::min(key.size(), output.size() + 1));
+        std::vector<ChartPanel> panels;
+        for (const auto& entry : group->entries())
+            if (const auto* own = std::get_if<Report>(&entry.value))
+                add_bars(panels, output, entry.name, *own, kind);
+        for (ChartPanel& panel : panels) {
+            if (panel.series.size() == 1) panel.y_name += ", " + panel.series[0].name;
+            if (chart.panels.size() < most_panels) chart.panels.push_back(std::move(panel));
+        }
+    }
+    if (chart.panels.empty())
+        fail_with_hint(ErrorKind::usage, "there is " + join(ms[0].results.keys(), ", "),
+                       "--key: the report of {} has no output and no index '{}'", ms[0].analyzer,
+                       key);
+    return chart;
+}
+
 // ---------------------------------------------------------------- one number of many reports
 
 /// The number that stands for a report: "value", or its first number.
@@ -548,6 +606,7 @@ Chart chart_of(Measurements ms, const std::string& key) {
             fail(ErrorKind::input, "reports of {} and of {} are not drawn in one picture",
                  ms[0].analyzer, m.analyzer);
     if (auto chart = curves_chart(ms, key)) return *std::move(chart);
+    if (ms.size() == 1 && ms[0].analyzer == "sensitivity") return indices_chart(ms, key);
     if (ms.size() == 1) refuse(ms, key);
     const std::string number = key.empty() ? main_number(ms[0].results) : key;
     const auto has_number = [&](const Measurement& m) {

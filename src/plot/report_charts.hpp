@@ -4,6 +4,7 @@
 //
 //     periodogram        radial power, with what white noise has, and anisotropy
 //     pair-correlation   density over distance
+//     sensitivity        bars of the indices of inputs and of pairs, with their intervals
 //     others             each list over the rising one before it (prefixes: logarithmic), or, for
 //                        several reports without lists, one number over the number of points: a
 //                        curve for the files of one name but for its digits, means where several

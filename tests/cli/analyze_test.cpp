@@ -769,4 +769,37 @@ TEST(Analyze, TheMeanOfOneSetHasItsPlaces) {
     EXPECT_FALSE(found("2").contains("box"));
 }
 
+// Inputs from one file, outputs from another, in which a run may be missing; and what is refused.
+TEST(Analyze, SensitivityTakesOutputsBesideADesign) {
+    const Sandbox box;
+    good(box.shell("stipple generate sobol -n 64 -d 2 --bounds 0..10,5..6 --meta -o design.csv"));
+    good(
+        box.shell("grep -v '^#' design.csv | awk -F, 'NR == 1 {print \"load\"; next} NR == 9 "
+                  "{print \"\"; next} {print 3 * $1 + 10 * $2}' > y.csv"));
+    const Outcome outcome = box.shell(
+        "stipple analyze sensitivity y.csv --design design.csv --check 'load.x.first>0.89' -f "
+        "json");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "stipple: note: load: 1 of 64 runs failed, point 7; 63 runs are used\n");
+    const json found = json::parse(outcome.out)["results"]["load"];
+    EXPECT_EQ(found["method"], "chaos");
+    EXPECT_EQ(found["scale"], "box");
+    EXPECT_NEAR(double(found["x"]["total"]), 0.9, 1e-9);
+    EXPECT_NEAR(double(found["y"]["first"]), 0.1, 1e-9);
+    box.write("report.json", outcome.out);
+    EXPECT_THAT(good(box.shell("stipple plot report.json")), HasSubstr("Sensitivity of y.csv"));
+    EXPECT_THAT(good(box.shell("stipple plot report.json -f text")), HasSubstr("load"));
+
+    const std::string analyze = "stipple analyze sensitivity --design design.csv ";
+    expect_refusal(box.shell("head -20 y.csv | " + analyze), 3,
+                   "design.csv: 64 rows; the outputs have 19");
+    expect_refusal(box.shell(analyze + "y.csv --response stress"), 2,
+                   "--response: the table has no column 'stress'");
+    expect_refusal(box.shell(analyze + "y.csv --method morris"), 3,
+                   "--method morris: the design has not its rows");
+    // An analyzer of points takes no missing numbers, also beside one of tables.
+    expect_refusal(box.shell("printf 'x,y\\n1,\\n' | stipple analyze moments,sensitivity"), 3,
+                   "an empty field; expected a number");
+}
+
 }  // namespace stipple::testing::analyze_test

@@ -71,6 +71,7 @@ TEST_P(EveryAnalyzer, GivesTheKeysOfItsRecord) {
 TEST_P(EveryAnalyzer, GivesNoWordThatItsRecordDoesNotTell) {
     for (const std::size_t d : {1, 2, 3}) {
         if (d < unit.traits.min_dimension || d > unit.traits.max_dimension) continue;
+        if (unit.traits.table && d == 1) continue;  // has no inputs beside the output
         const Report found =
             analyze(unit, make("random", points(256, d)), unit.options.defaults(), {});
         for (const auto& key : found.keys()) {
@@ -107,6 +108,7 @@ TEST_P(EveryAnalyzer, RefusesAnEmptySetAndWrongDimensions) {
 }
 
 TEST_P(EveryAnalyzer, RefusesPointsOutsideItsDomainCountingThem) {
+    if (unit.traits.table) GTEST_SKIP() << "outputs are any numbers";
     PointSet set = make("random", points(100, dimension));
     set[7][0] = 1.5;
     set[9][0] = -0.5;

@@ -123,8 +123,9 @@ std::set<std::string> sources_in_cycles(std::map<std::string, std::set<std::stri
 
 /// Units whose names are ordinary words, which also name results, options and their values.
 const std::set<std::string> ordinary = {
-    "digital-shift", "disk", "dispersion", "faure", "grid",  "image",  "jittered", "matrix",
-    "mixture",       "owen", "normal",     "pixel", "power", "random", "rejection"};
+    "digital-shift", "disk",     "dispersion", "fast",    "faure",     "grid",
+    "image",         "jittered", "matrix",     "mixture", "morris",    "owen",
+    "normal",        "pixel",    "power",      "random",  "rejection", "saltelli"};
 
 /// Files that know units of other files, and which.
 const std::map<std::string, std::set<std::string>> exceptions = {
@@ -136,7 +137,7 @@ const std::map<std::string, std::set<std::string>> exceptions = {
      {"chi-square", "integration", "kolmogorov-smirnov", "l2-discrepancy", "nearest-neighbor",
       "pair-correlation", "periodogram", "star-discrepancy", "t-value"}},
     // Charts of reports are chosen by the analyzer that wrote them.
-    {"plot/report_charts.cpp", {"differential", "hyperuniformity"}},
+    {"plot/report_charts.cpp", {"differential", "hyperuniformity", "sensitivity"}},
     {"plot/spectral_table.cpp", {"periodogram"}},
     {"cli/plot.cpp", {"coverage", "differential", "pair-correlation", "periodogram"}},
     // An entry of a report, whose name is compared.

@@ -136,6 +136,14 @@ bool take_number_with_comma(const Field& field, double& value) {
     return !number.empty() && take_number({number, field.at}, value);
 }
 
+/// Whether a field says that its number is missing.
+bool is_gap(const Field& field) {
+    double value = 0;
+    const char* const last = field.text.data() + field.text.size();
+    return field.text.empty() || field.text == "NA" ||
+           (read_number(field.text.data(), last, value) == last && std::isnan(value));
+}
+
 /// What is wrong with a field that does not hold one.
 std::string trouble_with(const Field& field, bool decimal_comma) {
     if (field.text.empty()) return "an empty field; expected a number";
@@ -164,7 +172,8 @@ class RowReader {
     /// Rows that the lines in [p, last) hold at most.
     [[nodiscard]] std::uint64_t most_rows(const char* p, const char* last) const {
         const auto lines = 1 + static_cast<std::uint64_t>(std::count(p, last, text_.newline()));
-        const std::uint64_t least_bytes = columns_.width() + columns_.dimension;  // of a row
+        const std::uint64_t least_bytes =  // of a row
+            columns_.width() + (dialect_.gaps ? 0 : columns_.dimension);
         return std::min(lines, 1 + static_cast<std::uint64_t>(last - p) / least_bytes);
     }
 
@@ -180,6 +189,9 @@ class RowReader {
             const bool aside = first != end && *first == (dialect_.brackets ? '{' : '#');
             if (aside && (dialect_.brackets || trim(line) == "#"))
                 marks.push_back({count, p, unknown});
+            // A table of one column holds nothing where its number is missing.
+            const bool gap = first == end && dialect_.gaps && columns_.width() == 1;
+            if (gap) room[count++] = unknown;
             if (first != end && !aside) {
                 double number = set;
                 read_row(line, room.data() + count * columns_.dimension, number);
@@ -202,6 +214,7 @@ class RowReader {
 
     /// The number that a field of a column stands for. @throws Error(input)
     double number_in(std::string_view line, const Field& field, std::size_t c) const {
+        if (dialect_.gaps && is_gap(field)) return unknown;
         if (const auto* words = words_of(c)) {
             const auto at = std::ranges::find(*words, field.text);
             if (at == words->end())
@@ -549,6 +562,7 @@ std::vector<std::string> words_in_column(const SourceText& text, const TableHead
         if (trim(line).empty() || trim(line).starts_with('#')) continue;
         const auto fields = fields_of(line, head.dialect.separator);
         if (fields.size() <= c) break;  // the row is refused later
+        if (head.dialect.gaps && is_gap(fields[c])) continue;
         if (!holds_word(fields[c]) || words.size() > most) return {};
         words.emplace(fields[c].text);
     }
@@ -586,7 +600,7 @@ void take_words(TableHead& head, const SourceText& text) {
     look_at_rows(text, head.body, head.dialect.separator, [&](const std::vector<Field>& fields) {
         for (std::size_t c = 0; c < std::min(fields.size(), columns.width()); ++c) {
             const std::size_t role = columns.role[c];
-            if (role >= columns.words.size()) continue;
+            if (role >= columns.words.size() || (head.dialect.gaps && is_gap(fields[c]))) continue;
             // They were written as numbers.
             if (is_number(fields[c].text)) columns.words[role].clear();
             head.words_to_find |= columns.words[role].empty() && holds_word(fields[c]);
@@ -600,6 +614,7 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
     if (!options.levels.empty()) head.top.provenance.levels = options.levels;
     const std::string_view line = line_at(text, head.top.first);
     head.dialect.separator = separator_of(line);
+    head.dialect.gaps = options.gaps;
     const std::vector<Field> fields = fields_of(line, head.dialect.separator);
     std::vector<std::string> names;
     if (is_header(fields))

@@ -21,6 +21,7 @@ struct Dialect {
     char separator = ' ';        ///< a blank stands for any run of blanks and tabs
     bool brackets = false;       ///< a row is [x,y]; lines that begin with { stand between rows
     bool comma = false;          ///< numbers have a decimal comma: 0,5
+    bool gaps = false;           ///< numbers may be missing: NaN
     std::size_t model_line = 0;  ///< that decided what the columns are; 0: none did
 };
 

@@ -57,6 +57,14 @@ void draw_sides(Drawing& drawing, const Area& area, Colour colour, bool closed) 
 }  // namespace
 
 Ticks Axis::ticks(double length, bool upright) const {
+    if (!words.empty()) {
+        const double room = length / static_cast<double>(words.size()) - gap / 2;
+        Ticks found;
+        for (const std::string& word : words)
+            found.numbers.push_back({.value = static_cast<double>(found.numbers.size() + 1),
+                                     .text = cut_to(word, number_size, room)});
+        return found;
+    }
     const double room = upright ? 34 : 44;
     auto most = static_cast<std::size_t>(std::clamp(length / room, 2.0, 11.0));
     for (;; --most) {

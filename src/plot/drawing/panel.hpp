@@ -20,11 +20,12 @@ struct Axis {
     double low = 0;
     double high = 1;
     bool log = false;
-    bool binary = false;    ///< logarithmic, with numbers at powers of two
-    bool whole = false;     ///< numbers are whole
-    std::string name = {};  ///< empty: none
-    bool numbers = true;    ///< false: marks only, where the panel below has them
-    bool tight = false;     ///< numbers stay within the frame, where another one is beside it
+    bool binary = false;                  ///< logarithmic, with numbers at powers of two
+    bool whole = false;                   ///< numbers are whole
+    std::vector<std::string> words = {};  ///< in place of the numbers 1, 2, ...
+    std::string name = {};                ///< empty: none
+    bool numbers = true;                  ///< false: marks only, where the panel below has them
+    bool tight = false;  ///< numbers stay within the frame, where another one is beside it
 
     /// Numbers that fit along so many units: side by side, or one above the other.
     [[nodiscard]] Ticks ticks(double length, bool upright) const;

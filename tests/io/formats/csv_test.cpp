@@ -205,6 +205,30 @@ TEST(Csv, QuotesAndBlanksDoNotMatter) {
     EXPECT_EQ(csv(text).at(0), points);
 }
 
+TEST(Csv, MissingNumbersAreNaNWhereTheyAreAsked) {
+    const ReadOptions gaps{.gaps = true};
+    const auto missing = [&](std::string_view bytes) {
+        std::vector<std::size_t> at;
+        const PointSet set = csv(bytes, gaps).at(0);
+        for (std::size_t i = 0; i < set.flat().size(); ++i)
+            if (std::isnan(set.flat()[i])) at.push_back(i);
+        return std::pair{set.count(), at};
+    };
+    using Found = std::pair<std::size_t, std::vector<std::size_t>>;
+    EXPECT_EQ(missing("x,y\n1,\n,\n\n3,nan\n"), (Found{3, {1, 2, 3, 5}}));
+    EXPECT_EQ(missing("x,y\n1,NA\n\"\",2\nNaN,3\n"), (Found{3, {1, 2, 4}}));
+    EXPECT_EQ(missing("y\n1\n\n3\n\n"), (Found{4, {1, 3}}));  // an empty line of one column
+    EXPECT_EQ(csv("y\n1\n\n3\n").at(0).count(), 2U);
+    // More rows than bytes of full ones would be, in several blocks.
+    std::string text = "a,b,c\n";
+    for (int i = 0; i < 700'000; ++i) text += ",,\n";
+    EXPECT_EQ(missing(text).first, 700'000U);
+    EXPECT_EQ(refusal("csv", "x,y\n1,abc\n", {.source = "p.csv", .gaps = true}),
+              "input: p.csv:2:3: 'abc' is not a number; expected one such as 0.5 or 1e-3");
+    EXPECT_EQ(refusal("csv", "x,y\n1,inf\n", {.source = "p.csv", .gaps = true}),
+              "input: p.csv:2:3: 'inf' is not finite; expected a finite number");
+}
+
 TEST(Csv, RefusesWhatIsNotANumber) {
     EXPECT_EQ(refused("x,y\n0.5,0.25\n0.5,abc\n"),
               "input: p.csv:3:5: 'abc' is not a number; expected one such as 0.5 or 1e-3");

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+//
+// What the methods of sensitivity analysis take and give.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/point_set.hpp"
+#include "stipple/report.hpp"
+#include "stipple/run.hpp"
+
+namespace stipple::analyzers::sensitivity {
+
+inline constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// The inputs of a model in its runs: a row each.
+struct Inputs {
+    std::vector<std::string> names;
+    PointSet values;  ///< with its provenance, where these are all of a file's columns
+
+    [[nodiscard]] std::size_t runs() const { return values.count(); }
+    [[nodiscard]] std::size_t size() const { return values.dimension(); }
+};
+
+/// One output of the model in these runs; NaN where a run failed.
+struct Response {
+    std::string name;
+    std::vector<double> y;
+};
+
+/// How the methods estimate.
+struct Setting {
+    std::size_t bootstrap = 1000;  ///< resamples; 0: no intervals from them
+    double level = 0.95;
+    std::uint64_t seed = 1;
+    std::size_t harmonics = 4;               ///< of fast
+    std::optional<std::size_t> degree = {};  ///< of chaos; else chosen
+};
+
+/// A number with its interval; NaN where it has none.
+struct Index {
+    double value = 0;
+    double low = none;
+    double high = none;
+};
+
+/// One kind of index, of every input.
+struct IndexKind {
+    std::string name;
+    std::vector<Index> of;
+};
+
+struct PairIndex {
+    std::size_t first;
+    std::size_t second;
+    Index index;
+};
+
+/// What a method found of one output.
+struct Effects {
+    std::uint64_t used = 0;     ///< runs
+    std::uint64_t samples = 0;  ///< what of them is independent, such as base rows
+    double mean = none;
+    double variance = none;
+    std::vector<IndexKind> kinds = {};
+    std::vector<PairIndex> pairs = {};
+    Report details = {};  ///< further numbers, of the method's own
+};
+
+/// Whether a design has the rows that a method needs; where not, why.
+struct Layout {
+    std::size_t group = 0;  ///< rows that belong together
+    std::string trouble = {};
+
+    explicit operator bool() const { return trouble.empty(); }
+};
+
+/// Numbers with mean 0 whose largest is 1 in size: their squares fit a double.
+struct Centred {
+    std::vector<double> z;
+    double mean = 0;
+    double unit = 1;  ///< of z
+
+    /// Mean square.
+    [[nodiscard]] double variance() const;
+};
+
+/// @throws Error(input) for a constant output, of whose variance there are no shares
+Centred centred(std::span<const double> y, const std::string& name);
+
+/// The values of the runs that did not fail, and the numbers of these runs.
+std::vector<std::size_t> succeeded(std::span<const double> y);
+std::vector<double> picked(std::span<const double> y, std::span<const std::size_t> runs);
+
+/// The groups of so many consecutive runs none of which failed, by number.
+std::vector<std::size_t> complete_groups(std::span<const double> y, std::size_t group);
+
+/// value +- the normal quantile of the level times the standard error.
+Index normal_interval(double value, double standard_error, double level);
+
+/// Inputs in [0, 1], run after run, where they are uniform as far as that is known.
+struct UnitInputs {
+    std::vector<double> u;
+    const char* scale;  ///< "cube", "box", "range", "ranks"
+};
+
+/// Of the unit cube as they are; of the box that the provenance names, scaled; else scaled by their
+/// range, or with `ranks` replaced by the ranks of their values, ties by the mean of theirs.
+UnitInputs unit_inputs(const Inputs& inputs, bool ranks);
+
+}  // namespace stipple::analyzers::sensitivity

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+//
+// Elementary effects, or Morris screening: along trajectories on which one input moves at a time,
+//
+//     EE_i = (f(x + step along i) - f(x)) / step,    mu = mean EE, mu* = mean |EE|,
+//
+// and sigma is the standard deviation of EE over the trajectories.
+//
+// Shape   n = r (k + 1) rows: trajectories of k + 1 consecutive rows, in which each input moves once.
+// Units   mu, mu* and sigma are those of the output: steps are of inputs in [0, 1].
+// Cost    O(n k), and the bootstrap over trajectories.
+// Source  M. D. Morris, Technometrics 33 (1991) 161-174, doi:10.1080/00401706.1991.10484804;
+//         mu*: F. Campolongo, J. Cariboni, A. Saltelli, Environ. Model. Softw. 22 (2007) 1509-1518,
+//         doi:10.1016/j.envsoft.2006.10.004.
+#pragma once
+
+#include "analyzers/sensitivity/effects.hpp"
+
+namespace stipple::analyzers::sensitivity {
+
+Layout find_trajectories(const PointSet& design);
+
+/// Trajectories with a failed run are left out. @throws Error(input) where too few remain
+Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Response& response,
+                           const Setting& setting, const RunContext& run);
+
+}  // namespace stipple::analyzers::sensitivity

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "analyzers/sensitivity/pick_freeze.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "analyzers/sensitivity/bootstrap.hpp"
+#include "core/error.hpp"
+
+namespace stipple::analyzers::sensitivity {
+namespace {
+
+/// Whether a row is `whole` with coordinate i of `other`.
+bool is_mixed(std::span<const double> row, std::span<const double> whole,
+              std::span<const double> other, std::size_t i) {
+    for (std::size_t j = 0; j < row.size(); ++j)
+        if (row[j] != (j == i ? other[j] : whole[j])) return false;
+    return true;
+}
+
+/// The first row that is not what it is in groups of that size; the number of rows if there is none.
+std::size_t first_unfit(const PointSet& design, std::size_t group) {
+    const std::size_t k = design.dimension();
+    bool moves = false;
+    for (std::size_t at = 0; at < design.count(); at += group) {
+        const auto a = design[at];
+        const auto b = design[at + group - 1];
+        moves = moves || !std::ranges::equal(a, b);
+        for (std::size_t r = 1; r + 1 < group; ++r)
+            if (!(r <= k ? is_mixed(design[at + r], a, b, r - 1)
+                         : is_mixed(design[at + r], b, a, r - 1 - k)))
+                return at + r;
+    }
+    return moves ? design.count() : 0;
+}
+
+/// The terms of a base row, whose outputs are `f`, behind each other: V's, first, total, pairs.
+void append_terms(std::span<const double> f, std::size_t k, std::vector<double>& terms) {
+    const double a = f.front();
+    const double b = f.back();
+    const auto ab = f.subspan(1, k);
+    terms.push_back((a + b) / 2);
+    terms.push_back((a * a + b * b) / 2);
+    for (const double mixed : ab) terms.push_back(b * (mixed - a));
+    for (const double mixed : ab) terms.push_back((a - mixed) * (a - mixed) / 2);
+    if (f.size() == k + 2) return;
+    const auto ba = f.subspan(k + 1, k);
+    for (std::size_t i = 0; i < k; ++i)
+        for (std::size_t j = i + 1; j < k; ++j) terms.push_back(ba[i] * ab[j] - a * b);
+}
+
+/// Indices from the means of such terms, in their order.
+void indices_of(std::span<const double> means, std::size_t k, std::span<double> indices) {
+    const double variance = means[1] - means[0] * means[0];
+    for (std::size_t t = 0; t < indices.size(); ++t) indices[t] = means[t + 2] / variance;
+    std::size_t pair = 2 * k;
+    for (std::size_t i = 0; pair < indices.size(); ++i)
+        for (std::size_t j = i + 1; j < k; ++j) indices[pair++] -= indices[i] + indices[j];
+}
+
+}  // namespace
+
+Layout find_pick_freeze(const PointSet& design) {
+    const std::size_t k = design.dimension();
+    const std::size_t n = design.count();
+    Layout layout{.trouble =
+                      fmt::format("{} rows are no multiple of {} or {}", n, k + 2, 2 * k + 2)};
+    for (const std::size_t group : {k + 2, 2 * k + 2}) {
+        if (n == 0 || n % group != 0) continue;
+        const std::size_t unfit = first_unfit(design, group);
+        if (unfit == n) return {.group = group};
+        layout.trouble = fmt::format(
+            "in groups of {}, point {} is not the mix of the first and "
+            "the last of its group that it should be",
+            group, unfit);
+    }
+    return layout;
+}
+
+Effects pick_freeze(const Layout& layout, const Inputs& inputs, const Response& response,
+                    const Setting& setting, const RunContext& run) {
+    const std::size_t k = inputs.size();
+    const std::size_t group = layout.group;
+    std::vector<double> y;
+    const auto complete = complete_groups(response.y, group);
+    for (const std::size_t g : complete)
+        y.insert(y.end(), response.y.begin() + static_cast<std::ptrdiff_t>(g * group),
+                 response.y.begin() + static_cast<std::ptrdiff_t>((g + 1) * group));
+    if (complete.size() < 2)
+        fail(ErrorKind::input, "the output {} has {} base rows without failed runs; two are needed",
+             response.name, complete.size());
+    const Centred f = centred(y, response.name);
+
+    const std::size_t pairs = group == k + 2 ? 0 : k * (k - 1) / 2;
+    TermTable table{.terms = {}, .width = 2 + 2 * k + pairs};
+    run.need_memory(8.0 * static_cast<double>(complete.size() * table.width), "the bootstrap");
+    for (std::size_t at = 0; at < y.size(); at += group)
+        append_terms(std::span(f.z).subspan(at, group), k, table.terms);
+    const auto found = bootstrapped(
+        table, table.width - 2, [k](auto means, auto values) { indices_of(means, k, values); },
+        setting, run);
+
+    double mean = 0;
+    double square = 0;
+    for (std::size_t at = 0; at < table.terms.size(); at += table.width) {
+        mean += table.terms[at] / static_cast<double>(complete.size());
+        square += table.terms[at + 1] / static_cast<double>(complete.size());
+    }
+    const auto part = [&](std::size_t first) {
+        const auto from = found.begin() + static_cast<std::ptrdiff_t>(first);
+        return std::vector(from, from + static_cast<std::ptrdiff_t>(k));
+    };
+    Effects effects{.used = y.size(),
+                    .samples = complete.size(),
+                    .mean = f.mean + f.unit * mean,
+                    .variance = f.unit * f.unit * (square - mean * mean),
+                    .kinds = {{"first", part(0)}, {"total", part(k)}}};
+    std::size_t at = 2 * k;
+    for (std::size_t i = 0; i < k && pairs > 0; ++i)
+        for (std::size_t j = i + 1; j < k; ++j) effects.pairs.push_back({i, j, found[at++]});
+    return effects;
+}
+
+}  // namespace stipple::analyzers::sensitivity

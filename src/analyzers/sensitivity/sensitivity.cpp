@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+//
+// Global sensitivity of a model's outputs to its inputs: which part of the variance of f(x) is due to
+// which x_i, alone and together with others,
+//
+//     first  S_i  = Var E(f | x_i) / Var f,    total  ST_i = 1 - Var E(f | all but x_i) / Var f,
+//     second S_ij = Var E(f | x_i, x_j) / Var f - S_i - S_j.
+//
+// The points are a table of outputs, a row a run of the model; the inputs of these runs are those of
+// the file --design, or columns of the same table. How the indices are estimated depends on the
+// design, which is looked at itself:
+//
+//     saltelli  pick-freeze: S, ST and, with both mixes, S_ij          (pick_freeze.hpp)
+//     morris    trajectories: mu, mu*, sigma of elementary effects     (elementary_effects.hpp)
+//     fast      curves of one frequency for each input: S, ST          (fourier_amplitude.hpp)
+//     rank      any independent inputs: S                              (rank_indices.hpp)
+//     chaos     any independent inputs: S, ST, S_ij of a polynomial    (polynomial_chaos.hpp)
+//
+// Shape   n rows of outputs, n x k inputs; a failed run has no output (NaN).
+// Cost    see there; of `auto` on a design without structure that of chaos and rank.
+// Promise the same for any number of threads. The bootstrap's seed is an option.
+// Beware  all indices are of independent inputs.
+// Source  A. Saltelli et al., "Global Sensitivity Analysis. The Primer", Wiley 2008,
+//         doi:10.1002/9780470725184; and see there.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analyzers/analyzer.hpp"
+#include "analyzers/sensitivity/elementary_effects.hpp"
+#include "analyzers/sensitivity/fourier_amplitude.hpp"
+#include "analyzers/sensitivity/pick_freeze.hpp"
+#include "analyzers/sensitivity/polynomial_chaos.hpp"
+#include "analyzers/sensitivity/rank_indices.hpp"
+#include "analyzers/sensitivity/runs.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace stipple::analyzers::sensitivity {
+namespace {
+
+constexpr Param<Path> design{
+    {.name = "design",
+     .unit = "file",
+     .help = "Inputs of the runs, row by row as the outputs; default: they are columns of the "
+             "same table, which then has its outputs last"}};
+
+constexpr Param<Text> inputs{
+    {.name = "inputs",
+     .unit = "columns",
+     .help = "Columns of the inputs, by name or number from 1: x,y; default: all of --design, or "
+             "all of the table that are no outputs"}};
+
+constexpr Param<Text> response{
+    {.name = "response",
+     .unit = "columns",
+     .help = "Columns of the outputs, by name or number from 1: y,z; default: with --design all "
+             "but copies of inputs, else the last one"}};
+
+constexpr Param<Choice> method{
+    .name = "method",
+    .fallback = "auto",
+    .choices = "auto|saltelli|morris|fast|rank|chaos",
+    .help =
+        "How the indices are estimated; auto: as the rows of the design show; where they show "
+        "nothing, chaos if its q2 is 0.8 or more, else rank"};
+
+constexpr Param<std::int64_t> bootstrap{
+    .name = "bootstrap",
+    .fallback = 1000,
+    .low = 0,
+    .high = 1'000'000,
+    .unit = "resamples",
+    .help = "For the intervals of saltelli and morris; 0: none"};
+
+constexpr Param<std::int64_t> bootstrap_seed{
+    .name = "bootstrap-seed", .fallback = 1, .low = 0, .help = "Seed of the resamples"};
+
+constexpr Param<double> level{.name = "level",
+                              .fallback = 0.95,
+                              .low = 0.01,
+                              .high = 0.9999,
+                              .help = "Chance that an interval is to hold the index"};
+
+constexpr Param<std::int64_t> harmonics{
+    .name = "harmonics",
+    .fallback = 4,
+    .low = 1,
+    .high = 100,
+    .help = "Of fast: multiples of the curve's frequency that count; the design's own number"};
+
+constexpr Param<std::int64_t> degree{
+    .name = "degree",
+    .low = 1,
+    .high = 20,
+    .optional = true,
+    .help = "Of chaos: largest total degree; default: that of the least leave-one-out error"};
+
+/// What there is to do.
+struct Plan {
+    std::string method;  ///< empty: chaos or rank, as turns out
+    Layout layout = {};
+};
+
+Setting setting_of(const Values& options) {
+    Setting setting{.bootstrap = static_cast<std::size_t>(options[bootstrap]),
+                    .level = options[level],
+                    .seed = static_cast<std::uint64_t>(options[bootstrap_seed]),
+                    .harmonics = static_cast<std::size_t>(options[harmonics])};
+    if (options.given(degree)) setting.degree = static_cast<std::size_t>(options[degree]);
+    return setting;
+}
+
+/// @throws Error(input) where the design has not the rows that the method needs
+Plan plan_of(const PointSet& points, const std::string& asked, const Setting& setting,
+             const RunContext& run) {
+    const auto find = [&](const std::string& name) -> Layout {
+        if (name == "saltelli") return find_pick_freeze(points);
+        if (name == "morris") return find_trajectories(points);
+        return find_curves(points, setting.harmonics, run);
+    };
+    if (asked == "rank" || asked == "chaos") return {.method = asked};
+    if (asked != "auto") {
+        Plan plan{.method = asked, .layout = find(asked)};
+        if (!plan.layout)
+            fail_with_hint(ErrorKind::input, "--method rank and chaos take any design",
+                           "--method {}: the design has not its rows: {}", asked,
+                           plan.layout.trouble);
+        return plan;
+    }
+    for (const std::string name : {"saltelli", "morris", "fast"}) {
+        // Any two values of a single input make a trajectory.
+        if (name == "morris" && points.dimension() == 1) continue;
+        if (Layout layout = find(name)) return {.method = name, .layout = std::move(layout)};
+    }
+    return {};
+}
+
+/// By chaos or, where a polynomial explains too little, by ranks. Tells the method.
+Effects of_any_design(std::string& chosen, const Inputs& in, const Response& out,
+                      const Setting& setting, const RunContext& run) {
+    constexpr double enough = 0.8;
+    constexpr std::size_t least = 8;  // runs of chaos
+    const bool both = chosen.empty();
+    if (chosen == "chaos" || (both && succeeded(out.y).size() >= least)) {
+        auto effects = polynomial_chaos(in, out, setting, both ? run.stage(0, 0.9) : run);
+        if (!effects && !both)
+            fail_with_hint(ErrorKind::input, "--method rank needs no polynomial",
+                           "no polynomial predicts the output {} better than its mean", out.name);
+        chosen = "chaos";
+        if (effects && (!both || effects->details.number("q2") >= enough))
+            return *std::move(effects);
+    }
+    chosen = "rank";
+    return rank_indices(in, out, setting, both ? run.stage(0.9, 1) : run);
+}
+
+Effects effects_of(Plan& plan, const Runs& runs, const Response& out, const Setting& setting,
+                   const RunContext& run) {
+    if (plan.method == "saltelli") return pick_freeze(plan.layout, runs.inputs, out, setting, run);
+    if (plan.method == "morris")
+        return elementary_effects(plan.layout, runs.inputs, out, setting, run);
+    if (plan.method == "fast")
+        return fourier_amplitudes(plan.layout, runs.inputs, out, setting, run);
+    return of_any_design(plan.method, runs.inputs, out, setting, run);
+}
+
+/// Says which runs failed, and what is left out with them.
+void tell_failures(const Response& out, const Effects& effects, const RunContext& run) {
+    constexpr std::size_t few = 5;
+    std::vector<std::string> first;
+    std::size_t failed = 0;
+    for (std::size_t i = 0; i < out.y.size(); ++i) {
+        if (!std::isnan(out.y[i])) continue;
+        if (failed++ < few) first.push_back(std::to_string(i));
+    }
+    if (failed == 0) return;
+    run.notify(fmt::format("{}: {} of {} runs failed, point{} {}{}; {} runs are used", out.name,
+                           failed, out.y.size(), failed == 1 ? "" : "s", join(first, ", "),
+                           failed > few ? ", ..." : "", effects.used));
+}
+
+/// The name as a part of a key, another than those before it.
+std::string key_of(std::string name, const Report& taken) {
+    std::ranges::replace(name, '.', '_');
+    while (name.empty() || taken.find(name) != nullptr) name += '_';
+    return name;
+}
+
+void add(Report& report, const std::string& name, const Index& index) {
+    report.add(name, index.value);
+    if (std::isnan(index.low)) return;
+    report.add(name + "_low", index.low);
+    report.add(name + "_high", index.high);
+}
+
+Report report_of(const Effects& effects, const std::string& name, const Inputs& in,
+                 const Response& out) {
+    Report report;
+    report.add("method", name);
+    report.add("failed", out.y.size() - succeeded(out.y).size());
+    report.add("used", effects.used);
+    report.add("samples", effects.samples);
+    if (std::isfinite(effects.mean)) report.add("mean", effects.mean);
+    if (std::isfinite(effects.variance)) report.add("variance", effects.variance);
+    for (const auto& entry : effects.details.entries()) report.entries().push_back(entry);
+    std::vector<std::string> keys;
+    for (std::size_t i = 0; i < in.size(); ++i) {
+        Report own;
+        for (const IndexKind& kind : effects.kinds) add(own, kind.name, kind.of[i]);
+        keys.push_back(key_of(in.names[i], report));
+        report.add(keys.back(), std::move(own));
+    }
+    for (const PairIndex& pair : effects.pairs) {
+        Report own;
+        add(own, "second", pair.index);
+        report.add(key_of(keys[pair.first] + ":" + keys[pair.second], report), std::move(own));
+    }
+    return report;
+}
+
+/// @throws Error(usage) for options of methods that were not used
+void check_options(const Values& options, const std::vector<std::string>& methods) {
+    const auto require = [&](const auto& option, std::vector<std::string> of) {
+        const auto used = [&](const std::string& name) {
+            return std::ranges::find(methods, name) != methods.end();
+        };
+        if (options.given(option) && std::ranges::none_of(of, used))
+            fail(ErrorKind::usage, "--{} is of --method {}; this is {}", option.name,
+                 join(of, " and "), methods.front());
+    };
+    require(bootstrap, {"saltelli", "morris"});
+    require(bootstrap_seed, {"saltelli", "morris"});
+    require(harmonics, {"fast"});
+    require(degree, {"chaos"});
+}
+
+Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
+    if (points.count() == 0) fail(ErrorKind::input, "sensitivity needs at least one run");
+    const Runs runs = runs_of(
+        points,
+        {.design = options[design], .inputs = options[inputs], .response = options[response]}, run);
+    const Setting setting = setting_of(options);
+    const Plan plan = plan_of(runs.inputs.values, options[method], setting, run);
+    Report report;
+    std::vector<std::string> methods;
+    const auto count = static_cast<double>(runs.responses.size());
+    for (const Response& out : runs.responses) {
+        const auto done = static_cast<double>(methods.size());
+        Plan own = plan;
+        const Effects effects =
+            effects_of(own, runs, out, setting, run.stage(done / count, (done + 1) / count));
+        tell_failures(out, effects, run);
+        methods.push_back(own.method);
+        report.add(key_of(out.name, report), report_of(effects, own.method, runs.inputs, out));
+    }
+    check_options(options, methods);
+    run.tick(1, 1);
+    return report;
+}
+
+}  // namespace
+
+Analyzer unit() {
+    return {
+        .name = "sensitivity",
+        .summary = "Sobol' indices and elementary effects of a model's inputs, from its runs",
+        .source = "Saltelli et al. 2008, doi:10.1002/9780470725184",
+        .related = {"sobol-indices", "variance-based", "screening", "uncertainty", "surrogate",
+                    "polynomial-chaos", "elementary-effects", "gsa", "salib", "pick-freeze"},
+        .traits = {.unit_cube = false, .table = true},
+        .options = Schema(design, inputs, response, method, bootstrap, bootstrap_seed, level,
+                          harmonics, degree),
+        .results =
+            {{"OUTPUT.method", "saltelli, morris, fast, rank or chaos", true,
+              "saltelli|morris|fast|rank|chaos"},
+             {"OUTPUT.failed", "runs without this output"},
+             {"OUTPUT.used", "runs that the indices are of"},
+             {"OUTPUT.samples",
+              "independent samples among them: base rows (saltelli), trajectories (morris), points "
+              "of a curve (fast), else runs"},
+             {"OUTPUT.mean", "mean of the output; not of morris", true},
+             {"OUTPUT.variance", "its variance, of which the indices are shares; not of morris",
+              true},
+             {"OUTPUT.q2",
+              "of chaos: share of the variance that the polynomial predicts of runs it has not "
+              "seen (leave-one-out)",
+              false},
+             {"OUTPUT.degree", "of chaos: largest total degree of the candidates", false},
+             {"OUTPUT.terms", "of chaos: terms of the polynomial, less the constant", false},
+             {"OUTPUT.scale",
+              "of morris and chaos: how inputs become numbers in [0, 1]: cube: they are; box: from "
+              "the box that the design's file tells; range: from their extremes; ranks",
+              false, "cube|box|range|ranks"},
+             {"OUTPUT.INPUT.first", "share of the variance that is due to the input alone"},
+             {"OUTPUT.INPUT.first_low", "lower end of its interval; not of fast"},
+             {"OUTPUT.INPUT.first_high", "upper end of its interval; not of fast"},
+             {"OUTPUT.INPUT.total",
+              "share that is due to the input, alone or together with others; not of rank", false},
+             {"OUTPUT.INPUT.total_low", "lower end of its interval", false},
+             {"OUTPUT.INPUT.total_high", "upper end of its interval", false},
+             {"OUTPUT.INPUT.mu", "of morris: mean elementary effect", false},
+             {"OUTPUT.INPUT.mu_low", "lower end of its interval", false},
+             {"OUTPUT.INPUT.mu_high", "upper end of its interval", false},
+             {"OUTPUT.INPUT.mu_star", "of morris: mean size of elementary effects", false},
+             {"OUTPUT.INPUT.mu_star_low", "lower end of its interval", false},
+             {"OUTPUT.INPUT.mu_star_high", "upper end of its interval", false},
+             {"OUTPUT.INPUT.sigma",
+              "of morris: standard deviation of elementary effects; large where the input acts "
+              "nonlinearly or together with others",
+              false},
+             {"OUTPUT.INPUT.sigma_low", "lower end of its interval", false},
+             {"OUTPUT.INPUT.sigma_high", "upper end of its interval", false},
+             {"OUTPUT.PAIR.second",
+              "share that is due to two inputs together, beyond what each does alone; the pair is "
+              "named x:y; of saltelli with both mixes, and of chaos, where other pairs have 0",
+              false},
+             {"OUTPUT.PAIR.second_low", "lower end of its interval", false},
+             {"OUTPUT.PAIR.second_high", "upper end of its interval", false}},
+        .analyze = analyze,
+        .cost = [](double n, double d) { return 3e-6 * n * (d + 1); }};
+}
+
+}  // namespace stipple::analyzers::sensitivity
