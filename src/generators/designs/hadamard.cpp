@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "generators/designs/hadamard.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+
+#include "math/combinatorics/primes.hpp"
+#include "math/functions/powers.hpp"
+
+namespace stipple::generators {
+namespace {
+
+/// p for a power of a prime p; else 0.
+std::uint64_t prime_of_power(std::uint64_t q) {
+    if (q < 2) return 0;
+    const std::uint64_t p = smallest_factor(q);
+    while (q % p == 0) q /= p;
+    return q == 1 ? p : 0;
+}
+
+/// a for q = a (a + 2), both primes; else 0.
+std::uint64_t lower_twin(std::uint64_t q) {
+    const std::uint64_t a = floor_root(q, 2);
+    return a >= 3 && a * (a + 2) == q && is_prime(a) && is_prime(a + 2) ? a : 0;
+}
+
+/// Order of what has to be doubled to that one, or it itself; 0: none.
+std::uint64_t base_order(std::uint64_t order) {
+    for (; order >= 4 && order % 4 == 0; order /= 2)
+        if (prime_of_power(order - 1) != 0 || lower_twin(order - 1) != 0 ||
+            (order % 8 == 4 && prime_of_power(order / 2 - 1) != 0))
+            return order;
+    return 0;
+}
+
+/// x - y in the field whose elements are numbered by their digits to the base p.
+std::uint64_t difference(std::uint64_t x, std::uint64_t y, std::uint64_t p) {
+    std::uint64_t out = 0;
+    for (std::uint64_t unit = 1; x != 0 || y != 0; x /= p, y /= p, unit *= p)
+        out += (x % p + p - y % p) % p * unit;
+    return out;
+}
+
+/// The squares of the field, 0 among them: every other power of t modulo a polynomial of which t is
+/// a primitive root, the first one in the order of its coefficients.
+std::vector<bool> squares_of_field(std::uint64_t q, std::uint64_t p) {
+    for (std::uint64_t polynomial = 1; polynomial < q; ++polynomial) {
+        std::vector<bool> square(q);
+        square[0] = square[1] = true;
+        std::uint64_t power = 1;
+        std::uint64_t steps = 0;
+        do {
+            const std::uint64_t carry = power / (q / p);  // t^r = carry of the polynomial
+            power = power % (q / p) * p;
+            for (std::uint64_t c = 0; c < carry; ++c) power = difference(power, polynomial, p);
+            ++steps;
+            if (steps % 2 == 0) square[power] = true;
+        } while (power > 1 && steps < q);
+        if (power == 1 && steps == q - 1) return square;
+    }
+    return {};
+}
+
+/// Squares modulo a prime.
+std::vector<bool> squares_of_prime(std::uint64_t p) {
+    std::vector<bool> square(p);
+    for (std::uint64_t x = 0; x < p; ++x) square[x * x % p] = true;
+    return square;
+}
+
+/// The sequence of Stanton and Sprott, turned so that with 36 runs it is that of Plackett and Burman.
+std::vector<bool> twin_sequence(std::uint64_t a) {
+    const auto of_a = squares_of_prime(a);
+    const auto of_b = squares_of_prime(a + 2);
+    const std::uint64_t q = a * (a + 2);
+    std::vector<bool> positive(q);
+    for (std::uint64_t i = 0; i < q; ++i) {
+        const std::uint64_t x = 2 * i % q;
+        if (x % (a + 2) == 0) continue;
+        positive[i] = x % a == 0 || of_a[x % a] != of_b[x % (a + 2)];
+    }
+    return positive;
+}
+
+}  // namespace
+
+bool has_hadamard(std::uint64_t order) { return order <= most_hadamard && base_order(order) != 0; }
+
+Hadamard::Hadamard(std::uint64_t order) : base_(base_order(order)) {
+    const std::uint64_t q = base_ - 1;
+    const std::uint64_t half = base_ / 2 - 1;
+    if (prime_of_power(q) == q) {
+        square_ = squares_of_prime(q);
+        construction_ = fmt::format("Paley I, q = {}", q);
+    } else if (lower_twin(q) != 0) {
+        square_ = twin_sequence(lower_twin(q));
+        construction_ = fmt::format("twin primes {} and {}", lower_twin(q), lower_twin(q) + 2);
+    } else if (prime_of_power(q) != 0) {
+        kind_ = Kind::field;
+        prime_ = prime_of_power(q);
+        square_ = squares_of_field(q, prime_);
+        construction_ = fmt::format("Paley I, q = {}", q);
+    } else {
+        kind_ = Kind::conference;
+        prime_ = prime_of_power(half);
+        square_ = prime_ == half ? squares_of_prime(half) : squares_of_field(half, prime_);
+        construction_ = fmt::format("Paley II, q = {}", half);
+    }
+    for (std::uint64_t n = base_; n < order; n *= 2) construction_ += ", doubled";
+}
+
+bool Hadamard::positive(std::uint64_t row, std::uint64_t column) const {
+    const bool turned = std::popcount((row / base_) & (column / base_)) % 2 != 0;
+    return core(row % base_, column % base_) != turned;
+}
+
+bool Hadamard::core(std::uint64_t row, std::uint64_t column) const {
+    if (column == 0) return true;
+    if (kind_ == Kind::conference) {
+        // C (x) (1 1 / 1 -1) + I (x) (1 -1 / -1 -1), row 1 times -1 for the first column of 1.
+        const std::uint64_t i = row / 2;
+        const std::uint64_t k = column / 2;
+        const bool low = row % 2 != 0 && column % 2 != 0;
+        const bool turned = row == 1;
+        if (i == k) return (row % 2 == 0 && column % 2 == 0) != turned;
+        const bool character = i == 0 || k == 0 || square_[difference(k - 1, i - 1, prime_)];
+        return (character != low) != turned;
+    }
+    const std::uint64_t q = base_ - 1;
+    if (row == q) return false;
+    const std::uint64_t k = column - 1;
+    return square_[kind_ == Kind::field ? difference(k, row, prime_) : (k + q - row) % q];
+}
+
+}  // namespace stipple::generators
