@@ -120,6 +120,10 @@ struct Generator {
     /// sequence, 3e-5 n 5^(d - 2) for other sets.
     double (*cost)(double n, double d) = nullptr;
 
+    /// Of a sequence: whether under these options it takes a search, so that sets are made in memory
+    /// and may be the best of one that was stopped; empty: never.
+    std::function<bool(const Values&)> whole = {};
+
     /// Largest seed, where an engine's own seeding takes fewer than 64 bits.
     std::function<std::uint64_t(const Values&)> max_seed = {};
 };

@@ -84,8 +84,9 @@ PointSet points_of(Sequence& sequence, const Plan& plan, std::uint64_t start,
     const std::size_t d = plan.dimension;
     run.need_memory(8 * static_cast<double>(plan.count) * static_cast<double>(d), "the point set");
     PointSet points(Rows::unwritten(plan.count * d), d);
-    walk_to(sequence, start, d, run);
-    fill_rows(sequence, start, WarpChain({}, d), {}, points.flat(), run);
+    const RunContext rest = run.best_is_wanted() ? unstopped(run) : run;
+    walk_to(sequence, start, d, rest);
+    fill_rows(sequence, start, WarpChain({}, d), {}, points.flat(), rest);
     return points;
 }
 
@@ -175,7 +176,8 @@ GeneratedSets::GeneratedSets(SetsToMake asked, const RunContext& run)
 }
 
 std::optional<std::uint64_t> GeneratedSets::streamed() const {
-    if (!generator_.traits.sequence || chain_->drops()) return std::nullopt;
+    const bool whole = generator_.whole && generator_.whole(asked_.options);
+    if (!generator_.traits.sequence || whole || chain_->drops()) return std::nullopt;
     return plan_.count;
 }
 

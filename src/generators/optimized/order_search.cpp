@@ -14,8 +14,6 @@
 namespace stipple {
 namespace {
 
-using optimized::report_search;
-using optimized::until_best_is_wanted;
 using Ranks = PlanarOrder::Ranks;
 
 const double golden = (std::sqrt(5.0) - 1) / 2;

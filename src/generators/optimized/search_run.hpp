@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// What searches for optimized sets give, and how they report progress and end when they are stopped.
+// What searches for optimized sets give.
 #pragma once
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <string>
 #include <vector>
 
-#include "core/parallel.hpp"
-#include "stipple/run.hpp"
+#include "generators/search_run.hpp"
 
 namespace stipple::optimized {
 
@@ -20,18 +14,5 @@ struct OptimizedRows {
     double value = 0;
     bool stopped = false;  ///< before the budget was used up, since the run keeps the best
 };
-
-/// The run, which goes on when a stop is requested if it keeps the best: searches look for that.
-inline RunContext until_best_is_wanted(const RunContext& run) {
-    return run.keeps_best ? unstopped(run) : run;
-}
-
-/// Reports that so much of the budget is used up, the value just found, and the best so far.
-inline void report_search(const RunContext& run, double share, const std::string& words,
-                          double value, double best) {
-    constexpr std::uint64_t parts = 10'000;
-    until_best_is_wanted(run).tick(static_cast<std::uint64_t>(std::min(1.0, share) * parts), parts,
-                                   fmt::format("{} {:.6g}, best {:.6g}", words, value, best));
-}
 
 }  // namespace stipple::optimized

@@ -8,19 +8,39 @@
 //     strength 2   for n = p^2, p prime, and d <= p + 1: a Latin hypercube in which besides, for
 //                  any two coordinates, each of the p x p squares holds exactly one point. It is
 //                  made from an orthogonal array (orthogonal_points.hpp).
+//     --sliced, --nested   parts of the points are Latin hypercubes, too (latin_structure.hpp)
+//     --extend     new points in the strata that given ones leave empty (latin_extension.hpp)
+//     --optimize   the permutations are those that a search finds best by a criterion
+//                  (generators/latin_hypercube_search); it keeps slices, nested and given points
 //
-// Cost    O(n d); point i is found without the others, in constant memory.
+// Cost    O(n d); point i is found without the others, in constant memory. A search takes some 20 s
+//         of one core by default, fewer for few points, and memory as n^2: 160 MB at n = 2000.
 // Promise each stratum holds one point in exact arithmetic, and floor(x n) says so too
-//         (math/digital/stratum.hpp).
+//         (math/digital/stratum.hpp). A search's result is a function of the request and the options,
+//         for any number of threads; its value in the provenance is that of the middles.
 // Source  M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239-245,
 //         doi:10.1080/00401706.1979.10489755; B. Tang, J. Amer. Stat. Assoc. 88 (1993) 1392-1397,
 //         doi:10.1080/01621459.1993.10476423.
 
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/text.hpp"
+#include "generators/given_points.hpp"
+#include "generators/latin_hypercube_search/search.hpp"
+#include "generators/stratified/latin_extension.hpp"
+#include "generators/stratified/latin_structure.hpp"
 #include "generators/stratified/orthogonal_points.hpp"
+#include "io/files.hpp"
 #include "math/combinatorics/permutation.hpp"
 
 namespace stipple::generators::latin_hypercube {
 namespace {
+
+namespace search = stipple::latin_hypercube_search;
 
 constexpr Param<std::int64_t> strength{
     .name = "strength",
@@ -30,33 +50,294 @@ constexpr Param<std::int64_t> strength{
     .help =
         "1: one point in each of n strata along each axis; 2: and one in each of n squares for "
         "each two axes (n the square of a prime)"};
+constexpr Param<Choice> optimize{
+    .name = "optimize",
+    .choices = "maximin|phi-p|audze-eglais|centered-l2|maxpro|correlation",
+    .help = "Search the strata of the points, up to 10000 of them, that are best by this: the least "
+            "distance large, or the sum of d^-p or d^-2 over pairs, the centered L2 discrepancy, the "
+            "MaxPro measure, or the largest correlation small"};
+constexpr Param<std::int64_t> power{.name = "p",
+                                    .fallback = 15,
+                                    .low = 1,
+                                    .high = 50,
+                                    .help = "The p of --optimize phi-p"};
+constexpr Param<double> effort{.name = "effort",
+                               .fallback = 1,
+                               .low = 1e-6,
+                               .high = 1e6,
+                               .help = "Trials of --optimize: this times those of some 20 seconds "
+                                       "of one core (fewer where points are few)"};
+constexpr Param<std::int64_t> sliced{
+    .name = "sliced",
+    .low = 1,
+    .high = 1'000'000'000,
+    .optional = true,
+    .unit = "slices",
+    .help = "So many slices of equal size, one after the other, each a Latin hypercube itself"};
+constexpr Param<Numbers> nested{
+    {.name = "nested",
+     .unit = "N1,N2",
+     .help = "N2 points of which the first N1 are a Latin hypercube themselves; N1 divides N2"}};
+constexpr Param<Path> extend{
+    {.name = "extend",
+     .unit = "file",
+     .help = "Begin with the points of a file, which stay as they are; new ones are where, along "
+             "each axis, of as many strata as there will be points none was in"}};
+constexpr Param<std::int64_t> add{.name = "add",
+                                  .low = 1,
+                                  .high = 1'000'000'000,
+                                  .optional = true,
+                                  .unit = "points",
+                                  .help = "New points of --extend"};
+constexpr Param<Numbers> levels{
+    {.name = "levels",
+     .help = "For each axis the number m of values that floor(x m) will be made of, by which "
+             "--optimize then counts distances; 0: x itself, such as 0,3,8"}};
 
 /// Points are in order, so that a coordinate's stretch of images is one of consecutive indices.
-std::unique_ptr<Sequence> hypercube(const Plan& plan, bool centered) {
-    return stratified_sequence(
-        plan, {.centered = centered, .shuffled = false},
-        [n = plan.count, keys = stratified_numbers(plan, 0)](
-            std::size_t coordinate, std::span<const double> index, std::span<double> low) {
-            Permutation(n, keys.bits(coordinate)).fill(static_cast<std::uint64_t>(index[0]), low);
-            return n;
-        });
+StrataOf permuted_strata(const Plan& plan) {
+    return [n = plan.count, keys = stratified_numbers(plan, 0)](
+               std::size_t coordinate, std::span<const double> index, std::span<double> low) {
+        Permutation(n, keys.bits(coordinate)).fill(static_cast<std::uint64_t>(index[0]), low);
+        return n;
+    };
 }
 
 constexpr const char* strong = "latin-hypercube of strength 2";
 
-Plan plan(const Request& request, const Values& options) {
-    if (options[strength] == 1) return default_plan(request);
-    return plan_by_polynomials(request, 2, strong);
+/// @throws Error(usage) where options contradict each other
+void check_options(const Values& options) {
+    const auto only_with = [](std::string_view name, bool given, bool fits, std::string_view what) {
+        if (given && !fits) fail(ErrorKind::usage, "--{}: is of {}; give that too", name, what);
+    };
+    const bool searches = options.given(optimize);
+    only_with("effort", options.given(effort), searches, "--optimize");
+    only_with("levels", options.given(levels), searches, "--optimize");
+    only_with("p", options.given(power), options[optimize] == "phi-p", "--optimize phi-p");
+    only_with("add", options.given(add), options.given(extend), "--extend");
+    std::vector<std::string> forms;
+    if (options[strength] == 2) forms.emplace_back("--strength 2");
+    if (options.given(sliced)) forms.emplace_back("--sliced");
+    if (options.given(nested)) forms.emplace_back("--nested");
+    if (options.given(extend)) forms.emplace_back("--extend");
+    if (forms.size() > 1)
+        fail(ErrorKind::usage, "{} and {} contradict each other; give one of them", forms[0],
+             forms[1]);
+    if (options[strength] == 2 && searches)
+        fail(ErrorKind::usage,
+             "--strength 2 and --optimize contradict each other: exchanges of strata would not keep "
+             "the squares");
 }
 
-std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
+std::uint64_t whole_of(const Values& options, std::size_t i) {
+    return static_cast<std::uint64_t>(options[nested][i]);
+}
+
+Plan plan_nested(const Request& request, const Values& options) {
+    const std::vector<double> counts = options[nested];
+    const std::string text = format_value(Value(counts));
+    for (const double count : counts)
+        if (!(count >= 1 && count <= 0x1p53 && count == std::floor(count)))
+            fail(ErrorKind::usage, "--nested: {} is no number of points",
+                 format_number(count));
+    if (counts.size() != 2 || whole_of(options, 1) % whole_of(options, 0) != 0)
+        fail(ErrorKind::usage, "--nested: {} are not N1,N2 with N1 dividing N2, such as 10,30", text);
+    if (request.count.value_or(whole_of(options, 1)) != whole_of(options, 1))
+        fail(ErrorKind::usage, "--count: {} contradicts --nested {}, which has {} points",
+             *request.count, text, whole_of(options, 1));
+    return default_plan(request, whole_of(options, 1));
+}
+
+Plan plan_sliced(const Request& request, const Values& options) {
+    const auto slices = static_cast<std::uint64_t>(options[sliced]);
+    const Plan plan = default_plan(request, std::max<std::uint64_t>(1, 1024 / slices) * slices);
+    if (plan.count % slices == 0) return plan;
+    refuse_count(plan.count, fmt::format("a multiple of {}", slices),
+                 fmt::format("--sliced {}", slices), plan.count / slices * slices,
+                 (plan.count / slices + 1) * slices);
+}
+
+PointSet given_points(const Values& options, const RunContext& run) {
+    PointSet points = io::read_given(extend.name, options[extend], {}, run);
+    require_in_cube(points, options[extend], "--extend takes designs in [0, 1)");
+    return points;
+}
+
+Plan plan_extended(const Request& request, const Values& options) {
+    if (request.bounds)
+        fail(ErrorKind::usage,
+             "--bounds: the points of --extend stay as they are; scale all of them afterwards");
+    const PointSet points = given_points(options, {});
+    require_dimension(request, points, options[extend]);
+    if (!options.given(add) && !request.count)
+        fail(ErrorKind::usage, "--extend: how many points to add? --add says it");
+    const std::uint64_t count =
+        options.given(add) ? points.count() + static_cast<std::uint64_t>(options[add])
+                           : *request.count;
+    if (request.count.value_or(count) != count || count <= points.count())
+        fail(ErrorKind::usage, "--count: {} is not {}, the {} points of {} and those of --add",
+             *request.count, options.given(add) ? std::to_string(count) : "more", points.count(),
+             options[extend]);
+    return default_plan(request, count, points.dimension());
+}
+
+Plan plan_by_form(const Request& request, const Values& options) {
+    if (options[strength] == 2) return plan_by_polynomials(request, 2, strong);
+    if (options.given(nested)) return plan_nested(request, options);
+    if (options.given(sliced)) return plan_sliced(request, options);
+    if (options.given(extend)) return plan_extended(request, options);
+    return default_plan(request, options.given(optimize) ? 64 : 1024);
+}
+
+void check_search(const Plan& plan, const Values& options) {
+    constexpr std::uint64_t most = 10'000;
+    constexpr std::size_t most_axes = 100;
+    if (plan.count > most)
+        fail(ErrorKind::usage, "--count: {} is outside [1, {}], what --optimize can search",
+             plan.count, most);
+    if (plan.dimension > most_axes)
+        fail(ErrorKind::usage, "--dimension: {} is outside [1, {}], what --optimize can search",
+             plan.dimension, most_axes);
+    if (!options.given(levels)) return;
+    const std::vector<double> parts = options[levels];
+    if (parts.size() != plan.dimension)
+        fail(ErrorKind::usage, "--levels: {} numbers for {} coordinates; one for each",
+             parts.size(), plan.dimension);
+    for (const double m : parts)
+        if (!(m >= 0 && m <= static_cast<double>(most) && m == std::floor(m)))
+            fail(ErrorKind::usage, "--levels: {} is not a whole number in [0, {}]",
+                 format_number(m), most);
+}
+
+Plan plan(const Request& request, const Values& options) {
+    check_options(options);
+    const Plan plan = plan_by_form(request, options);
+    if (options.given(optimize)) check_search(plan, options);
+    return plan;
+}
+
+StrataOf strata_of(const Plan& plan, const Values& options) {
+    if (options.given(sliced))
+        return sliced_strata(plan, static_cast<std::uint64_t>(options[sliced]));
+    if (options.given(nested)) return nested_strata(plan, whole_of(options, 0));
+    return permuted_strata(plan);
+}
+
+search::Design design_of(const Plan& plan, const StrataOf& strata) {
+    search::Design design(plan.count, plan.count, plan.dimension);
+    std::vector<double> index(plan.count);
+    std::vector<double> low(plan.count);
+    for (std::size_t i = 0; i < index.size(); ++i) index[i] = static_cast<double>(i);
+    for (std::size_t k = 0; k < plan.dimension; ++k) {
+        strata(k, index, low);
+        for (std::size_t i = 0; i < low.size(); ++i)
+            design.along(k)[i] = static_cast<search::Level>(low[i]);
+    }
+    return design;
+}
+
+search::Rules rules_of(const Plan& plan, const Values& options, std::size_t given) {
+    search::Rules rules{.fixed = given};
+    for (const double m : options[levels]) rules.parts.push_back(static_cast<search::Level>(m));
+    if (options.given(sliced)) {
+        const auto slices = static_cast<std::size_t>(options[sliced]);
+        for (std::size_t s = 1; s <= slices; ++s) rules.groups.push_back(plan.count / slices * s);
+        rules.coarse = static_cast<search::Level>(slices);
+    }
+    if (options.given(nested)) {
+        const std::size_t first = whole_of(options, 0);
+        rules.groups = {first, plan.count};
+        rules.coarse = static_cast<search::Level>(plan.count / first);
+    }
+    return rules;
+}
+
+search::Objective objective_of(const Values& options) {
+    using search::Kind;
+    constexpr std::pair<const char*, Kind> kinds[] = {
+        {"maximin", Kind::maximin},         {"phi-p", Kind::phi_p},
+        {"audze-eglais", Kind::audze_eglais}, {"centered-l2", Kind::centered_l2},
+        {"maxpro", Kind::maxpro},           {"correlation", Kind::correlation}};
+    const std::string name = options[optimize];
+    return {std::ranges::find(kinds, name, &std::pair<const char*, Kind>::first)->second,
+            static_cast<int>(options[power])};
+}
+
+/// Points in the strata of a design, behind given ones.
+std::unique_ptr<Sequence> points_of(const Plan& plan, bool centered, search::Design design,
+                                    PointSet given) {
+    const std::size_t d = plan.dimension;
+    std::shared_ptr<const Sequence> all = stratified_sequence(
+        plan, {.centered = centered, .shuffled = false},
+        [design = std::move(design)](std::size_t k, std::span<const double> index,
+                                     std::span<double> low) {
+            for (std::size_t j = 0; j < index.size(); ++j)
+                low[j] = design.along(k)[static_cast<std::size_t>(index[j])];
+            return std::uint64_t{design.points};
+        });
+    return sequence_of([all, given = std::move(given), d](std::uint64_t first,
+                                                          std::span<double> rows) {
+        all->fill(first, rows);
+        const auto flat = given.flat();
+        const std::size_t from = std::min<std::size_t>(first * d, flat.size());
+        std::ranges::copy(flat.subspan(from, std::min(rows.size(), flat.size() - from)),
+                          rows.begin());
+    });
+}
+
+/// What is worked out as a whole: searched, or behind given points.
+std::unique_ptr<Sequence> make_design(const Plan& plan, const Values& options,
+                                      const RunContext& run) {
+    const PointSet given = options.given(extend) ? given_points(options, run) : PointSet();
+    run.need_memory(16 * static_cast<double>(plan.count) * static_cast<double>(plan.dimension),
+                    "the design");
+    search::Search task{.objective = {},
+                        .rules = rules_of(plan, options, given.count()),
+                        .start = options.given(extend)
+                                     ? extended(given, plan.count, stratified_numbers(plan, 0))
+                                     : design_of(plan, strata_of(plan, options)),
+                        .seed = plan.seed};
+    if (!options.given(optimize))
+        return points_of(plan, options[centered_option], std::move(task.start), given);
+    task.objective = objective_of(options);
+    task.trials = options[effort] * search::usual_trials(task.objective, task.start);
+    const search::Result result = search::best_design(task, options[optimize], run);
+    if (result.stopped)
+        run.notify("interrupted: this is the best design so far, as its provenance says");
+    auto found = search::described(task.objective, result.design, task.rules,
+                                   result.stopped ? unstopped(run) : run);
+    if (result.stopped) found.emplace_back(interrupted);
+    auto points = points_of(plan, options[centered_option], result.design, given);
+    points->set_found([found] { return found; });
+    return points;
+}
+
+bool is_whole(const Values& options) { return options.given(optimize) || options.given(extend); }
+
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext& run) {
     const bool centered = options[centered_option];
-    if (options[strength] == 1) return hypercube(plan, centered);
+    if (is_whole(options)) return make_design(plan, options, run);
+    if (options[strength] == 1)
+        return stratified_sequence(plan, {.centered = centered, .shuffled = false},
+                                   strata_of(plan, options));
     const ArrayShape shape{.levels = prime_root(plan.count, 2, strong),
                            .strength = 2,
                            .columns = Columns::polynomials};
     return orthogonal_points(plan, {.centered = centered, .shuffled = true}, shape,
                              Substrata::independent);
+}
+
+std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
+                               const Values& options) {
+    if (!options.given(extend)) return {};
+    const PointSet given = given_points(options, {});
+    std::size_t most = 0;
+    for (std::size_t k = 0; k < plan.dimension; ++k)
+        most = std::max(most, crowded_strata(given, k, plan.count));
+    if (most == 0) return {};
+    return {fmt::format("latin-hypercube: no Latin hypercube of all {0} points: points of {1} share "
+                        "up to {2} of the {0} strata along an axis; new ones share none",
+                        plan.count, options[extend], most)};
 }
 
 }  // namespace
@@ -67,12 +348,16 @@ Generator unit() {
             .source =
                 "McKay, Beckman, Conover 1979, doi:10.1080/00401706.1979.10489755; strength "
                 "2: Tang 1993, doi:10.1080/01621459.1993.10476423",
-            .related = {"latin", "maximin", "lhd", "lhsdesign"},
+            .related = {"latin", "maximin", "lhd", "lhsdesign", "maxpro", "audze-eglais", "morris",
+                        "experiment", "doe", "space-filling", "design-augmentation"},
             .traits = {.prefix = false},
-            .options = Schema(centered_option, strength),
+            .options = Schema(centered_option, strength, optimize, power, effort, sliced, nested,
+                              extend, add, levels),
             .aliases = {"lhs", "n-rooks", "nrooks"},
             .plan = plan,
-            .sequence = make};
+            .sequence = make,
+            .notes = notes,
+            .whole = is_whole};
 }
 
 }  // namespace stipple::generators::latin_hypercube

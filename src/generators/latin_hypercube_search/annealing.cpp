@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+#include "generators/latin_hypercube_search/annealing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/rng.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
+
+namespace stipple::latin_hypercube_search {
+namespace {
+
+constexpr double piece = 1024;         // trials between two changes of the share
+constexpr double gain = 0.02;          // of the temperature's logarithm, a trial that is made
+constexpr double polish_from = 0.8;    // of the trials; the rest goes for the design's own target
+constexpr double polish_share = 2e-3;  // that begins with
+
+}  // namespace
+
+Exchanges::Exchanges(Design design, const Rules& rules)
+    : design_(std::move(design)), rules_(rules), row_(design_.dimension) {
+    if (rules.groups.empty()) return;
+    for (std::uint32_t g = 0; g < rules.groups.size(); ++g) group_.resize(rules.groups[g], g);
+    row_at_.resize(design_.levels.size());
+    for (std::size_t k = 0; k < design_.dimension; ++k)
+        for (std::uint32_t i = 0; i < design_.points; ++i)
+            row_at_[k * design_.points + static_cast<std::size_t>(design_.along(k)[i])] = i;
+}
+
+/// Of a's group, or one whose level is in the same coarse stratum; a itself where there is none.
+std::size_t Exchanges::partner(SplitMix64& draws, std::size_t k, std::size_t a) const {
+    const auto other = [&](std::size_t first, std::size_t last, std::size_t but) {
+        const std::size_t drawn = first + draws.below(last - first - 1);
+        return last - first == 1 ? but : drawn + (drawn >= but);
+    };
+    if (group_.empty()) return other(rules_.fixed, design_.rows, a);
+    if (draws.below(2) == 0) {
+        const std::size_t g = group_[a];
+        return other(g == 0 ? 0 : rules_.groups[g - 1], rules_.groups[g], a);
+    }
+    const auto level = static_cast<std::size_t>(design_.along(k)[a]);
+    const auto coarse = static_cast<std::size_t>(rules_.coarse);
+    const std::size_t first = level / coarse * coarse;
+    return row_at_[k * design_.points + other(first, first + coarse, level)];
+}
+
+bool Exchanges::draw(SplitMix64& draws, Exchange& exchange) const {
+    exchange.coordinate = draws.below(design_.dimension);
+    exchange.a = rules_.fixed + draws.below(design_.points - rules_.fixed);
+    exchange.b = partner(draws, exchange.coordinate, exchange.a);
+    return exchange.a != exchange.b && design_.along(exchange.coordinate)[exchange.b] >= 0;
+}
+
+bool Exchanges::fits(std::size_t row) { return fits(row, 0, design_.along(0)[row]); }
+
+bool Exchanges::fits(std::size_t row, std::size_t k, Level level) {
+    if (row >= design_.points) return true;
+    for (std::size_t l = 0; l < design_.dimension; ++l) row_[l] = design_.along(l)[row];
+    row_[k] = level;
+    return rules_.feasible(row_);
+}
+
+int Exchanges::infeasible(const Exchange& exchange) {
+    const auto [k, a, b] = exchange;
+    if (!rules_.feasible) return 0;
+    return !fits(a, k, design_.along(k)[b]) + !fits(b, k, design_.along(k)[a]);
+}
+
+void Exchanges::make(const Exchange& exchange) {
+    const auto [k, a, b] = exchange;
+    const auto levels = design_.along(k);
+    std::swap(levels[a], levels[b]);
+    if (row_at_.empty()) return;
+    for (const std::size_t row : {a, b})
+        row_at_[k * design_.points + static_cast<std::size_t>(levels[row])] =
+            static_cast<std::uint32_t>(row);
+}
+
+void Exchanges::shuffle(SplitMix64& draws, std::size_t times) {
+    Exchange one{};
+    const std::size_t all = times * design_.points * design_.dimension;
+    std::size_t wrong = 0;
+    for (std::size_t i = rules_.fixed; i < design_.points && rules_.feasible; ++i)
+        wrong += !fits(i);
+    for (std::size_t i = 0; i < 100 * all && wrong > 0; ++i) {
+        if (!draw(draws, one)) continue;
+        const int before = !fits(one.a) + (one.b < design_.points && !fits(one.b));
+        const int after = infeasible(one);
+        if (after > before) continue;
+        make(one);
+        wrong -= static_cast<std::size_t>(before - after);
+    }
+    if (wrong > 0)
+        fail(ErrorKind::limit, "latin-hypercube: no design found that is feasible; {} of {} points "
+             "are not", wrong, design_.points);
+    for (std::size_t i = 0; i < all; ++i)
+        if (draw(draws, one) && infeasible(one) == 0) make(one);
+}
+
+Annealing::Annealing(const Objective& objective, const Design& start, const Rules& rules,
+                     const Schedule& schedule, SplitMix64 draws)
+    : schedule_(schedule),
+      draws_(draws),
+      exchanges_(start, rules),
+      criterion_(make_criterion(objective, start, rules)),
+      share_(schedule.first_share),
+      best_(start),
+      score_(criterion_->score()) {
+    const double pieces = std::max(1.0, schedule.trials / piece);
+    cooling_ = exponential(logarithm(schedule.last_share / schedule.first_share) / pieces);
+    if (!criterion_->aim(schedule.target)) polishing_ = true;
+    over_ = polishing_ && criterion_->reached();
+    constexpr int some = 64;
+    Exchange one{};
+    for (int i = 0; i < some; ++i)
+        if (exchanges_.draw(draws_, one))
+            temperature_ += std::abs(criterion_->change(one.coordinate, one.a, one.b)) / some;
+    temperature_ *= schedule.first_share;
+}
+
+void Annealing::aim_next() {
+    if (!criterion_->aim(1 - criterion_->score().value)) over_ = criterion_->reached();
+}
+
+void Annealing::note() {
+    const Score score = criterion_->score();
+    if (!(score < score_)) return;
+    score_ = score;
+    best_ = exchanges_.design();
+}
+
+bool Annealing::accepts(double change) {
+    if (change <= 0) return true;
+    constexpr double never = 40;
+    const bool accepted =
+        change < never * temperature_ &&
+        to_unit(draws_.next()) < exponential(-change / temperature_);
+    temperature_ *= accepted ? 1 - gain : 1 + gain * share_;
+    return accepted;
+}
+
+void Annealing::trial() {
+    Exchange one{};
+    if (!exchanges_.draw(draws_, one)) return;
+    const double change = criterion_->change(one.coordinate, one.a, one.b);
+    if (!accepts(change) || exchanges_.infeasible(one) > 0) return;
+    criterion_->exchange(one.coordinate, one.a, one.b, change);
+    exchanges_.make(one);
+    if (!criterion_->reached()) return;
+    note();
+    aim_next();
+}
+
+void Annealing::advance(double trials, const RunContext& run, const RunContext& whole) {
+    const double last = std::min(schedule_.trials, done_ + trials);
+    for (; done_ < last && !over_; ++done_) {
+        trial();
+        if (std::fmod(done_, piece) != 0) continue;
+        run.check_stop();
+        if (whole.best_is_wanted()) break;
+        share_ *= cooling_;
+        if (polishing_ || done_ < polish_from * schedule_.trials) continue;
+        polishing_ = true;
+        note();
+        aim_next();
+        share_ = std::min(polish_share, schedule_.first_share);
+        cooling_ = exponential(logarithm(schedule_.last_share / share_) /
+                               std::max(1.0, (1 - polish_from) * schedule_.trials / piece));
+    }
+    note();
+}
+
+}  // namespace stipple::latin_hypercube_search

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "generators/latin_hypercube_search/criteria.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/point_set.hpp"
+#include "core/text.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
+#include "math/l2/squares.hpp"
+
+namespace stipple::latin_hypercube_search {
+namespace {
+
+double root(double value, double degree) {
+    return value > 0 ? exponential(logarithm(value) / degree) : 0;
+}
+
+double pairs_of(std::size_t points) {
+    const auto n = static_cast<double>(points);
+    return n * (n - 1) / 2;
+}
+
+/// Places of the points along all coordinates, row after row.
+std::vector<Level> placed(const Design& design, const Rules& rules) {
+    std::vector<Level> x;
+    for (std::size_t i = 0; i < design.points; ++i)
+        for (std::size_t k = 0; k < design.dimension; ++k)
+            x.push_back(place_of(design.along(k)[i], parts_of(rules, k), design.points));
+    return x;
+}
+
+/// Calls take(row, row) for every pair of points.
+void for_pairs(const std::vector<Level>& x, std::size_t d, const RunContext& run, auto take) {
+    for (std::size_t i = 0; i < x.size(); i += d) {
+        run.check_stop();
+        for (std::size_t j = 0; j < i; j += d) take(&x[i], &x[j]);
+    }
+}
+
+double square_between(const Level* a, const Level* b, std::size_t d) {
+    double sum = 0;
+    for (std::size_t k = 0; k < d; ++k) {
+        const double difference = a[k] - b[k];
+        sum += difference * difference;
+    }
+    return sum;
+}
+
+using Found = std::vector<std::pair<std::string, std::string>>;
+
+Found described_distances(const std::vector<Level>& x, std::size_t d, const RunContext& run) {
+    double least = 0x1p62;
+    std::uint64_t count = 0;
+    for_pairs(x, d, run, [&](const Level* a, const Level* b) {
+        const double square = square_between(a, b, d);
+        count = square < least ? 1 : count + (square == least);
+        least = std::min(least, square);
+    });
+    return {{"squared_distance", format_number(least)}, {"pairs", std::to_string(count)}};
+}
+
+double power_sum(const std::vector<Level>& x, std::size_t d, int power, const RunContext& run) {
+    double sum = 0;
+    for_pairs(x, d, run, [&](const Level* a, const Level* b) {
+        const double square = square_between(a, b, d);
+        double term = power % 2 == 1 ? 1 / std::sqrt(square) : 1;
+        for (int i = 0; i < power / 2; ++i) term /= square;
+        sum += term;
+    });
+    return sum;
+}
+
+double maxpro_of(const std::vector<Level>& x, std::size_t d, const Rules& rules,
+                 const RunContext& run) {
+    const std::size_t points = x.size() / d;
+    const auto n = static_cast<double>(points);
+    const double scale = usual_difference(points);
+    double sum = 0;
+    for_pairs(x, d, run, [&](const Level* a, const Level* b) {
+        double term = 1;
+        for (std::size_t k = 0; k < d; ++k) {
+            const Level parts = parts_of(rules, k);
+            const double more = parts > 0 ? n / parts : 0;
+            const double factor = scale / (std::abs(a[k] - b[k]) + more);
+            term *= factor * factor;
+        }
+        sum += term;
+    });
+    const double ratio = n / scale;
+    return ratio * ratio * root(sum / pairs_of(points), static_cast<double>(d));
+}
+
+Found described_l2(const std::vector<Level>& x, std::size_t d, const RunContext& run) {
+    PointSet points(x.size() / d, d);
+    const auto n = static_cast<double>(points.count());
+    for (std::size_t i = 0; i < x.size(); ++i) points.flat()[i] = (2 * x[i] + 1) / (2 * n);
+    const double squared =
+        d <= 2 ? l2::plane_square(l2::plane_sums(points, run), d, l2::Kind::centered, {})
+               : l2::pair_square(points, l2::Kind::centered, {}, run).squared;
+    return {{"squared", format_number(squared)},
+            {"l2_centered_discrepancy", format_number(std::sqrt(std::max(0.0, squared)))}};
+}
+
+/// Pearson's correlation of two coordinates.
+double correlation_of(const std::vector<Level>& x, std::size_t d, std::size_t k, std::size_t l) {
+    const auto n = static_cast<double>(x.size() / d);
+    double a = 0, b = 0, aa = 0, bb = 0, ab = 0;
+    for (std::size_t i = 0; i < x.size(); i += d) {
+        const double p = x[i + k];
+        const double q = x[i + l];
+        a += p, b += q, aa += p * p, bb += q * q, ab += p * q;
+    }
+    const double both = (n * aa - a * a) * (n * bb - b * b);
+    return both > 0 ? (n * ab - a * b) / std::sqrt(both) : 0;
+}
+
+Found described_correlations(const std::vector<Level>& x, std::size_t d) {
+    double largest = 0;
+    double squares = 0;
+    for (std::size_t k = 0; k < d; ++k)
+        for (std::size_t l = 0; l < k; ++l) {
+            const double r = correlation_of(x, d, k, l);
+            largest = std::max(largest, std::abs(r));
+            squares += r * r;
+        }
+    const double mean = squares / std::max(1.0, pairs_of(d));
+    return {{"largest_correlation", format_number(largest)},
+            {"root_mean_square_correlation", format_number(std::sqrt(mean))}};
+}
+
+}  // namespace
+
+double usual_difference(std::size_t points) { return std::max(1.0, 0.3 * static_cast<double>(points)); }
+
+double usual_square(std::size_t points, std::size_t dimension) {
+    const auto n = static_cast<double>(points);
+    return n * (n + 1) * static_cast<double>(dimension) / 6;
+}
+
+std::unique_ptr<Criterion> make_criterion(const Objective& objective, const Design& design,
+                                          const Rules& rules) {
+    return objective.kind == Kind::correlation ? correlation_criterion(design, rules)
+                                               : pair_criterion(objective, design, rules);
+}
+
+double criterion_memory(const Objective& objective, const Design& design) {
+    const auto n = static_cast<double>(design.points);
+    const double rows = 24 * static_cast<double>(design.rows * design.dimension);
+    if (objective.kind == Kind::correlation) return rows;
+    const bool whole = objective.kind != Kind::centered_l2 && objective.kind != Kind::maxpro;
+    return rows + n * (n + 8) * (whole ? sizeof(Level) : sizeof(double));
+}
+
+double reported(const Objective& objective, const Score& score, std::size_t points,
+                std::size_t dimension) {
+    const auto n = static_cast<double>(points);
+    const auto d = static_cast<double>(dimension);
+    switch (objective.kind) {
+        case Kind::maximin:
+            return -score.value;
+        case Kind::phi_p:
+            return root(score.value, objective.power) / std::sqrt(usual_square(points, dimension));
+        case Kind::audze_eglais:
+            return score.value / usual_square(points, dimension);
+        case Kind::centered_l2: {
+            double constant = 1;
+            for (std::size_t k = 0; k < dimension; ++k) constant *= 13 / 12.0;
+            return constant + score.value / (n * n);
+        }
+        case Kind::maxpro: {
+            const double ratio = n / usual_difference(points);
+            return ratio * ratio * root(score.value / pairs_of(points), d);
+        }
+        default:
+            return score.value;
+    }
+}
+
+Found described(const Objective& objective, const Design& design, const Rules& rules,
+                const RunContext& run) {
+    const std::vector<Level> x = placed(design, rules);
+    const std::size_t d = design.dimension;
+    if (objective.kind == Kind::centered_l2) return described_l2(x, d, run);
+    if (objective.kind == Kind::correlation) return described_correlations(x, d);
+    if (design.points < 2) return {};
+    if (objective.kind == Kind::maximin) return described_distances(x, d, run);
+    const auto named = [](const char* name, double value) {
+        return std::isfinite(value) ? Found{{name, format_number(value)}} : Found();
+    };
+    if (objective.kind == Kind::maxpro) return named("maxpro", maxpro_of(x, d, rules, run));
+    const int power = objective.kind == Kind::phi_p ? objective.power : 2;
+    const double sum = power_sum(x, d, power, run);
+    if (power == 2 && objective.kind == Kind::audze_eglais) return named("audze_eglais", sum);
+    return named("phi_p", std::isfinite(sum) ? root(sum, power) : sum);
+}
+
+}  // namespace stipple::latin_hypercube_search

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+//
+// What Latin hypercubes are optimised for. Distances are Euclidean, between levels 0, ..., n - 1;
+// x are the middles of the strata, (2 level + 1) / (2 n).
+//
+//     maximin        the least squared distance, to be large; then the number of pairs that have it
+//     phi_p          (sum over pairs of d^-p)^(1/p)
+//     audze_eglais   sum over pairs of d^-2
+//     centered_l2    the squared centered L2 discrepancy of x (math/l2/kinds.hpp)
+//     maxpro         (mean over pairs of prod_k (x_ik - x_jk)^-2)^(1/d)
+//     correlation    the largest absolute correlation of two coordinates
+//
+// A search goes by an energy, which an exchange of two levels changes in O(n), for correlations O(d):
+//
+//     maximin        sum over pairs of max(0, target - d^2); the target rises once that is 0
+//     centered_l2    n^2 times the square, without its constant
+//     correlation    sum over pairs of coordinates of the fourth power of the correlation
+//     others         the sum over pairs
+//
+// Promise  energies of distances, in maximin, are whole numbers and exact.
+// Source   phi_p: M. D. Morris, T. J. Mitchell, J. Statist. Plann. Inference 43 (1995) 381-402,
+//          doi:10.1016/0378-3758(94)00035-T. Audze-Eglais, and sums without further factors as in
+//          the tables of spacefillingdesigns.nl: B. G. M. Husslage, G. Rennen, E. R. van Dam,
+//          D. den Hertog, Optim. Eng. 12 (2011) 611-630, doi:10.1007/s11081-010-9129-8. maxpro:
+//          V. R. Joseph, E. Gul, S. Ba, Biometrika 102 (2015) 371-380, doi:10.1093/biomet/asv002.
+#pragma once
+
+#include <compare>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "generators/latin_hypercube_search/design.hpp"
+#include "stipple/run.hpp"
+
+namespace stipple::latin_hypercube_search {
+
+enum class Kind { maximin, phi_p, audze_eglais, centered_l2, maxpro, correlation };
+
+struct Objective {
+    Kind kind = Kind::maximin;
+    int power = 15;  ///< p of phi_p, in [1, 50]
+};
+
+/// How good a design is: less is better, the second number where the first are equal.
+struct Score {
+    double value = 0;
+    double second = 0;
+    auto operator<=>(const Score&) const = default;
+};
+
+class Criterion {
+  public:
+    Criterion() = default;
+    Criterion(const Criterion&) = delete;
+    Criterion& operator=(const Criterion&) = delete;
+    virtual ~Criterion() = default;
+
+    /// What the energy grows by when rows a, a point, and b exchange their levels of a coordinate.
+    virtual double change(std::size_t coordinate, std::size_t a, std::size_t b) = 0;
+
+    /// Exchanges them; `change` is what change() gave.
+    virtual void exchange(std::size_t coordinate, std::size_t a, std::size_t b, double change) = 0;
+
+    [[nodiscard]] virtual double energy() const = 0;
+
+    /// Whether the energy is as low as can be, or as its target asks for.
+    [[nodiscard]] virtual bool reached() const { return false; }
+
+    /// Sets the target of maximin, a squared distance; 0: that of a point to its nearest, on average.
+    /// False where there are no targets.
+    virtual bool aim(double /*target*/) { return false; }
+
+    [[nodiscard]] virtual Score score() const = 0;
+};
+
+/// The criterion of a design, which it follows by exchange() alone. Pairs of fixed rows do not count.
+std::unique_ptr<Criterion> make_criterion(const Objective& objective, const Design& design,
+                                          const Rules& rules);
+std::unique_ptr<Criterion> pair_criterion(const Objective& objective, const Design& design,
+                                          const Rules& rules);
+std::unique_ptr<Criterion> correlation_criterion(const Design& design, const Rules& rules);
+
+/// Bytes that a criterion needs.
+double criterion_memory(const Objective& objective, const Design& design);
+
+/// A difference of two levels, and the mean squared distance of two points: numbers to divide by.
+double usual_difference(std::size_t points);
+double usual_square(std::size_t points, std::size_t dimension);
+
+/// The criterion's value, as reports have it, for a score: the value that searches show.
+double reported(const Objective& objective, const Score& score, std::size_t points,
+                std::size_t dimension);
+
+/// The value of all points by the criterion's definition, and what belongs to it, by name; without
+/// what is infinite since points share a level. O(n^2 d).
+std::vector<std::pair<std::string, std::string>> described(const Objective& objective,
+                                                           const Design& design,
+                                                           const Rules& rules,
+                                                           const RunContext& run);
+
+}  // namespace stipple::latin_hypercube_search

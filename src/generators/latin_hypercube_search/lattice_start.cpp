@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "generators/latin_hypercube_search/lattice_start.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+#include "core/rng.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
+
+namespace stipple::latin_hypercube_search {
+namespace {
+
+struct Lattice {
+    std::size_t size = 1;
+    std::vector<std::size_t> vector = {};
+};
+
+/// The squared distance of nearest points that are not on different sides of the torus.
+double least_square(const Lattice& lattice) {
+    double least = 0x1p62;
+    for (std::size_t i = 1; i <= lattice.size / 2; ++i) {
+        double square = 0;
+        for (const std::size_t z : lattice.vector) {
+            const std::size_t there = i * z % lattice.size;
+            const auto gap = static_cast<double>(std::min(there, lattice.size - there));
+            square += gap * gap;
+        }
+        least = std::min(least, square);
+    }
+    return least;
+}
+
+/// What the least square is about to be once n points are left, in their levels.
+double promise_of(const Lattice& lattice, std::size_t points) {
+    if (lattice.size <= points + 1) return least_square(lattice);
+    const auto d = static_cast<double>(lattice.vector.size());
+    const double ratio = static_cast<double>(points) / static_cast<double>(lattice.size);
+    return least_square(lattice) * exponential(logarithm(ratio) * 2 * (d - 1) / d);
+}
+
+Lattice drawn(std::size_t points, std::size_t dimension, SplitMix64& draws) {
+    Lattice lattice{.size = points + draws.below(points / 3 + 2), .vector = {1}};
+    if (draws.below(4) == 0) lattice.size = points + 1;
+    while (lattice.vector.size() < dimension) {
+        const std::size_t z = 1 + draws.below(lattice.size);
+        if (std::gcd(z, lattice.size) == 1) lattice.vector.push_back(z);
+    }
+    return lattice;
+}
+
+/// Indices of the points that stay.
+std::vector<std::size_t> middle_of(const std::vector<std::size_t>& x, std::size_t points,
+                                   std::size_t dimension, bool moved, SplitMix64& draws) {
+    const std::size_t size = x.size() / dimension;
+    std::vector<double> weights(dimension, 1);
+    for (double& weight : weights)
+        if (moved && draws.below(2) == 0) weight = to_unit(draws.next());
+    std::vector<double> off(size);
+    for (std::size_t i = 0; i < size; ++i)
+        for (std::size_t k = 0; k < dimension; ++k) {
+            const auto twice = static_cast<double>(2 * x[i * dimension + k]);
+            off[i] = std::max(off[i],
+                              weights[k] * std::abs(twice - static_cast<double>(size - 1)));
+        }
+    std::vector<std::size_t> order(size);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return off[i]; });
+    order.resize(points);
+    return order;
+}
+
+}  // namespace
+
+Design lattice_start(std::size_t points, std::size_t dimension, SplitMix64& draws) {
+    constexpr int tries = 500;
+    Lattice best;
+    double promise = -1;
+    for (int i = 0; i < tries; ++i) {
+        Lattice lattice = drawn(points, dimension, draws);
+        const double own = promise_of(lattice, points);
+        if (own > promise) best = std::move(lattice), promise = own;
+    }
+    const bool moved = best.size != points + 1;
+    std::vector<std::size_t> x(best.size * dimension);
+    for (std::size_t k = 0; k < dimension; ++k) {
+        const std::size_t shift = moved ? draws.below(best.size) : 0;
+        for (std::size_t i = 0; i < best.size; ++i)
+            x[i * dimension + k] = (i * best.vector[k] + shift) % best.size;
+    }
+    const auto kept = middle_of(x, points, dimension, moved, draws);
+    Design design(points, points, dimension);
+    for (std::size_t k = 0; k < dimension; ++k) {
+        std::vector<std::size_t> order(points);
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::ranges::sort(order, {}, [&](std::size_t i) { return x[kept[i] * dimension + k]; });
+        for (std::size_t level = 0; level < points; ++level)
+            design.along(k)[order[level]] = static_cast<Level>(level);
+    }
+    return design;
+}
+
+}  // namespace stipple::latin_hypercube_search

@@ -1,0 +1,433 @@
+// SPDX-License-Identifier: MIT
+//
+// Criteria that are sums over pairs of points. For every pair there is a number that grows coordinate
+// by coordinate, a squared distance or a product, and from which the pair's energy follows; rows are
+// padded to whole vectors with numbers of no energy.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <type_traits>
+
+#include "core/machine/vectors.hpp"
+#include "core/machine/wide.hpp"
+#include "generators/latin_hypercube_search/criteria.hpp"
+
+namespace stipple::latin_hypercube_search {
+namespace {
+
+constexpr std::size_t lanes = 8;
+
+constexpr std::size_t padded(std::size_t n) { return (n + lanes - 1) / lanes * lanes; }
+
+/// In an order of additions that vectors of any width can take.
+template <class Term>
+STIPPLE_INLINE double lane_sum(std::size_t n, Term term) {
+    double sums[lanes]{};
+    for (std::size_t j = 0; j < n; j += lanes)
+        for (std::size_t l = 0; l < lanes; ++l) sums[l] += term(j + l);
+    return ((sums[0] + sums[4]) + (sums[1] + sums[5])) + ((sums[2] + sums[6]) + (sums[3] + sums[7]));
+}
+
+/// A row of pairs, where its point goes along a coordinate whose other places are x.
+template <class Value>
+struct Row {
+    const Value* pairs;
+    const Level* x;
+    std::size_t size;
+    Level from;
+    Level to;
+};
+
+/// (to - x)^2 - (from - x)^2 as shift + slope x.
+struct Shift {
+    template <class Value>
+    explicit Shift(const Row<Value>& row)
+        : shift(row.to * row.to - row.from * row.from), slope(2 * (row.from - row.to)) {}
+    Level shift;
+    Level slope;
+};
+
+STIPPLE_WIDE std::int64_t shortfall_change(const Row<Level>& row, Level target) {
+    const auto [shift, slope] = Shift(row);
+    const Level* pairs = row.pairs;
+    const Level* x = row.x;
+    std::int64_t sum = 0;
+    for (std::size_t j = 0; j < row.size; ++j)
+        sum += std::max(0, target - (pairs[j] + shift + slope * x[j])) -
+               std::max(0, target - pairs[j]);
+    return sum;
+}
+
+/// r^(power / 2) of some numbers, in place.
+STIPPLE_INLINE void raise(double* r, std::size_t n, int power) {
+    double result[64];
+    for (std::size_t l = 0; l < n; ++l) result[l] = power % 2 == 1 ? std::sqrt(r[l]) : 1;
+    for (int rest = power / 2; rest > 0; rest /= 2) {
+        if (rest % 2 == 1)
+            for (std::size_t l = 0; l < n; ++l) result[l] *= r[l];
+        for (std::size_t l = 0; l < n; ++l) r[l] *= r[l];
+    }
+    for (std::size_t l = 0; l < n; ++l) r[l] = result[l];
+}
+
+/// Points that parts of coordinates bring together count as half a level apart.
+STIPPLE_INLINE double over(double scale, Level square) {
+    return scale / std::max(0.25, static_cast<double>(square));
+}
+
+STIPPLE_WIDE double power_change(const Row<Level>& row, int power, double scale) {
+    constexpr std::size_t some = 64;
+    const auto [shift, slope] = Shift(row);
+    double sum = 0;
+    for (std::size_t first = 0; first < row.size; first += some) {
+        const std::size_t n = std::min(some, row.size - first);
+        const Level* pairs = row.pairs + first;
+        const Level* x = row.x + first;
+        double now[some];
+        double then[some];
+        for (std::size_t l = 0; l < n; ++l) {
+            now[l] = over(scale, pairs[l]);
+            then[l] = over(scale, pairs[l] + shift + slope * x[l]);
+        }
+        raise(now, n, power);
+        raise(then, n, power);
+        sum += lane_sum(n, [&](std::size_t l) { return then[l] - now[l]; });
+    }
+    return sum;
+}
+
+/// 1 + |z|/2 + |z'|/2 - |z - z'|/2 of two places on a scale of 1 / (4 n) from the middle.
+STIPPLE_INLINE double centered_factor(double a, double b, double unit) {
+    return 1 + (std::abs(a) + std::abs(b) - std::abs(a - b)) * unit;
+}
+
+STIPPLE_WIDE double centered_change(const Row<double>& row, double n) {
+    const double unit = 1 / (4 * n);
+    const double from = 2 * row.from + 1 - n;
+    const double to = 2 * row.to + 1 - n;
+    return 2 * lane_sum(row.size, [&](std::size_t j) {
+               const double x = 2 * row.x[j] + 1 - n;
+               const double now = row.pairs[j];
+               return now * centered_factor(to, x, unit) / centered_factor(from, x, unit) - now;
+           });
+}
+
+/// Never 0: the point itself and what pads the rows have no energy.
+STIPPLE_INLINE double gap_between(Level a, Level b, double more) {
+    return std::max(0.5, std::abs(static_cast<double>(a - b)) + more);
+}
+
+STIPPLE_WIDE double projection_change(const Row<double>& row, double more) {
+    return lane_sum(row.size, [&](std::size_t j) {
+        const double now = row.pairs[j];
+        const double factor =
+            gap_between(row.from, row.x[j], more) / gap_between(row.to, row.x[j], more);
+        return now * (factor * factor) - now;
+    });
+}
+
+/// Squared distances, which a coordinate adds to.
+struct Distances {
+    using Value = Level;
+    static constexpr Level start = 0;
+    static constexpr Level neutral = Level{1} << 30;
+
+    static Level with(std::size_t, Level value, Level a, Level b) {
+        return value + (a - b) * (a - b);
+    }
+    static Level moved(std::size_t, Level value, Level from, Level to, Level x) {
+        return value + (to - x) * (to - x) - (from - x) * (from - x);
+    }
+};
+
+/// How far squared distances are below a target, in sum.
+struct Shortfall : Distances {
+    Level target = 1;
+
+    [[nodiscard]] double energy(Level value) const { return std::max(0, target - value); }
+    [[nodiscard]] double change(std::size_t, const Row<Level>& row) const {
+        return static_cast<double>(shortfall_change(row, target));
+    }
+};
+
+/// Powers of distances, which are near 1 where the distance is as it is on average.
+struct Powers : Distances {
+    int power = 2;
+    double scale = 1;
+
+    [[nodiscard]] double energy(Level value) const {
+        double r = over(scale, value);
+        raise(&r, 1, power);
+        return r;
+    }
+    [[nodiscard]] double change(std::size_t, const Row<Level>& row) const {
+        return power_change(row, power, scale);
+    }
+};
+
+/// Products, which a coordinate multiplies.
+template <class Factor>
+struct Products : Factor {
+    using Value = double;
+    static constexpr double start = 1;
+    static constexpr double neutral = 0;
+
+    [[nodiscard]] double with(std::size_t k, double value, Level a, Level b) const {
+        return value * this->factor(k, a, b);
+    }
+    [[nodiscard]] double moved(std::size_t k, double value, Level from, Level to, Level x) const {
+        return value * this->factor(k, to, x) / this->factor(k, from, x);
+    }
+};
+
+struct CenteredFactor {
+    double n = 1;
+
+    [[nodiscard]] double energy(double value) const { return 2 * value; }
+    [[nodiscard]] double change(std::size_t, const Row<double>& row) const {
+        return centered_change(row, n);
+    }
+    [[nodiscard]] double factor(std::size_t, Level a, Level b) const {
+        return centered_factor(2 * a + 1 - n, 2 * b + 1 - n, 1 / (4 * n));
+    }
+    /// 1 + |z|/2 - z^2/2.
+    [[nodiscard]] double mean_factor(Level a) const {
+        const double z = std::abs(2 * a + 1 - n) / (2 * n);
+        return 1 + (z - z * z) / 2;
+    }
+};
+
+struct ProjectionFactor {
+    double scale = 1;          ///< of the order of a difference of levels
+    std::vector<double> more;  ///< of each coordinate: what differences of its parts count more
+
+    [[nodiscard]] static double energy(double value) { return value; }
+    [[nodiscard]] double change(std::size_t k, const Row<double>& row) const {
+        return projection_change(row, more[k]);
+    }
+    [[nodiscard]] double factor(std::size_t k, Level a, Level b) const {
+        const double f = scale / gap_between(a, b, more[k]);
+        return f * f;
+    }
+};
+
+using Centered = Products<CenteredFactor>;
+using Projections = Products<ProjectionFactor>;
+
+/// What single points add to the energy: of the centered discrepancy, (its product with itself) - 2 n
+/// (its mean product).
+class Singles {
+  public:
+    Singles(const Centered& measure, std::size_t points)
+        : measure_(measure), own_(points, 1), mean_(points, 1) {}
+
+    void with(std::size_t i, Level x) {
+        own_[i] *= measure_.factor(0, x, x);
+        mean_[i] *= measure_.mean_factor(x);
+    }
+    void move(std::size_t i, Level from, Level to) {
+        own_[i] *= own_ratio(from, to);
+        mean_[i] *= mean_ratio(from, to);
+    }
+    [[nodiscard]] double change(std::size_t i, Level from, Level to) const {
+        return own_[i] * (own_ratio(from, to) - 1) -
+               2 * measure_.n * mean_[i] * (mean_ratio(from, to) - 1);
+    }
+    [[nodiscard]] double energy() const {
+        double sum = 0;
+        for (std::size_t i = 0; i < own_.size(); ++i) sum += own_[i] - 2 * measure_.n * mean_[i];
+        return sum;
+    }
+
+  private:
+    [[nodiscard]] double own_ratio(Level from, Level to) const {
+        return measure_.factor(0, to, to) / measure_.factor(0, from, from);
+    }
+    [[nodiscard]] double mean_ratio(Level from, Level to) const {
+        return measure_.mean_factor(to) / measure_.mean_factor(from);
+    }
+
+    Centered measure_;
+    std::vector<double> own_;
+    std::vector<double> mean_;
+};
+
+/// Of measures without such.
+class NoSingles {
+  public:
+    template <class Measure>
+    NoSingles(const Measure&, std::size_t) {}
+    void with(std::size_t, Level) {}
+    void move(std::size_t, Level, Level) {}
+    static double change(std::size_t, Level, Level) { return 0; }
+    static double energy() { return 0; }
+};
+
+template <class Measure>
+class PairCriterion final : public Criterion {
+  public:
+    PairCriterion(Measure measure, const Design& design, const Rules& rules)
+        : measure_(std::move(measure)),
+          points_(design.points),
+          fixed_(rules.fixed),
+          stride_(padded(design.rows)),
+          width_(padded(design.points)),
+          dimension_(design.dimension),
+          places_(stride_ * dimension_),
+          pairs_(points_ * width_, Measure::neutral),
+          singles_(measure_, points_) {
+        for (std::size_t k = 0; k < dimension_; ++k)
+            for (std::size_t i = 0; i < design.rows; ++i)
+                places_[k * stride_ + i] =
+                    place_of(design.along(k)[i], parts_of(rules, k), points_);
+        rebuild();
+    }
+
+    double change(std::size_t k, std::size_t a, std::size_t b) override {
+        const Level from = places(k)[a];
+        const Level to = places(k)[b];
+        if (b >= points_) return change_of(k, a, from, to);
+        const Value between = at(a, b);
+        at(a, b) = at(b, a) = Measure::neutral;
+        const double sum = change_of(k, a, from, to) + change_of(k, b, to, from);
+        at(a, b) = at(b, a) = between;
+        return sum;
+    }
+
+    void exchange(std::size_t k, std::size_t a, std::size_t b, double change) override {
+        const Level from = places(k)[a];
+        const Level to = places(k)[b];
+        move(k, a, b, from, to);
+        if (b < points_) move(k, b, a, to, from);
+        std::swap(places(k)[a], places(k)[b]);
+        energy_ += change;
+        constexpr std::uint64_t often = 1 << 14;  // rounding stays small
+        if (++exchanges_ % often == 0) rebuild();
+    }
+
+    [[nodiscard]] double energy() const override { return energy_; }
+
+    [[nodiscard]] bool reached() const override {
+        return std::is_same_v<Measure, Shortfall> && energy_ == 0;
+    }
+
+    bool aim(double target) override {
+        if constexpr (std::is_same_v<Measure, Shortfall>) {
+            if (target <= 0) target = std::ceil(mean_nearest());
+            measure_.target = static_cast<Level>(std::clamp(target, 1.0, 0x1p29));
+            sum_energy();
+            return true;
+        }
+        return false;
+    }
+
+    [[nodiscard]] Score score() const override {
+        if constexpr (!std::is_same_v<Measure, Shortfall>) return {energy_, 0};
+        const double least = this->least();
+        double count = 0;
+        for_pairs([&](Value value) { count += static_cast<double>(value) == least; });
+        return {-least, count};
+    }
+
+  private:
+    using Value = typename Measure::Value;
+
+    Level* places(std::size_t k) { return &places_[k * stride_]; }
+    Value& at(std::size_t a, std::size_t b) { return pairs_[a * width_ + b]; }
+
+    double change_of(std::size_t k, std::size_t a, Level from, Level to) {
+        return measure_.change(k, Row<Value>{&at(a, 0), places(k), width_, from, to}) +
+               singles_.change(a, from, to);
+    }
+
+    void move(std::size_t k, std::size_t a, std::size_t except, Level from, Level to) {
+        const Level* x = places(k);
+        for (std::size_t j = 0; j < points_; ++j)
+            if (j != a && j != except)
+                at(a, j) = at(j, a) = measure_.moved(k, at(a, j), from, to, x[j]);
+        singles_.move(a, from, to);
+    }
+
+    void for_pairs(auto take) const {
+        for (std::size_t i = fixed_; i < points_; ++i)
+            for (std::size_t j = 0; j < i; ++j) take(pairs_[i * width_ + j]);
+    }
+
+    [[nodiscard]] double least() const {
+        Value least = Measure::neutral;
+        for_pairs([&](Value value) { least = std::min(least, value); });
+        return static_cast<double>(least);
+    }
+
+    /// Squared distance of a point to its nearest, on average.
+    [[nodiscard]] double mean_nearest() const {
+        double sum = 0;
+        for (std::size_t i = fixed_; i < points_; ++i)
+            sum += static_cast<double>(*std::min_element(&pairs_[i * width_], &pairs_[i * width_] + points_));
+        return sum / static_cast<double>(points_ - fixed_);
+    }
+
+    void sum_energy() {
+        energy_ = singles_.energy();
+        for_pairs([&](Value value) { energy_ += measure_.energy(value); });
+    }
+
+    void rebuild() {
+        singles_ = {measure_, points_};
+        for (std::size_t i = 0; i < points_; ++i) {
+            for (std::size_t k = 0; k < dimension_; ++k) singles_.with(i, places(k)[i]);
+            for (std::size_t j = 0; i >= fixed_ && j < i; ++j) {
+                Value value = Measure::start;
+                for (std::size_t k = 0; k < dimension_; ++k)
+                    value = measure_.with(k, value, places(k)[i], places(k)[j]);
+                at(i, j) = at(j, i) = value;
+            }
+        }
+        sum_energy();
+    }
+
+    Measure measure_;
+    std::size_t points_;
+    std::size_t fixed_;
+    std::size_t stride_;  ///< of places
+    std::size_t width_;   ///< of pairs
+    std::size_t dimension_;
+    std::vector<Level> places_;
+    std::vector<Value> pairs_;
+    std::conditional_t<std::is_same_v<Measure, Centered>, Singles, NoSingles> singles_;
+    double energy_ = 0;
+    std::uint64_t exchanges_ = 0;
+};
+
+template <class Measure>
+std::unique_ptr<Criterion> criterion_by(Measure measure, const Design& design,
+                                        const Rules& rules) {
+    return std::make_unique<PairCriterion<Measure>>(std::move(measure), design, rules);
+}
+
+}  // namespace
+
+std::unique_ptr<Criterion> pair_criterion(const Objective& objective, const Design& design,
+                                          const Rules& rules) {
+    const auto n = static_cast<double>(design.points);
+    switch (objective.kind) {
+        case Kind::maximin:
+            return criterion_by(Shortfall(), design, rules);
+        case Kind::centered_l2:
+            return criterion_by(Centered{{n}}, design, rules);
+        case Kind::maxpro: {
+            Projections measure{{usual_difference(design.points), std::vector<double>(design.dimension)}};
+            for (std::size_t k = 0; k < design.dimension; ++k)
+                if (const Level parts = parts_of(rules, k); parts > 0) measure.more[k] = n / parts;
+            return criterion_by(std::move(measure), design, rules);
+        }
+        default: {
+            Powers measure;
+            measure.power = objective.kind == Kind::phi_p ? objective.power : 2;
+            measure.scale = usual_square(design.points, design.dimension);
+            return criterion_by(measure, design, rules);
+        }
+    }
+}
+
+}  // namespace stipple::latin_hypercube_search

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "generators/latin_hypercube_search/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/rng.hpp"
+#include "generators/latin_hypercube_search/annealing.hpp"
+#include "generators/latin_hypercube_search/lattice_start.hpp"
+#include "generators/search_run.hpp"
+
+namespace stipple::latin_hypercube_search {
+namespace {
+
+/// Annealings side by side.
+struct Round {
+    std::size_t annealings;
+    double share;  ///< of the budget, of each of them
+    bool from_best;  ///< every other one starts from one of the best so far
+};
+
+constexpr Round rounds[] = {{8, 1.0 / 96, false}, {8, 1.0 / 32, false}, {4, 1.0 / 6, true}};
+
+struct Candidate {
+    Design design;
+    Score score;
+};
+
+class Rounds {
+  public:
+    Rounds(const Search& search, const std::string& words, const RunContext& run)
+        : search_(search),
+          words_(words),
+          run_(run),
+          inner_(until_best_is_wanted(silent(run))),
+          rng_(search.seed, stream) {}
+
+    Result best() {
+        for (const Round& round : rounds) {
+            const std::size_t together = std::min(round.annealings, most_together());
+            for (std::size_t i = 0; i < round.annealings; i += together)
+                if (i == 0 || !run_.best_is_wanted()) anneal(round, i, together);
+        }
+        return {best_.front().design, run_.best_is_wanted()};
+    }
+
+  private:
+    static constexpr std::uint64_t stream = std::uint64_t{1} << 33;  // none of the generator's own
+    static constexpr std::size_t most_kept = 4;
+
+    /// Few where their pairs take much memory.
+    [[nodiscard]] std::size_t most_together() const { return search_.start.points > 2000 ? 2 : 8; }
+
+    [[nodiscard]] bool is_free() const {
+        const Rules& rules = search_.rules;
+        return rules.fixed == 0 && rules.groups.empty() && rules.parts.empty() && !rules.feasible;
+    }
+
+    /// The i-th annealing of a round.
+    Annealing start(const Round& round, std::size_t i) const {
+        constexpr double beyond[] = {1, 1.005, 1.01, 1.02};
+        SplitMix64 draws(rng_.bits(tasks_ + i));
+        Schedule schedule{.trials = std::ceil(round.share * search_.trials)};
+        if (!best_.empty()) schedule.target = 1 - beyond[i / 2 % 4] * best_.front().score.value;
+        if (round.from_best && i % 2 == 1) {
+            schedule.first_share = 5e-3;
+            return {search_.objective, best_[i / 2 % best_.size()].design, search_.rules, schedule,
+                    draws};
+        }
+        const Design& given = search_.start;
+        if (i % 2 == 0 && is_free() && search_.objective.kind == Kind::maximin &&
+            given.dimension <= 4 && given.points > 10) {
+            schedule.first_share = 5e-3;
+            return {search_.objective, lattice_start(given.points, given.dimension, draws),
+                    search_.rules, schedule, draws};
+        }
+        Exchanges exchanges(given, search_.rules);
+        exchanges.shuffle(draws, 3);
+        return {search_.objective, exchanges.design(), search_.rules, schedule, draws};
+    }
+
+    void anneal(const Round& round, std::size_t first, std::size_t count) {
+        constexpr int slices = 20;
+        std::vector<std::optional<Annealing>> all(count);
+        const double trials = std::ceil(round.share * search_.trials / slices);
+        for (int slice = 0; slice < slices && !(slice > 0 && run_.best_is_wanted()); ++slice) {
+            for_each_block(inner_, count, 1, [&](const Block& block) {
+                auto& one = all[block.index];
+                if (!one) one.emplace(start(round, first + block.index));
+                one->advance(trials, inner_, run_);
+            });
+            spent_ += trials * static_cast<double>(count);
+            report(all);
+        }
+        tasks_ += round.annealings;
+        for (const auto& one : all) best_.push_back({one->best(), one->score()});
+        std::ranges::stable_sort(best_, {}, &Candidate::score);
+        if (best_.size() > most_kept) best_.erase(best_.begin() + most_kept, best_.end());
+    }
+
+    void report(const std::vector<std::optional<Annealing>>& all) {
+        const Score now = std::ranges::min_element(all, {}, [](const auto& one) {
+                              return one->score();
+                          })->value().score();
+        const Score least = best_.empty() ? now : std::min(now, best_.front().score);
+        const Design& design = search_.start;
+        const auto shown = [&](const Score& score) {
+            return reported(search_.objective, score, design.points, design.dimension);
+        };
+        report_search(run_, spent_ / search_.trials, words_, shown(now), shown(least));
+    }
+
+    const Search& search_;
+    const std::string& words_;
+    const RunContext& run_;
+    RunContext inner_;
+    Rng rng_;
+    std::uint64_t tasks_ = 0;
+    double spent_ = 0;
+    std::vector<Candidate> best_;
+};
+
+}  // namespace
+
+Result best_design(const Search& search, const std::string& words, const RunContext& run) {
+    const double together = search.start.points > 2000 ? 2 : 8;
+    run.need_memory(together * criterion_memory(search.objective, search.start),
+                    "the search for a Latin hypercube");
+    return Rounds(search, words, run).best();
+}
+
+double usual_trials(const Objective& objective, const Design& design) {
+    const auto n = static_cast<double>(design.points);
+    const auto d = static_cast<double>(design.dimension);
+    const double seconds = objective.kind == Kind::correlation ? 1e-8 * (3 + d)
+                           : objective.kind == Kind::maximin   ? 3e-8 + 3e-10 * n
+                                                               : 5e-8 + 3e-9 * n;
+    return std::min(20 / seconds, 1e6 * n * d);
+}
+
+}  // namespace stipple::latin_hypercube_search

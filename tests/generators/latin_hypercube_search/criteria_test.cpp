@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "generators/latin_hypercube_search/criteria.hpp"
+
+#include <gtest/gtest.h>
+
+#include "generators/latin_hypercube_search/support.hpp"
+
+namespace stipple::testing::latin_criteria_test {
+namespace {
+
+/// The first number that describes a design.
+double described_value(const Objective& objective, const Design& design, const Rules& rules = {}) {
+    return std::stod(described(objective, design, rules, {}).at(0).second);
+}
+
+double energy_of(const Objective& objective, const Design& design, const Rules& rules,
+                 double target) {
+    const auto criterion = make_criterion(objective, design, rules);
+    criterion->aim(target);
+    return criterion->energy();
+}
+
+}  // namespace
+
+TEST(LatinCriteria, ValuesAreThoseOfTheDefinitions) {
+    for (const std::size_t n : {2, 3, 8, 9, 31})
+        for (const std::size_t d : {2, 3, 7})
+            for (const Kind kind : all_kinds) {
+                const Design design = random_design(n, d, 10 * n + d);
+                const double value = value_of(kind, design);
+                const double said = described_value({.kind = kind}, design);
+                EXPECT_NEAR(kind == Kind::maximin ? -said : said, value, 1e-11 * std::abs(value))
+                    << n << " " << d << " " << static_cast<int>(kind);
+                const auto score = make_criterion({.kind = kind}, design, {})->score();
+                EXPECT_NEAR(reported({.kind = kind}, score, n, d), said, 1e-11 * std::abs(said))
+                    << n << " " << d << " " << static_cast<int>(kind);
+            }
+}
+
+// By hand: points (0,1), (1,3), (2,0), (3,2) have squared distances 5, 5, 10, 10, 5, 5.
+TEST(LatinCriteria, OfFourPointsByHand) {
+    const Design design = design_of({{1, 3, 0, 2}});
+    const auto all = described({.kind = Kind::maximin}, design, {}, {});
+    EXPECT_EQ(all, (std::vector<std::pair<std::string, std::string>>{{"squared_distance", "5"},
+                                                                     {"pairs", "4"}}));
+    EXPECT_NEAR(described_value({.kind = Kind::audze_eglais}, design), 4 / 5.0 + 2 / 10.0, 1e-15);
+    EXPECT_NEAR(described_value({.kind = Kind::phi_p, .power = 1}, design),
+                4 / std::sqrt(5) + 2 / std::sqrt(10), 1e-14);
+    // Differences are 1 2, 2 1, 3 1, 1 3, 2 1, 1 2 quarters.
+    EXPECT_NEAR(described_value({.kind = Kind::maxpro}, design),
+                std::sqrt((4 * 256 / 4.0 + 2 * 256 / 9.0) / 6), 1e-13);
+    EXPECT_EQ(described_value({.kind = Kind::correlation}, design), 0);
+}
+
+TEST(LatinCriteria, OfOnePointThereAreNoPairs) {
+    for (const Kind kind : {Kind::maximin, Kind::phi_p, Kind::audze_eglais, Kind::maxpro})
+        EXPECT_TRUE(described({.kind = kind}, Design(1, 1, 3), {}, {}).empty());
+}
+
+/// A design with three fixed rows and spare ones along some coordinates.
+Design with_spare_rows() {
+    Design design(14, 16, 4);
+    for (std::size_t k = 0; k < 4; ++k) {
+        const Design levels = random_design(16, 1, k);
+        for (std::size_t i = 0; i < 16; ++i) design.along(k)[i] = levels.along(0)[i] % 14;
+        if (k == 2) design.along(k)[15] = -1;
+    }
+    return design;
+}
+
+// What an exchange changes is the difference of two energies that are worked out anew.
+TEST(LatinCriteria, ExchangesChangeEnergiesByTheDifference) {
+    const Rules cases[] = {{}, {.fixed = 3}, {.parts = {0, 3, 14, 5}}};
+    for (const Kind kind : all_kinds)
+        for (const Rules& rules : cases)
+            for (const int power : {1, 2, 15, 30}) {
+                const Objective objective{kind, power};
+                Design design = rules.fixed > 0 ? with_spare_rows() : random_design(14, 4, 5);
+                const double target = 90;
+                const auto criterion = make_criterion(objective, design, rules);
+                criterion->aim(target);
+                SplitMix64 draws(7);
+                for (int i = 0; i < 100; ++i) {
+                    const std::size_t k = draws.below(4);
+                    const std::size_t a = rules.fixed + draws.below(14 - rules.fixed);
+                    const std::size_t b = rules.fixed + draws.below(design.rows - rules.fixed);
+                    const auto levels = design.along(k);
+                    if (a == b || levels[b] < 0) continue;
+                    const double before = energy_of(objective, design, rules, target);
+                    EXPECT_NEAR(criterion->energy(), before, 1e-10 * (1 + std::abs(before)));
+                    const double change = criterion->change(k, a, b);
+                    std::swap(levels[a], levels[b]);
+                    const double after = energy_of(objective, design, rules, target);
+                    EXPECT_NEAR(change, after - before,
+                                1e-10 * (1 + std::abs(before) + std::abs(after)))
+                        << static_cast<int>(kind) << " " << power << " exchange " << i;
+                    criterion->exchange(k, a, b, change);
+                }
+            }
+}
+
+TEST(LatinCriteria, EnergiesOfDistancesAreWholeNumbers) {
+    const Design design = design_of({{1, 3, 0, 2}});  // squared distances 5 and 10
+    const auto criterion = make_criterion({}, design, {});
+    criterion->aim(5);
+    EXPECT_TRUE(criterion->reached());
+    criterion->aim(7);
+    EXPECT_EQ(criterion->energy(), 4 * 2);
+    criterion->aim(12);
+    EXPECT_EQ(criterion->energy(), 4 * 7 + 2 * 2);
+    EXPECT_EQ(criterion->score().value, -5);
+    EXPECT_EQ(criterion->score().second, 4);
+}
+
+// Twelve levels of three parts count as their middles 1.5, 5.5, 9.5, rounded down.
+TEST(LatinCriteria, LevelsOfAPartCountAsItsMiddle) {
+    using latin_hypercube_search::place_of;
+    for (Level level = 0; level < 12; ++level) {
+        EXPECT_EQ(place_of(level, 0, 12), level);
+        EXPECT_EQ(place_of(level, 12, 12), level);
+        EXPECT_EQ(place_of(level, 3, 12), 1 + 4 * (level / 4));
+        EXPECT_EQ(place_of(level, 1, 12), 5);
+    }
+    EXPECT_EQ(place_of(-1, 3, 12), -1);
+    for (const Level parts : {2, 3, 7, 10})
+        for (Level level = 0; level < 10; ++level) {
+            const double middle = 10 * (std::floor(level * parts / 10.0) + 0.5) / parts - 0.5;
+            EXPECT_EQ(place_of(level, parts, 10), static_cast<Level>(std::floor(middle + 1e-9)))
+                << parts << " " << level;
+        }
+}
+
+}  // namespace stipple::testing::latin_criteria_test

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include "generators/latin_hypercube_search/search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "generators/latin_hypercube_search/annealing.hpp"
+#include "generators/latin_hypercube_search/lattice_start.hpp"
+#include "generators/latin_hypercube_search/support.hpp"
+#include "support/units.hpp"
+
+namespace stipple::testing::latin_search_test {
+namespace {
+
+using latin_hypercube_search::best_design;
+using latin_hypercube_search::Exchanges;
+using latin_hypercube_search::Search;
+
+Design found(Kind kind, const Design& start, double trials, const Rules& rules = {},
+             std::uint64_t seed = 1) {
+    return best_design({{.kind = kind}, rules, start, seed, trials}, "", {}).design;
+}
+
+/// The least value of all designs of two coordinates.
+double least_of_all(Kind kind, std::size_t n) {
+    std::vector<Level> y(n);
+    std::iota(y.begin(), y.end(), Level{0});
+    double least = 1e300;
+    do least = std::min(least, value_of(kind, design_of({y})));
+    while (std::ranges::next_permutation(y).found);
+    return least;
+}
+
+}  // namespace
+
+TEST(LatinSearch, FindsTheBestOfAllPermutations) {
+    for (const Kind kind : all_kinds)
+        for (const std::size_t n : {2, 3, 4, 5, 6, 7}) {
+            const Design design = found(kind, random_design(n, 2, n), 20'000);
+            EXPECT_TRUE(is_latin(design));
+            const double least = least_of_all(kind, n);
+            EXPECT_NEAR(value_of(kind, design), least, 1e-12 * std::abs(least))
+                << static_cast<int>(kind) << " " << n;
+        }
+}
+
+// Proven: E. R. van Dam, B. Husslage, D. den Hertog, H. Melissen, Operations Research 55 (2007)
+// 158-169, doi:10.1287/opre.1060.0317.
+TEST(LatinSearch, FindsTheLargestDistancesOfThePlane) {
+    const std::map<std::size_t, double> squares{{2, 2},  {3, 2},  {4, 5},   {5, 5},   {6, 5},
+                                                {7, 8},  {8, 10}, {9, 10},  {10, 10}, {11, 10},
+                                                {12, 13}, {13, 13}, {14, 17}, {15, 17}};
+    for (const auto& [n, square] : squares)
+        EXPECT_EQ(-value_of(Kind::maximin, found(Kind::maximin, random_design(n, 2, 1), 500'000)),
+                  square)
+            << n;
+}
+
+TEST(LatinSearch, IsFarBetterThanRandomByEveryCriterion) {
+    for (const Kind kind : all_kinds) {
+        double least = 1e300;
+        for (std::uint64_t key = 0; key < 200; ++key)
+            least = std::min(least, value_of(kind, random_design(24, 4, key)));
+        const double value = value_of(kind, found(kind, random_design(24, 4, 0), 200'000));
+        EXPECT_LT(value, least) << static_cast<int>(kind);
+        EXPECT_LT(value, kind == Kind::maximin ? 1.5 * least : 1.0 * least);
+    }
+}
+
+TEST(LatinSearch, IsAFunctionOfTheSearchForAnyThreads) {
+    for (const Kind kind : all_kinds) {
+        Search search{{.kind = kind}, {}, random_design(20, 3, 1), 3, 50'000};
+        const Design one = best_design(search, "", {.threads = 1}).design;
+        EXPECT_EQ(one, best_design(search, "", {.threads = 3}).design);
+        search.seed = 4;
+        EXPECT_NE(one, best_design(search, "", {.threads = 3}).design);
+    }
+}
+
+TEST(LatinSearch, KeepsFixedRows) {
+    const Design start = random_design(18, 3, 2);
+    for (const Kind kind : all_kinds) {
+        const Design design = found(kind, start, 30'000, {.fixed = 7});
+        EXPECT_TRUE(is_latin(design));
+        for (std::size_t k = 0; k < 3; ++k)
+            EXPECT_TRUE(std::ranges::equal(design.along(k).first(7), start.along(k).first(7)));
+        EXPECT_LE(value_of(kind, design), value_of(kind, start));
+    }
+}
+
+TEST(LatinSearch, GivesNewPointsLevelsOfSpareRowsWhereTheyAreBetter) {
+    Design start(2, 4, 2);  // the first point in the corner; the other may go to three strata
+    for (std::size_t k = 0; k < 2; ++k)
+        std::ranges::copy(std::vector<Level>{0, 1, 2, 3}, start.along(k).begin());
+    const Design design = found(Kind::maximin, start, 1000, {.fixed = 1});
+    EXPECT_EQ(design.along(0)[1], 3);
+    EXPECT_EQ(design.along(1)[1], 3);
+}
+
+// The sum of two levels is to be below n: half of all rows are not feasible at first.
+TEST(LatinSearch, KeepsRowsFeasible) {
+    const auto below = [](std::span<const Level> row) { return std::abs(row[0] - row[1]) < 10; };
+    for (const Kind kind : {Kind::maximin, Kind::centered_l2}) {
+        const Design design = found(kind, random_design(20, 3, 3), 50'000, {.feasible = below});
+        EXPECT_TRUE(is_latin(design));
+        for (std::size_t i = 0; i < 20; ++i)
+            EXPECT_LT(std::abs(design.along(0)[i] - design.along(1)[i]), 10) << i;
+    }
+    EXPECT_EQ(error_of([] {
+                  found(Kind::maximin, random_design(5, 2, 1), 1000,
+                        {.feasible = [](std::span<const Level> row) { return row[0] > 0; }});
+              }),
+              "limit: latin-hypercube: no design found that is feasible; 1 of 5 points are not");
+}
+
+// Eight points of two coordinates of two categories: each of the four cells is to hold two of them.
+TEST(LatinSearch, SpreadsCategories) {
+    const Design design =
+        found(Kind::maxpro, random_design(8, 2, 1), 50'000, {.parts = {2, 2}});
+    std::map<std::pair<Level, Level>, int> cells;
+    for (std::size_t i = 0; i < 8; ++i)
+        ++cells[{design.along(0)[i] / 4, design.along(1)[i] / 4}];
+    EXPECT_EQ(cells.size(), 4U);
+    for (const auto& [cell, count] : cells) EXPECT_EQ(count, 2);
+}
+
+TEST(LatinSearch, ExchangesReachWhatTheGroupsAllow) {
+    const Rules rules{.groups = {4, 8, 12}, .coarse = 3};  // slices of four points
+    Design design(12, 12, 1);
+    for (std::size_t i = 0; i < 12; ++i)
+        design.along(0)[i] = static_cast<Level>(3 * (i % 4) + i / 4);
+    Exchanges exchanges(design, rules);
+    SplitMix64 draws(1);
+    std::map<std::pair<std::size_t, Level>, int> seen;
+    for (int i = 0; i < 500; ++i) {
+        exchanges.shuffle(draws, 1);
+        const auto levels = exchanges.design().along(0);
+        for (std::size_t s = 0; s < 3; ++s) {
+            int coarse = 0;
+            for (std::size_t j = 4 * s; j < 4 * s + 4; ++j) coarse |= 1 << (levels[j] / 3);
+            ASSERT_EQ(coarse, 15) << "slice " << s;
+        }
+        ASSERT_TRUE(is_latin(exchanges.design()));
+        for (std::size_t j = 0; j < 12; ++j) ++seen[{j, levels[j]}];
+    }
+    EXPECT_EQ(seen.size(), 144U);
+}
+
+TEST(LatinSearch, LatticeStartsAreLatinAndHaveNeighboursFarApart) {
+    SplitMix64 draws(1);
+    double best = 0;
+    for (int i = 0; i < 30; ++i)
+        for (const std::size_t d : {2, 3, 4}) {
+            const Design design = latin_hypercube_search::lattice_start(60, d, draws);
+            EXPECT_TRUE(is_latin(design));
+            if (d == 2) best = std::max(best, -value_of(Kind::maximin, design));
+        }
+    EXPECT_GT(best, 45);
+}
+
+}  // namespace stipple::testing::latin_search_test
