@@ -121,10 +121,15 @@ std::set<std::string> sources_in_cycles(std::map<std::string, std::set<std::stri
     return left;
 }
 
-/// Units whose names are ordinary words, which also name results, options and their values.
+/// Units whose names are ordinary words, which also name results, options and their values, or
+/// distributions.
 const std::set<std::string> ordinary = {
-    "digital-shift", "disk", "dispersion", "faure", "grid",  "image",  "jittered", "matrix",
-    "mixture",       "owen", "normal",     "pixel", "power", "random", "rejection"};
+    "beta",        "binomial", "digital-shift", "disk",       "dispersion", "empirical",
+    "exponential", "faure",    "gamma",         "grid",       "gumbel",     "image",
+    "integers",    "jittered", "log-uniform",   "lognormal",  "matrix",     "mixture",
+    "normal",      "owen",     "pixel",         "poisson",    "power",      "random",
+    "rejection",   "simplex",  "student-t",     "triangular", "truncated",  "uniform",
+    "weibull"};
 
 /// Files that know units of other files, and which.
 const std::map<std::string, std::set<std::string>> exceptions = {

@@ -25,7 +25,7 @@ double gamma_ratio(double x, double delta);
 
 double gamma_below(double a, double x);    ///< P(a, x)
 double gamma_above(double a, double x);    ///< Q(a, x)
-double gamma_density(double a, double x);  ///< of P in x; x above 0
+double gamma_density(double a, double x);  ///< of P in x
 
 /// The x with P(a, x) = p, and the one with Q(a, x) = q.
 double gamma_quantile(double a, double p);
@@ -33,7 +33,7 @@ double gamma_upper_quantile(double a, double q);
 
 double beta_below(double a, double b, double x);    ///< I_x(a, b)
 double beta_above(double a, double b, double x);    ///< 1 - I_x(a, b)
-double beta_density(double a, double b, double x);  ///< of I in x; x in (0, 1)
+double beta_density(double a, double b, double x);  ///< of I in x < 1
 
 /// Parts of a whole: x and 1 - x, each to its last digits.
 struct Shares {

@@ -14,7 +14,7 @@
 // Beware  for b below 1 much may be nearer to high than numbers can tell: with b = 0.5, 1e-8 of all.
 //         Where that matters, take high = 0 and low below it.
 
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 namespace stipple::warps::beta {
 

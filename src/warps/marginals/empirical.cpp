@@ -22,13 +22,13 @@
 #include "core/text.hpp"
 #include "io/files.hpp"
 #include "math/distributions/laws.hpp"
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 namespace stipple::warps::empirical {
 namespace {
 
 constexpr Param<Numbers> numbers{
-    {.name = "values", .fallback = "0,1,3", .help = "The numbers, for all coordinates"}};
+    {.name = "values", .fallback = "0,1,1,2", .help = "The numbers, for all coordinates"}};
 constexpr Param<Path> file{
     {.name = "file",
      .fallback = {},

@@ -12,7 +12,7 @@
 // Promise quantiles within 1e-13 of themselves in both tails. The same bits on every machine for the same
 //         release of Boost, whose functions are computed through math/functions.
 
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 namespace stipple::warps::gamma {
 

@@ -12,7 +12,7 @@
 // Cost    O(1) a coordinate; about 9 ns on one core.
 // Promise x within 1e-13 of the larger of itself and the location. The same bits on every machine.
 
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 namespace stipple::warps::gumbel {
 

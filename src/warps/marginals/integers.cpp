@@ -11,7 +11,7 @@
 // Cost    O(1) a coordinate; about 3 ns on one core.
 // Promise each number comes for the same share of xi. The way back is the middle of its interval. The same bits on every machine.
 
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 namespace stipple::warps::integers {
 

@@ -13,7 +13,7 @@
 // Promise the ends of outcomes' intervals are right to their last digits, from both ends. The way
 //         back is the middle of the interval. The same bits on every machine.
 
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 namespace stipple::warps::poisson {
 

@@ -13,7 +13,7 @@
 // Cost    O(1) a coordinate; about 2 ns on one core.
 // Promise x in [low, high], at the ends only for xi = 0 and 1. The same bits on every machine.
 
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 namespace stipple::warps::triangular {
 
@@ -21,7 +21,6 @@ Warp unit() {
     return {.name = "triangular",
             .summary = "Triangular distribution with any mode, on each coordinate",
             .source = "Inverse of the distribution function of two parabolas",
-            .related = {"tent"},
             .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
             .options = Schema(parameter("triangular", "low"), parameter("triangular", "mode"),
                               parameter("triangular", "high")),

@@ -23,7 +23,7 @@
 
 #include "core/error.hpp"
 #include "core/spec.hpp"
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 namespace stipple::warps::truncated {
 namespace {

@@ -11,7 +11,7 @@
 // Cost    O(1) a coordinate; about 1 ns on one core.
 // Promise x in [low, high], and high only by rounding. The same bits on every machine.
 
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 namespace stipple::warps::uniform {
 

@@ -11,7 +11,7 @@
 // Cost    O(1) a coordinate; about 9 ns on one core.
 // Promise x within 1e-13 of itself. The same bits on every machine.
 
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 namespace stipple::warps::weibull {
 

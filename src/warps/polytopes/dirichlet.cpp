@@ -24,6 +24,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/spec.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/incomplete_functions.hpp"
 #include "math/functions/logarithm.hpp"
@@ -146,7 +147,10 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
         if (!(a >= 0.1 && a <= 1e6)) fail(ErrorKind::usage, "--alpha: {} is outside [0.1, 1e6]", a);
     if (!(std::accumulate(parameters.begin(), parameters.end(), 0.0) <= 1e6))
         fail(ErrorKind::usage, "--alpha: their sum is above 1e6");
-    return domain_mapping<DirichletDomain>(std::move(parameters), want.spec());
+    Values plain = want.options;  // whose domain tells its dimension
+    plain.put(alpha.name, parameters);
+    return domain_mapping<DirichletDomain>(std::move(parameters),
+                                           format_spec(want.warp.name, plain, want.warp.options));
 }
 
 }  // namespace

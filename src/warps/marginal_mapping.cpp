@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "warps/densities/line_domain.hpp"
+#include "warps/line_domain.hpp"
 
 namespace stipple::warps {
 namespace {
@@ -15,11 +15,12 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A distribution as the line's domain and mapping take it. Endless tails end where random numbers
-/// do: 0 is taken as 2^-54, and 1 as 1 - 2^-55.
+/// do: 0 is taken as 2^-54, and 1 as 1 - 2^-55; what is below 1e-300 but not 0, as 1e-300.
 class MarginalLine final : public LineDistribution {
   public:
     explicit MarginalLine(MarginalPtr law)
         : law_(std::move(law)), ends_(law_->support()), inside_(ends_) {
+        endless_ = {has_thin_end(ends_.first), has_thin_end(ends_.second)};
         auto& [low, high] = inside_;
         if (std::isinf(low)) low = std::numeric_limits<double>::lowest();
         if (std::isinf(high)) high = std::numeric_limits<double>::max();
@@ -33,7 +34,10 @@ class MarginalLine final : public LineDistribution {
         std::array<double, 256> u;
         for (std::size_t first = 0; first < numbers.size(); first += u.size()) {
             const auto some = numbers.subspan(first, std::min(u.size(), numbers.size() - first));
-            std::ranges::copy(some, u.begin());
+            for (std::size_t i = 0; i < some.size(); ++i) {
+                u[i] = some[i];
+                some[i] = std::max(u[i], 1e-300);
+            }
             law_->quantiles(some);
             for (std::size_t i = 0; i < some.size(); ++i)
                 some[i] = std::max(inside_.first, std::min(some[i], inside_.second));
@@ -57,22 +61,28 @@ class MarginalLine final : public LineDistribution {
         return x >= ends_.first && x <= ends_.second && std::isfinite(x);
     }
     double measure() const override {
+        if (endless_.first || endless_.second) return infinity;
         return law_->discrete() ? law_->outcomes() : ends_.second - ends_.first;
     }
     LineMoments moments() const override {
         const auto [mean, variance, skewness] = law_->moments();
         return {mean, variance, skewness * variance * std::sqrt(variance)};
     }
-    /// In an endless direction, all but exp(-10) = 4.5e-5.
+    /// In an endless direction, all but exp(-10) = 4.5e-5, or 6 times the middle two thirds.
     std::pair<double, double> range() const override {
         constexpr double beyond = 4.5399929762484854e-5;
-        const bool table = law_->discrete();
-        return {
-            std::isinf(ends_.first) || table ? law_->quantile(beyond, Tail::lower) : ends_.first,
-            std::isinf(ends_.second) || table ? law_->quantile(beyond, Tail::upper) : ends_.second};
+        constexpr double sixth = 1 / 6.0;
+        const double low = law_->quantile(sixth);
+        const double high = law_->quantile(sixth, Tail::upper);
+        const double reach = law_->discrete() ? infinity : 6 * (high - low);
+        std::pair<double, double> shown = ends_;
+        if (endless_.first) shown.first = std::max(law_->quantile(beyond), low - reach);
+        if (endless_.second)
+            shown.second = std::min(law_->quantile(beyond, Tail::upper), high + reach);
+        return shown;
     }
     Positive positive() const override {
-        if (law_->discrete()) return {{}, law_->outcomes()};
+        if (law_->discrete()) return {{}, measure()};
         return {{range()}, measure()};
     }
 
@@ -88,6 +98,11 @@ class MarginalLine final : public LineDistribution {
     }
 
   private:
+    /// Whether a tail is endless, or a table's, which goes on where outcomes hardly ever come.
+    bool has_thin_end(double x) const {
+        return std::isinf(x) ||
+               (law_->discrete() && law_->density(x) < 1e-9 * law_->density(law_->quantile(0.5)));
+    }
     bool has_density(double x) const {
         const double density = std::isfinite(x) ? law_->density(x) : 1;
         return density > 0 && std::isfinite(density);
@@ -111,6 +126,7 @@ class MarginalLine final : public LineDistribution {
 
     MarginalPtr law_;
     std::pair<double, double> ends_;
+    std::pair<bool, bool> endless_;
     std::pair<double, double> inside_;  ///< the ends, or next to them
 };
 
