@@ -13,6 +13,7 @@ namespace stipple::warps {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double least = 1e-300;
 
 /// A distribution as the line's domain and mapping take it. Endless tails end where random numbers
 /// do: 0 is taken as 2^-54, and 1 as 1 - 2^-55; what is below 1e-300 but not 0, as 1e-300.
@@ -24,11 +25,12 @@ class MarginalLine final : public LineDistribution {
         auto& [low, high] = inside_;
         if (std::isinf(low)) low = std::numeric_limits<double>::lowest();
         if (std::isinf(high)) high = std::numeric_limits<double>::max();
-        if (!has_density(ends_.first)) low = std::nextafter(low, infinity);
-        if (!has_density(ends_.second)) high = std::nextafter(high, -infinity);
+        if (!has_density(ends_.first)) low = low == 0 ? least : std::nextafter(low, infinity);
+        if (!has_density(ends_.second)) high = high == 0 ? -least : std::nextafter(high, -infinity);
     }
 
-    /// Where the density is 0 or infinite at an end, rounding does not reach the end.
+    /// Where the density is 0 or infinite at an end, rounding does not reach the end, and where it
+    /// is infinite, nothing does.
     void forward_all(std::span<double> numbers) const {
         if (law_->discrete()) return law_->quantiles(numbers);
         std::array<double, 256> u;
@@ -36,7 +38,7 @@ class MarginalLine final : public LineDistribution {
             const auto some = numbers.subspan(first, std::min(u.size(), numbers.size() - first));
             for (std::size_t i = 0; i < some.size(); ++i) {
                 u[i] = some[i];
-                some[i] = std::max(u[i], 1e-300);
+                some[i] = std::max(u[i], least);
             }
             law_->quantiles(some);
             for (std::size_t i = 0; i < some.size(); ++i)
@@ -109,8 +111,9 @@ class MarginalLine final : public LineDistribution {
     }
     double end(Tail tail) const {
         const double x = tail == Tail::lower ? ends_.first : ends_.second;
-        if (std::isfinite(x)) return x;
-        return law_->quantile(tail == Tail::lower ? 0x1p-54 : 0x1p-55, tail);
+        if (std::isinf(x)) return law_->quantile(tail == Tail::lower ? 0x1p-54 : 0x1p-55, tail);
+        if (std::isfinite(law_->density(x))) return x;
+        return tail == Tail::lower ? inside_.first : inside_.second;
     }
     /// Of an outcome: F just below it, and at it.
     std::pair<double, double> cell(double x) const {

@@ -5,8 +5,8 @@
 //     P(a, x) = integral of t^(a-1) exp(-t) from 0 to x / Gamma(a),              Q = 1 - P,
 //     I_x(a, b) = integral of t^(a-1) (1-t)^(b-1) from 0 to x / B(a, b).
 //
-// The functions by Boost.Math over our own elementary functions (math/functions/portable_double.hpp);
-// their inverses by Newton's steps for the logarithm of the smaller of p and 1 - p.
+// The functions by Boost.Math over our own elementary functions (portable_double.hpp); their
+// inverses by Newton's steps for the logarithm of the smaller of p and 1 - p.
 //
 // Shape   a, b in [0.05, 1e6]; probabilities in (0, 1), from 1e-300 on.
 // Cost    1 to 5 us for an inverse on one core, more for parameters of 1e6.

@@ -6,8 +6,8 @@
 //     steps   x_i for xi in [i / n, (i + 1) / n): each number as often as it stands there
 //     linear  x_i + (h - i) (x_i+1 - x_i),  h = xi (n - 1),  i = floor(h): straight between them
 //
-// Shape   any number of coordinates, of one column for all or one for each; linear needs 2 numbers or
-//         more, no two the same.
+// Shape   any number of coordinates, of one column for all or one for each; linear needs 2 numbers
+//         or more, no two the same.
 // Strata  xi is taken as it is, in the order of the numbers.
 // Cost    O(1) a coordinate expected, by a guide table; about 5 ns on one core for few numbers.
 // Promise steps: n strata give each number as often as it stands there. The same bits on every

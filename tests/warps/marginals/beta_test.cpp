@@ -43,7 +43,8 @@ TEST(BetaWarp, PointsHaveADensity) {
     }
 }
 
-// Mean a / (a + b), variance a b / ((a + b)^2 (a + b + 1)), of (1, 3): skewness 2 sqrt(5) / (6 sqrt(3)) * 2.
+// Mean a / (a + b), variance a b / ((a + b)^2 (a + b + 1)); of (1, 3) the skewness is
+// 4 sqrt(5) / (6 sqrt(3)).
 TEST(BetaWarp, MomentsByHand) {
     const auto m = *mapping("beta:a=1,b=3,high=4")->domain()->moments();
     EXPECT_DOUBLE_EQ(m.mean[0], 1);

@@ -53,8 +53,8 @@ TEST(Dirichlet, BothWaysInAnyDimension) {
     EXPECT_EQ(dirichlet_of("dirichlet:alpha=3", 5)->domain()->dimension(), 6U);
 }
 
-// Density with respect to area: 2 / sqrt(3) in the uniform triangle of three coordinates, whose area
-// is sqrt(3) / 2; with alpha = (2, 2): 6 x y / sqrt(2).
+// Density with respect to area: 2 / sqrt(3) in the uniform triangle of three coordinates, of area
+// sqrt(3) / 2; with alpha = (2, 2): 6 x y / sqrt(2).
 TEST(Dirichlet, DensityIsOneOverTheStretch) {
     EXPECT_DOUBLE_EQ(mapping("dirichlet")->domain()->measure(), std::sqrt(3) / 2);
     EXPECT_NEAR(mapping("dirichlet")->density(std::vector{0.2, 0.3, 0.5}), 2 / std::sqrt(3), 1e-14);
