@@ -28,7 +28,7 @@ namespace stipple::warps::empirical {
 namespace {
 
 constexpr Param<Numbers> numbers{
-    {.name = "values", .fallback = "0,1,1,2", .help = "The numbers, for all coordinates"}};
+    {.name = "values", .fallback = "0,1,2", .help = "The numbers, for all coordinates"}};
 constexpr Param<Path> file{
     {.name = "file",
      .fallback = {},

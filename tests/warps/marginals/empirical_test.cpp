@@ -18,7 +18,7 @@ std::string refusal(std::string_view spec) {
 }  // namespace
 
 TEST(EmpiricalWarp, NumbersByHand) {
-    EXPECT_EQ(image_of("empirical", {0.2, 0.7}), (std::vector{0.0, 1.0}));
+    EXPECT_EQ(image_of("empirical", {0.3, 0.4}), (std::vector{0.0, 1.0}));
     EXPECT_EQ(image_of("empirical:values=[7,7,3,1]", {0.25, 0.5}), (std::vector{3.0, 7.0}));
     EXPECT_EQ(image_of("empirical:values=[8,1,4,2],interpolation=linear", {0.25, 0.75}),
               (std::vector{1.75, 5.0}));
