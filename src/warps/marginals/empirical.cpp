@@ -34,7 +34,7 @@ constexpr Param<Path> file{
      .fallback = {},
      .help = "The numbers from the columns of a file, one for all coordinates or one for each"}};
 constexpr Param<Text> column{
-    {.name = "column",
+    {.name = "file-columns",
      .fallback = {},
      .help = "Which columns of the file: names or numbers from 1, with commas; default: all"}};
 constexpr Param<Choice> interpolation{
@@ -46,7 +46,7 @@ constexpr Param<Choice> interpolation{
 std::vector<std::vector<double>> columns_of(const Values& options, const RunContext& run) {
     if (!options.given(file)) {
         if (options.given(column))
-            fail(ErrorKind::usage, "--column: there is no --file, whose columns it would name");
+            fail(ErrorKind::usage, "--file-columns: there is no --file, whose columns it would name");
         return {options[numbers]};
     }
     if (options.given(numbers))

@@ -27,13 +27,13 @@ TEST(EmpiricalWarp, NumbersByHand) {
 TEST(EmpiricalWarp, ColumnsOfAFile) {
     const TemporaryFile file("a,b,c\n1,10,100\n2,20,200\n2,40,300\n");
     const std::string of = "empirical:file=" + file.path();
-    EXPECT_EQ(image_of(of + ",column=a", {0, 0.5}), (std::vector{1.0, 2.0}));
-    EXPECT_EQ(image_of(of + ",column=[a,c]", {0, 0.5}), (std::vector{1.0, 200.0}));
-    EXPECT_EQ(image_of(of + ",column=2,interpolation=linear", {0.5, 0.75}),
+    EXPECT_EQ(image_of(of + ",file-columns=a", {0, 0.5}), (std::vector{1.0, 2.0}));
+    EXPECT_EQ(image_of(of + ",file-columns=[a,c]", {0, 0.5}), (std::vector{1.0, 200.0}));
+    EXPECT_EQ(image_of(of + ",file-columns=2,interpolation=linear", {0.5, 0.75}),
               (std::vector{20.0, 30.0}));
     EXPECT_EQ(mapping(of)->domain()->dimension(), 3U);
     EXPECT_EQ(
-        refusal(of + ",column=a,interpolation=linear"),
+        refusal(of + ",file-columns=a,interpolation=linear"),
         "input: " + file.path() +
             ": 2 stands twice; linear needs numbers of which no two are the same | steps take "
             "them");
@@ -58,8 +58,8 @@ TEST(EmpiricalWarp, BothWaysAndItsMoments) {
 }
 
 TEST(EmpiricalWarp, RefusesWhatIsNoColumn) {
-    EXPECT_EQ(refusal("empirical:column=a"),
-              "usage: --column: there is no --file, whose columns it would name");
+    EXPECT_EQ(refusal("empirical:file-columns=a"),
+              "usage: --file-columns: there is no --file, whose columns it would name");
     EXPECT_EQ(refusal("empirical:values=1,interpolation=linear"),
               "usage: --values: 1 number; linear needs 2 or more");
     EXPECT_EQ(refusal("empirical:values=[1,2],file=none.csv"),
