@@ -46,7 +46,8 @@ constexpr Param<Choice> interpolation{
 std::vector<std::vector<double>> columns_of(const Values& options, const RunContext& run) {
     if (!options.given(file)) {
         if (options.given(column))
-            fail(ErrorKind::usage, "--file-columns: there is no --file, whose columns it would name");
+            fail(ErrorKind::usage,
+                 "--file-columns: there is no --file, whose columns it would name");
         return {options[numbers]};
     }
     if (options.given(numbers))
