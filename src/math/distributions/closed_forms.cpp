@@ -54,8 +54,8 @@ struct LogUniform {
     double log_ratio = log_1p((high - low) / low);
 
     double quantile(double p, Tail tail) const {
-        return tail == Tail::lower ? low * real_power(high / low, p)
-                                   : high * real_power(high / low, -p);
+        return tail == Tail::lower ? low * stipple::exponential(p * log_ratio)
+                                   : high * stipple::exponential(-p * log_ratio);
     }
     double probability(double x, Tail tail) const {
         return (tail == Tail::lower ? log_1p((x - low) / low) : log_1p((high - x) / x)) / log_ratio;

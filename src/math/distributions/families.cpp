@@ -154,7 +154,7 @@ std::vector<MarginalFamily> all_families() {
          {within(1e-12, 1e8, number("mean", 4, "Mean, above 0, up to 1e8"))},
          [](const auto& p) { return poisson_law(p["mean"]); }},
         {"student-t",
-         {within(0.5, 1e6, number("degrees", 4, "Degrees of freedom, in [0.5, 1e6]")),
+         {within(0.5, 1e6, number("degrees", 5, "Degrees of freedom, in [0.5, 1e6]")),
           location("Middle"), scale("scale", 1, "Scale, above 0")},
          [](const auto& p) { return student_t_law(p["degrees"], p["location"], p["scale"]); }},
         {"triangular",

@@ -28,7 +28,7 @@ struct MarginalParameter {
 /// Parameters with their values.
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
 
-/// What a family is made from: all parameters that were given or have defaults, within their ranges.
+/// What a family is made from: all parameters that were given or have defaults, in their ranges.
 struct ParameterValues {
     std::string_view where;
     NamedNumbers numbers;

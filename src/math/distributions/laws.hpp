@@ -33,8 +33,8 @@ MarginalPtr binomial_law(double trials, double probability);
 /// Each number of a list as likely as it often stands there.
 MarginalPtr empirical_law(std::vector<double> values);
 
-/// Straight between the sorted numbers of a list, no two of them the same: between two neighbours of
-/// n there lies the probability 1 / (n - 1).
+/// Straight between the sorted numbers of a list, no two of them the same: between two neighbours
+/// of n there lies the probability 1 / (n - 1).
 MarginalPtr interpolated_law(std::vector<double> values);
 
 }  // namespace stipple

@@ -44,8 +44,8 @@ class Marginal {
     /// "gamma": for messages.
     [[nodiscard]] virtual std::string_view name() const = 0;
 
-    /// Of a discrete distribution: the smallest outcome x with F(x) > p, or with 1 - F(x) < p; at the
-    /// end of the cube, the largest outcome that any p below 1 gives.
+    /// Of a discrete distribution: the smallest outcome x with F(x) > p, or with 1 - F(x) < p; for
+    /// F(x) = 1, the largest outcome that any p below 1 gives.
     [[nodiscard]] virtual double quantile(double p, Tail tail = Tail::lower) const = 0;
     [[nodiscard]] virtual double probability(double x, Tail tail = Tail::lower) const = 0;
 
@@ -66,8 +66,8 @@ class Marginal {
 MarginalMoments moments_by_quadrature(const Marginal& law);
 
 /// The distribution between two ends, either of which may be infinite, divided by its probability
-/// there. @throws Error(usage) if that is too small to be divided by; `where` stands in front of the
-/// names of the ends in messages
+/// there. @throws Error(usage) if that is too small to be divided by; `where` stands in front of
+/// the names of the ends in messages
 MarginalPtr truncated(MarginalPtr law, double low, double high, std::string_view where = {});
 
 }  // namespace stipple

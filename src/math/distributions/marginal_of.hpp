@@ -4,7 +4,7 @@
 //
 //     struct Gumbel {
 //         static constexpr std::string_view name = "gumbel";
-//         double quantile(double p, Tail tail) const;      // inline, without a branch on p: widened
+//         double quantile(double p, Tail tail) const;      // inline, and without a branch on p
 //         double probability(double x, Tail tail) const;   // x in the support
 //         double density(double x) const;                  // x in the support
 //         MarginalMoments moments() const;                 // or none: by quadrature

@@ -52,9 +52,11 @@ class Truncated final : public Marginal {
     }
     double probability(double x, Tail tail) const override {
         const double inside = std::clamp(x, low_, high_);
-        const double part = tail == Tail::lower ? mass_between(*law_, low_, inside)
-                                                : mass_between(*law_, inside, high_);
-        return std::clamp(part / mass_, 0.0, 1.0);
+        const double below = mass_between(*law_, low_, inside) / mass_;
+        const double above = mass_between(*law_, inside, high_) / mass_;
+        const double share = tail == Tail::lower ? below : above;
+        const double rest = tail == Tail::lower ? above : below;
+        return std::clamp(share <= rest ? share : 1 - rest, 0.0, 1.0);
     }
     double density(double x) const override {
         return x >= low_ && x <= high_ ? law_->density(x) / mass_ : 0;

@@ -5,6 +5,7 @@
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
+#include <limits>
 
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
@@ -21,6 +22,12 @@ constexpr detail::NoErrors no_errors;
 constexpr double tiny = 1e-24;
 
 double near_0(double a, double p, Number constant) { return real_power(p * constant.value, 1 / a); }
+
+/// Of a density in proportion to x^(a - 1), `level` for a = 1.
+double density_at_0(double a, double level) {
+    if (a == 1) return level;
+    return a < 1 ? std::numeric_limits<double>::infinity() : 0;
+}
 
 /// A probability, and how it rises.
 struct Rise {
@@ -68,6 +75,7 @@ double gamma_above(double a, double x) {
     return boost::math::gamma_q(Number(a), Number(x), no_errors).value;
 }
 double gamma_density(double a, double x) {
+    if (x <= 0) return density_at_0(a, 1);
     return boost::math::gamma_p_derivative(Number(a), Number(x), no_errors).value;
 }
 
@@ -105,6 +113,7 @@ double beta_above(double a, double b, double x) {
     return boost::math::ibetac(Number(a), Number(b), Number(x), no_errors).value;
 }
 double beta_density(double a, double b, double x) {
+    if (x <= 0) return density_at_0(a, b);
     return boost::math::ibeta_derivative(Number(a), Number(b), Number(x), no_errors).value;
 }
 

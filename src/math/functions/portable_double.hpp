@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// A double whose elementary functions are those of this folder. Boost.Math's functions are templates
-// on the type of numbers: of this one, they call no function of the C library whose last bit differs
-// between machines, and do not change to wider types where there are some.
+// A double whose elementary functions are those of this folder. Boost.Math's functions are
+// templates on the type of numbers: of this one, they call no function of the C library whose last
+// bit differs between machines, and do not change to wider types where there are some.
 //
-// Promise + - * / and square roots are those of double; exp, log and powers as in exponential.hpp and
-//         logarithm.hpp; sine, cosine, and their inverses for x in [0, 1], within 1e-15. The same
-//         bits on every machine for the same release of Boost.
+// Promise + - * / and square roots are those of double; exp, log and powers as in exponential.hpp
+//         and logarithm.hpp; sine, cosine, and their inverses for x in [0, 1], within 1e-15. The
+//         same bits on every machine for the same release of Boost.
 #pragma once
 
 #include <boost/math/policies/policy.hpp>

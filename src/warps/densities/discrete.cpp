@@ -23,7 +23,7 @@
 #include "core/error.hpp"
 #include "math/densities/guide_table.hpp"
 #include "warps/common_options.hpp"
-#include "warps/densities/line_domain.hpp"
+#include "warps/line_domain.hpp"
 
 namespace stipple::warps::discrete {
 namespace {

@@ -13,7 +13,7 @@
 // Promise forward and back again is the same xi within 1e-14, and near 0 within 1e-14 of itself.
 //         Both ways and the density give the same bits on every machine.
 
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 namespace stipple::warps::exponential {
 

@@ -25,7 +25,7 @@
 #include "math/densities/expression.hpp"
 #include "math/densities/line_table.hpp"
 #include "math/densities/quadrature.hpp"
-#include "warps/densities/line_domain.hpp"
+#include "warps/line_domain.hpp"
 
 namespace stipple::warps::expression_1d {
 namespace {

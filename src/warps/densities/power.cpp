@@ -37,7 +37,7 @@
 #include "math/functions/roots.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "warps/common_options.hpp"
-#include "warps/densities/line_domain.hpp"
+#include "warps/line_domain.hpp"
 
 namespace stipple::warps::power {
 namespace {

@@ -24,7 +24,7 @@
 #include "core/error.hpp"
 #include "io/files.hpp"
 #include "math/densities/line_table.hpp"
-#include "warps/densities/line_domain.hpp"
+#include "warps/line_domain.hpp"
 
 namespace stipple::warps::table_1d {
 namespace {

@@ -24,7 +24,7 @@
 
 #include "core/error.hpp"
 #include "warps/common_options.hpp"
-#include "warps/densities/line_domain.hpp"
+#include "warps/line_domain.hpp"
 
 namespace stipple::warps::tent {
 namespace {

@@ -6,8 +6,8 @@
 //     steps   x_i for xi in [i / n, (i + 1) / n): each number as often as it stands there
 //     linear  x_i + (h - i) (x_i+1 - x_i),  h = xi (n - 1),  i = floor(h): straight between them
 //
-// Shape   any number of coordinates, of one column for all or one for each; linear needs 2 numbers or
-//         more, no two the same.
+// Shape   any number of coordinates, of one column for all or one for each; linear needs 2 numbers
+//         or more, no two the same.
 // Strata  xi is taken as it is, in the order of the numbers.
 // Cost    O(1) a coordinate expected, by a guide table; about 5 ns on one core for few numbers.
 // Promise steps: n strata give each number as often as it stands there. The same bits on every
@@ -22,19 +22,19 @@
 #include "core/text.hpp"
 #include "io/files.hpp"
 #include "math/distributions/laws.hpp"
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 namespace stipple::warps::empirical {
 namespace {
 
 constexpr Param<Numbers> numbers{
-    {.name = "values", .fallback = "0,1,3", .help = "The numbers, for all coordinates"}};
+    {.name = "values", .fallback = "0,1,2", .help = "The numbers, for all coordinates"}};
 constexpr Param<Path> file{
     {.name = "file",
      .fallback = {},
      .help = "The numbers from the columns of a file, one for all coordinates or one for each"}};
 constexpr Param<Text> column{
-    {.name = "column",
+    {.name = "file-columns",
      .fallback = {},
      .help = "Which columns of the file: names or numbers from 1, with commas; default: all"}};
 constexpr Param<Choice> interpolation{
@@ -46,7 +46,8 @@ constexpr Param<Choice> interpolation{
 std::vector<std::vector<double>> columns_of(const Values& options, const RunContext& run) {
     if (!options.given(file)) {
         if (options.given(column))
-            fail(ErrorKind::usage, "--column: there is no --file, whose columns it would name");
+            fail(ErrorKind::usage,
+                 "--file-columns: there is no --file, whose columns it would name");
         return {options[numbers]};
     }
     if (options.given(numbers))

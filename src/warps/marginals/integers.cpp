@@ -6,12 +6,13 @@
 //
 // Shape   any number of coordinates; one number for all coordinates, or one for each, for each
 //         parameter.
-// Strata  xi is taken as it is: outcomes come in order, so that n strata give each outcome n p times,
-//         rounded up or down.
+// Strata  xi is taken as it is: outcomes come in order, so that n strata give each outcome n p
+//         times, rounded up or down.
 // Cost    O(1) a coordinate; about 3 ns on one core.
-// Promise each number comes for the same share of xi. The way back is the middle of its interval. The same bits on every machine.
+// Promise each number comes for the same share of xi. The way back is the middle of its interval.
+//         The same bits on every machine.
 
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 namespace stipple::warps::integers {
 

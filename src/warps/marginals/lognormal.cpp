@@ -7,13 +7,14 @@
 // with z = (log x - mu) / sigma.
 //
 // Shape   any number of coordinates; mu and sigma, or mean m and deviation s of x itself: sigma^2 =
-//         log(1 + (s / m)^2), mu = log m - sigma^2 / 2; one number for all coordinates, or one for each.
-// Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the same
-//         order. The first and the last are endless; 0 is taken as 2^-54 and 1 as 1 - 2^-55.
-// Cost    O(1) a coordinate; about 9 ns on one core.
+//         log(1 + (s / m)^2), mu = log m - sigma^2 / 2; one number for all coordinates, or one for
+//         each.
+// Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the
+//         same order. The first and the last are endless; 0 is taken as 2^-54 and 1 as 1 - 2^-55.
+// Cost    O(1) a coordinate; about 15 ns on one core.
 // Promise x within 1e-13 of itself. The same bits on every machine.
 
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 namespace stipple::warps::lognormal {
 

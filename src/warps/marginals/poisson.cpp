@@ -6,14 +6,14 @@
 //
 // Shape   any number of coordinates; one number for all coordinates, or one for each, for each
 //         parameter.
-// Strata  xi is taken as it is: outcomes come in order, so that n strata give each outcome n p times,
-//         rounded up or down.
-// Cost    O(1) a coordinate expected, by a guide table; about 5 ns on one core. The table has 75 sqrt(mean)
-//         outcomes, at least 150 or so.
+// Strata  xi is taken as it is: outcomes come in order, so that n strata give each outcome n p
+//         times, rounded up or down.
+// Cost    O(1) a coordinate expected, by a guide table; about 5 ns on one core. The table has 75
+//         sqrt(mean) outcomes, at least 150 or so.
 // Promise the ends of outcomes' intervals are right to their last digits, from both ends. The way
 //         back is the middle of the interval. The same bits on every machine.
 
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 namespace stipple::warps::poisson {
 

@@ -8,13 +8,13 @@
 // all from the tail in which probabilities are smaller (math/distributions/truncated.cpp), so that
 // the part of a normal distribution from 30 standard deviations on keeps its digits.
 //
-// Shape   any number of coordinates; one end or both; for each end one number for all coordinates, or
-//         one for each.
+// Shape   any number of coordinates; one end or both; for each end one number for all coordinates,
+//         or one for each.
 // Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the
 //         same order.
 // Cost    that of the distribution, and about 15 ns a coordinate on one core.
-// Promise x in [a, b]. Of continuous distributions the part must have a probability above 1e-290, and
-//         of discrete ones it is cut exactly. The same bits on every machine.
+// Promise x in [a, b]. Of continuous distributions the part must have a probability above 1e-290,
+//         and of discrete ones it is cut exactly. The same bits on every machine.
 // Beware  in an interval of a share s of the probability beyond its ends, x is rounded to steps of
 //         1e-16 / s of its width.
 
@@ -23,7 +23,7 @@
 
 #include "core/error.hpp"
 #include "core/spec.hpp"
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 namespace stipple::warps::truncated {
 namespace {

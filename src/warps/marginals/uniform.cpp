@@ -6,12 +6,12 @@
 //
 // Shape   any number of coordinates; one number for all coordinates, or one for each, for each
 //         parameter.
-// Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the same
-//         order.
+// Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the
+//         same order.
 // Cost    O(1) a coordinate; about 1 ns on one core.
 // Promise x in [low, high], and high only by rounding. The same bits on every machine.
 
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 namespace stipple::warps::uniform {
 

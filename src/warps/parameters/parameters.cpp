@@ -21,7 +21,7 @@
 #include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 #include "warps/named_domain.hpp"
 #include "warps/parameters/parameter_file.hpp"
 #include "warps/warp.hpp"

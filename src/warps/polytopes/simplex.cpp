@@ -8,8 +8,8 @@
 // Shape   any number of coordinates whose volume s^d / d! is a number: 165 for s = 1.
 // Strata  xi_k is the probability below x_k given those before it, as it is.
 // Cost    O(1) a coordinate, by one logarithm and one exponential; about 6 ns on one core.
-// Promise x in the simplex, up to d 2^-52 s. Forward and back again is the same xi within 1e-14, times
-//         s / r_k. The same bits on every machine.
+// Promise x in the simplex, up to d 2^-52 s. Forward and back again is the same xi within 1e-14,
+//         times s / r_k. The same bits on every machine.
 // Source  M. Rosenblatt, Annals of Mathematical Statistics 23 (1952) 470-472,
 //         doi:10.1214/aoms/1177729394.
 
@@ -36,8 +36,8 @@ constexpr auto bound = length_option("bound", 1, "The most that the coordinates 
 
 constexpr std::size_t some_rows = 256;
 
-/// Takes from what is left of each row the coordinate that is one of `left`; xi = 1 is all of it for
-/// the last one, and else taken as the number below 1.
+/// Takes from what is left of each row the coordinate that is one of `left`. xi = 1 takes all of it
+/// for the last one, and is else taken as the number below 1.
 STIPPLE_WIDE [[gnu::flatten]] void break_off(double* x, double* rest, double left,
                                              std::size_t rows) {
     const double share = 1 / left;

@@ -107,8 +107,8 @@ TEST(Outcomes, ProbabilitiesSumToOneAndMomentsAreThoseOfTheFormulas) {
     EXPECT_NEAR(skewness, 0.6 / std::sqrt(160), 1e-12);
 }
 
-// Far out at a large mean, by Stirling's series: log p(k) = k log(mean / k) - mean + k - log(2 pi k) / 2
-// - 1 / (12 k).
+// Far out at a large mean, by Stirling's series:
+//     log p(k) = k log(mean / k) - mean + k - log(2 pi k) / 2 - 1 / (12 k) + 1 / (360 k^3).
 TEST(Outcomes, KeepsItsDigitsFarFromALargeMean) {
     const MarginalPtr law = poisson_law(1e6);
     for (const double k : {970'000.0, 1'000'000.0, 1'034'000.0}) {

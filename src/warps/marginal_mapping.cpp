@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "warps/marginals/marginal_mapping.hpp"
+#include "warps/marginal_mapping.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,33 +7,39 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "warps/densities/line_domain.hpp"
+#include "warps/line_domain.hpp"
 
 namespace stipple::warps {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double least = 1e-300;
 
 /// A distribution as the line's domain and mapping take it. Endless tails end where random numbers
-/// do: 0 is taken as 2^-54, and 1 as 1 - 2^-55.
+/// do: 0 is taken as 2^-54, and 1 as 1 - 2^-55; what is below 1e-300 but not 0, as 1e-300.
 class MarginalLine final : public LineDistribution {
   public:
     explicit MarginalLine(MarginalPtr law)
         : law_(std::move(law)), ends_(law_->support()), inside_(ends_) {
+        endless_ = {has_thin_end(ends_.first), has_thin_end(ends_.second)};
         auto& [low, high] = inside_;
         if (std::isinf(low)) low = std::numeric_limits<double>::lowest();
         if (std::isinf(high)) high = std::numeric_limits<double>::max();
-        if (!has_density(ends_.first)) low = std::nextafter(low, infinity);
-        if (!has_density(ends_.second)) high = std::nextafter(high, -infinity);
+        if (!has_density(ends_.first)) low = low == 0 ? least : std::nextafter(low, infinity);
+        if (!has_density(ends_.second)) high = high == 0 ? -least : std::nextafter(high, -infinity);
     }
 
-    /// Where the density is 0 or infinite at an end, rounding does not reach the end.
+    /// Where the density is 0 or infinite at an end, rounding does not reach the end, and where it
+    /// is infinite, nothing does.
     void forward_all(std::span<double> numbers) const {
         if (law_->discrete()) return law_->quantiles(numbers);
         std::array<double, 256> u;
         for (std::size_t first = 0; first < numbers.size(); first += u.size()) {
             const auto some = numbers.subspan(first, std::min(u.size(), numbers.size() - first));
-            std::ranges::copy(some, u.begin());
+            for (std::size_t i = 0; i < some.size(); ++i) {
+                u[i] = some[i];
+                some[i] = std::max(u[i], least);
+            }
             law_->quantiles(some);
             for (std::size_t i = 0; i < some.size(); ++i)
                 some[i] = std::max(inside_.first, std::min(some[i], inside_.second));
@@ -57,22 +63,28 @@ class MarginalLine final : public LineDistribution {
         return x >= ends_.first && x <= ends_.second && std::isfinite(x);
     }
     double measure() const override {
+        if (endless_.first || endless_.second) return infinity;
         return law_->discrete() ? law_->outcomes() : ends_.second - ends_.first;
     }
     LineMoments moments() const override {
         const auto [mean, variance, skewness] = law_->moments();
         return {mean, variance, skewness * variance * std::sqrt(variance)};
     }
-    /// In an endless direction, all but exp(-10) = 4.5e-5.
+    /// In an endless direction, all but exp(-10) = 4.5e-5, or 6 times the middle two thirds.
     std::pair<double, double> range() const override {
         constexpr double beyond = 4.5399929762484854e-5;
-        const bool table = law_->discrete();
-        return {
-            std::isinf(ends_.first) || table ? law_->quantile(beyond, Tail::lower) : ends_.first,
-            std::isinf(ends_.second) || table ? law_->quantile(beyond, Tail::upper) : ends_.second};
+        constexpr double sixth = 1 / 6.0;
+        const double low = law_->quantile(sixth);
+        const double high = law_->quantile(sixth, Tail::upper);
+        const double reach = law_->discrete() ? infinity : 6 * (high - low);
+        std::pair<double, double> shown = ends_;
+        if (endless_.first) shown.first = std::max(law_->quantile(beyond), low - reach);
+        if (endless_.second)
+            shown.second = std::min(law_->quantile(beyond, Tail::upper), high + reach);
+        return shown;
     }
     Positive positive() const override {
-        if (law_->discrete()) return {{}, law_->outcomes()};
+        if (law_->discrete()) return {{}, measure()};
         return {{range()}, measure()};
     }
 
@@ -88,14 +100,20 @@ class MarginalLine final : public LineDistribution {
     }
 
   private:
+    /// Whether a tail is endless, or a table's, which goes on where outcomes hardly ever come.
+    bool has_thin_end(double x) const {
+        return std::isinf(x) ||
+               (law_->discrete() && law_->density(x) < 1e-9 * law_->density(law_->quantile(0.5)));
+    }
     bool has_density(double x) const {
         const double density = std::isfinite(x) ? law_->density(x) : 1;
         return density > 0 && std::isfinite(density);
     }
     double end(Tail tail) const {
         const double x = tail == Tail::lower ? ends_.first : ends_.second;
-        if (std::isfinite(x)) return x;
-        return law_->quantile(tail == Tail::lower ? 0x1p-54 : 0x1p-55, tail);
+        if (std::isinf(x)) return law_->quantile(tail == Tail::lower ? 0x1p-54 : 0x1p-55, tail);
+        if (std::isfinite(law_->density(x))) return x;
+        return tail == Tail::lower ? inside_.first : inside_.second;
     }
     /// Of an outcome: F just below it, and at it.
     std::pair<double, double> cell(double x) const {
@@ -111,6 +129,7 @@ class MarginalLine final : public LineDistribution {
 
     MarginalPtr law_;
     std::pair<double, double> ends_;
+    std::pair<bool, bool> endless_;
     std::pair<double, double> inside_;  ///< the ends, or next to them
 };
 
