@@ -124,8 +124,9 @@ TEST_P(EveryGenerator, ProgressRisesToTheEnd) {
 }
 
 TEST_P(EveryGenerator, StopsAtOnce) {
-    expect_to_stop_at_once(
-        [&](const RunContext& run) { make_in(run, count_of(unit.name, 1'000'000)); });
+    const std::uint64_t count = count_of(unit.name, 1'000'000);
+    if (count < 1'000'000) GTEST_SKIP() << "makes no large sets";
+    expect_to_stop_at_once([&](const RunContext& run) { make_in(run, count); });
 }
 
 TEST_P(EveryGenerator, RefusesWhatNeedsTooMuchMemory) {
