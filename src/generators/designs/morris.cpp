@@ -138,7 +138,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
 
 Generator unit() {
     return {.name = "morris",
-            .summary = "Morris' trajectories: one factor at a time, for elementary effects",
+            .summary = "One factor at a time along random trajectories, for elementary effects",
             .source =
                 "Morris 1991, doi:10.1080/00401706.1991.10484804; Campolongo, Saltelli, Cariboni "
                 "2011, doi:10.1016/j.cpc.2010.12.039",

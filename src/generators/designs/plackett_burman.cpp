@@ -68,7 +68,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
 
 Generator unit() {
     return {.name = "plackett-burman",
-            .summary = "Plackett-Burman screening design: n runs for up to n - 1 two-level factors",
+            .summary = "Screening design: n runs for up to n - 1 two-level factors",
             .source = "Plackett, Burman 1946, doi:10.1093/biomet/33.4.305",
             .related = {"doe", "experiment", "screening", "hadamard", "paley", "two-level"},
             .traits = {.max_dimension = most_hadamard - 1, .prefix = false, .seeded = false},

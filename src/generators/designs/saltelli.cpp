@@ -69,7 +69,8 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
 Generator unit() {
     return {
         .name = "saltelli",
-        .summary = "Saltelli's design: runs from which Sobol' sensitivity indices are estimated",
+        .summary =
+            "Runs from which Sobol' sensitivity indices are estimated, as Saltelli arranged them",
         .source = "Saltelli et al. 2010, doi:10.1016/j.cpc.2009.09.018",
         .related = {"sensitivity", "sobol-indices", "gsa", "salib", "total-effects",
                     "variance-based"},
