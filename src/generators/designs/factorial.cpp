@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Full factorial design: every combination of the factors' levels once, in standard order, the first
-// factor fastest. Where levels are in the cube: levels.hpp.
+// Full factorial design: every combination of the factors' levels once, in standard order, the
+// first factor fastest. Where levels are in the cube: levels.hpp.
 //
-// Shape   n = m_1 m_2 ... m_k runs, up to 2^53. Without --levels a count is m^k, and without a count
-//         every factor has two levels.
+// Shape   n = m_1 m_2 ... m_k runs, up to 2^53. Without --levels a count is m^k, and without a
+//         count every factor has two levels.
 // Cost    O(n k).
 // Source  D. C. Montgomery, "Design and Analysis of Experiments", Wiley, chapter 5.
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Regular fractions as experimenters write them: factors A, B, ..., Z, a, ..., z without I and i, of
-// which I stands for the mean; generators D=ABC,E=-AB; the defining relation I=ABCD=-ABE=-CDE; and
-// with each main effect what it is aliased with.
+// Regular fractions as experimenters write them: factors A, B, ..., Z, a, ..., z without I and i,
+// of which I stands for the mean; generators D=ABC,E=-AB; the defining relation I=ABCD=-ABE=-CDE;
+// and with each main effect what it is aliased with.
 #pragma once
 
 #include <cstddef>

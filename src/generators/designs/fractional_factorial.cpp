@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// Regular fractional factorial design 2^(k-p): k factors of two levels in n = 2^(k-p) runs, a part of
-// the full factorial (regular_fraction.hpp). The factors are A, B, ..., H, J, ..., Z, a, ..., without
-// I, which stands for the mean. Each p-th part is given by --generators (D=ABC,E=-AB), or is the one
-// of least aberration for a count, or with the fewest runs for a resolution:
+// Regular fractional factorial design 2^(k-p): k factors of two levels in n = 2^(k-p) runs, a part
+// of the full factorial (regular_fraction.hpp). The factors are A, B, ..., H, J, ..., Z, a, ...,
+// without I, which stands for the mean. The fraction is given by --generators (D=ABC,E=-AB), or is
+// the one of least aberration for a count, or with the fewest runs for a resolution:
 //
 //     III   main effects are aliased with interactions of two factors, but not with each other
 //     IV    with those of three; interactions of two factors with each other
 //     V     neither with those of two
 //
-// Shape   n x k, 2 <= k <= 50; n is a power of two, at most 2^16 where a fraction is looked for. Runs in
-//         standard order of the factors that are not generated, the first fastest.
-// Promise the words, lengths and aliases in the provenance are complete, for at most 63 words. The
-//         search tells whether it left nothing out (search: complete), as up to 16 runs, or gave up
-//         after a fixed number of steps with the best that it had.
+// Shape   n x k, 2 <= k <= 50; n is a power of two, at most 2^16 where a fraction is looked for.
+//         Runs in standard order of the factors that are not generated, the first fastest.
+// Promise the provenance has the resolution and the number of words of each length, for p <= 6 the
+//         words and the shortest aliases of main effects, too; and whether the search left nothing
+//         out (complete), as with up to 16 runs, or gave up after a fixed number of steps with the
+//         best that it had (limited).
 // Source  G. E. P. Box, J. S. Hunter, Technometrics 3 (1961) 311-351,
 //         doi:10.1080/00401706.1961.10489951; A. Fries, W. G. Hunter, Technometrics 22 (1980)
 //         601-608, doi:10.1080/00401706.1980.10486210 (aberration).

@@ -3,11 +3,11 @@
 // Plackett-Burman design: n runs of up to n - 1 factors with two levels, in which any two factors
 // have each of the four pairs of levels n / 4 times. The columns are those of a Hadamard matrix but
 // for its column of 1 (hadamard.hpp). For 12, 20, 24, 36 and 44 runs, as wherever n - 1 is a prime,
-// they are the published cyclic ones: the first row moved on by one for each next run, and a last run
-// with all factors at the low level.
+// they are the published cyclic ones: the first row moved on by one for each next run, and a last
+// run with all factors at the low level.
 //
-// Shape   n x k, k < n; n a multiple of 4 (which ones: hadamard.hpp). Without a count the fewest runs
-//         for k factors, without k as many factors as there can be.
+// Shape   n x k, k < n; n a multiple of 4 (which ones: hadamard.hpp). Without a count the fewest
+//         runs for k factors, without k as many factors as there can be.
 // Beware  main effects are aliased in part with interactions of two other factors.
 // Source  R. L. Plackett, J. P. Burman, Biometrika 33 (1946) 305-325,
 //         doi:10.1093/biomet/33.4.305.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Saltelli's design for Sobol' indices of k factors. For each base row i, with two independent points
-// A_i and B_i of the cube, the runs are, in this order (as of SALib),
+// Saltelli's design for Sobol' indices of k factors. For each base row i, with two independent
+// points A_i and B_i of the cube, the runs are, in this order (as of SALib),
 //
 //     A_i,  AB_i1, ..., AB_ik,  [BA_i1, ..., BA_ik,]  B_i
 //
