@@ -88,16 +88,18 @@ std::vector<std::string> lines_of(const Generator& unit) {
         }));
     };
     const Settings needed = needed_options(unit.name);
-    add(needed, many_of(unit.name), 2, 1);
-    add(needed, std::min<std::uint64_t>(many_of(unit.name), 1024), 2, 987654321);
+    const std::uint64_t many = count_of(unit.name, many_of(unit.name));
+    const std::uint64_t some = count_of(unit.name, std::min<std::uint64_t>(many, 1024));
+    add(needed, many, 2, 1);
+    add(needed, some, 2, 987654321);
     // 729 = 9^3 = 27^2: grids and arrays have as many.
-    if (traits.max_dimension > 2) add(needed, traits.sequence ? 729 : 200, 3, 1);
+    if (traits.max_dimension > 2)
+        add(needed, traits.sequence ? count_of(unit.name, 729) : 200, 3, 1);
     // Sets that are made fast: enough for what they do in tiles of space.
     if (traits.max_dimension > 2 && !traits.sequence && many_of(unit.name) > 5000)
         add(needed, 5000, 3, 1);
     for (const Settings& settings : variants(unit.options, needed))
-        if (settings != needed)
-            add(settings, std::min<std::uint64_t>(many_of(unit.name), 1024), 2, 3);
+        if (settings != needed) add(settings, some, 2, 3);
     const auto options = unit.options.names();
     if (std::ranges::find(options, "density") == options.end()) return lines;
     Settings dense = needed;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/rng.hpp"
+#include "core/text.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"
 #include "support/contract.hpp"

@@ -5,6 +5,7 @@
 #include <map>
 #include <sstream>
 
+#include "core/text.hpp"
 #include "places.hpp"
 
 namespace stipple::testing {
@@ -33,7 +34,9 @@ Settings settings_of(const std::string& unit) {
 
 Settings needed_options(const std::string& unit) {
     Settings needed = settings_of(unit);
-    std::erase_if(needed, [](const auto& setting) { return setting.first == "n"; });
+    std::erase_if(needed, [](const auto& setting) {
+        return setting.first == "n" || setting.first == "counts";
+    });
     return needed;
 }
 
@@ -41,6 +44,18 @@ std::uint64_t many_of(const std::string& unit) {
     for (const auto& [name, value] : settings_of(unit))
         if (name == "n") return std::stoull(value);
     return 10'000;
+}
+
+std::uint64_t count_of(const std::string& unit, std::uint64_t wanted) {
+    std::uint64_t count = wanted;
+    for (const auto& [name, value] : settings_of(unit)) {
+        if (name != "counts") continue;
+        for (const auto listed : split(value, ',')) {
+            count = std::stoull(std::string(listed));
+            if (count >= wanted) return count;
+        }
+    }
+    return count;
 }
 
 Request points(std::uint64_t count, std::size_t dimension, std::uint64_t start) {

@@ -44,6 +44,10 @@ PointSet points_of(const std::vector<std::vector<double>>& rows);
 Settings needed_options(const std::string& unit);
 std::uint64_t many_of(const std::string& unit);
 
+/// The least count that the unit makes from `wanted` on, or the largest of those that settings.txt
+/// lists; `wanted` where it lists none.
+std::uint64_t count_of(const std::string& unit, std::uint64_t wanted);
+
 /// One number of an analyzer's report, by dotted key.
 double measure(std::string_view analyzer, std::string_view key, const PointSet& points,
                const Settings& settings = {});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Criteria of designs of experiments, of n points x_i in the unit cube (a box is scaled to it), with
-// straight distances d_ij = |x_i - x_j|:
+// Criteria of designs of experiments, of n points x_i in the unit cube (a box is scaled to it),
+// with straight distances d_ij = |x_i - x_j|:
 //
 //     minimum         min d_ij, the maximin criterion
 //     phi_p           (sum_{i<j} d_ij^-p)^(1/p), near 1 / minimum for a large p (Morris, Mitchell)
@@ -10,16 +10,16 @@
 //     variation       deviation over mean of the distances to the nearest neighbours: the coverage
 //                     measure of Gunzburger and Burkardt, 0 for a grid
 //     correlation     of two coordinates: the largest absolute value, and the root mean square
-//     projections     the least distance of two points seen along all axes but one, or but two
-//     efficiency      D, A and G for a polynomial model (model_efficiency.hpp), with each coordinate
+//     line, plane     the least distance of two points along any one axis, and seen on any two
+//     efficiency      D, A and G for a polynomial model (model_efficiency.hpp), each coordinate
 //                     scaled so that its lowest and highest values in the design are -1 and 1
 //
-// and the means of all of them over random Latin hypercubes of as many points, those of the seeds 1,
-// 2, ..., so that one sees whether the design is better.
+// and the means of all of them over random Latin hypercubes of as many points, those of the seeds
+// 1, 2, ..., so that one sees whether the design is better.
 //
 // Shape   n x d, n >= 2, d <= 1000. Sums over pairs for up to 16384 points; planes for d <= 32.
 // Units   lengths of the unit cube.
-// Cost    O(n^2 d) for one set, and as much for each Latin hypercube; 0.3 s for 10 of them at n =
+// Cost    O(n^2 d) for one set, and as much for each Latin hypercube; 0.2 s for 10 of them at n =
 //         1000, d = 5 on one core.
 // Promise infinite values (points that coincide; maxpro where two share a coordinate) are left out.
 //         The same for any number of threads.

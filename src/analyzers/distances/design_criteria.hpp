@@ -27,8 +27,8 @@ struct PairCriteria {
     double maxpro = 0;
 };
 
-/// Smallest distance of two points, and the deviation of the distances to the nearest neighbours over
-/// their mean.
+/// Smallest distance of two points, and the deviation of the distances to the nearest neighbours
+/// over their mean.
 struct Separation {
     double minimum = 0;
     double variation = 0;
@@ -39,8 +39,8 @@ Separation separation_of(const PointSet& points, const RunContext& run);
 /// @param minimum the smallest distance; 0 and shared coordinates make criteria infinite
 PairCriteria pair_criteria(const PointSet& points, double p, double minimum, const RunContext& run);
 
-/// Largest absolute value of the correlations of two coordinates, and the root of their mean square.
-/// Coordinates that are constant have none; nothing where fewer than two are left.
+/// Largest absolute value of the correlations of two coordinates, and the root of their mean
+/// square. Coordinates that are constant have none; nothing where fewer than two are left.
 struct Correlation {
     AtAxes largest;
     double rms = 0;

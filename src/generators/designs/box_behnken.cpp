@@ -111,15 +111,16 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
 }  // namespace
 
 Generator unit() {
-    return {.name = "box-behnken",
-            .summary = "Box-Behnken design: three levels, for quadratic models, without corners",
-            .source = "Box, Behnken 1960, doi:10.1080/00401706.1960.10489912",
-            .related = {"doe", "experiment", "response-surface", "rsm", "bbdesign", "quadratic"},
-            .traits = {.min_dimension = 3, .max_dimension = 16, .prefix = false, .seeded = false},
-            .options = Schema(center_option, ends_option),
-            .aliases = {"bbd"},
-            .plan = plan,
-            .sequence = make};
+    return {
+        .name = "box-behnken",
+        .summary = "Three-level design for quadratic models without corners, by Box and Behnken",
+        .source = "Box, Behnken 1960, doi:10.1080/00401706.1960.10489912",
+        .related = {"doe", "experiment", "response-surface", "rsm", "bbdesign", "quadratic"},
+        .traits = {.min_dimension = 3, .max_dimension = 16, .prefix = false, .seeded = false},
+        .options = Schema(center_option, ends_option),
+        .aliases = {"bbd"},
+        .plan = plan,
+        .sequence = make};
 }
 
 }  // namespace stipple::generators::box_behnken

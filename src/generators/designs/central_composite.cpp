@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Central composite design of k factors: F = 2^k corners at (+-1, ..., +-1), or a fraction of
-// resolution V of them; 2k axial runs at distance alpha from the centre, along each axis; and runs at
-// the centre. The whole is scaled about the cube's middle 1/2, its outermost levels being where those
-// of a three-level design are (levels.hpp).
+// resolution V of them; 2k axial runs at distance alpha from the centre, along each axis; and runs
+// at the centre. The whole is scaled about the cube's middle 1/2, its outermost levels being where
+// those of a three-level design are (levels.hpp).
 //
 //     --alpha rotatable    F^(1/4): the variance of prediction depends on the distance from the
 //                          centre alone
@@ -14,8 +14,8 @@
 //            faced         alpha = 1
 //
 // Within the cube the first two have the same points. What differs is the box in which they have
-// these coded values, the provenance's coded_bounds for --bounds: that of the first is alpha times as
-// wide.
+// these coded values, the provenance's coded_bounds for --bounds: that of the first is alpha times
+// as wide.
 //
 // Shape   n = F + 2 k + --center, k from 2 to 20.
 // Promise square roots are the only operations that round; the centre is 1/2 exactly.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Full factorial design: every combination of the factors' levels once, in standard order, the first
-// factor fastest. Where levels are in the cube: levels.hpp.
+// Full factorial design: every combination of the factors' levels once, in standard order, the
+// first factor fastest. Where levels are in the cube: levels.hpp.
 //
-// Shape   n = m_1 m_2 ... m_k runs, up to 2^53. Without --levels a count is m^k, and without a count
-//         every factor has two levels.
+// Shape   n = m_1 m_2 ... m_k runs, up to 2^53. Without --levels a count is m^k, and without a
+//         count every factor has two levels.
 // Cost    O(n k).
 // Source  D. C. Montgomery, "Design and Analysis of Experiments", Wiley, chapter 5.
 
@@ -91,8 +91,7 @@ Generator unit() {
     return {.name = "factorial",
             .summary = "Full factorial design: every combination of the factors' levels",
             .source = "Montgomery, Design and Analysis of Experiments, chapter 5",
-            .related = {"doe", "experiment", "full-factorial", "expand-grid", "fullfact", "ff2n",
-                        "levels"},
+            .related = {"doe", "experiment", "expand-grid", "fullfact", "ff2n", "levels"},
             .traits = {.prefix = false, .seeded = false},
             .options = Schema(levels, ends_option),
             .aliases = {"full-factorial"},

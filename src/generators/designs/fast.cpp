@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// Design of the extended Fourier amplitude sensitivity test: for each of k factors one curve of N runs
-// j = 0, ..., N - 1 through the cube,
+// Design of the extended Fourier amplitude sensitivity test: for each of k factors one curve of N
+// runs j = 0, ..., N - 1 through the cube,
 //
 //     x_i = 1/2 + asin(sin(2 pi (w_i j / N + phi_i))) / pi,
 //
 // straight lines that are reflected at its faces. On a factor's own curve it has the frequency w =
-// floor((N - 1) / (2 M)), and the others have 1, ..., m = floor(w / (2 M)), evenly spread in order or,
-// where there are too few, in turn. The phases phi_i are random, others for each curve and factor.
+// floor((N - 1) / (2 M)), and the others have 1, ..., m = floor(w / (2 M)), evenly spread in order
+// or, where there are too few, in turn. The phases phi_i are random, others for each curve and
+// factor.
 //
 // Shape   n = N k, the curve of the first factor first; N at least 4 M^2 + 1.
-// Promise x_i is within one rounding of exact.
+// Promise x_i is within 1e-15 of exact.
 // Source  A. Saltelli, S. Tarantola, K. P.-S. Chan, Technometrics 41 (1999) 39-56,
 //         doi:10.1080/00401706.1999.10485594.
 

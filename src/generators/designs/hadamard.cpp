@@ -69,7 +69,8 @@ std::vector<bool> squares_of_prime(std::uint64_t p) {
     return square;
 }
 
-/// The sequence of Stanton and Sprott, turned so that with 36 runs it is that of Plackett and Burman.
+/// The sequence of Stanton and Sprott, turned so that with 36 runs it is that of Plackett and
+/// Burman.
 std::vector<bool> twin_sequence(std::uint64_t a) {
     const auto of_a = squares_of_prime(a);
     const auto of_b = squares_of_prime(a + 2);

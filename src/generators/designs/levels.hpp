@@ -28,7 +28,8 @@ inline constexpr Param<bool> ends_option{
     .name = "ends",
     .help =
         "Levels go from 0 to just below 1; by default they are the middles of equal cells, "
-        "which warps onto integers and categories take"};
+        "which warps onto integers and categories take. --bounds with the provenance's "
+        "coded_bounds makes them -1 to 1"};
 
 inline constexpr Param<std::int64_t> center_option{
     .name = "center",

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Morris' design for elementary effects: r trajectories of k + 1 runs, of which each differs from the
-// one before in one factor, by
+// Morris' design for elementary effects: r trajectories of k + 1 runs, of which each differs from
+// the one before in one factor, by
 //
 //     delta = p / (2 (p - 1))        of the factor's range, p / 2 of its p levels.
 //
 // Which factor moves when, from which level and in which direction is random, each equally likely.
-// Between the middles of levels, where runs are unless --ends is given (levels.hpp), that step is 1/2.
+// Between the middles of levels, where runs are unless --ends is given (levels.hpp), it is 1/2.
 //
 //     --radial   r stars in place of trajectories: a point A, then for each factor A with that
 //                coordinate from another point B; both from a Sobol' sequence, B four points ahead
@@ -138,7 +138,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
 
 Generator unit() {
     return {.name = "morris",
-            .summary = "Morris' trajectories: one factor at a time, for elementary effects",
+            .summary = "One factor at a time along random trajectories, for elementary effects",
             .source =
                 "Morris 1991, doi:10.1080/00401706.1991.10484804; Campolongo, Saltelli, Cariboni "
                 "2011, doi:10.1016/j.cpc.2010.12.039",

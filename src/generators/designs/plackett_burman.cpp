@@ -3,11 +3,11 @@
 // Plackett-Burman design: n runs of up to n - 1 factors with two levels, in which any two factors
 // have each of the four pairs of levels n / 4 times. The columns are those of a Hadamard matrix but
 // for its column of 1 (hadamard.hpp). For 12, 20, 24, 36 and 44 runs, as wherever n - 1 is a prime,
-// they are the published cyclic ones: the first row moved on by one for each next run, and a last run
-// with all factors at the low level.
+// they are the published cyclic ones: the first row moved on by one for each next run, and a last
+// run with all factors at the low level.
 //
-// Shape   n x k, k < n; n a multiple of 4 (which ones: hadamard.hpp). Without a count the fewest runs
-//         for k factors, without k as many factors as there can be.
+// Shape   n x k, k < n; n a multiple of 4 (which ones: hadamard.hpp). Without a count the fewest
+//         runs for k factors, without k as many factors as there can be.
 // Beware  main effects are aliased in part with interactions of two other factors.
 // Source  R. L. Plackett, J. P. Burman, Biometrika 33 (1946) 305-325,
 //         doi:10.1093/biomet/33.4.305.
@@ -67,16 +67,15 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
 }  // namespace
 
 Generator unit() {
-    return {
-        .name = "plackett-burman",
-        .summary = "Plackett-Burman screening design: n runs for up to n - 1 two-level factors",
-        .source = "Plackett, Burman 1946, doi:10.1093/biomet/33.4.305",
-        .related = {"doe", "experiment", "screening", "hadamard", "pbdesign", "paley", "two-level"},
-        .traits = {.max_dimension = most_hadamard - 1, .prefix = false, .seeded = false},
-        .options = Schema(ends_option),
-        .aliases = {"pbdesign"},
-        .plan = plan,
-        .sequence = make};
+    return {.name = "plackett-burman",
+            .summary = "Screening design: n runs for up to n - 1 two-level factors",
+            .source = "Plackett, Burman 1946, doi:10.1093/biomet/33.4.305",
+            .related = {"doe", "experiment", "screening", "hadamard", "paley", "two-level"},
+            .traits = {.max_dimension = most_hadamard - 1, .prefix = false, .seeded = false},
+            .options = Schema(ends_option),
+            .aliases = {"pbdesign"},
+            .plan = plan,
+            .sequence = make};
 }
 
 }  // namespace stipple::generators::plackett_burman

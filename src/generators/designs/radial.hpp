@@ -2,8 +2,8 @@
 //
 // Radial designs: for each i the runs in which coordinates of one point A_i of the unit cube are
 // replaced by those of another one, B_i. Both are halves of points of one sequence in twice as many
-// dimensions: A_i of point i, B_i of point i + ahead. As of every sequence that is allowed there, any
-// beginning may be taken, so that more runs reuse all there were.
+// dimensions: A_i of point i, B_i of point i + ahead. As of every sequence that is allowed there,
+// any beginning may be taken, so that more runs reuse all there were.
 #pragma once
 
 #include <cstddef>

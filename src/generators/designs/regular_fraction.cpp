@@ -126,7 +126,7 @@ class AberrationSearch {
         const WordLengths& words = counts_.words();
         for (std::size_t t = 1; t < words.size(); ++t) {
             if (t < resolution_ && words[t] > 0) return false;
-            if (best_ && words[t] != least_[t]) return words[t] < least_[t];
+            if (best_ && t <= factors_ && words[t] != least_[t]) return words[t] < least_[t];
         }
         return true;
     }
@@ -168,6 +168,7 @@ class AberrationSearch {
 
 /// Whether so many runs are enough by the bound of Rao for the resolution.
 bool may_exist(std::size_t factors, std::size_t basic, std::size_t resolution) {
+    if (basic < 2) return false;
     const bool even = resolution % 2 == 0;
     const std::size_t k = factors - (even ? 1 : 0);
     std::uint64_t least = 0;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Regular two-level fractions 2^(k-p): r = k - p basic factors take all combinations of their levels,
-// and every other one is a product of some of them, its column. A set of factors whose columns have
-// the product 1 is a word of the defining relation; the shortest word's length is the resolution.
+// Regular two-level fractions 2^(k-p): r = k - p basic factors take all combinations of their
+// levels, and every other one is a product of some of them, its column. A set of factors whose
+// columns have the product 1 is a word of the defining relation; the shortest word's length is the
+// resolution.
 //
 //     A_t = number of words of length t        the word length pattern
 //

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Saltelli's design for Sobol' indices of k factors. For each base row i, with two independent points
-// A_i and B_i of the cube, the runs are, in this order (as of SALib),
+// Saltelli's design for Sobol' indices of k factors. For each base row i, with two independent
+// points A_i and B_i of the cube, the runs are, in this order (as of SALib),
 //
 //     A_i,  AB_i1, ..., AB_ik,  [BA_i1, ..., BA_ik,]  B_i
 //
@@ -69,7 +69,8 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
 Generator unit() {
     return {
         .name = "saltelli",
-        .summary = "Saltelli's design: runs from which Sobol' sensitivity indices are estimated",
+        .summary =
+            "Runs from which Sobol' sensitivity indices are estimated, as Saltelli arranged them",
         .source = "Saltelli et al. 2010, doi:10.1016/j.cpc.2009.09.018",
         .related = {"sensitivity", "sobol-indices", "gsa", "salib", "total-effects",
                     "variance-based"},

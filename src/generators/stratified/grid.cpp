@@ -61,7 +61,7 @@ Generator unit() {
     return {.name = "grid",
             .summary = "Regular grid of k^d points, or of any shape",
             .source = "Standard construction",
-            .related = {"factorial", "full-factorial", "uniform-grid"},
+            .related = {"uniform-grid"},
             .traits = {.prefix = false, .seeded = false},
             .options = Schema(shape, cell),
             .aliases = {"regular", "regular-grid"},

@@ -111,8 +111,8 @@ TEST(Design, OrthogonalDesignsHaveEfficiencyOne) {
             EXPECT_NEAR(report.number(key), 1, 1e-12) << key;
 }
 
-// 3^2 runs for 6 terms, by hand: det = 6 6 4 36 = 5184; trace of the inverse 1/6 + 1/6 + 1/4 + 14/9;
-// the variance is largest at the corners, 1/6 + 1/6 + 1/4 + 2/9 = 29/36.
+// 3^2 runs for 6 terms, by hand: det = 6 6 4 36 = 5184; trace of the inverse 1/6 + 1/6 + 1/4 +
+// 14/9; the variance is largest at the corners, 1/6 + 1/6 + 1/4 + 2/9 = 29/36.
 TEST(Design, QuadraticEfficiencyOfThreeSquaredByHand) {
     const Report report = efficiency("factorial", {}, {{"levels", "3"}}, "quadratic");
     EXPECT_EQ(report.number("terms"), 6);

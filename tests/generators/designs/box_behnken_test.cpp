@@ -24,7 +24,8 @@ TEST(BoxBehnken, RunsAreThoseOfThePublishedDesigns) {
         EXPECT_EQ(make("box-behnken", {.dimension = k}, {{"center", "0"}}).count(), n) << k;
 }
 
-// Factors are uncorrelated, take part equally often, and no run comes twice but where blocks do (9).
+// Factors are uncorrelated, take part equally often, and no run comes twice but where blocks do
+// (9).
 TEST(BoxBehnken, IsOrthogonalToFirstOrder) {
     for (const std::size_t k : {3, 4, 5, 6, 7, 9, 10, 11, 12, 16}) {
         const PointSet set = coded_design("box-behnken", {.dimension = k}, {{"center", "0"}});

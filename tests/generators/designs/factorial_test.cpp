@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "stipple/warp.hpp"
 #include "support/designs.hpp"
 #include "support/sequences.hpp"
 

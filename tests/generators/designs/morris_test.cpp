@@ -58,9 +58,9 @@ TEST(Morris, LevelsAreTheMiddlesOfEqualCells) {
     }
 }
 
-// Start levels, directions and the order of factors are each equally likely. With p = 4, k = 2 there
-// are 2^2 lower levels, 2^2 directions and 2 orders: 32 kinds of trajectory, chi-square of 31 degrees
-// of freedom; 95 is exceeded with probability 2e-8.
+// Start levels, directions and the order of factors are each equally likely. With p = 4, k = 2
+// there are 2^2 lower levels, 2^2 directions and 2 orders: 32 kinds of trajectory, chi-square of 31
+// degrees of freedom; 95 is exceeded with probability 2e-8.
 TEST(Morris, AllTrajectoriesAreEquallyLikely) {
     const std::size_t r = 32000;
     const PointSet set = make("morris", points(3 * r, 2));

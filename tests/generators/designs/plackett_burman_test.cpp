@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <bitset>
+
 #include "generators/designs/hadamard.hpp"
 #include "support/designs.hpp"
 #include "support/sequences.hpp"
@@ -35,16 +37,14 @@ TEST(PlackettBurman, MatricesAreHadamards) {
             continue;
         }
         const generators::Hadamard matrix(n);
-        std::vector<std::vector<bool>> rows(n, std::vector<bool>(n));
+        std::vector<std::bitset<400>> rows(n);
         for (std::uint64_t i = 0; i < n; ++i)
             for (std::uint64_t k = 0; k < n; ++k) rows[i][k] = matrix.positive(i, k);
         for (std::uint64_t i = 0; i < n; ++i) {
             ASSERT_TRUE(rows[i][0]) << n;
-            for (std::uint64_t j = 0; j < i; ++j) {
-                std::uint64_t equal = 0;
-                for (std::uint64_t k = 0; k < n; ++k) equal += rows[i][k] == rows[j][k];
-                ASSERT_EQ(2 * equal, n) << matrix.construction() << " rows " << i << " " << j;
-            }
+            for (std::uint64_t j = 0; j < i; ++j)
+                ASSERT_EQ(2 * (rows[i] ^ rows[j]).count(), n)
+                    << matrix.construction() << " rows " << i << " " << j;
         }
     }
     missing.resize(std::min<std::size_t>(missing.size(), 6));
