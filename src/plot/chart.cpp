@@ -282,18 +282,16 @@ void draw_series(Drawing& drawing, const Panel& panel, const Series& series, Col
 void draw_columns(Drawing& drawing, const Panel& panel, const ChartPanel& content, std::size_t i,
                   const Theme& theme) {
     const Series& series = content.series[i];
-    const auto several = static_cast<double>(content.series.size());
-    const double width = 0.8 / several;
     for (std::size_t c = 0; c < series.x.size(); ++c) {
         if (!std::isfinite(series.y[c])) continue;
-        const double middle = series.x[c] + width * (static_cast<double>(i) - (several - 1) / 2);
-        const double left = panel.x(middle - 0.45 * width);
-        const double right = panel.x(middle + 0.45 * width);
-        const auto [top, bottom] = std::minmax(panel.y(0), panel.y(series.y[c]));
+        const auto edges = bar_edges(content, i, series.x[c]);
+        const double left = panel.x(edges.first);
+        const double right = panel.x(edges.second);
+        const auto [top, bottom] = std::minmax({panel.y(0), panel.y(series.y[c])});
         drawing.rectangle({left, top, right - left, bottom - top},
                           theme.series_colour(colour_of(content, i)));
         if (series.low.empty() || !std::isfinite(series.low[c])) continue;
-        const double x = panel.x(middle);
+        const double x = (left + right) / 2;
         const double cap = std::min(4.0, (right - left) / 3);
         for (const double end : {panel.y(series.low[c]), panel.y(series.high[c])})
             drawing.add(Line{.vertices = {{x - cap, end}, {x + cap, end}}, .colour = theme.ink});
@@ -383,6 +381,13 @@ std::string words_of(std::string name) {
     std::ranges::replace(name, '-', ' ');
     std::ranges::replace(name, '.', ' ');
     return name;
+}
+
+std::pair<double, double> bar_edges(const ChartPanel& panel, std::size_t series, double x) {
+    const auto several = static_cast<double>(panel.series.size());
+    const double width = 0.8 / several;
+    const double middle = x + width * (static_cast<double>(series) - (several - 1) / 2);
+    return {middle - 0.45 * width, middle + 0.45 * width};
 }
 
 std::vector<Guide> falling_guides(const Series& series) {

@@ -85,6 +85,9 @@ struct Chart {
     bool own_x = false;  ///< each panel has its own x axis
 };
 
+/// Where the bar of a series begins and ends along x, in the category at x.
+std::pair<double, double> bar_edges(const ChartPanel& panel, std::size_t series, double x);
+
 /// @throws Error(usage) where the height asked for is less than what a picture needs
 void require_height(const PictureStyle& style, double needed);
 

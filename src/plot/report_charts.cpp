@@ -9,6 +9,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "core/error.hpp"
@@ -429,6 +430,32 @@ void add_bars(std::vector<ChartPanel>& panels, const std::string& output, const 
     }
 }
 
+/// Leaves the categories in which the last series is largest, in their order, and says so.
+void keep_largest(ChartPanel& panel) {
+    constexpr std::size_t most = 16;
+    const std::size_t all = panel.categories.size();
+    if (all <= most) return;
+    std::vector<std::size_t> order(all);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const Curve& sizes = panel.series.back().y;
+    std::ranges::stable_sort(order, std::greater(),
+                             [&](std::size_t c) { return std::abs(sizes[c]); });
+    order.resize(most);
+    std::ranges::sort(order);
+    const auto picked = [&](const auto& from) {
+        auto kept = from;
+        kept.clear();
+        for (const std::size_t c : order) kept.push_back(from[c]);
+        return kept;
+    };
+    for (Series& series : panel.series) {
+        series.x.resize(most);  // 1, 2, ...
+        for (Curve* values : {&series.y, &series.low, &series.high}) *values = picked(*values);
+    }
+    panel.categories = picked(panel.categories);
+    panel.x_name = fmt::format("the largest {} of {}", most, all);
+}
+
 /// The indices of inputs, and of pairs of them, output by output. The key picks an output, a kind of
 /// index, or both: "y", "total", "y.total".
 Chart indices_chart(Measurements ms, const std::string& key) {
@@ -447,6 +474,7 @@ Chart indices_chart(Measurements ms, const std::string& key) {
                 add_bars(panels, output, entry.name, *own, kind);
         for (ChartPanel& panel : panels) {
             if (panel.series.size() == 1) panel.y_name += ", " + panel.series[0].name;
+            keep_largest(panel);
             if (chart.panels.size() < most_panels) chart.panels.push_back(std::move(panel));
         }
     }

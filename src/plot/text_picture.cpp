@@ -107,14 +107,15 @@ std::string space_as_text(const PointsPicture& picture, const TextRoom& room) {
                          .coloured = room.coloured});
 }
 
-void draw_bars(DotMatrix& dots, const Bars& bars, const Axis& x, const Axis& y) {
+/// @param base where they begin, as a share of the height
+void draw_bars(DotMatrix& dots, const Bars& bars, const Axis& x, const Axis& y, double base = 0) {
     for (std::size_t i = 0; i < bars.heights.size(); ++i) {
         const double top = y.share(bars.heights[i]);
         const double left = x.share(bars.edges[i]);
         const double right = x.share(bars.edges[i + 1]);
         const double step = 1 / static_cast<double>(dots.width());
-        if (!(bars.heights[i] > 0)) continue;
-        for (double at = left + step / 2; at < right; at += step) dots.draw(at, 0, at, top);
+        if (!(bars.heights[i] > 0) && base == 0) continue;
+        for (double at = left + step / 2; at < right; at += step) dots.draw(at, base, at, top);
     }
 }
 
@@ -152,6 +153,17 @@ void draw_curve(DotMatrix& dots, const Series& series, const Axis& x, const Axis
             dots.draw(x.share(series.x[i - 1]), y.share(series.y[i - 1]), right, up);
         else
             dots.set(right, up);
+    }
+}
+
+/// The bars of series i of a panel with categories.
+void draw_columns(DotMatrix& dots, const ChartPanel& panel, std::size_t i, const Axis& x,
+                  const Axis& y) {
+    const Series& series = panel.series[i];
+    for (std::size_t c = 0; c < series.x.size(); ++c) {
+        const auto [left, right] = bar_edges(panel, i, series.x[c]);
+        const Bars bar{.edges = {left, right}, .heights = {series.y[c]}};
+        if (std::isfinite(series.y[c])) draw_bars(dots, bar, x, y, y.share(0));
     }
 }
 
@@ -193,6 +205,10 @@ std::string panel_as_text(const Chart& chart, std::size_t number, const PictureS
                     .high_y = upper_end(chart, number, style),
                     .name_y = panel.y_name + scale(y),
                     .coloured = room.coloured};
+    if (!panel.categories.empty()) {
+        frame.low_x = frame.high_x = "";
+        frame.name_x = printable(join(panel.categories, ", "));
+    }
     frame.high_y.insert(0, side - std::min(side, code_points(frame.high_y).size()), ' ');
     const bool several = panel.series.size() > 1;
     const std::size_t letters = several ? std::min<std::size_t>(1 + panel.series.size(), 5) : 0;
@@ -204,9 +220,12 @@ std::string panel_as_text(const Chart& chart, std::size_t number, const PictureS
         dots.take_pen(pen++);
         draw_bars(dots, bars, x, y);
     }
-    for (const Series& series : panel.series) {
+    for (std::size_t i = 0; i < panel.series.size(); ++i) {
         dots.take_pen(pen++);
-        draw_curve(dots, series, x, y);
+        if (panel.categories.empty())
+            draw_curve(dots, panel.series[i], x, y);
+        else
+            draw_columns(dots, panel, i, x, y);
     }
     if (several) frame.beside = ends_of(panel, dots, y, room.coloured);
     return framed(dots, frame);

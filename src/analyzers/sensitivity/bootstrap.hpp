@@ -33,4 +33,11 @@ std::vector<Index> bootstrapped(const TermTable& table, std::size_t count,
                                 const Statistics& statistics, const Setting& setting,
                                 const RunContext& run);
 
+/// `count` of them from `first` on.
+inline std::vector<Index> part_of(std::span<const Index> all, std::size_t first,
+                                  std::size_t count) {
+    const auto part = all.subspan(first, count);
+    return {part.begin(), part.end()};
+}
+
 }  // namespace stipple::analyzers::sensitivity

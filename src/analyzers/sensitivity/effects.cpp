@@ -104,18 +104,24 @@ void put_ranks(const PointSet& values, std::size_t j, std::span<double> u) {
 UnitInputs unit_inputs(const Inputs& inputs, bool ranks) {
     const auto flat = inputs.values.flat();
     const std::size_t k = inputs.size();
-    UnitInputs out{.u = {flat.begin(), flat.end()}, .scale = "ranks"};
+    UnitInputs out{.u = {flat.begin(), flat.end()}, .scale = "range"};
     const auto known = box_of(inputs);
-    if (!known && ranks) {
-        for (std::size_t j = 0; j < k; ++j) put_ranks(inputs.values, j, out.u);
-        return out;
+    if (known || !ranks) {
+        const Box box = known ? *known : bounding_box(flat, k);
+        const bool cube = known && !inputs.values.provenance.domain.starts_with("box");
+        if (known) out.scale = cube ? "cube" : "box";
+        for (std::size_t i = 0; i < out.u.size() && !cube; ++i)
+            out.u[i] =
+                box.extent(i % k) > 0 ? (out.u[i] - box.low[i % k]) / box.extent(i % k) : 0.5;
     }
-    const Box box = known ? *known : bounding_box(flat, k);
-    const bool cube = known && !inputs.values.provenance.domain.starts_with("box");
-    out.scale = cube ? "cube" : known ? "box" : "range";
-    for (std::size_t i = 0; i < out.u.size() && !cube; ++i)
-        out.u[i] = box.extent(i % k) > 0 ? (out.u[i] - box.low[i % k]) / box.extent(i % k) : 0.5;
-    return out;
+    if (!ranks) return out;
+    std::vector<double> ranked(out.u.size());
+    for (std::size_t j = 0; j < k; ++j) put_ranks(inputs.values, j, ranked);
+    constexpr double critical = 1.63;  // of Kolmogorov and Smirnov's statistic, at 1 %
+    const double most = critical / std::sqrt(static_cast<double>(inputs.runs()));
+    const bool uniform = std::ranges::equal(
+        out.u, ranked, [most](double u, double rank) { return std::abs(u - rank) <= most; });
+    return known && uniform ? out : UnitInputs{.u = std::move(ranked), .scale = "ranks"};
 }
 
 }  // namespace stipple::analyzers::sensitivity

@@ -111,7 +111,8 @@ struct UnitInputs {
 };
 
 /// Of the unit cube as they are; of the box that the provenance names, scaled; else scaled by their
-/// range, or with `ranks` replaced by the ranks of their values, ties by the mean of theirs.
+/// range. With `ranks`, inputs of no known box, or not uniform there, are replaced by the ranks of
+/// their values, equal ones by the mean of theirs.
 UnitInputs unit_inputs(const Inputs& inputs, bool ranks);
 
 }  // namespace stipple::analyzers::sensitivity

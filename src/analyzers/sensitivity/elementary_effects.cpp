@@ -84,13 +84,11 @@ Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Res
             }
         },
         setting, run);
-    const auto part = [&](std::size_t first) {
-        const auto from = found.begin() + static_cast<std::ptrdiff_t>(first);
-        return std::vector(from, from + static_cast<std::ptrdiff_t>(k));
-    };
     Effects effects{.used = trajectories.size() * layout.group,
                     .samples = trajectories.size(),
-                    .kinds = {{"mu", part(0)}, {"mu_star", part(k)}, {"sigma", part(2 * k)}}};
+                    .kinds = {{"mu", part_of(found, 0, k)},
+                              {"mu_star", part_of(found, k, k)},
+                              {"sigma", part_of(found, 2 * k, k)}}};
     effects.details.add("scale", unit.scale);
     return effects;
 }

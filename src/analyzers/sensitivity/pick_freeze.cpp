@@ -2,7 +2,7 @@
 #include "analyzers/sensitivity/pick_freeze.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -51,13 +51,25 @@ void append_terms(std::span<const double> f, std::size_t k, std::vector<double>&
         for (std::size_t j = i + 1; j < k; ++j) terms.push_back(ba[i] * ab[j] - a * b);
 }
 
-/// Indices from the means of such terms, in their order.
-void indices_of(std::span<const double> means, std::size_t k, std::span<double> indices) {
+/// Mean, variance and indices from the means of such terms, in their order.
+void indices_of(std::span<const double> means, std::size_t k, std::span<double> values) {
     const double variance = means[1] - means[0] * means[0];
-    for (std::size_t t = 0; t < indices.size(); ++t) indices[t] = means[t + 2] / variance;
-    std::size_t pair = 2 * k;
-    for (std::size_t i = 0; pair < indices.size(); ++i)
-        for (std::size_t j = i + 1; j < k; ++j) indices[pair++] -= indices[i] + indices[j];
+    values[0] = means[0];
+    values[1] = variance;
+    for (std::size_t t = 2; t < values.size(); ++t) values[t] = means[t] / variance;
+    std::size_t pair = 2 + 2 * k;
+    for (std::size_t i = 0; pair < values.size(); ++i)
+        for (std::size_t j = i + 1; j < k; ++j) values[pair++] -= values[2 + i] + values[2 + j];
+}
+
+/// The outputs of those groups, one behind the other.
+std::vector<double> joined(std::span<const double> y, std::size_t group,
+                           std::span<const std::size_t> groups) {
+    std::vector<double> all;
+    all.reserve(groups.size() * group);
+    for (const std::size_t g : groups)
+        std::ranges::copy(y.subspan(g * group, group), std::back_inserter(all));
+    return all;
 }
 
 }  // namespace
@@ -83,42 +95,28 @@ Effects pick_freeze(const Layout& layout, const Inputs& inputs, const Response& 
                     const Setting& setting, const RunContext& run) {
     const std::size_t k = inputs.size();
     const std::size_t group = layout.group;
-    std::vector<double> y;
     const auto complete = complete_groups(response.y, group);
-    for (const std::size_t g : complete)
-        y.insert(y.end(), response.y.begin() + static_cast<std::ptrdiff_t>(g * group),
-                 response.y.begin() + static_cast<std::ptrdiff_t>((g + 1) * group));
     if (complete.size() < 2)
         fail(ErrorKind::input, "the output {} has {} base rows without failed runs; two are needed",
              response.name, complete.size());
-    const Centred f = centred(y, response.name);
+    const Centred f = centred(joined(response.y, group, complete), response.name);
 
     const std::size_t pairs = group == k + 2 ? 0 : k * (k - 1) / 2;
     TermTable table{.terms = {}, .width = 2 + 2 * k + pairs};
     run.need_memory(8.0 * static_cast<double>(complete.size() * table.width), "the bootstrap");
-    for (std::size_t at = 0; at < y.size(); at += group)
+    for (std::size_t at = 0; at < f.z.size(); at += group)
         append_terms(std::span(f.z).subspan(at, group), k, table.terms);
     const auto found = bootstrapped(
-        table, table.width - 2, [k](auto means, auto values) { indices_of(means, k, values); },
-        setting, run);
-
-    double mean = 0;
-    double square = 0;
-    for (std::size_t at = 0; at < table.terms.size(); at += table.width) {
-        mean += table.terms[at] / static_cast<double>(complete.size());
-        square += table.terms[at + 1] / static_cast<double>(complete.size());
-    }
-    const auto part = [&](std::size_t first) {
-        const auto from = found.begin() + static_cast<std::ptrdiff_t>(first);
-        return std::vector(from, from + static_cast<std::ptrdiff_t>(k));
-    };
-    Effects effects{.used = y.size(),
-                    .samples = complete.size(),
-                    .mean = f.mean + f.unit * mean,
-                    .variance = f.unit * f.unit * (square - mean * mean),
-                    .kinds = {{"first", part(0)}, {"total", part(k)}}};
-    std::size_t at = 2 * k;
-    for (std::size_t i = 0; i < k && pairs > 0; ++i)
+        table, table.width, [k](auto means, auto values) { indices_of(means, k, values); }, setting,
+        run);
+    Effects effects{
+        .used = f.z.size(),
+        .samples = complete.size(),
+        .mean = f.mean + f.unit * found[0].value,
+        .variance = f.unit * f.unit * found[1].value,
+        .kinds = {{"first", part_of(found, 2, k)}, {"total", part_of(found, 2 + k, k)}}};
+    std::size_t at = 2 + 2 * k;
+    for (std::size_t i = 0; at < found.size(); ++i)
         for (std::size_t j = i + 1; j < k; ++j) effects.pairs.push_back({i, j, found[at++]});
     return effects;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "analyzers/sensitivity/legendre_basis.hpp"
@@ -90,50 +91,60 @@ class Shares {
     std::vector<std::size_t> places_;
 };
 
-/// The jackknife's standard errors: the fit without run i has the coefficients
-/// c - (Gram matrix)^-1 psi_i e_i / (1 - h_i).
+/// The coefficients c of the fit without run i: c - (Gram matrix)^-1 psi_i e_i / (1 - h_i).
+void put_without(std::size_t i, const SparseFit& fit, double residual, std::vector<double>& c) {
+    double leverage = 0;
+    for (const auto& q : fit.q) leverage += q[i] * q[i];
+    const double error = residual / std::max(1 - leverage, 1e-12);
+    for (std::size_t s = 1; s < fit.q.size(); ++s)
+        for (std::size_t row = 1; row <= s; ++row)
+            c[row - 1] -= fit.back[s][row] * fit.q[s][i] * error;
+}
+
+/// The jackknife's standard errors.
 std::vector<double> jackknife(const SparseFit& fit, const Shares& shares,
                               std::span<const double> indices, std::span<const double> z,
                               const RunContext& run) {
-    const std::size_t n = z.size();
-    const std::size_t terms = fit.q.size();
     const auto all = fit.coefficients();
     const auto residual = fit.residual(z);
-    constexpr std::size_t size = 256;
-    std::vector<std::vector<double>> sums(block_count(n, size));  // of differences, then squares
-    for_each_block(silent(run), n, size, [&](const Block& block) {
-        auto& sum = sums[block.index];
-        sum.assign(2 * indices.size(), 0.0);
-        std::vector<double> c(all.size());
-        std::vector<double> without(indices.size());
+    const std::size_t size = indices.size();
+    constexpr std::size_t rows = 256;
+    std::vector<std::vector<double>> sums(block_count(z.size(), rows));
+    for_each_block(silent(run), z.size(), rows, [&](const Block& block) {
+        auto& sum = sums[block.index];  // of differences, then of their squares
+        sum.assign(2 * size, 0.0);
+        std::vector<double> without(size);
         for (std::uint64_t i = block.first; i < block.last; ++i) {
-            double leverage = 0;
-            for (const auto& q : fit.q) leverage += q[i] * q[i];
-            const double error = residual[i] / std::max(1 - leverage, 1e-12);
-            c = all;
-            for (std::size_t s = 1; s < terms; ++s)
-                for (std::size_t row = 1; row <= s; ++row)
-                    c[row - 1] -= fit.back[s][row] * fit.q[s][i] * error;
+            std::vector<double> c = all;
+            put_without(i, fit, residual[i], c);
             shares.put(c, without);
-            for (std::size_t v = 0; v < without.size(); ++v) {
+            for (std::size_t v = 0; v < size; ++v) {
                 const double difference = without[v] - indices[v];
                 sum[v] += difference;
-                sum[indices.size() + v] += difference * difference;
+                sum[size + v] += difference * difference;
             }
         }
     });
-    std::vector<double> errors(indices.size());
-    const auto count = static_cast<double>(n);
-    for (std::size_t v = 0; v < errors.size(); ++v) {
-        double sum = 0;
-        double squares = 0;
-        for (const auto& part : sums) {
-            sum += part[v];
-            squares += part[indices.size() + v];
-        }
-        errors[v] = std::sqrt(std::max(squares - sum * sum / count, 0.0) * (count - 1) / count);
-    }
+    std::vector<double> total(2 * size, 0.0);
+    for (const auto& sum : sums)
+        for (std::size_t v = 0; v < total.size(); ++v) total[v] += sum[v];
+    const auto n = static_cast<double>(z.size());
+    std::vector<double> errors(size);
+    for (std::size_t v = 0; v < size; ++v)
+        errors[v] =
+            std::sqrt(std::max(total[size + v] - total[v] * total[v] / n, 0.0) * (n - 1) / n);
     return errors;
+}
+
+/// The inputs of those runs in [0, 1], run after run, and where they are from.
+UnitInputs unit_inputs_of(const Inputs& inputs, std::span<const std::size_t> runs) {
+    const UnitInputs all = unit_inputs(inputs, true);
+    UnitInputs some{.u = {}, .scale = all.scale};
+    const std::size_t k = inputs.size();
+    some.u.reserve(runs.size() * k);
+    for (const std::size_t i : runs)
+        std::ranges::copy(std::span(all.u).subspan(i * k, k), std::back_inserter(some.u));
+    return some;
 }
 
 }  // namespace
@@ -147,12 +158,8 @@ std::optional<Effects> polynomial_chaos(const Inputs& inputs, const Response& re
         fail(ErrorKind::input, "the output {} has {} runs; polynomial chaos needs {}",
              response.name, runs.size(), least);
     const Centred f = centred(picked(response.y, runs), response.name);
-    const UnitInputs unit = unit_inputs(inputs, true);
-    std::vector<double> u;
-    u.reserve(runs.size() * k);
-    for (const std::size_t i : runs)
-        for (std::size_t j = 0; j < k; ++j) u.push_back(unit.u[i * k + j]);
-    const Expansion best = best_expansion(u, k, f.z, setting.degree, run.stage(0, 0.9));
+    const UnitInputs unit = unit_inputs_of(inputs, runs);
+    const Expansion best = best_expansion(unit.u, k, f.z, setting.degree, run.stage(0, 0.9));
     if (best.terms.empty()) return std::nullopt;
 
     const Shares shares(best.terms, k);

@@ -16,12 +16,12 @@ struct Ordered {
     double z;
 };
 
-/// Sums over a window: of products of different runs, over its size less 1; of squares; and what the
-/// variance of the first is where all windows have the mean 0.
+/// Sums over neighbors in the order of an input.
 struct Window {
-    double products = 0;
+    double size = 0;
+    double mean = 0;
     double squares = 0;
-    double null_variance = 0;
+    double variance = 0;  ///< of one run, unbiased
 };
 
 /// Windows of at least `least` runs, two or more, none of which parts equal inputs.
@@ -38,33 +38,50 @@ std::vector<Window> windows_of(std::span<const Ordered> runs, std::size_t least)
             total += runs[last].z;
             window.squares += runs[last].z * runs[last].z;
         }
-        const auto size = static_cast<double>(last - first);
-        window.products = (total * total - window.squares) / (size - 1);
-        const double variance = (window.squares - total * total / size) / (size - 1);
-        window.null_variance = 2 * size / (size - 1) * variance * variance;
+        window.size = static_cast<double>(last - first);
+        window.mean = total / window.size;
+        window.variance = (window.squares - total * window.mean) / (window.size - 1);
         windows.push_back(window);
     }
     return windows;
 }
 
+/// The part of sum n_g mean_g^2 that is chance: as of independent runs, or as the second differences
+/// of the means show, if that is less.
+double chance_of(std::span<const Window> windows) {
+    double independent = 0;
+    for (const Window& window : windows) independent += window.variance;
+    if (windows.size() < 3) return independent;
+    double seen = 0;
+    for (std::size_t g = 1; g + 1 < windows.size(); ++g) {
+        const double bend = windows[g - 1].mean - 2 * windows[g].mean + windows[g + 1].mean;
+        seen += windows[g].size * bend * bend / 6;
+    }
+    const auto all = static_cast<double>(windows.size());
+    return std::min(independent, seen * all / (all - 2));
+}
+
 Index index_of(std::span<const Ordered> runs, double variance, double level) {
     const auto least = static_cast<std::size_t>(std::sqrt(static_cast<double>(runs.size())));
     const auto windows = windows_of(runs, least);
+    const auto count = static_cast<double>(windows.size());
     const double whole = variance * static_cast<double>(runs.size());
+    const double chance = chance_of(windows);
     double sum = 0;
-    for (const Window& window : windows) sum += window.products;
-    const double index = sum / whole;
+    for (const Window& window : windows) sum += window.size * window.mean * window.mean;
+    const double index = (sum - chance) / whole;
     double squares = 0;
     double before = 0;
-    double null_variance = 0;
-    const double mean_size = static_cast<double>(runs.size()) / static_cast<double>(windows.size());
+    double of_none = 0;
+    const double mean_size = static_cast<double>(runs.size()) / count;
     for (const Window& window : windows) {
-        const double w = window.products - index * window.squares;
+        const double w =
+            window.size * window.mean * window.mean - chance / count - index * window.squares;
         squares += w * w - (1 - 1 / mean_size) * w * before;
         before = w;
-        null_variance += window.null_variance;
+        of_none += 2 * window.size / (window.size - 1) * window.variance * window.variance;
     }
-    return normal_interval(index, std::sqrt(std::max(squares, null_variance)) / whole, level);
+    return normal_interval(index, std::sqrt(std::max(squares, of_none)) / whole, level);
 }
 
 }  // namespace

@@ -281,9 +281,8 @@ Analyzer unit() {
              {"OUTPUT.samples",
               "independent samples among them: base rows (saltelli), trajectories (morris), points "
               "of a curve (fast), else runs"},
-             {"OUTPUT.mean", "mean of the output; not of morris", true},
-             {"OUTPUT.variance", "its variance, of which the indices are shares; not of morris",
-              true},
+             {"OUTPUT.mean", "mean of the output; not of morris"},
+             {"OUTPUT.variance", "its variance, of which the indices are shares; not of morris"},
              {"OUTPUT.q2",
               "of chaos: share of the variance that the polynomial predicts of runs it has not "
               "seen (leave-one-out)",

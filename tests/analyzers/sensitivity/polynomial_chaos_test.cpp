@@ -159,6 +159,11 @@ TEST(PolynomialChaos, RanksInputsOfUnknownDistributions) {
     EXPECT_EQ(ranked.text("x4.scale"), "ranks");
     for (const char* key : {"x4.x1.first", "x4.x2.total", "x4.x3.total"})
         EXPECT_NEAR(ranked.number(key), uniform.number(key), 0.01) << key;
+    // Numbers in [0, 1] need not be uniform there.
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        for (std::size_t j = 0; j < 3; ++j) plain[i][j] = 0.3 + 0.5 * rows[i][j];
+    EXPECT_EQ(chaos(plain).text("x4.scale"), "ranks");
+    EXPECT_EQ(chaos(plain).number("x4.x1.first"), ranked.number("x4.x1.first"));
 }
 
 TEST(PolynomialChaos, LeavesOutFailedRunsAndIsTheSameForAnyNumberOfThreads) {
