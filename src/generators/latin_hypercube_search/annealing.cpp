@@ -93,8 +93,10 @@ void Exchanges::shuffle(SplitMix64& draws, std::size_t times) {
         wrong -= static_cast<std::size_t>(before - after);
     }
     if (wrong > 0)
-        fail(ErrorKind::limit, "latin-hypercube: no design found that is feasible; {} of {} points "
-             "are not", wrong, design_.points);
+        fail(ErrorKind::limit,
+             "latin-hypercube: no design found that is feasible; {} of {} points "
+             "are not",
+             wrong, design_.points);
     for (std::size_t i = 0; i < all; ++i)
         if (draw(draws, one) && infeasible(one) == 0) make(one);
 }
@@ -134,9 +136,8 @@ void Annealing::note() {
 bool Annealing::accepts(double change) {
     if (change <= 0) return true;
     constexpr double never = 40;
-    const bool accepted =
-        change < never * temperature_ &&
-        to_unit(draws_.next()) < exponential(-change / temperature_);
+    const bool accepted = change < never * temperature_ &&
+                          to_unit(draws_.next()) < exponential(-change / temperature_);
     temperature_ *= accepted ? 1 - gain : 1 + gain * share_;
     return accepted;
 }

@@ -57,9 +57,10 @@ class Exchanges {
 
     Design design_;
     const Rules& rules_;
-    std::vector<std::uint32_t> group_;   ///< of each row; empty: one for all
-    std::vector<std::uint32_t> row_at_;  ///< of each level, coordinate after coordinate; with groups
-    std::vector<Level> row_;             ///< that is tried
+    std::vector<std::uint32_t> group_;  ///< of each row; empty: one for all
+    std::vector<std::uint32_t>
+        row_at_;              ///< of each level, coordinate after coordinate; with groups
+    std::vector<Level> row_;  ///< that is tried
 };
 
 class Annealing {

@@ -62,8 +62,7 @@ std::vector<std::size_t> middle_of(const std::vector<std::size_t>& x, std::size_
     for (std::size_t i = 0; i < size; ++i)
         for (std::size_t k = 0; k < dimension; ++k) {
             const auto twice = static_cast<double>(2 * x[i * dimension + k]);
-            off[i] = std::max(off[i],
-                              weights[k] * std::abs(twice - static_cast<double>(size - 1)));
+            off[i] = std::max(off[i], weights[k] * std::abs(twice - static_cast<double>(size - 1)));
         }
     std::vector<std::size_t> order(size);
     std::iota(order.begin(), order.end(), std::size_t{0});

@@ -18,7 +18,7 @@ namespace {
 /// Annealings side by side.
 struct Round {
     std::size_t annealings;
-    double share;  ///< of the budget, of each of them
+    double share;    ///< of the budget, of each of them
     bool from_best;  ///< every other one starts from one of the best so far
 };
 
@@ -102,9 +102,10 @@ class Rounds {
     }
 
     void report(const std::vector<std::optional<Annealing>>& all) {
-        const Score now = std::ranges::min_element(all, {}, [](const auto& one) {
-                              return one->score();
-                          })->value().score();
+        const Score now =
+            std::ranges::min_element(all, {}, [](const auto& one) { return one->score(); })
+                ->value()
+                .score();
         const Score least = best_.empty() ? now : std::min(now, best_.front().score);
         const Design& design = search_.start;
         const auto shown = [&](const Score& score) {
