@@ -122,11 +122,18 @@ Annealing::Annealing(const Objective& objective, const Design& start, const Rule
     temperature_ *= schedule.first_share;
 }
 
+/// Trials that going through all pairs stands for; of few points it does not matter.
+double Annealing::pass() const {
+    return best_.points > 1000 ? static_cast<double>(best_.points / 4) : 0;
+}
+
 void Annealing::aim_next() {
+    done_ += pass();
     if (!criterion_->aim(1 - criterion_->score().value)) over_ = criterion_->reached();
 }
 
 void Annealing::note() {
+    done_ += pass();
     const Score score = criterion_->score();
     if (!(score < score_)) return;
     score_ = score;
@@ -158,7 +165,8 @@ void Annealing::advance(double trials, const RunContext& run, const RunContext& 
     const double last = std::min(schedule_.trials, done_ + trials);
     for (; done_ < last && !over_; ++done_) {
         trial();
-        if (std::fmod(done_, piece) != 0) continue;
+        if (done_ < next_) continue;
+        next_ = done_ + piece;
         run.check_stop();
         if (whole.best_is_wanted()) break;
         share_ *= cooling_;

@@ -82,12 +82,14 @@ class Annealing {
     bool accepts(double change);
     void note();
     void aim_next();
+    [[nodiscard]] double pass() const;
 
     Schedule schedule_;
     SplitMix64 draws_;
     Exchanges exchanges_;
     std::unique_ptr<Criterion> criterion_;
     double done_ = 0;
+    double next_ = 0;  ///< the trial at which the share changes next
     double share_;
     double cooling_;  ///< of the share, from piece to piece
     bool polishing_ = false;

@@ -14,7 +14,7 @@
 //                  (generators/latin_hypercube_search); it keeps slices, nested and given points
 //
 // Cost    O(n d); point i is found without the others, in constant memory. A search takes some 20 s
-//         of one core by default, fewer for few points, and memory as n^2: 160 MB at n = 2000.
+//         of one core by default, fewer for few points, and up to 64 n^2 bytes: 256 MB at n = 2000.
 // Promise each stratum holds one point in exact arithmetic, and floor(x n) says so too
 //         (math/digital/stratum.hpp). A search's result is a function of the request and the options,
 //         for any number of threads; its value in the provenance is that of the middles.
