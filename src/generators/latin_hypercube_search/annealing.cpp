@@ -93,8 +93,10 @@ void Exchanges::shuffle(SplitMix64& draws, std::size_t times) {
         wrong -= static_cast<std::size_t>(before - after);
     }
     if (wrong > 0)
-        fail(ErrorKind::limit, "latin-hypercube: no design found that is feasible; {} of {} points "
-             "are not", wrong, design_.points);
+        fail(ErrorKind::limit,
+             "latin-hypercube: no design found that is feasible; {} of {} points "
+             "are not",
+             wrong, design_.points);
     for (std::size_t i = 0; i < all; ++i)
         if (draw(draws, one) && infeasible(one) == 0) make(one);
 }
@@ -120,11 +122,18 @@ Annealing::Annealing(const Objective& objective, const Design& start, const Rule
     temperature_ *= schedule.first_share;
 }
 
+/// Trials that going through all pairs stands for; of few points it does not matter.
+double Annealing::pass() const {
+    return best_.points > 1000 ? static_cast<double>(best_.points / 4) : 0;
+}
+
 void Annealing::aim_next() {
+    done_ += pass();
     if (!criterion_->aim(1 - criterion_->score().value)) over_ = criterion_->reached();
 }
 
 void Annealing::note() {
+    done_ += pass();
     const Score score = criterion_->score();
     if (!(score < score_)) return;
     score_ = score;
@@ -134,9 +143,8 @@ void Annealing::note() {
 bool Annealing::accepts(double change) {
     if (change <= 0) return true;
     constexpr double never = 40;
-    const bool accepted =
-        change < never * temperature_ &&
-        to_unit(draws_.next()) < exponential(-change / temperature_);
+    const bool accepted = change < never * temperature_ &&
+                          to_unit(draws_.next()) < exponential(-change / temperature_);
     temperature_ *= accepted ? 1 - gain : 1 + gain * share_;
     return accepted;
 }
@@ -157,7 +165,8 @@ void Annealing::advance(double trials, const RunContext& run, const RunContext& 
     const double last = std::min(schedule_.trials, done_ + trials);
     for (; done_ < last && !over_; ++done_) {
         trial();
-        if (std::fmod(done_, piece) != 0) continue;
+        if (done_ < next_) continue;
+        next_ = done_ + piece;
         run.check_stop();
         if (whole.best_is_wanted()) break;
         share_ *= cooling_;

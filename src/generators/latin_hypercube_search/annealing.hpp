@@ -57,9 +57,10 @@ class Exchanges {
 
     Design design_;
     const Rules& rules_;
-    std::vector<std::uint32_t> group_;   ///< of each row; empty: one for all
-    std::vector<std::uint32_t> row_at_;  ///< of each level, coordinate after coordinate; with groups
-    std::vector<Level> row_;             ///< that is tried
+    std::vector<std::uint32_t> group_;  ///< of each row; empty: one for all
+    std::vector<std::uint32_t>
+        row_at_;              ///< of each level, coordinate after coordinate; with groups
+    std::vector<Level> row_;  ///< that is tried
 };
 
 class Annealing {
@@ -81,12 +82,14 @@ class Annealing {
     bool accepts(double change);
     void note();
     void aim_next();
+    [[nodiscard]] double pass() const;
 
     Schedule schedule_;
     SplitMix64 draws_;
     Exchanges exchanges_;
     std::unique_ptr<Criterion> criterion_;
     double done_ = 0;
+    double next_ = 0;  ///< the trial at which the share changes next
     double share_;
     double cooling_;  ///< of the share, from piece to piece
     bool polishing_ = false;

@@ -15,19 +15,23 @@ class CorrelationCriterion final : public Criterion {
     CorrelationCriterion(const Design& design, const Rules& rules)
         : points_(design.points), dimension_(design.dimension), x_(design.rows * dimension_) {
         const std::size_t d = dimension_;
-        for (std::size_t i = 0; i < design.rows; ++i)
-            for (std::size_t k = 0; k < d; ++k)
-                x_[i * d + k] = 2 * std::int64_t{place_of(design.along(k)[i], parts_of(rules, k),
-                                                          points_)} +
-                                1 - static_cast<std::int64_t>(points_);
+        for (std::size_t k = 0; k < d; ++k) {
+            double squares =
+                0;  // of all levels, which are those of the points unless there are spare ones
+            for (std::size_t l = 0; l < points_; ++l) {
+                const auto x =
+                    static_cast<double>(twice_from_middle(static_cast<Level>(l), k, rules));
+                squares += x * x;
+            }
+            lengths_.push_back(std::sqrt(squares));
+            for (std::size_t i = 0; i < design.rows; ++i)
+                x_[i * d + k] = twice_from_middle(design.along(k)[i], k, rules);
+        }
         products_.resize(d * d);
         for (std::size_t i = 0; i < points_; ++i)
             for (std::size_t k = 0; k < d; ++k)
                 for (std::size_t l = 0; l < d; ++l)
                     products_[k * d + l] += x_[i * d + k] * x_[i * d + l];
-        for (std::size_t k = 0; k < d; ++k)
-            lengths_.push_back(
-                std::sqrt(std::max(1.0, static_cast<double>(products_[k * d + k]))));
     }
 
     double change(std::size_t k, std::size_t a, std::size_t b) override {
@@ -59,12 +63,19 @@ class CorrelationCriterion final : public Criterion {
     [[nodiscard]] Score score() const override {
         double largest = 0;
         for_pairs([&](std::size_t k, std::size_t l) {
-            largest = std::max(largest, std::abs(over_lengths(k, l, products_[k * dimension_ + l])));
+            largest =
+                std::max(largest, std::abs(over_lengths(k, l, products_[k * dimension_ + l])));
         });
         return {largest, energy()};
     }
 
   private:
+    [[nodiscard]] std::int64_t twice_from_middle(Level level, std::size_t k,
+                                                 const Rules& rules) const {
+        return 2 * std::int64_t{place_of(level, parts_of(rules, k), points_)} + 1 -
+               static_cast<std::int64_t>(points_);
+    }
+
     /// Of the product of two coordinates, when rows exchange what they have of the first.
     [[nodiscard]] std::int64_t growth(std::size_t k, std::size_t l, std::size_t a,
                                       std::size_t b) const {
@@ -73,7 +84,8 @@ class CorrelationCriterion final : public Criterion {
         return (of_b[k] - of_a[k]) * (of_a[l] - (b < points_ ? of_b[l] : 0));
     }
     [[nodiscard]] double over_lengths(std::size_t k, std::size_t l, std::int64_t product) const {
-        return static_cast<double>(product) / (lengths_[k] * lengths_[l]);
+        const double both = lengths_[k] * lengths_[l];
+        return both > 0 ? static_cast<double>(product) / both : 0;
     }
     [[nodiscard]] double fourth(std::size_t k, std::size_t l, std::int64_t product) const {
         const double r = over_lengths(k, l, product);
@@ -88,7 +100,7 @@ class CorrelationCriterion final : public Criterion {
     std::size_t dimension_;
     std::vector<std::int64_t> x_;         ///< row after row, twice from the middle
     std::vector<std::int64_t> products_;  ///< of coordinates, over all points
-    std::vector<double> lengths_;         ///< of coordinates, at first
+    std::vector<double> lengths_;         ///< of coordinates
 };
 
 }  // namespace

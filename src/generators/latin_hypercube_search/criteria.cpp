@@ -132,7 +132,9 @@ Found described_correlations(const std::vector<Level>& x, std::size_t d) {
 
 }  // namespace
 
-double usual_difference(std::size_t points) { return std::max(1.0, 0.3 * static_cast<double>(points)); }
+double usual_difference(std::size_t points) {
+    return std::max(1.0, 0.3 * static_cast<double>(points));
+}
 
 double usual_square(std::size_t points, std::size_t dimension) {
     const auto n = static_cast<double>(points);

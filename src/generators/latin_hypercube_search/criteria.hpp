@@ -96,8 +96,7 @@ double reported(const Objective& objective, const Score& score, std::size_t poin
 /// The value of all points by the criterion's definition, and what belongs to it, by name; without
 /// what is infinite since points share a level. O(n^2 d).
 std::vector<std::pair<std::string, std::string>> described(const Objective& objective,
-                                                           const Design& design,
-                                                           const Rules& rules,
+                                                           const Design& design, const Rules& rules,
                                                            const RunContext& run);
 
 }  // namespace stipple::latin_hypercube_search

@@ -41,9 +41,8 @@ double promise_of(const Lattice& lattice, std::size_t points) {
     return least_square(lattice) * exponential(logarithm(ratio) * 2 * (d - 1) / d);
 }
 
-Lattice drawn(std::size_t points, std::size_t dimension, SplitMix64& draws) {
-    Lattice lattice{.size = points + draws.below(points / 3 + 2), .vector = {1}};
-    if (draws.below(4) == 0) lattice.size = points + 1;
+Lattice drawn(std::size_t size, std::size_t dimension, SplitMix64& draws) {
+    Lattice lattice{.size = size, .vector = {1}};
     while (lattice.vector.size() < dimension) {
         const std::size_t z = 1 + draws.below(lattice.size);
         if (std::gcd(z, lattice.size) == 1) lattice.vector.push_back(z);
@@ -51,22 +50,39 @@ Lattice drawn(std::size_t points, std::size_t dimension, SplitMix64& draws) {
     return lattice;
 }
 
+/// The one of largest promise of some: of many with one point more, or of a few of any size.
+Lattice chosen(std::size_t points, std::size_t dimension, SplitMix64& draws) {
+    const bool next = draws.below(3) == 0;
+    const int tries = next ? 300 : 20;
+    Lattice best;
+    double promise = -1;
+    for (int i = 0; i < tries; ++i) {
+        const std::size_t size = points + (next ? 1 : draws.below(points / 3 + 2));
+        Lattice lattice = drawn(size, dimension, draws);
+        const double own = promise_of(lattice, points);
+        if (own <= promise) continue;
+        best = std::move(lattice);
+        promise = own;
+    }
+    return best;
+}
+
 /// Indices of the points that stay.
 std::vector<std::size_t> middle_of(const std::vector<std::size_t>& x, std::size_t points,
-                                   std::size_t dimension, bool moved, SplitMix64& draws) {
+                                   std::size_t dimension, SplitMix64& draws) {
     const std::size_t size = x.size() / dimension;
+    std::vector<std::size_t> order(size);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    if (size == points + 1) return {order.begin() + 1, order.end()};  // but for the corner
     std::vector<double> weights(dimension, 1);
     for (double& weight : weights)
-        if (moved && draws.below(2) == 0) weight = to_unit(draws.next());
+        if (draws.below(2) == 0) weight = to_unit(draws.next());
     std::vector<double> off(size);
     for (std::size_t i = 0; i < size; ++i)
         for (std::size_t k = 0; k < dimension; ++k) {
             const auto twice = static_cast<double>(2 * x[i * dimension + k]);
-            off[i] = std::max(off[i],
-                              weights[k] * std::abs(twice - static_cast<double>(size - 1)));
+            off[i] = std::max(off[i], weights[k] * std::abs(twice - static_cast<double>(size - 1)));
         }
-    std::vector<std::size_t> order(size);
-    std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return off[i]; });
     order.resize(points);
     return order;
@@ -75,14 +91,7 @@ std::vector<std::size_t> middle_of(const std::vector<std::size_t>& x, std::size_
 }  // namespace
 
 Design lattice_start(std::size_t points, std::size_t dimension, SplitMix64& draws) {
-    constexpr int tries = 500;
-    Lattice best;
-    double promise = -1;
-    for (int i = 0; i < tries; ++i) {
-        Lattice lattice = drawn(points, dimension, draws);
-        const double own = promise_of(lattice, points);
-        if (own > promise) best = std::move(lattice), promise = own;
-    }
+    const Lattice best = chosen(points, dimension, draws);
     const bool moved = best.size != points + 1;
     std::vector<std::size_t> x(best.size * dimension);
     for (std::size_t k = 0; k < dimension; ++k) {
@@ -90,7 +99,7 @@ Design lattice_start(std::size_t points, std::size_t dimension, SplitMix64& draw
         for (std::size_t i = 0; i < best.size; ++i)
             x[i * dimension + k] = (i * best.vector[k] + shift) % best.size;
     }
-    const auto kept = middle_of(x, points, dimension, moved, draws);
+    const auto kept = middle_of(x, points, dimension, draws);
     Design design(points, points, dimension);
     for (std::size_t k = 0; k < dimension; ++k) {
         std::vector<std::size_t> order(points);

@@ -25,7 +25,8 @@ STIPPLE_INLINE double lane_sum(std::size_t n, Term term) {
     double sums[lanes]{};
     for (std::size_t j = 0; j < n; j += lanes)
         for (std::size_t l = 0; l < lanes; ++l) sums[l] += term(j + l);
-    return ((sums[0] + sums[4]) + (sums[1] + sums[5])) + ((sums[2] + sums[6]) + (sums[3] + sums[7]));
+    return ((sums[0] + sums[4]) + (sums[1] + sums[5])) +
+           ((sums[2] + sums[6]) + (sums[3] + sums[7]));
 }
 
 /// A row of pairs, where its point goes along a coordinate whose other places are x.
@@ -315,14 +316,14 @@ class PairCriterion final : public Criterion {
         if constexpr (std::is_same_v<Measure, Shortfall>) {
             if (target <= 0) target = std::ceil(mean_nearest());
             measure_.target = static_cast<Level>(std::clamp(target, 1.0, 0x1p29));
-            sum_energy();
+            energy_ = sum();
             return true;
         }
         return false;
     }
 
     [[nodiscard]] Score score() const override {
-        if constexpr (!std::is_same_v<Measure, Shortfall>) return {energy_, 0};
+        if constexpr (!std::is_same_v<Measure, Shortfall>) return {sum(), 0};
         const double least = this->least();
         double count = 0;
         for_pairs([&](Value value) { count += static_cast<double>(value) == least; });
@@ -363,13 +364,16 @@ class PairCriterion final : public Criterion {
     [[nodiscard]] double mean_nearest() const {
         double sum = 0;
         for (std::size_t i = fixed_; i < points_; ++i)
-            sum += static_cast<double>(*std::min_element(&pairs_[i * width_], &pairs_[i * width_] + points_));
+            sum += static_cast<double>(
+                *std::min_element(&pairs_[i * width_], &pairs_[i * width_] + points_));
         return sum / static_cast<double>(points_ - fixed_);
     }
 
-    void sum_energy() {
-        energy_ = singles_.energy();
-        for_pairs([&](Value value) { energy_ += measure_.energy(value); });
+    /// The energy without the rounding of those, possibly huge, that it has been.
+    [[nodiscard]] double sum() const {
+        double sum = singles_.energy();
+        for_pairs([&](Value value) { sum += measure_.energy(value); });
+        return sum;
     }
 
     void rebuild() {
@@ -383,7 +387,7 @@ class PairCriterion final : public Criterion {
                 at(i, j) = at(j, i) = value;
             }
         }
-        sum_energy();
+        energy_ = sum();
     }
 
     Measure measure_;
@@ -400,8 +404,7 @@ class PairCriterion final : public Criterion {
 };
 
 template <class Measure>
-std::unique_ptr<Criterion> criterion_by(Measure measure, const Design& design,
-                                        const Rules& rules) {
+std::unique_ptr<Criterion> criterion_by(Measure measure, const Design& design, const Rules& rules) {
     return std::make_unique<PairCriterion<Measure>>(std::move(measure), design, rules);
 }
 
@@ -416,7 +419,8 @@ std::unique_ptr<Criterion> pair_criterion(const Objective& objective, const Desi
         case Kind::centered_l2:
             return criterion_by(Centered{{n}}, design, rules);
         case Kind::maxpro: {
-            Projections measure{{usual_difference(design.points), std::vector<double>(design.dimension)}};
+            Projections measure{
+                {usual_difference(design.points), std::vector<double>(design.dimension)}};
             for (std::size_t k = 0; k < design.dimension; ++k)
                 if (const Level parts = parts_of(rules, k); parts > 0) measure.more[k] = n / parts;
             return criterion_by(std::move(measure), design, rules);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -15,14 +16,16 @@
 namespace stipple::latin_hypercube_search {
 namespace {
 
-/// Annealings side by side.
+/// Annealings of the same length, up to eight side by side.
 struct Round {
     std::size_t annealings;
-    double share;  ///< of the budget, of each of them
+    double share;    ///< of the budget, of each of them
     bool from_best;  ///< every other one starts from one of the best so far
 };
 
 constexpr Round rounds[] = {{8, 1.0 / 96, false}, {8, 1.0 / 32, false}, {4, 1.0 / 6, true}};
+constexpr Round rounds_of_lattices[] = {
+    {40, 1.0 / 120, false}, {16, 1.0 / 96, true}, {4, 1.0 / 8, true}};
 
 struct Candidate {
     Design design;
@@ -39,7 +42,8 @@ class Rounds {
           rng_(search.seed, stream) {}
 
     Result best() {
-        for (const Round& round : rounds) {
+        for (const Round& round :
+             from_lattices() ? std::span(rounds_of_lattices) : std::span(rounds)) {
             const std::size_t together = std::min(round.annealings, most_together());
             for (std::size_t i = 0; i < round.annealings; i += together)
                 if (i == 0 || !run_.best_is_wanted()) anneal(round, i, together);
@@ -50,6 +54,7 @@ class Rounds {
   private:
     static constexpr std::uint64_t stream = std::uint64_t{1} << 33;  // none of the generator's own
     static constexpr std::size_t most_kept = 4;
+    static constexpr double cold = 1e-3;  // first share of what is good already
 
     /// Few where their pairs take much memory.
     [[nodiscard]] std::size_t most_together() const { return search_.start.points > 2000 ? 2 : 8; }
@@ -59,6 +64,13 @@ class Rounds {
         return rules.fixed == 0 && rules.groups.empty() && rules.parts.empty() && !rules.feasible;
     }
 
+    /// Whether lattices are good starts.
+    [[nodiscard]] bool from_lattices() const {
+        const Design& start = search_.start;
+        return is_free() && search_.objective.kind == Kind::maximin && start.dimension > 1 &&
+               start.dimension <= 3 && start.points > 10;
+    }
+
     /// The i-th annealing of a round.
     Annealing start(const Round& round, std::size_t i) const {
         constexpr double beyond[] = {1, 1.005, 1.01, 1.02};
@@ -66,14 +78,13 @@ class Rounds {
         Schedule schedule{.trials = std::ceil(round.share * search_.trials)};
         if (!best_.empty()) schedule.target = 1 - beyond[i / 2 % 4] * best_.front().score.value;
         if (round.from_best && i % 2 == 1) {
-            schedule.first_share = 5e-3;
+            schedule.first_share = cold;
             return {search_.objective, best_[i / 2 % best_.size()].design, search_.rules, schedule,
                     draws};
         }
         const Design& given = search_.start;
-        if (i % 2 == 0 && is_free() && search_.objective.kind == Kind::maximin &&
-            given.dimension <= 4 && given.points > 10) {
-            schedule.first_share = 5e-3;
+        if (i % 4 != 2 && from_lattices()) {
+            schedule.first_share = cold;
             return {search_.objective, lattice_start(given.points, given.dimension, draws),
                     search_.rules, schedule, draws};
         }
@@ -83,9 +94,11 @@ class Rounds {
     }
 
     void anneal(const Round& round, std::size_t first, std::size_t count) {
-        constexpr int slices = 20;
+        const double of_one = round.share * search_.trials;
+        const double slices =
+            std::floor(std::clamp(of_one / static_cast<double>(search_.start.points), 1.0, 20.0));
         std::vector<std::optional<Annealing>> all(count);
-        const double trials = std::ceil(round.share * search_.trials / slices);
+        const double trials = std::ceil(of_one / slices);
         for (int slice = 0; slice < slices && !(slice > 0 && run_.best_is_wanted()); ++slice) {
             for_each_block(inner_, count, 1, [&](const Block& block) {
                 auto& one = all[block.index];
@@ -102,9 +115,10 @@ class Rounds {
     }
 
     void report(const std::vector<std::optional<Annealing>>& all) {
-        const Score now = std::ranges::min_element(all, {}, [](const auto& one) {
-                              return one->score();
-                          })->value().score();
+        const Score now =
+            std::ranges::min_element(all, {}, [](const auto& one) { return one->score(); })
+                ->value()
+                .score();
         const Score least = best_.empty() ? now : std::min(now, best_.front().score);
         const Design& design = search_.start;
         const auto shown = [&](const Score& score) {
@@ -135,8 +149,9 @@ Result best_design(const Search& search, const std::string& words, const RunCont
 double usual_trials(const Objective& objective, const Design& design) {
     const auto n = static_cast<double>(design.points);
     const auto d = static_cast<double>(design.dimension);
+    const double crowded = std::max(1.0, n / 200);  // what targets and memory take besides
     const double seconds = objective.kind == Kind::correlation ? 1e-8 * (3 + d)
-                           : objective.kind == Kind::maximin   ? 3e-8 + 3e-10 * n
+                           : objective.kind == Kind::maximin   ? 3e-8 + 3e-10 * n * crowded
                                                                : 5e-8 + 3e-9 * n;
     return std::min(20 / seconds, 1e6 * n * d);
 }

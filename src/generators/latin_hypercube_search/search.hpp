@@ -4,8 +4,8 @@
 //
 // Rounds    eight short annealings, eight of three times their trials, then four that take two thirds
 //           of the budget, two of them from the best so far (annealing.hpp).
-// Starts    random exchanges of the given design; for maximin of up to four coordinates every other
-//           one is a lattice (lattice_start.hpp), annealed from a low temperature.
+// Starts    random exchanges of the given design. For maximin of two or three coordinates there are
+//           more of them, three of four near lattices and annealed from a low temperature.
 // Targets   of maximin are up to a fiftieth beyond the best squared distance so far.
 //
 // Cost      the budget in trials of an exchange, each O(n) but for correlations, and 4 n^2 or 8 n^2

@@ -14,7 +14,7 @@
 //                  (generators/latin_hypercube_search); it keeps slices, nested and given points
 //
 // Cost    O(n d); point i is found without the others, in constant memory. A search takes some 20 s
-//         of one core by default, fewer for few points, and memory as n^2: 160 MB at n = 2000.
+//         of one core by default, fewer for few points, and up to 64 n^2 bytes: 256 MB at n = 2000.
 // Promise each stratum holds one point in exact arithmetic, and floor(x n) says so too
 //         (math/digital/stratum.hpp). A search's result is a function of the request and the options,
 //         for any number of threads; its value in the provenance is that of the middles.
@@ -53,20 +53,19 @@ constexpr Param<std::int64_t> strength{
 constexpr Param<Choice> optimize{
     .name = "optimize",
     .choices = "maximin|phi-p|audze-eglais|centered-l2|maxpro|correlation",
-    .help = "Search the strata of the points, up to 10000 of them, that are best by this: the least "
-            "distance large, or the sum of d^-p or d^-2 over pairs, the centered L2 discrepancy, the "
-            "MaxPro measure, or the largest correlation small"};
-constexpr Param<std::int64_t> power{.name = "p",
-                                    .fallback = 15,
-                                    .low = 1,
-                                    .high = 50,
-                                    .help = "The p of --optimize phi-p"};
+    .help =
+        "Search the strata of the points, up to 10000 of them, that are best by this: the least "
+        "distance large, or the sum of d^-p or d^-2 over pairs, the centered L2 discrepancy, the "
+        "MaxPro measure, or the largest correlation small"};
+constexpr Param<std::int64_t> power{
+    .name = "p", .fallback = 15, .low = 1, .high = 50, .help = "The p of --optimize phi-p"};
 constexpr Param<double> effort{.name = "effort",
                                .fallback = 1,
                                .low = 1e-6,
                                .high = 1e6,
-                               .help = "Trials of --optimize: this times those of some 20 seconds "
-                                       "of one core (fewer where points are few)"};
+                               .help =
+                                   "Trials of --optimize: this times those of some 20 seconds "
+                                   "of one core (fewer where points are few)"};
 constexpr Param<std::int64_t> sliced{
     .name = "sliced",
     .low = 1,
@@ -124,9 +123,10 @@ void check_options(const Values& options) {
         fail(ErrorKind::usage, "{} and {} contradict each other; give one of them", forms[0],
              forms[1]);
     if (options[strength] == 2 && searches)
-        fail(ErrorKind::usage,
-             "--strength 2 and --optimize contradict each other: exchanges of strata would not keep "
-             "the squares");
+        fail(
+            ErrorKind::usage,
+            "--strength 2 and --optimize contradict each other: exchanges of strata would not keep "
+            "the squares");
 }
 
 std::uint64_t whole_of(const Values& options, std::size_t i) {
@@ -138,10 +138,10 @@ Plan plan_nested(const Request& request, const Values& options) {
     const std::string text = format_value(Value(counts));
     for (const double count : counts)
         if (!(count >= 1 && count <= 0x1p53 && count == std::floor(count)))
-            fail(ErrorKind::usage, "--nested: {} is no number of points",
-                 format_number(count));
+            fail(ErrorKind::usage, "--nested: {} is no number of points", format_number(count));
     if (counts.size() != 2 || whole_of(options, 1) % whole_of(options, 0) != 0)
-        fail(ErrorKind::usage, "--nested: {} are not N1,N2 with N1 dividing N2, such as 10,30", text);
+        fail(ErrorKind::usage, "--nested: {} are not N1,N2 with N1 dividing N2, such as 10,30",
+             text);
     if (request.count.value_or(whole_of(options, 1)) != whole_of(options, 1))
         fail(ErrorKind::usage, "--count: {} contradicts --nested {}, which has {} points",
              *request.count, text, whole_of(options, 1));
@@ -171,13 +171,15 @@ Plan plan_extended(const Request& request, const Values& options) {
     require_dimension(request, points, options[extend]);
     if (!options.given(add) && !request.count)
         fail(ErrorKind::usage, "--extend: how many points to add? --add says it");
-    const std::uint64_t count =
-        options.given(add) ? points.count() + static_cast<std::uint64_t>(options[add])
-                           : *request.count;
-    if (request.count.value_or(count) != count || count <= points.count())
+    const std::uint64_t count = options.given(add)
+                                    ? points.count() + static_cast<std::uint64_t>(options[add])
+                                    : *request.count;
+    if (request.count.value_or(count) != count)
         fail(ErrorKind::usage, "--count: {} is not {}, the {} points of {} and those of --add",
-             *request.count, options.given(add) ? std::to_string(count) : "more", points.count(),
-             options[extend]);
+             *request.count, count, points.count(), options[extend]);
+    if (count <= points.count())
+        fail(ErrorKind::usage, "--count: {} is not more than the {} points of {}", count,
+             points.count(), options[extend]);
     return default_plan(request, count, points.dimension());
 }
 
@@ -254,10 +256,12 @@ search::Rules rules_of(const Plan& plan, const Values& options, std::size_t give
 
 search::Objective objective_of(const Values& options) {
     using search::Kind;
-    constexpr std::pair<const char*, Kind> kinds[] = {
-        {"maximin", Kind::maximin},         {"phi-p", Kind::phi_p},
-        {"audze-eglais", Kind::audze_eglais}, {"centered-l2", Kind::centered_l2},
-        {"maxpro", Kind::maxpro},           {"correlation", Kind::correlation}};
+    constexpr std::pair<const char*, Kind> kinds[] = {{"maximin", Kind::maximin},
+                                                      {"phi-p", Kind::phi_p},
+                                                      {"audze-eglais", Kind::audze_eglais},
+                                                      {"centered-l2", Kind::centered_l2},
+                                                      {"maxpro", Kind::maxpro},
+                                                      {"correlation", Kind::correlation}};
     const std::string name = options[optimize];
     return {std::ranges::find(kinds, name, &std::pair<const char*, Kind>::first)->second,
             static_cast<int>(options[power])};
@@ -275,14 +279,14 @@ std::unique_ptr<Sequence> points_of(const Plan& plan, bool centered, search::Des
                 low[j] = design.along(k)[static_cast<std::size_t>(index[j])];
             return std::uint64_t{design.points};
         });
-    return sequence_of([all, given = std::move(given), d](std::uint64_t first,
-                                                          std::span<double> rows) {
-        all->fill(first, rows);
-        const auto flat = given.flat();
-        const std::size_t from = std::min<std::size_t>(first * d, flat.size());
-        std::ranges::copy(flat.subspan(from, std::min(rows.size(), flat.size() - from)),
-                          rows.begin());
-    });
+    return sequence_of(
+        [all, given = std::move(given), d](std::uint64_t first, std::span<double> rows) {
+            all->fill(first, rows);
+            const auto flat = given.flat();
+            const std::size_t from = std::min<std::size_t>(first * d, flat.size());
+            std::ranges::copy(flat.subspan(from, std::min(rows.size(), flat.size() - from)),
+                              rows.begin());
+        });
 }
 
 /// What is worked out as a whole: searched, or behind given points.
@@ -335,9 +339,10 @@ std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
     for (std::size_t k = 0; k < plan.dimension; ++k)
         most = std::max(most, crowded_strata(given, k, plan.count));
     if (most == 0) return {};
-    return {fmt::format("latin-hypercube: no Latin hypercube of all {0} points: points of {1} share "
-                        "up to {2} of the {0} strata along an axis; new ones share none",
-                        plan.count, options[extend], most)};
+    return {
+        fmt::format("latin-hypercube: no Latin hypercube of all {0} points: points of {1} share "
+                    "up to {2} of the {0} strata along an axis; new ones share none",
+                    plan.count, options[extend], most)};
 }
 
 }  // namespace

@@ -14,8 +14,7 @@ constexpr std::uint64_t second_keys = 2;
 StrataOf strata_by(std::uint64_t parts, auto stratum) {
     return [=](std::size_t coordinate, std::span<const double> index, std::span<double> low) {
         for (std::size_t j = 0; j < index.size(); ++j)
-            low[j] = static_cast<double>(
-                stratum(coordinate, static_cast<std::uint64_t>(index[j])));
+            low[j] = static_cast<double>(stratum(coordinate, static_cast<std::uint64_t>(index[j])));
         return parts;
     };
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <map>
 
 #include "generators/latin_hypercube_search/annealing.hpp"
@@ -45,16 +46,46 @@ TEST(LatinSearch, FindsTheBestOfAllPermutations) {
         }
 }
 
-// Proven: E. R. van Dam, B. Husslage, D. den Hertog, H. Melissen, Operations Research 55 (2007)
-// 158-169, doi:10.1287/opre.1060.0317.
+/// The largest least squared distance of n points of the plane: row by row, through all designs.
+int largest_by_exhaustion(int n) {
+    std::vector<int> y;
+    std::vector<bool> used(static_cast<std::size_t>(n));
+    const std::function<bool(int)> complete = [&](int square) {
+        const int i = static_cast<int>(y.size());
+        if (i == n) return true;
+        for (int v = 0; v < n; ++v) {
+            bool far = !used[static_cast<std::size_t>(v)];
+            for (int j = 0; j < i && far; ++j) {
+                const int up = v - y[static_cast<std::size_t>(j)];
+                far = (i - j) * (i - j) + up * up >= square;
+            }
+            if (!far) continue;
+            y.push_back(v);
+            used[static_cast<std::size_t>(v)] = true;
+            const bool whole = complete(square);
+            if (whole) return true;
+            y.pop_back();
+            used[static_cast<std::size_t>(v)] = false;
+        }
+        return false;
+    };
+    int square = 0;
+    do {
+        ++square;
+        y.clear();
+        used.assign(used.size(), false);
+    } while (complete(square));
+    return square - 1;
+}
+
 TEST(LatinSearch, FindsTheLargestDistancesOfThePlane) {
-    const std::map<std::size_t, double> squares{{2, 2},  {3, 2},  {4, 5},   {5, 5},   {6, 5},
-                                                {7, 8},  {8, 10}, {9, 10},  {10, 10}, {11, 10},
-                                                {12, 13}, {13, 13}, {14, 17}, {15, 17}};
-    for (const auto& [n, square] : squares)
-        EXPECT_EQ(-value_of(Kind::maximin, found(Kind::maximin, random_design(n, 2, 1), 500'000)),
-                  square)
+    const int squares[] = {2, 2, 5, 5, 5, 8, 8, 10, 10, 10, 13, 13};
+    for (int n = 2; n <= 13; ++n) {
+        EXPECT_EQ(largest_by_exhaustion(n), squares[n - 2]) << n;
+        const Design start = random_design(static_cast<std::size_t>(n), 2, 1);
+        EXPECT_EQ(-value_of(Kind::maximin, found(Kind::maximin, start, 2'000'000)), squares[n - 2])
             << n;
+    }
 }
 
 TEST(LatinSearch, IsFarBetterThanRandomByEveryCriterion) {
@@ -116,11 +147,9 @@ TEST(LatinSearch, KeepsRowsFeasible) {
 
 // Eight points of two coordinates of two categories: each of the four cells is to hold two of them.
 TEST(LatinSearch, SpreadsCategories) {
-    const Design design =
-        found(Kind::maxpro, random_design(8, 2, 1), 50'000, {.parts = {2, 2}});
+    const Design design = found(Kind::maxpro, random_design(8, 2, 1), 50'000, {.parts = {2, 2}});
     std::map<std::pair<Level, Level>, int> cells;
-    for (std::size_t i = 0; i < 8; ++i)
-        ++cells[{design.along(0)[i] / 4, design.along(1)[i] / 4}];
+    for (std::size_t i = 0; i < 8; ++i) ++cells[{design.along(0)[i] / 4, design.along(1)[i] / 4}];
     EXPECT_EQ(cells.size(), 4U);
     for (const auto& [cell, count] : cells) EXPECT_EQ(count, 2);
 }

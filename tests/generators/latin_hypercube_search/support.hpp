@@ -28,8 +28,7 @@ inline Design random_design(std::size_t points, std::size_t dimension, std::uint
     for (std::size_t k = 0; k < dimension; ++k) {
         const auto levels = design.along(k);
         std::iota(levels.begin(), levels.end(), Level{0});
-        for (std::size_t i = points; i > 1; --i)
-            std::swap(levels[i - 1], levels[draws.below(i)]);
+        for (std::size_t i = points; i > 1; --i) std::swap(levels[i - 1], levels[draws.below(i)]);
     }
     return design;
 }

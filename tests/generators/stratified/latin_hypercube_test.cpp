@@ -4,9 +4,15 @@
 #include <cmath>
 #include <map>
 
+#include <fmt/ranges.h>
+#include <gmock/gmock.h>
+
+#include <stop_token>
+
 #include "core/rng.hpp"
 #include "support/sequences.hpp"
 #include "support/strata.hpp"
+#include "support/temporary_file.hpp"
 
 namespace stipple::testing::latin_hypercube_test {
 namespace {
@@ -16,6 +22,45 @@ double correlation(const PointSet& set, std::size_t a, std::size_t b) {
     for (std::size_t i = 0; i < set.count(); ++i) sum += (set[i][a] - 0.5) * (set[i][b] - 0.5);
     return 12 * sum / static_cast<double>(set.count());
 }
+
+/// Rows first, ..., last - 1.
+PointSet part_of(const PointSet& set, std::size_t first, std::size_t last) {
+    const std::size_t d = set.dimension();
+    const auto rows = set.flat().subspan(first * d, (last - first) * d);
+    return {std::vector<double>(rows.begin(), rows.end()), d};
+}
+
+/// As a file of it.
+std::string text_of(const PointSet& points) {
+    std::string text;
+    for (std::size_t i = 0; i < points.count(); ++i)
+        text += fmt::format("{}\n", fmt::join(points[i], ","));
+    return text;
+}
+
+double said(const PointSet& set, std::size_t i = 0) {
+    return std::stod(set.provenance.found.at(i).second);
+}
+
+/// The least squared distance of two strata.
+double least_square(const PointSet& set) {
+    const std::size_t n = set.count();
+    double least = 1e300;
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            double square = 0;
+            for (std::size_t k = 0; k < set.dimension(); ++k) {
+                const auto a = static_cast<double>(stratum_of(set[i][k], n));
+                const auto b = static_cast<double>(stratum_of(set[j][k], n));
+                square += (a - b) * (a - b);
+            }
+            least = std::min(least, square);
+        }
+    return least;
+}
+
+constexpr const char* criteria[] = {"maximin",     "phi-p",  "audze-eglais",
+                                    "centered-l2", "maxpro", "correlation"};
 
 }  // namespace
 
@@ -110,6 +155,246 @@ TEST(LatinHypercube, RefusesWhatStrengthTwoCannotBe) {
     EXPECT_EQ(strong(49, 8), "");
     EXPECT_EQ(make("latin-hypercube", {.dimension = 2}, {{"strength", "2"}}).count(), 961U);
     EXPECT_EQ(make("latin-hypercube", {.dimension = 50}, {{"strength", "2"}}).count(), 2809U);
+}
+
+TEST(LatinHypercube, OptimizedByAnyCriterionIsLatin) {
+    for (const char* criterion : criteria)
+        for (const char* centered : {"false", "true"}) {
+            const PointSet set =
+                make("latin-hypercube", points(23, 3),
+                     {{"optimize", criterion}, {"effort", "0.001"}, {"centered", centered}});
+            EXPECT_TRUE(is_latin(set)) << criterion;
+            ASSERT_FALSE(set.provenance.found.empty());
+        }
+}
+
+TEST(LatinHypercube, SaysWhatItsStrataAreWorth) {
+    const auto make_by = [](const char* criterion) {
+        return make("latin-hypercube", points(40, 4),
+                    {{"optimize", criterion}, {"effort", "0.01"}, {"centered", "true"}});
+    };
+    const PointSet far = make_by("maximin");
+    EXPECT_EQ(said(far), least_square(far));
+    EXPECT_GE(said(far), 230);  // random ones: 2 to 60
+    const PointSet even = make_by("centered-l2");
+    EXPECT_NEAR(said(even), measure("l2-discrepancy", "centered.squared", even), 1e-15);
+    EXPECT_NEAR(said(even, 1), measure("l2-discrepancy", "centered.value", even), 1e-15);
+    EXPECT_LT(said(even, 1),
+              0.7 * measure("l2-discrepancy", "centered.value",
+                            make("latin-hypercube", points(40, 4), {{"centered", "true"}})));
+    EXPECT_LT(said(make_by("correlation")), 0.002);
+}
+
+// The table's values for d = 2, 3, 5 and n = 10, 20 (data/latin_hypercubes.md), which short searches
+// find.
+TEST(LatinHypercube, FindsPublishedDistances) {
+    const auto square = [](std::uint64_t n, std::size_t d, const char* effort) {
+        return said(
+            make("latin-hypercube", points(n, d), {{"optimize", "maximin"}, {"effort", effort}}));
+    };
+    EXPECT_EQ(square(10, 2, "0.05"), 10);
+    EXPECT_EQ(square(20, 2, "0.05"), 18);
+    EXPECT_GE(square(10, 3, "0.1"), 27);
+    EXPECT_GE(square(10, 5, "0.1"), 82);
+}
+
+TEST(LatinHypercube, SearchesDependOnSeedAndEffortNotOnThreads) {
+    for (const char* criterion : criteria) {
+        const Settings little{{"optimize", criterion}, {"effort", "0.002"}};
+        const PointSet one = make("latin-hypercube", points(30, 3), little, {.threads = 1});
+        EXPECT_EQ(one, make("latin-hypercube", points(30, 3), little, {.threads = 3}));
+        EXPECT_NE(one, make("latin-hypercube", points(30, 3), little, {.seed = 2}));
+    }
+}
+
+TEST(LatinHypercube, OnTheLineAndOfOnePointThereIsNothingToOptimize) {
+    for (const char* criterion : criteria)
+        for (const auto& [n, d] : {std::pair{1, 1}, {1, 3}, {2, 1}, {9, 1}, {2, 2}}) {
+            const PointSet set = make("latin-hypercube", points(n, d),
+                                      {{"optimize", criterion}, {"effort", "0.01"}});
+            EXPECT_TRUE(is_latin(set)) << criterion << " " << n << " " << d;
+        }
+}
+
+// Every slice is a Latin hypercube of n / K strata, and all are one of n.
+TEST(LatinHypercube, SlicesAreLatinHypercubes) {
+    for (const auto& [n, slices] : {std::pair{12, 3}, {12, 12}, {12, 1}, {700, 7}, {1000, 10}})
+        for (const char* effort : {"", "0.0005"}) {
+            Settings settings{{"sliced", std::to_string(slices)}};
+            if (*effort != 0 && n < 500)
+                settings.insert(settings.end(), {{"optimize", "phi-p"}, {"effort", effort}});
+            const PointSet set = make("latin-hypercube", points(n, 3), settings);
+            EXPECT_TRUE(is_latin(set)) << n << " " << slices;
+            const std::size_t m = set.count() / static_cast<std::size_t>(slices);
+            for (std::size_t s = 0; s < set.count(); s += m)
+                EXPECT_TRUE(is_latin(part_of(set, s, s + m))) << n << " " << slices << " " << s;
+        }
+    EXPECT_FALSE(is_latin(part_of(make("latin-hypercube", points(12, 3)), 0, 6)));
+    EXPECT_EQ(make("latin-hypercube", {.dimension = 2}, {{"sliced", "10"}}).count(), 1020U);
+    EXPECT_TRUE(stretches_agree("latin-hypercube", points(60, 3), {{"sliced", "5"}}));
+}
+
+// By hand: of two slices of one point each there are two designs a coordinate; 5000 of 10000 seeds
+// have either, within 5 standard deviations of 50.
+TEST(LatinHypercube, SlicesTakeStrataAtRandom) {
+    int first = 0;
+    for (std::uint64_t seed = 0; seed < 10'000; ++seed)
+        first +=
+            make("latin-hypercube", points(2, 1), {{"sliced", "2"}}, {.seed = seed})[0][0] < .5;
+    EXPECT_NEAR(first, 5000, 250);
+}
+
+TEST(LatinHypercube, TheFirstOfNestedPointsAreALatinHypercube) {
+    for (const auto& [nested, first] :
+         {std::pair{"4,12", 4}, {"1,9", 1}, {"7,7", 7}, {"50,1000", 50}})
+        for (const bool searched : {false, true}) {
+            Settings settings{{"nested", nested}};
+            if (searched)
+                settings.insert(settings.end(), {{"optimize", "maximin"}, {"effort", "0.0001"}});
+            const PointSet set = make("latin-hypercube", {.dimension = 3}, settings);
+            EXPECT_TRUE(is_latin(set)) << nested;
+            EXPECT_TRUE(is_latin(part_of(set, 0, static_cast<std::size_t>(first)))) << nested;
+        }
+    EXPECT_FALSE(is_latin(part_of(make("latin-hypercube", points(12, 3)), 0, 4)));
+    EXPECT_TRUE(stretches_agree("latin-hypercube", points(60, 3), {{"nested", "12,60"}}));
+}
+
+TEST(LatinHypercube, SearchesOfPartsAreBetterThanNone) {
+    for (const Settings& form : {Settings{{"sliced", "4"}}, {{"nested", "8,32"}}}) {
+        Settings settings = form;
+        settings.emplace_back("optimize", "maximin");
+        settings.emplace_back("effort", "0.005");
+        EXPECT_GT(said(make("latin-hypercube", points(32, 3), settings)),
+                  3 * least_square(make("latin-hypercube", points(32, 3), form)));
+    }
+}
+
+// Each new point is in a stratum of its own along each coordinate, and the old ones stay.
+TEST(LatinHypercube, ExtensionsFillEmptyStrata) {
+    for (const auto& [old, more] : {std::pair{10, 20}, {10, 10}, {10, 1}, {1, 5}, {12, 7}})
+        for (const char* criterion : {"", "maximin", "centered-l2"}) {
+            const PointSet given = make("latin-hypercube", points(old, 3), {}, {.seed = 5});
+            const TemporaryFile file(text_of(given), ".csv");
+            Settings settings{{"extend", file.path()}, {"add", std::to_string(more)}};
+            if (*criterion != 0)
+                settings.insert(settings.end(), {{"optimize", criterion}, {"effort", "0.001"}});
+            const PointSet set = make("latin-hypercube", {}, settings);
+            ASSERT_EQ(set.count(), static_cast<std::size_t>(old + more));
+            EXPECT_EQ(part_of(set, 0, given.count()), given);
+            EXPECT_TRUE(more % old != 0 || is_latin(set)) << old << " " << more;
+            for (std::size_t k = 0; k < 3; ++k) {
+                std::map<std::uint64_t, int> held;
+                for (std::size_t i = 0; i < set.count(); ++i)
+                    ++held[stratum_of(set[i][k], set.count())];
+                for (std::size_t i = given.count(); i < set.count(); ++i)
+                    EXPECT_EQ(held[stratum_of(set[i][k], set.count())], 1) << old << " " << more;
+            }
+        }
+}
+
+TEST(LatinHypercube, ExtensionsAreOptimized) {
+    const PointSet given =
+        make("latin-hypercube", points(10, 2), {{"optimize", "maximin"}, {"effort", "0.01"}});
+    const TemporaryFile file(text_of(given), ".csv");
+    const Settings plain{{"extend", file.path()}, {"add", "20"}};
+    Settings searched = plain;
+    searched.insert(searched.end(), {{"optimize", "maximin"}, {"effort", "0.01"}});
+    const PointSet set = make("latin-hypercube", {}, searched);
+    EXPECT_EQ(said(set), least_square(set));
+    EXPECT_GT(said(set), 2 * least_square(make("latin-hypercube", {}, plain)));
+}
+
+TEST(LatinHypercube, TellsWhereAnExtensionIsNoLatinHypercube) {
+    const TemporaryFile file("0.1,0.1\n0.11,0.9\n0.5,0.5\n", ".csv");
+    std::string notes;
+    RunContext run;
+    run.warn = [&](const std::string& note) { notes += note; };
+    make("latin-hypercube", {}, {{"extend", file.path()}, {"add", "2"}}, run);
+    const Generator& generator = find_generator("latin-hypercube");
+    Values values = generator.options.defaults();
+    generator.options.set(values, "extend", file.path());
+    generator.options.set(values, "add", "2");
+    const auto said = generator.notes({}, plan_for(generator, {}, values), values);
+    ASSERT_EQ(said.size(), 1U);
+    EXPECT_EQ(said[0], "latin-hypercube: no Latin hypercube of all 5 points: points of " +
+                           file.path() +
+                           " share up to 1 of the 5 strata along an axis; new ones share none");
+}
+
+TEST(LatinHypercube, LevelsSpreadCategories) {
+    const PointSet set = make("latin-hypercube", points(12, 2),
+                              {{"optimize", "maximin"}, {"effort", "0.01"}, {"levels", "3,0"}});
+    EXPECT_TRUE(is_latin(set));
+    EXPECT_NE(
+        set, make("latin-hypercube", points(12, 2), {{"optimize", "maximin"}, {"effort", "0.01"}}));
+}
+
+// A stop after the first progress: nothing, or where the best will do the best so far.
+TEST(LatinHypercube, KeepsTheBestWhenItsSearchIsStopped) {
+    for (const bool keeps : {false, true}) {
+        std::stop_source source;
+        RunContext run{.threads = 2, .stop = source.get_token(), .keeps_best = keeps};
+        run.progress = [&](double done) {
+            if (done > 0) source.request_stop();
+        };
+        const Settings settings{{"optimize", "maximin"}, {"effort", "20"}};
+        if (!keeps) {
+            EXPECT_EQ(error_of([&] { make("latin-hypercube", points(40, 3), settings, run); }),
+                      "cancelled: interrupted");
+            continue;
+        }
+        const PointSet set = make("latin-hypercube", points(40, 3), settings, run);
+        EXPECT_EQ(set.provenance.found.back(),
+                  (std::pair<std::string, std::string>("ended", "interrupted")));
+        EXPECT_TRUE(is_latin(set));
+    }
+}
+
+TEST(LatinHypercube, RefusesWhatItCannotMake) {
+    const TemporaryFile file("0.1,0.2\n0.7,0.8\n", ".csv");
+    const TemporaryFile outside("0.1,1.2\n", ".csv");
+    const auto error = [&](const Request& request, const Settings& settings) {
+        return error_of([&] { make("latin-hypercube", request, settings); });
+    };
+    EXPECT_EQ(error({}, {{"effort", "2"}}), "usage: --effort: is of --optimize; give that too");
+    EXPECT_EQ(error({}, {{"levels", "2,2"}}), "usage: --levels: is of --optimize; give that too");
+    EXPECT_EQ(error({}, {{"add", "2"}}), "usage: --add: is of --extend; give that too");
+    EXPECT_EQ(error({}, {{"p", "2"}, {"optimize", "maximin"}}),
+              "usage: --p: is of --optimize phi-p; give that too");
+    EXPECT_EQ(error({}, {{"sliced", "2"}, {"nested", "2,4"}}),
+              "usage: --sliced and --nested contradict each other; give one of them");
+    EXPECT_EQ(error({}, {{"strength", "2"}, {"optimize", "maximin"}}),
+              "usage: --strength 2 and --optimize contradict each other: exchanges of strata would "
+              "not keep the squares");
+    EXPECT_EQ(error(points(10, 2), {{"sliced", "3"}}),
+              "usage: --count: 10 is not a multiple of 3, as --sliced 3 needs; 9 and 12 are the "
+              "nearest");
+    EXPECT_EQ(error({}, {{"nested", "3,10"}}),
+              "usage: --nested: 3,10 are not N1,N2 with N1 dividing N2, such as 10,30");
+    EXPECT_EQ(error({}, {{"nested", "2.5,10"}}), "usage: --nested: 2.5 is no number of points");
+    EXPECT_EQ(error(points(10, 2), {{"nested", "4,12"}}),
+              "usage: --count: 10 contradicts --nested 4,12, which has 12 points");
+    EXPECT_EQ(error(points(10'001, 2), {{"optimize", "maximin"}}),
+              "usage: --count: 10001 is outside [1, 10000], what --optimize can search");
+    EXPECT_EQ(error(points(20, 101), {{"optimize", "maximin"}}),
+              "usage: --dimension: 101 is outside [1, 100], what --optimize can search");
+    EXPECT_EQ(error(points(20, 3), {{"optimize", "maximin"}, {"levels", "2,2"}}),
+              "usage: --levels: 2 numbers for 3 coordinates; one for each");
+    EXPECT_EQ(error(points(20, 1), {{"optimize", "maximin"}, {"levels", "2.5"}}),
+              "usage: --levels: 2.5 is not a whole number in [0, 10000]");
+    EXPECT_EQ(error({}, {{"extend", file.path()}}),
+              "usage: --extend: how many points to add? --add says it");
+    EXPECT_EQ(error(points(9, 2), {{"extend", file.path()}, {"add", "3"}}),
+              "usage: --count: 9 is not 5, the 2 points of " + file.path() + " and those of --add");
+    EXPECT_EQ(error(points(5, 3), {{"extend", file.path()}, {"add", "3"}}),
+              "usage: --dimension: 3, but " + file.path() + " has points of 2 coordinates");
+    EXPECT_EQ(error({.bounds = Box{{0, 0}, {2, 2}}}, {{"extend", file.path()}, {"add", "3"}}),
+              "usage: --bounds: the points of --extend stay as they are; scale all of them "
+              "afterwards");
+    EXPECT_EQ(error({}, {{"extend", outside.path()}, {"add", "3"}}),
+              "input: " + outside.path() +
+                  ": point 0 is outside the unit cube; it has a coordinate 1.2 | --extend takes "
+                  "designs in [0, 1)");
 }
 
 }  // namespace stipple::testing::latin_hypercube_test
