@@ -210,9 +210,9 @@ TEST(Help, SaysWhatDomainsAnAnalyzerTakes) {
             << unit;
     }
     const auto all = nlohmann::json::parse(box.run({"list", "--json"}).out);
-    const std::set<std::string> boxed = {"coverage",         "differential", "hyperuniformity",
-                                         "pair-correlation", "periodogram",  "poisson-disk",
-                                         "voronoi"};
+    const std::set<std::string> boxed = {"coverage",        "design",           "differential",
+                                         "hyperuniformity", "pair-correlation", "periodogram",
+                                         "poisson-disk",    "voronoi"};
     for (const auto& unit : all["analyzers"])
         EXPECT_EQ(unit["traits"]["boxed"], boxed.contains(unit["name"])) << unit["name"];
 }
