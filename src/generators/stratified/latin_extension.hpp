@@ -12,7 +12,7 @@
 
 #include "core/point_set.hpp"
 #include "core/rng.hpp"
-#include "generators/latin_hypercube_search/design.hpp"
+#include "generators/stratified/latin_hypercube_search/design.hpp"
 
 namespace stipple::generators {
 
