@@ -11,7 +11,7 @@
 //     --sliced, --nested   parts of the points are Latin hypercubes, too (latin_structure.hpp)
 //     --extend     new points in the strata that given ones leave empty (latin_extension.hpp)
 //     --optimize   the permutations are those that a search finds best by a criterion
-//                  (generators/stratified/latin_hypercube_search); it keeps slices, nested and given points
+//                  (latin_hypercube_search); it keeps slices, nested and given points
 //
 // Cost    O(n d); point i is found without the others, in constant memory. A search takes some 20 s
 //         of one core by default, fewer for few points, and up to 64 n^2 bytes: 256 MB at n = 2000.
