@@ -11,12 +11,12 @@
 //     --sliced, --nested   parts of the points are Latin hypercubes, too (latin_structure.hpp)
 //     --extend     new points in the strata that given ones leave empty (latin_extension.hpp)
 //     --optimize   the permutations are those that a search finds best by a criterion
-//                  (generators/latin_hypercube_search); it keeps slices, nested and given points
+//                  (latin_hypercube_search); it keeps slices, nested and given points
 //
 // Cost    O(n d); point i is found without the others, in constant memory. A search takes some 20 s
 //         of one core by default, fewer for few points, and up to 64 n^2 bytes: 256 MB at n = 2000.
 // Promise each stratum holds one point in exact arithmetic, and floor(x n) says so too
-//         (math/digital/stratum.hpp). A search's result is a function of the request and the options,
+//         (math/digital/stratum.hpp). A search's result is a function of the request and options,
 //         for any number of threads; its value in the provenance is that of the middles.
 // Source  M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239-245,
 //         doi:10.1080/00401706.1979.10489755; B. Tang, J. Amer. Stat. Assoc. 88 (1993) 1392-1397,
@@ -30,8 +30,8 @@
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "generators/given_points.hpp"
-#include "generators/latin_hypercube_search/search.hpp"
 #include "generators/stratified/latin_extension.hpp"
+#include "generators/stratified/latin_hypercube_search/search.hpp"
 #include "generators/stratified/latin_structure.hpp"
 #include "generators/stratified/orthogonal_points.hpp"
 #include "io/files.hpp"
@@ -110,7 +110,6 @@ void check_options(const Values& options) {
         if (given && !fits) fail(ErrorKind::usage, "--{}: is of {}; give that too", name, what);
     };
     const bool searches = options.given(optimize);
-    only_with("effort", options.given(effort), searches, "--optimize");
     only_with("levels", options.given(levels), searches, "--optimize");
     only_with("p", options.given(power), options[optimize] == "phi-p", "--optimize phi-p");
     only_with("add", options.given(add), options.given(extend), "--extend");

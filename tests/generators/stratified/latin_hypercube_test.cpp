@@ -356,7 +356,6 @@ TEST(LatinHypercube, RefusesWhatItCannotMake) {
     const auto error = [&](const Request& request, const Settings& settings) {
         return error_of([&] { make("latin-hypercube", request, settings); });
     };
-    EXPECT_EQ(error({}, {{"effort", "2"}}), "usage: --effort: is of --optimize; give that too");
     EXPECT_EQ(error({}, {{"levels", "2,2"}}), "usage: --levels: is of --optimize; give that too");
     EXPECT_EQ(error({}, {{"add", "2"}}), "usage: --add: is of --extend; give that too");
     EXPECT_EQ(error({}, {{"p", "2"}, {"optimize", "maximin"}}),

@@ -12,7 +12,7 @@
 
 #include <memory>
 
-#include "generators/latin_hypercube_search/criteria.hpp"
+#include "generators/stratified/latin_hypercube_search/criteria.hpp"
 #include "math/combinatorics/splitmix64.hpp"
 #include "stipple/run.hpp"
 

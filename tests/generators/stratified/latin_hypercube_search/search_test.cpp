@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "generators/latin_hypercube_search/search.hpp"
+#include "generators/stratified/latin_hypercube_search/search.hpp"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <map>
 
-#include "generators/latin_hypercube_search/annealing.hpp"
-#include "generators/latin_hypercube_search/lattice_start.hpp"
-#include "generators/latin_hypercube_search/support.hpp"
+#include "generators/stratified/latin_hypercube_search/annealing.hpp"
+#include "generators/stratified/latin_hypercube_search/lattice_start.hpp"
+#include "generators/stratified/latin_hypercube_search/support.hpp"
 #include "support/units.hpp"
 
 namespace stipple::testing::latin_search_test {

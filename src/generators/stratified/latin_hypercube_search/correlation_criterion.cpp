@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "generators/latin_hypercube_search/criteria.hpp"
+#include "generators/stratified/latin_hypercube_search/criteria.hpp"
 
 namespace stipple::latin_hypercube_search {
 namespace {

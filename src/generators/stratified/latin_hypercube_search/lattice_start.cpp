@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "generators/latin_hypercube_search/lattice_start.hpp"
+#include "generators/stratified/latin_hypercube_search/lattice_start.hpp"
 
 #include <algorithm>
 #include <cmath>

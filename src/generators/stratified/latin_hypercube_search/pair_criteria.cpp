@@ -10,7 +10,7 @@
 
 #include "core/machine/vectors.hpp"
 #include "core/machine/wide.hpp"
-#include "generators/latin_hypercube_search/criteria.hpp"
+#include "generators/stratified/latin_hypercube_search/criteria.hpp"
 
 namespace stipple::latin_hypercube_search {
 namespace {

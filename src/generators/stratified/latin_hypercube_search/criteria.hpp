@@ -31,7 +31,7 @@
 #include <utility>
 #include <vector>
 
-#include "generators/latin_hypercube_search/design.hpp"
+#include "generators/stratified/latin_hypercube_search/design.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple::latin_hypercube_search {

@@ -8,7 +8,7 @@
 // point that goes is a corner, and distances stay as they are.
 #pragma once
 
-#include "generators/latin_hypercube_search/design.hpp"
+#include "generators/stratified/latin_hypercube_search/design.hpp"
 #include "math/combinatorics/splitmix64.hpp"
 
 namespace stipple::latin_hypercube_search {

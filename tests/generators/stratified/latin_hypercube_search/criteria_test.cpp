@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "generators/latin_hypercube_search/criteria.hpp"
+#include "generators/stratified/latin_hypercube_search/criteria.hpp"
 
 #include <gtest/gtest.h>
 
-#include "generators/latin_hypercube_search/support.hpp"
+#include "generators/stratified/latin_hypercube_search/support.hpp"
 
 namespace stipple::testing::latin_criteria_test {
 namespace {

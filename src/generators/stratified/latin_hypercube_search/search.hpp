@@ -18,7 +18,7 @@
 
 #include <string>
 
-#include "generators/latin_hypercube_search/criteria.hpp"
+#include "generators/stratified/latin_hypercube_search/criteria.hpp"
 
 namespace stipple::latin_hypercube_search {
 

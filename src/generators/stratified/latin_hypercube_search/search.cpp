@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "generators/latin_hypercube_search/search.hpp"
+#include "generators/stratified/latin_hypercube_search/search.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +9,9 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
-#include "generators/latin_hypercube_search/annealing.hpp"
-#include "generators/latin_hypercube_search/lattice_start.hpp"
 #include "generators/search_run.hpp"
+#include "generators/stratified/latin_hypercube_search/annealing.hpp"
+#include "generators/stratified/latin_hypercube_search/lattice_start.hpp"
 
 namespace stipple::latin_hypercube_search {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "generators/latin_hypercube_search/annealing.hpp"
+#include "generators/stratified/latin_hypercube_search/annealing.hpp"
 
 #include <algorithm>
 #include <cmath>

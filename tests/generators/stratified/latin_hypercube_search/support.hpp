@@ -8,7 +8,7 @@
 #include <numeric>
 #include <vector>
 
-#include "generators/latin_hypercube_search/criteria.hpp"
+#include "generators/stratified/latin_hypercube_search/criteria.hpp"
 #include "math/combinatorics/splitmix64.hpp"
 
 namespace stipple::testing {
