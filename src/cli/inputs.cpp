@@ -56,7 +56,7 @@ Reading reading_of(const std::string& path, const Arguments& arguments) {
     if (const auto file = arguments.get("parameters")) {
         const auto named = parameters::read_parameters(*file);
         options.levels = named.levels;
-        if (arguments.verb != Verb::warp && options.columns.empty()) options.columns = named.names;
+        if (arguments.verb != Verb::warp) options.expected = named.names;
     }
     return {std::move(options), from.empty() ? nullptr : &io::format_named(from)};
 }
@@ -84,6 +84,8 @@ std::vector<PointSet> named(std::vector<PointSet> sets, const Arguments& argumen
         io::take_densities(set);
         set.domain = input_domain(set.provenance, set.dimension(), arguments, run);
         set.provenance.domain = set.domain->spec();
+        if (set.provenance.columns.empty()) set.provenance.columns = set.domain->names();
+        if (set.provenance.levels.empty()) set.provenance.levels = set.domain->levels();
         set.provenance.count = set.count();
         set.provenance.dimension = set.dimension();
         complete(set.provenance);
@@ -353,9 +355,8 @@ SetsToMake sets_asked(const Generator& generator, Values options, const Argument
     if (const auto file = arguments.get("parameters")) {
         const auto named = parameters::read_parameters(*file);
         if (!asked.request.dimension) asked.request.dimension = named.names.size();
-        asked.warps.push_back(named.spec);
-        if (arguments.has("unit-cube"))
-            asked.warps.back().settings.emplace_back("unit-cube", "true");
+        asked.warps.push_back(arguments.has("unit-cube") ? parameters::in_unit_cube(named.spec)
+                                                         : named.spec);
     } else {
         arguments.refuse({"unit-cube"}, "is of --parameters, which is not given");
     }

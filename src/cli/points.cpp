@@ -17,6 +17,7 @@
 #include "pipeline/generated.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/set_writer.hpp"
+#include "warps/parameters/parameter_file.hpp"
 
 namespace stipple::cli {
 namespace {
@@ -180,8 +181,12 @@ int warp(const Arguments& arguments, Session& session) {
     const Scramble* scrambled = scramble_named(arguments.unit);
     settings_of(scrambled ? scrambled->options : find_warp(arguments.unit).options, arguments);
     Spec spec{.name = arguments.unit, .coordinates = {}, .settings = arguments.settings};
-    if (const auto file = arguments.get("parameters"))
-        spec.settings.emplace_back("parameters", *file);
+    if (const auto file = arguments.get("parameters")) {
+        const Spec named = parameters::read_parameters(*file).spec;
+        if (spec.name != named.name)
+            fail(ErrorKind::usage, "--parameters: is of the warp {}", named.name);
+        spec.settings.insert(spec.settings.end(), named.settings.begin(), named.settings.end());
+    }
     if (const auto coordinates = arguments.get("coordinates"))
         spec.coordinates = parse_spec(spec.name + "@" + *coordinates).coordinates;
     if (!scrambled)

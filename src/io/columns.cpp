@@ -77,6 +77,15 @@ bool Columns::has(std::size_t wanted) const {
 
 Columns choose_columns(std::vector<std::string> names, std::size_t width,
                        const ReadOptions& options, const std::string& place) {
+    const auto is_there = [&](const std::string& name) {
+        return std::ranges::find(names, name) != names.end();
+    };
+    if (options.columns.empty() && !options.expected.empty() &&
+        std::ranges::all_of(options.expected, is_there)) {
+        ReadOptions picked = options;
+        picked.columns = options.expected;
+        return choose_columns(std::move(names), width, picked, place);
+    }
     Columns columns{.role = std::vector<std::size_t>(width, Columns::skipped)};
     const bool named = !names.empty();
     if (!named) names = coordinate_names(width);

@@ -81,6 +81,8 @@ struct ReadOptions {
     std::string source = "-";                   ///< for messages and reports
     std::optional<std::size_t> dimension = {};  ///< needed by bin; checked by the others
     std::vector<std::string> columns = {};  ///< names, or numbers from 1; empty: all coordinates
+    /// Those that are read where there is no `columns` and the file names all of them.
+    std::vector<std::string> expected = {};
     /// Of columns that hold words: the words, by name, in the order of the numbers 0, 1, ...
     std::vector<std::pair<std::string, std::vector<std::string>>> levels = {};
     bool any_count = false;    ///< a head may announce another number of points

@@ -329,7 +329,8 @@ std::vector<double> GeneratedSets::images_of_more(std::uint64_t set, const Point
                              request.start, quiet);
     }
     if (best.empty())
-        fail(ErrorKind::input, "the constraints hold for {} of {} points", kept.size() / d, count);
+        fail(ErrorKind::input, "the constraints hold for {} of {} points",
+             kept.empty() ? "none" : std::to_string(kept.size() / d), count);
     run.notify(
         fmt::format("{} points were made, of which the constraints keep {}: what {} promises "
                     "holds for all that were made",

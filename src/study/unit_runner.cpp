@@ -13,8 +13,10 @@
 
 #include "core/text.hpp"
 #include "pipeline/chain.hpp"
+#include "pipeline/generated.hpp"
 #include "pipeline/pipeline.hpp"
 #include "report/document.hpp"
+#include "warps/parameters/parameter_file.hpp"
 
 namespace stipple {
 namespace {
@@ -165,8 +167,26 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
     if (!sweep.scrambles().empty())
         points = WarpChain(sweep.scrambles(), d, set, run).image(points, run);
     // What a scramble draws depends on seed and coordinates: cut in two, the chain is the same.
-    if (!sweep.later_warps().empty())
-        made.image = WarpChain(sweep.later_warps(), d, set, run).image(points, run);
+    if (sweep.later_warps().empty()) return;
+    const WarpChain chain(sweep.later_warps(), d, set, run);
+    if (!chain.refills()) {
+        made.image = chain.image(points, run);
+        return;
+    }
+    const auto refilled = [&](std::vector<Spec> warps) {
+        warps.insert(warps.begin(), sweep.scrambles().begin(), sweep.scrambles().end());
+        return GeneratedSets({.generator = generator.unit,
+                              .options = generator.values,
+                              .request = request,
+                              .sets = 1,
+                              .warps = std::move(warps)},
+                             silent(run))
+            .made(0, run);
+    };
+    std::vector<Spec> warps(sweep.later_warps().begin(), sweep.later_warps().end());
+    made.image = refilled(warps);
+    warps.back() = parameters::in_unit_cube(warps.back());
+    points = refilled(warps);
 }
 
 MadeSet made_set(const Sweep& sweep, const Cell& cell, std::uint64_t seed, const RunContext& run) {

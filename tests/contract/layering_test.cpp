@@ -124,12 +124,13 @@ std::set<std::string> sources_in_cycles(std::map<std::string, std::set<std::stri
 /// Units whose names are ordinary words, which also name results, options and their values, or
 /// distributions.
 const std::set<std::string> ordinary = {
-    "beta",        "binomial",   "digital-shift", "disk",        "dispersion", "empirical",
-    "exponential", "fast",       "faure",         "gamma",       "grid",       "gumbel",
-    "image",       "integers",   "jittered",      "log-uniform", "lognormal",  "matrix",
-    "mixture",     "morris",     "normal",        "owen",        "parameters", "pixel",
-    "poisson",     "power",      "random",        "rejection",   "saltelli",   "simplex",
-    "student-t",   "triangular", "truncated",     "uniform",     "weibull"};
+    "beta",        "binomial",    "design",    "digital-shift", "disk",        "dispersion",
+    "empirical",   "exponential", "fast",      "faure",         "gamma",       "grid",
+    "gumbel",      "image",       "integers",  "jittered",      "log-uniform", "lognormal",
+    "matrix",      "mixture",     "morris",    "normal",        "owen",        "parameters",
+    "pixel",       "poisson",     "power",     "random",        "rejection",   "saltelli",
+    "sensitivity", "simplex",     "student-t", "triangular",    "truncated",   "uniform",
+    "weibull"};
 
 /// Files that know units of other files, and which.
 const std::map<std::string, std::set<std::string>> exceptions = {

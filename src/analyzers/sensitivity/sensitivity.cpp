@@ -116,9 +116,9 @@ Setting setting_of(const Values& options) {
 /// @throws Error(input) where the design has not the rows that the method needs
 Plan plan_of(const PointSet& points, const std::string& asked, const Setting& setting,
              const RunContext& run) {
-    const auto find = [&](const std::string& name) -> Layout {
-        if (name == "saltelli") return find_pick_freeze(points);
-        if (name == "morris") return find_trajectories(points);
+    const auto find = [&](const std::string& kind) -> Layout {
+        if (kind == "saltelli") return find_pick_freeze(points);
+        if (kind == "morris") return find_trajectories(points);
         return find_curves(points, setting.harmonics, run);
     };
     if (asked == "rank" || asked == "chaos") return {.method = asked};
@@ -130,10 +130,10 @@ Plan plan_of(const PointSet& points, const std::string& asked, const Setting& se
                            plan.layout.trouble);
         return plan;
     }
-    for (const std::string name : {"saltelli", "morris", "fast"}) {
+    for (const std::string kind : {"saltelli", "morris", "fast"}) {
         // Any two values of a single input make a trajectory.
-        if (name == "morris" && points.dimension() == 1) continue;
-        if (Layout layout = find(name)) return {.method = name, .layout = std::move(layout)};
+        if (kind == "morris" && points.dimension() == 1) continue;
+        if (Layout layout = find(kind)) return {.method = kind, .layout = std::move(layout)};
     }
     return {};
 }

@@ -552,10 +552,12 @@ bool holds_word(const Field& field) {
     return is_word(std::string(field.text)) && std::ranges::any_of(field.text, is_letter);
 }
 
-/// The words of a column, sorted; none where it holds numbers, too, or more words than are levels.
+/// The words of a column, sorted; none where it holds numbers, too, or more words than are levels, and
+/// of a single row, whose word is rather a mistake.
 std::vector<std::string> words_in_column(const SourceText& text, const TableHead& head,
                                          std::size_t c) {
     constexpr std::size_t most = 10'000;
+    std::size_t rows = 0;
     std::set<std::string, std::less<>> words;
     for (const char* at = head.body; at != text.end(); at = next_line(text, at)) {
         const std::string_view line = line_at(text, at);
@@ -565,7 +567,9 @@ std::vector<std::string> words_in_column(const SourceText& text, const TableHead
         if (head.dialect.gaps && is_gap(fields[c])) continue;
         if (!holds_word(fields[c]) || words.size() > most) return {};
         words.emplace(fields[c].text);
+        ++rows;
     }
+    if (rows == 1) words.clear();
     return {words.begin(), words.end()};
 }
 

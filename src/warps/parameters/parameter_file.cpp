@@ -473,4 +473,9 @@ NamedParameters read_parameters(const std::string& path) {
     return out;
 }
 
+Spec in_unit_cube(Spec parameters) {
+    parameters.settings.emplace_back("unit-cube", "true");
+    return parameters;
+}
+
 }  // namespace stipple::parameters

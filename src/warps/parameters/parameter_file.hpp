@@ -26,6 +26,9 @@ struct NamedParameters {
 /// @throws Error(input), Error(io)
 NamedParameters read_parameters(const std::string& path);
 
+/// The same warp, which leaves the numbers in the unit cube.
+Spec in_unit_cube(Spec parameters);
+
 /// The same text on one line, as a spec and a provenance keep it. @throws Error(input)
 std::string one_line(std::string_view json, const std::string& source);
 

@@ -62,7 +62,10 @@ std::vector<Share> ParameterSpace::shares(std::span<const double> row) const {
 void ParameterSpace::to_cube(std::span<const double> row, std::span<double> cube) const {
     auto at = shares(row);
     if (copula_) copula_->inverse(at);
-    for (std::size_t k = 0; k < row.size(); ++k) cube[k] = std::clamp(at[k].below, 0.0, 1.0);
+    for (std::size_t k = 0; k < row.size(); ++k) {
+        const auto [below, above] = at[k];
+        cube[k] = std::clamp(above < below ? 1 - above : below, 0.0, 1.0);
+    }
 }
 
 bool ParameterSpace::allowed(std::span<const double> row) const {

@@ -31,8 +31,7 @@ namespace {
 
 using stipple::parameters::ParameterSpace;
 
-constexpr Param<Path> file{
-    {.name = "parameters", .help = "Parameter file (stipple help parameters)"}};
+constexpr Param<Path> file{{.name = "file", .help = "Parameter file (stipple help parameters)"}};
 constexpr Param<Text> json{{.name = "json", .help = "The text of one, in place of a file"}};
 constexpr Param<bool> unit_cube{
     .name = "unit-cube",
@@ -189,7 +188,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const bool by_file = want.options.given(file);
     if (by_file == want.options.given(json))
         fail(ErrorKind::usage,
-             "--parameters: name a parameter file; 'stipple help parameters' has "
+             "--file: name a parameter file; 'stipple help parameters' has "
              "an example");
     const std::string source = by_file ? std::string(want.options[file]) : "parameters";
     const std::string text = by_file ? read_file(source) : std::string(want.options[json]);
