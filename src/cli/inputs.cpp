@@ -374,7 +374,7 @@ GeneratedSets generated_sets(const std::string& spec, std::uint64_t seed,
 
 void require_options_of_sources(const Arguments& arguments) {
     if (!arguments.has("generate"))
-        arguments.refuse({"count", "seed", "sets", "warp", "start"},
+        arguments.refuse({"count", "seed", "sets", "warp", "start", "unit-cube"},
                          "is of --generate, which names a generator");
     else if (arguments.inputs.empty())
         arguments.refuse({"bounds", "rescale", "domain", "column", "from", "dtype", "input-dtype"},

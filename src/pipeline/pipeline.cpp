@@ -56,6 +56,11 @@ std::string way_to_cube(const PointSet& points) {
     const auto warp = std::ranges::find(warps::all(), name, &Warp::name);
     if (warp == warps::all().end() || !warp->traits.invertible)
         return "--rescale or --bounds lo..hi moves points into the cube";
+    if (step.find('"') != std::string::npos)  // the text of a parameter file
+        return fmt::format(
+            "--unit-cube beside --parameters leaves generated points there; 'stipple warp {} "
+            "--parameters FILE --inverse' takes others back",
+            name);
     const char* quote = step.find_first_of(" []") == std::string::npos ? "" : "\"";
     return fmt::format("'stipple warp {1}{0}{1} --inverse' takes them back to the cube", step,
                        quote);

@@ -122,7 +122,7 @@ const std::vector<CommonOption> rows = {
      analyze | convert | plot | report},
     {"--unit-cube", "", "",
      "with --parameters: the numbers in the unit cube, less those that break a constraint",
-     generate},
+     generate | analyze | plot | report},
     {"--start", "I", "0", "index of the first point of --generate", analyze | plot | report, false,
      0, most_points},
     {"--start", "I", "0", "index of a sequence's first point", generate, false, 0, most_points},

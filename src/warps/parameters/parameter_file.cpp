@@ -235,8 +235,8 @@ class ParameterReader {
                     return given(before);
                 } catch (const Error& e) {
                     throw Error(ErrorKind::input,
-                                fmt::format("the parameter {} where those before it are {}: {}",
-                                            name, place_text(before), e.what()));
+                                fmt::format("the parameter {} behind {}: {}", name,
+                                            fmt::join(before, ", "), e.what()));
                 }
             };
         else
@@ -321,8 +321,7 @@ class CorrelationReader {
         const auto degrees = read_degrees();
         if (degrees && place_.has("spearman"))
             place_.at("spearman")
-                .refuse("Student's copula has no closed form for it",
-                        "give \"kendall\" or \"pearson\"");
+                .refuse("Student's copula has no closed form for it", "give \"kendall\"");
         for (const char* kind : {"spearman", "kendall", "pearson"})
             if (place_.has(kind))
                 for (const Place& pair : place_.at(kind).list("expected a list of pairs"))
