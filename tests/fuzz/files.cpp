@@ -175,6 +175,7 @@ std::vector<Target> file_targets() {
         {"mesh", mesh},
         {"polygon", [](Bytes b) { warp("polygon:file=" + as_file(b), 2); }},
         {"table-1d", [](Bytes b) { warp("table-1d:file=" + as_file(b), 1); }},
+        {"parameters", [](Bytes b) { warp("parameters:file=" + as_file(b), 2); }},
         {"lattice", [](Bytes b) { generator("rank1-lattice:vector-file=", b); }},
         {"polynomial", [](Bytes b) { generator("polynomial-lattice:vector-file=", b); }},
         {"matrices", [](Bytes b) { generator("digital-net:matrices=", b); }},
