@@ -9,7 +9,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "stipple/points.hpp"
@@ -156,11 +155,8 @@ class Domain {
     /// Names of the coordinates; none: x, y, ...
     [[nodiscard]] virtual std::vector<std::string> names() const { return {}; }
 
-    /// Of coordinates whose numbers 0, 1, ... stand for words, by name: the words.
-    [[nodiscard]] virtual std::vector<std::pair<std::string, std::vector<std::string>>> levels()
-        const {
-        return {};
-    }
+    /// What numbers of the coordinates stand for.
+    [[nodiscard]] virtual Levels levels() const { return {}; }
 
     /// Of directions whose cube has a share of them nearer to the axis first, then a longitude.
     [[nodiscard]] virtual std::optional<Pole> pole() const { return std::nullopt; }

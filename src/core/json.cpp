@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/error.hpp"
 #include "core/text.hpp"
 
 namespace stipple {
@@ -23,6 +24,30 @@ JsonError error_of(const Json::exception& error, std::string_view text) {
     return {fmt::format("the number {} is beyond what a double holds", shown(number)),
             std::min(text.find(number), text.size())};
 }
+
+/// Looks for keys that stand twice in an object, of which a parser would take the last.
+class Repetitions {
+  public:
+    explicit Repetitions(const std::string& source) : source_(source) {}
+
+    bool operator()(int, Json::parse_event_t event, const Json& value) {
+        if (event == Json::parse_event_t::object_start) objects_.emplace_back();
+        if (event == Json::parse_event_t::object_end) objects_.pop_back();
+        if (event != Json::parse_event_t::key) return true;
+        const auto name = value.get<std::string>();
+        auto& keys_here = objects_.back();
+        const bool twice = std::ranges::find(keys_here, name) != keys_here.end();
+        keys_here.push_back(name);
+        if (!twice) return true;
+        std::string where = "$";
+        for (const auto& object : objects_) where += "." + object.back();
+        fail(ErrorKind::input, "{}: {}: the key stands twice", source_, where);
+    }
+
+  private:
+    std::string source_;
+    std::vector<std::vector<std::string>> objects_;  ///< that are open: their keys so far
+};
 
 }  // namespace
 
@@ -62,6 +87,19 @@ Json parse_json(std::string_view text) {
 Json try_parse_json(std::string_view text) {
     const bool deep = json_extent(text).too_deep != std::string_view::npos;
     return deep ? Json(Json::value_t::discarded) : Json::parse(text, nullptr, false);
+}
+
+Json parse_written_json(std::string_view text, const std::string& source) {
+    try {
+        parse_json(text);  // which says what is wrong, and refuses what is too deep
+        return Json::parse(text, Repetitions(source));
+    } catch (const JsonError& e) {
+        const auto before = text.substr(0, e.at);
+        const auto line = 1 + std::ranges::count(before, '\n');
+        const auto last = before.rfind('\n');
+        const auto column = last == std::string_view::npos ? e.at + 1 : e.at - last;
+        fail(ErrorKind::input, "{}:{}:{}: {}", source, line, column, e.what());
+    }
 }
 
 }  // namespace stipple

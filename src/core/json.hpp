@@ -41,4 +41,8 @@ Json parse_json(std::string_view text);
 /// The same, but a discarded value for a text that is none.
 Json try_parse_json(std::string_view text);
 
+/// The value of a file that somebody wrote, in which no key stands twice in an object.
+/// @throws Error(input) "SOURCE:LINE:COLUMN: not JSON", "SOURCE: $.a.b: the key stands twice"
+Json parse_written_json(std::string_view text, const std::string& source);
+
 }  // namespace stipple

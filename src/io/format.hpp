@@ -13,7 +13,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/options.hpp"
@@ -83,8 +82,8 @@ struct ReadOptions {
     std::vector<std::string> columns = {};  ///< names, or numbers from 1; empty: all coordinates
     /// Those that are read where there is no `columns` and the file names all of them.
     std::vector<std::string> expected = {};
-    /// Of columns that hold words: the words, by name, in the order of the numbers 0, 1, ...
-    std::vector<std::pair<std::string, std::vector<std::string>>> levels = {};
+    Levels levels = {};  ///< of columns that hold words
+
     bool any_count = false;    ///< a head may announce another number of points
     bool all_columns = false;  ///< those called pdf or weight are coordinates, too
     bool densities = false;    ///< a column called pdf or weight is a number behind the coordinates

@@ -66,8 +66,7 @@ bool take_columns(const Json& value, std::vector<std::string>& names) {
     return texts;
 }
 
-bool take_levels(const Json& value,
-                 std::vector<std::pair<std::string, std::vector<std::string>>>& levels) {
+bool take_levels(const Json& value, Levels& levels) {
     if (!value.is_object()) return false;
     levels.clear();
     for (const auto& [column, words] : value.items())

@@ -435,8 +435,8 @@ std::vector<std::string> WarpChain::names(std::vector<std::string> before, bool 
     return before;
 }
 
-std::vector<std::pair<std::string, std::vector<std::string>>> WarpChain::levels() const {
-    std::vector<std::pair<std::string, std::vector<std::string>>> all;
+Levels WarpChain::levels() const {
+    Levels all;
     for (const Step& step : steps_)
         if (step.domain) std::ranges::move(step.domain->levels(), std::back_inserter(all));
     return all;

@@ -83,7 +83,7 @@ class WarpChain {
     [[nodiscard]] std::vector<std::string> names(std::vector<std::string> before, bool back) const;
 
     /// What numbers of the images stand for, as the warps' domains tell.
-    [[nodiscard]] std::vector<std::pair<std::string, std::vector<std::string>>> levels() const;
+    [[nodiscard]] Levels levels() const;
 
     /// What forward() or, with `back`, inverse() gives, on all threads; the first row is row `first`
     /// of the set. @throws as these do; Error(cancelled), Error(limit)

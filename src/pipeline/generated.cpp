@@ -271,12 +271,13 @@ void check_share(std::uint64_t kept, std::uint64_t made) {
 
 }  // namespace
 
-std::vector<double> GeneratedSets::next_images(std::uint64_t set, const PointSet& first,
-                                               std::uint64_t& made, const RunContext& run) const {
+GeneratedSets::Images GeneratedSets::next_images(std::uint64_t set, const PointSet& first,
+                                                 const RunContext& run) const {
     const auto chain = chain_for(set, run);
     const RunContext quiet = silent(run);
     const auto points = sequence(set, quiet);
     std::vector<double> kept = chain->mapped(first.flat(), false, asked_.request.start, quiet);
+    std::uint64_t made = first.count();
     const std::size_t d = dimension();
     for (bool told = false; kept.size() / d < plan_.count; told = true) {
         const std::uint64_t have = kept.size() / d;
@@ -284,8 +285,8 @@ std::vector<double> GeneratedSets::next_images(std::uint64_t set, const PointSet
         const double more = 1.1 * static_cast<double>(plan_.count - have) / share;
         if (!told && more > 1e7)
             run.notify(
-                fmt::format("the constraints hold for a share of {:.2g}{}: some {:.1g} points "
-                            "are made",
+                fmt::format("the constraints hold for a share of {:.2g}{}; some {:.1g} more "
+                            "points are needed",
                             share, have == 0 ? " or less" : "", more));
         check_share(have, made);
         Plan plan = plan_;
@@ -297,53 +298,47 @@ std::vector<double> GeneratedSets::next_images(std::uint64_t set, const PointSet
         made += plan.count;
         run.tick(std::min<std::uint64_t>(kept.size() / d, plan_.count), plan_.count);
     }
-    return kept;
+    return {std::move(kept), made};
 }
 
-std::vector<double> GeneratedSets::images_of_more(std::uint64_t set, const PointSet& first,
-                                                  std::uint64_t& made,
-                                                  const RunContext& run) const {
+GeneratedSets::Images GeneratedSets::images_of_more(std::uint64_t set, const PointSet& first,
+                                                    const RunContext& run) const {
     const auto chain = chain_for(set, run);
     const RunContext quiet = silent(run);
     const std::size_t d = dimension();
     std::vector<double> kept = chain->mapped(first.flat(), false, asked_.request.start, quiet);
-    std::vector<double> best;
-    std::uint64_t count = made;
+    std::uint64_t count = first.count();
+    Images best{{}, count};
     for (int step = 0; step < 12; ++step) {
         const std::uint64_t have = kept.size() / d;
-        if (have >= plan_.count && (best.empty() || count < made)) {
-            best = kept;
-            made = count;
-        }
-        if (!best.empty() && have >= plan_.count && have <= plan_.count + 2 + plan_.count / 50)
+        if (have >= plan_.count && (best.rows.empty() || count < best.made)) best = {kept, count};
+        if (!best.rows.empty() && have >= plan_.count && have <= plan_.count + 2 + plan_.count / 50)
             break;
         if (have == 0 && count > 10'000'000) break;
         const double ratio =
             have == 0 ? 32 : static_cast<double>(plan_.count) / static_cast<double>(have);
         const double next = static_cast<double>(count) * ratio * 1.005 + 1;
-        if (!best.empty() && next >= static_cast<double>(made)) break;
+        if (!best.rows.empty() && next >= static_cast<double>(best.made)) break;
         Request request = asked_.request;
         request.count = count = static_cast<std::uint64_t>(next);
         request.seed = plan_.seed + set;
         kept = chain->mapped(make_points(generator_, request, asked_.options, run).flat(), false,
                              request.start, quiet);
     }
-    if (best.empty())
+    if (best.rows.empty())
         fail(ErrorKind::input, "the constraints hold for {} of {} points",
              kept.empty() ? "none" : std::to_string(kept.size() / d), count);
-    run.notify(
-        fmt::format("{} points were made, of which the constraints keep {}: what {} promises "
-                    "holds for all that were made",
-                    made, plan_.count, generator_.name));
+    run.notify(fmt::format(
+        "{} points were made, of which {} satisfy the constraints; the properties of {} "
+        "are those of the larger set",
+        best.made, plan_.count, generator_.name));
     return best;
 }
 
 PointSet GeneratedSets::filled_up(std::uint64_t set, const PointSet& first,
                                   const RunContext& run) const {
-    std::uint64_t made = first.count();
     const bool goes_on = generator_.traits.sequence && generator_.traits.prefix;
-    std::vector<double> rows =
-        goes_on ? next_images(set, first, made, run) : images_of_more(set, first, made, run);
+    auto [rows, made] = goes_on ? next_images(set, first, run) : images_of_more(set, first, run);
     const std::size_t d = dimension();
     const double share = static_cast<double>(rows.size() / d) / static_cast<double>(made);
     rows.resize(plan_.count * d);

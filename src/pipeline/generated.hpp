@@ -102,13 +102,16 @@ class GeneratedSets {
     /// warps. @throws Error(input) where next to none has an image
     [[nodiscard]] PointSet filled_up(std::uint64_t set, const PointSet& first,
                                      const RunContext& run) const;
+    struct Images {
+        std::vector<double> rows;
+        std::uint64_t made;  ///< points that they are the images of, with those that have none
+    };
     /// By the next points of a sequence, as many as it takes.
-    [[nodiscard]] std::vector<double> next_images(std::uint64_t set, const PointSet& first,
-                                                  std::uint64_t& made, const RunContext& run) const;
+    [[nodiscard]] Images next_images(std::uint64_t set, const PointSet& first,
+                                     const RunContext& run) const;
     /// By a set of more points, little more than it takes.
-    [[nodiscard]] std::vector<double> images_of_more(std::uint64_t set, const PointSet& first,
-                                                     std::uint64_t& made,
-                                                     const RunContext& run) const;
+    [[nodiscard]] Images images_of_more(std::uint64_t set, const PointSet& first,
+                                        const RunContext& run) const;
 
     /// The points of a set before its warps; the same object for all sets that are the same.
     [[nodiscard]] std::shared_ptr<Sequence> sequence(std::uint64_t set,

@@ -64,6 +64,9 @@ class Rows {
     std::span<double> view_;  ///< of the one that is used
 };
 
+/// Of coordinates whose numbers 0, 1, ... stand for words, by name: the words.
+using Levels = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
 /// Where a point set comes from: enough to make it again.
 struct Provenance {
     std::string version;                                       ///< of stipple
@@ -76,8 +79,7 @@ struct Provenance {
     std::vector<std::string> warps;  ///< specs, in order
     /// Names of the coordinates, where they have others than x, y, ...
     std::vector<std::string> columns = {};
-    /// Of coordinates whose numbers 0, 1, ... stand for words, by name: the words.
-    std::vector<std::pair<std::string, std::vector<std::string>>> levels = {};
+    Levels levels = {};  ///< of columns
     std::string domain = "unit-cube";
     std::string bounds;     ///< empty: none
     std::string shard;      ///< "I/K"; empty: the whole

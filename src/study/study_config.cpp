@@ -47,36 +47,12 @@ void check_unit(std::string_view key, const Spec& spec) {
     (void)spec.values(scramble ? scramble->options : find_warp(spec.name).options);
 }
 
-/// Looks for keys that stand twice in an object, of which a parser would take the last.
-class Repetitions {
-  public:
-    explicit Repetitions(const std::string& source) : source_(source) {}
-
-    bool operator()(int, Json::parse_event_t event, const Json& value) {
-        if (event == Json::parse_event_t::object_start) objects_.emplace_back();
-        if (event == Json::parse_event_t::object_end) objects_.pop_back();
-        if (event != Json::parse_event_t::key) return true;
-        const auto name = value.get<std::string>();
-        auto& keys_here = objects_.back();
-        const bool twice = std::ranges::find(keys_here, name) != keys_here.end();
-        keys_here.push_back(name);
-        if (!twice) return true;
-        std::string where = "$";
-        for (const auto& object : objects_) where += "." + object.back();
-        fail(ErrorKind::input, "{}: {}: the key stands twice", source_, where);
-    }
-
-  private:
-    std::string source_;
-    std::vector<std::vector<std::string>> objects_;  ///< that are open: their keys so far
-};
-
 class ConfigReader {
   public:
     explicit ConfigReader(std::string source) : source_(std::move(source)) {}
 
     StudySettings read(std::string_view text) {
-        const Json root = parsed(text);
+        const Json root = parse_written_json(text, source_);
         if (!root.is_object()) refuse("$", "expected an object, {\"generators\": ...}");
         for (const auto& [name, value] : root.items()) {
             if (std::ranges::find(remarks, name) != remarks.end()) continue;
@@ -109,19 +85,6 @@ class ConfigReader {
 
     static std::string path(const std::string& parent, const std::string& key) {
         return fmt::format("{}.{}", parent, key);
-    }
-
-    [[nodiscard]] Json parsed(std::string_view text) const {
-        try {
-            parse_json(text);  // which says what is wrong, and refuses what is too deep
-            return Json::parse(text, Repetitions(source_));
-        } catch (const JsonError& e) {
-            const auto before = text.substr(0, e.at);
-            const auto line = 1 + std::ranges::count(before, '\n');
-            const auto last = before.rfind('\n');
-            const auto column = last == std::string_view::npos ? e.at + 1 : e.at - last;
-            fail(ErrorKind::input, "{}:{}:{}: {}", source_, line, column, e.what());
-        }
     }
 
     void read_key(const Key& key, const Json& value, const std::string& where) {

@@ -69,10 +69,10 @@ TEST_F(Parameters, WordsWithoutParametersAreNumberedByTheirLetters) {
     box.write("wrong.csv", "a,b\n1,steel\n2,3\n");
     expect_refusal(box.run({"convert", "wrong.csv"}), 3, "wrong.csv:2:3: 'steel' is not a number");
     box.write("other.csv", "length,layers,kind\n1,2,copper\n");
-    expect_refusal(
-        box.run({"convert", "other.csv", "--parameters", "beam.json"}), 3,
-        "other.csv:2:5: 'copper' is no word of its column; expected one of 'mild steel, brass, "
-        "oak'");
+    expect_refusal(box.run({"convert", "other.csv", "--parameters", "beam.json"}), 3,
+                   "other.csv:2:5: 'copper' is not among the words of its column; expected one of "
+                   "'mild steel, brass, "
+                   "oak'");
 }
 
 TEST_F(Parameters, TheDesignItselfIsInTheUnitCube) {

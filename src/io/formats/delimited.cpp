@@ -219,7 +219,8 @@ class RowReader {
             const auto at = std::ranges::find(*words, field.text);
             if (at == words->end())
                 refuse(line, field.at,
-                       shown(field.text) + " is no word of its column; expected one of " +
+                       shown(field.text) +
+                           " is not among the words of its column; expected one of " +
                            shown(join(*words, ", ")));
             return static_cast<double>(at - words->begin());
         }

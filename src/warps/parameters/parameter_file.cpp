@@ -413,20 +413,10 @@ class CorrelationReader {
     std::vector<bool> given_;
 };
 
-Json parsed(std::string_view json, const std::string& source) {
-    try {
-        return parse_json(json);
-    } catch (const JsonError& e) {
-        const std::string_view before = json.substr(0, e.at);
-        const auto line = 1 + std::ranges::count(before, '\n');
-        fail(ErrorKind::input, "{}: line {}: {}; expected JSON", source, line, e.what());
-    }
-}
-
 }  // namespace
 
 ParameterSpace parse_parameters(std::string_view json, const std::string& source) {
-    const Json value = parsed(json, source);
+    const Json value = parse_written_json(json, source);
     const Place root(value, "$", source);
     root.check_keys({"parameters", "correlation", "constraints", "$schema"},
                     "expected an object, {\"parameters\": [...]}");
@@ -451,7 +441,7 @@ ParameterSpace parse_parameters(std::string_view json, const std::string& source
 }
 
 std::string one_line(std::string_view json, const std::string& source) {
-    Json value = parsed(json, source);
+    Json value = parse_written_json(json, source);
     if (value.is_object()) value.erase("$schema");
     return json_text(value);
 }
@@ -459,17 +449,9 @@ std::string one_line(std::string_view json, const std::string& source) {
 NamedParameters read_parameters(const std::string& path) {
     const std::string text = read_file(path);
     const ParameterSpace space = parse_parameters(text, path);
-    const std::string json = one_line(text, path);
-    NamedParameters out{
-        .spec = {.name = "parameters", .coordinates = {}, .settings = {{"json", json}}},
-        .domain = "parameters:json=[" + json + "]",
-        .names = {},
-        .levels = {}};
-    for (const Parameter& parameter : space.parameters()) {
-        out.names.push_back(parameter.name);
-        if (!parameter.levels.empty()) out.levels.emplace_back(parameter.name, parameter.levels);
-    }
-    return out;
+    std::string domain = "parameters:json=[" + one_line(text, path) + "]";
+    Spec spec = parse_spec(domain);
+    return {std::move(spec), std::move(domain), space.names(), space.levels()};
 }
 
 Spec in_unit_cube(Spec parameters) {

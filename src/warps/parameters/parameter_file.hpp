@@ -20,7 +20,7 @@ struct NamedParameters {
     Spec spec;
     std::string domain;  ///< of its images, as text
     std::vector<std::string> names;
-    std::vector<std::pair<std::string, std::vector<std::string>>> levels;
+    Levels levels;
 };
 
 /// @throws Error(input), Error(io)

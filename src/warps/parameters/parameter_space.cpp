@@ -35,6 +35,19 @@ ParameterSpace::ParameterSpace(std::vector<Parameter> parameters, std::optional<
     }
 }
 
+std::vector<std::string> ParameterSpace::names() const {
+    std::vector<std::string> names;
+    for (const Parameter& parameter : parameters_) names.push_back(parameter.name);
+    return names;
+}
+
+Levels ParameterSpace::levels() const {
+    Levels levels;
+    for (const Parameter& parameter : parameters_)
+        if (!parameter.levels.empty()) levels.emplace_back(parameter.name, parameter.levels);
+    return levels;
+}
+
 const Marginal& ParameterSpace::law(std::size_t k, std::span<const double> row,
                                     MarginalPtr& held) const {
     const Parameter& parameter = parameters_[k];

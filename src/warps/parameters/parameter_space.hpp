@@ -12,6 +12,7 @@
 
 #include "math/densities/expression.hpp"
 #include "math/distributions/marginal.hpp"
+#include "stipple/points.hpp"
 #include "warps/parameters/copula.hpp"
 
 namespace stipple::parameters {
@@ -34,12 +35,15 @@ class ParameterSpace {
     [[nodiscard]] const std::vector<Parameter>& parameters() const { return parameters_; }
     [[nodiscard]] const std::vector<Expression>& constraints() const { return constraints_; }
     [[nodiscard]] bool has_copula() const { return copula_.has_value(); }
-    [[nodiscard]] bool conditional() const {
-        return conditional_;
-    }                                                          ///< some law is not known before
-    [[nodiscard]] bool discrete() const { return discrete_; }  ///< some parameter is
+    [[nodiscard]] std::vector<std::string> names() const;
+    [[nodiscard]] Levels levels() const;
 
-    /// The parameters that a row of the unit cube gives. False: a constraint does not hold.
+    /// Whether the law of some parameter depends on others.
+    [[nodiscard]] bool conditional() const { return conditional_; }
+    /// Whether some parameter is discrete.
+    [[nodiscard]] bool discrete() const { return discrete_; }
+
+    /// The parameters that a row of the unit cube gives. False: they break a constraint.
     [[nodiscard]] bool from_cube(std::span<const double> cube, std::span<double> row) const;
 
     /// The way back; of a number that stands for an interval of the cube, to its middle.

@@ -37,12 +37,6 @@ constexpr Param<bool> unit_cube{
     .name = "unit-cube",
     .help = "Leave the numbers in the unit cube, less those that break a constraint"};
 
-std::vector<std::string> names_of(const ParameterSpace& space) {
-    std::vector<std::string> names;
-    for (const auto& parameter : space.parameters()) names.push_back(parameter.name);
-    return names;
-}
-
 class ParameterDomain final : public NamedDomain {
   public:
     ParameterDomain(std::string spec, ParameterSpace space)
@@ -102,13 +96,8 @@ class ParameterDomain final : public NamedDomain {
             axes.push_back("probability of " + parameter.name);
         return axes;
     }
-    std::vector<std::string> names() const override { return names_of(space_); }
-    std::vector<std::pair<std::string, std::vector<std::string>>> levels() const override {
-        std::vector<std::pair<std::string, std::vector<std::string>>> all;
-        for (const auto& parameter : space_.parameters())
-            if (!parameter.levels.empty()) all.emplace_back(parameter.name, parameter.levels);
-        return all;
-    }
+    std::vector<std::string> names() const override { return space_.names(); }
+    Levels levels() const override { return space_.levels(); }
 
   private:
     void require_known() const {
@@ -135,53 +124,38 @@ class ParameterDomain final : public NamedDomain {
     const Domain* axes_ = nullptr;   ///< of that
 };
 
+/// Onto the parameters, or onto the numbers of the cube that give parameters which break no
+/// constraint.
 class ParameterMapping final : public Mapping {
   public:
-    explicit ParameterMapping(const std::shared_ptr<const ParameterDomain>& domain)
-        : Mapping(domain), space_(domain->space()), by_axes_(domain->by_axes()) {}
+    ParameterMapping(std::shared_ptr<const ParameterDomain> parameters, bool in_cube)
+        : Mapping(in_cube ? stipple::unit_cube(parameters->dimension(), parameters->names())
+                          : parameters),
+          parameters_(std::move(parameters)),
+          space_(parameters_->space()),
+          by_axes_(parameters_->by_axes()),
+          in_cube_(in_cube) {}
 
     bool drops() const override { return !space_.constraints().empty(); }
     bool refills() const override { return drops(); }
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> keep) const override {
-        if (by_axes_ != nullptr) return by_axes_->forward(cube, image, keep);
-        const std::size_t d = space_.parameters().size();
-        for (std::size_t i = 0; i < cube.size() / d; ++i) {
-            const bool allowed = space_.from_cube(cube.subspan(i * d, d), image.subspan(i * d, d));
-            if (!allowed) keep[i] = 0;
-        }
+        if (by_axes_ != nullptr && !in_cube_) return by_axes_->forward(cube, image, keep);
+        const std::size_t d = parameters_->dimension();
+        for (std::size_t i = 0; (!in_cube_ || drops()) && i < cube.size() / d; ++i)
+            if (!space_.from_cube(cube.subspan(i * d, d), image.subspan(i * d, d))) keep[i] = 0;
+        if (in_cube_) std::ranges::copy(cube, image.begin());
     }
 
     bool infinite(std::span<const double> row) const override {
-        return by_axes_ != nullptr && by_axes_->infinite(row);
+        return !in_cube_ && by_axes_ != nullptr && by_axes_->infinite(row);
     }
 
   private:
+    std::shared_ptr<const ParameterDomain> parameters_;
     const ParameterSpace& space_;
     const Mapping* by_axes_;
-};
-
-/// The numbers of the cube whose parameters hold the constraints.
-class DesignMapping final : public Mapping {
-  public:
-    explicit DesignMapping(ParameterSpace space, std::vector<std::string> names)
-        : Mapping(stipple::unit_cube(space.parameters().size(), std::move(names))),
-          space_(std::move(space)) {}
-
-    bool drops() const override { return !space_.constraints().empty(); }
-    bool refills() const override { return drops(); }
-    void forward(std::span<const double> cube, std::span<double> image,
-                 std::span<std::uint8_t> keep) const override {
-        std::ranges::copy(cube, image.begin());
-        if (!drops()) return;
-        const std::size_t d = space_.parameters().size();
-        std::vector<double> row(d);
-        for (std::size_t i = 0; i < cube.size() / d; ++i)
-            if (!space_.from_cube(cube.subspan(i * d, d), row)) keep[i] = 0;
-    }
-
-  private:
-    ParameterSpace space_;
+    bool in_cube_;
 };
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
@@ -192,15 +166,12 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
              "an example");
     const std::string source = by_file ? std::string(want.options[file]) : "parameters";
     const std::string text = by_file ? read_file(source) : std::string(want.options[json]);
-    auto space = stipple::parameters::parse_parameters(text, source);
-    if (want.options[unit_cube]) {
-        auto names = names_of(space);
-        return std::make_unique<DesignMapping>(std::move(space), std::move(names));
-    }
     Values known = want.warp.options.defaults();  // a domain tells all, without the file
     known.put(json.name, stipple::parameters::one_line(text, source));
-    return std::make_unique<ParameterMapping>(std::make_shared<const ParameterDomain>(
-        format_spec(want.warp.name, known, want.warp.options), std::move(space)));
+    auto domain = std::make_shared<const ParameterDomain>(
+        format_spec(want.warp.name, known, want.warp.options),
+        stipple::parameters::parse_parameters(text, source));
+    return std::make_unique<ParameterMapping>(std::move(domain), want.options[unit_cube]);
 }
 
 }  // namespace

@@ -177,7 +177,9 @@ struct Wrong {
 
 TEST(Parameters, SayWhatIsWrongAndWhere) {
     const Wrong cases[] = {
-        {"{", "t.json: line 1:"},
+        {"{", "t.json:1:2: not JSON"},
+        {R"({"parameters":[{"name":"a","name":"b","range":[0,1]}]})",
+         "t.json: $.parameters.name: the key stands twice"},
         {"[]", "t.json: $: expected an object"},
         {R"({"parameter":[]})", "$: the key 'parameter' is not known"},
         {R"({"parameters":[]})", "$.parameters: expected a list"},
