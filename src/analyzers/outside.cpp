@@ -10,7 +10,7 @@ namespace stipple::analyzers {
 void refuse(const Outside& outside, std::uint64_t total, const Domain& domain, std::string hint) {
     fail_with_hint(ErrorKind::input, std::move(hint),
                    "{} of {} points are outside the domain {}; the first is point {}: ({})",
-                   outside.count, total, domain.spec(), outside.first,
+                   outside.count, total, domain.title(), outside.first,
                    fmt::join(outside.point, ", "));
 }
 

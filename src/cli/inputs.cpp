@@ -244,7 +244,7 @@ PointSet of_the_cube(PointSet points, const Analyzer& analyzer) {
     fail_with_hint(ErrorKind::input,
                    way_to_cube(points) + "; --domain unit-cube takes them as they are",
                    "{} measures points against the unit cube; the domain of these is {}",
-                   analyzer.name, domain);
+                   analyzer.name, points.domain->title());
 }
 
 PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& arguments) {

@@ -83,10 +83,12 @@ class ProductDomain final : public Domain {
         for (std::size_t place = 0; place < order.size(); ++place)
             places_[order[place].second] = place;
     }
-    std::string spec() const override {
+    std::string spec() const override { return joined(&Domain::spec); }
+    std::string title() const override { return joined(&Domain::title); }
+    std::string joined(std::string (Domain::*text)() const) const {
         std::vector<std::string> parts;
         for (const auto& [domain, coordinates] : factors_) {
-            const std::string name = domain->spec();
+            const std::string name = (*domain.*text)();
             const auto options = std::min(name.find(':'), name.size());
             parts.push_back(name.substr(0, options) + "@" + format_coordinates(coordinates) +
                             name.substr(options));
@@ -136,6 +138,11 @@ class ProductDomain final : public Domain {
     }
     bool even() const override {
         return std::ranges::all_of(factors_, [](const Factor& f) { return f.domain->even(); });
+    }
+    bool has_outcomes() const override {
+        return !even() && std::ranges::all_of(factors_, [](const Factor& f) {
+            return f.domain->even() || f.domain->has_outcomes();
+        });
     }
     Estimate probability(const Box& cell) const override {
         Estimate product{1, 0};

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,6 +45,14 @@ struct Moments {
     std::vector<double> skewness;
 
     [[nodiscard]] std::size_t dimension() const { return mean.size(); }
+};
+
+/// What a unit coordinate becomes that stands for outcomes of a discrete distribution.
+struct OutcomeAxis {
+    std::function<double(double u)> outcome = {};  ///< rises with u; none: the axis is continuous
+    bool categories = false;  ///< outcomes have no order, and are all as different
+
+    [[nodiscard]] bool discrete() const { return static_cast<bool>(outcome); }
 };
 
 /// The part of a domain where its density is not 0. A mean of f / p over points that follow p is the
@@ -90,6 +99,9 @@ class Domain {
     /// How it is written: "unit-cube", "disk", "disk:radius=2".
     [[nodiscard]] virtual std::string spec() const = 0;
 
+    /// What messages call it.
+    [[nodiscard]] virtual std::string title() const { return spec(); }
+
     /// Numbers that make a point.
     [[nodiscard]] virtual std::size_t dimension() const = 0;
 
@@ -119,6 +131,10 @@ class Domain {
 
     /// Whether the probability of every box of the cube is its volume.
     [[nodiscard]] virtual bool even() const { return true; }
+
+    /// Whether it is not even() for one reason: some coordinates are outcomes, and the cube has the
+    /// middles of their cells, which are as long as outcomes are likely.
+    [[nodiscard]] virtual bool has_outcomes() const { return false; }
 
     /// Probability of a box of the cube, for points that follow density().
     [[nodiscard]] virtual Estimate probability(const Box& cell) const {

@@ -13,12 +13,21 @@
 #include <utility>
 #include <vector>
 
+#include "core/domain.hpp"
 #include "core/options.hpp"
 #include "core/point_set.hpp"
 #include "stipple/generate.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple {
+
+/// What becomes of the points, for searches that take it into account.
+struct Destination {
+    /// Whether point i, which is there, has an image; safe to call from several threads.
+    std::function<bool(std::uint64_t i, std::span<const double> row)> has_image = {};
+    bool drops = false;  ///< some have none
+    std::vector<OutcomeAxis> axes = {};  ///< of each coordinate
+};
 
 /// A request with everything decided.
 struct Plan {
@@ -27,6 +36,7 @@ struct Plan {
     std::uint64_t seed = 1;
     std::optional<Box> bounds = {};
     std::uint64_t start = 0;  ///< index of the first point; above 0 only with traits.prefix
+    std::shared_ptr<const Destination> destination = {};  ///< none: nothing becomes of them
 };
 
 /// Point i as a function of i alone (given plan and options).

@@ -133,8 +133,8 @@ Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube,
     measure.command += input.remark;
     const std::string domain = shown->domain->spec();
     if (analyzer.traits.unit_cube && domain != "unit-cube") {
-        measure.left_out =
-            fmt::format("it measures points against the unit cube; these live on {}", domain);
+        measure.left_out = fmt::format("it measures points against the unit cube; these live on {}",
+                                       shown->domain->title());
         return measure;
     }
     try {

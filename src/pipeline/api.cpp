@@ -53,7 +53,7 @@ PointSet on_its_domain(PointSet set) {
     PointSet points = placed(std::move(set));
     if (points.domain->dimension() != points.dimension())
         fail(ErrorKind::usage, "points of {} coordinates are not on {}", points.dimension(),
-             points.domain->spec());
+             points.domain->title());
     return points;
 }
 

@@ -322,6 +322,27 @@ bool WarpChain::refills() const {
         steps_, [](const Step& step) { return step.mapping && step.mapping->refills(); });
 }
 
+std::vector<OutcomeAxis> WarpChain::outcome_axes() const {
+    std::vector<OutcomeAxis> axes(dimension_in_);
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+        std::size_t at = k;
+        for (const Step& step : steps_) {
+            if (!step.mapping && !step.randomization) continue;
+            const auto found = std::ranges::find(step.coordinates, at);
+            if (found == step.coordinates.end()) {
+                at = moved(at, step.rest, step.others);
+                continue;
+            }
+            auto own = step.mapping ? step.mapping->outcome_axes() : std::vector<OutcomeAxis>();
+            if (!own.empty())
+                axes[k] =
+                    std::move(own[static_cast<std::size_t>(found - step.coordinates.begin())]);
+            break;
+        }
+    }
+    return axes;
+}
+
 void WarpChain::note_infinite(const Step& step, std::span<const double> cube,
                               std::uint64_t first) const {
     if (step.mapping->domain()->measure() < std::numeric_limits<double>::infinity()) return;
@@ -518,7 +539,7 @@ DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunCo
     for (const auto& [domain, coordinates] : factors) {
         if (domain->dimension() != coordinates.size())
             fail(ErrorKind::input, "the domain {} has dimension {}; the points have {}",
-                 domain->spec(), domain->dimension(), coordinates.size());
+                 domain->title(), domain->dimension(), coordinates.size());
         covered.insert(covered.end(), coordinates.begin(), coordinates.end());
     }
     std::ranges::sort(covered);
@@ -565,7 +586,7 @@ std::vector<FactorLaw> factor_laws(std::span<const std::string> steps, const Dom
             run.notify(
                 fmt::format("the points come from {}, which is biased; their density on the domain "
                             "{} is not known, and taken to be the domain's",
-                            step, domain->spec()));
+                            step, domain->title()));
     }
     return laws;
 }

@@ -65,6 +65,9 @@ class WarpChain {
     /// Whether a set shall have as many images as points are asked for.
     [[nodiscard]] bool refills() const;
 
+    /// What each coordinate of the points becomes by itself.
+    [[nodiscard]] std::vector<OutcomeAxis> outcome_axes() const;
+
     /// Whether the images depend on the set's seed.
     [[nodiscard]] bool seeded() const { return seeded_; }
 

@@ -199,10 +199,24 @@ std::shared_ptr<const WarpChain> GeneratedSets::make_chain(const ChainSet& set,
     return chain;
 }
 
+namespace {
+
+std::shared_ptr<const Destination> destination_of(const std::shared_ptr<const WarpChain>& chain) {
+    const auto has_image = [chain](std::uint64_t i, std::span<const double> row) {
+        return !chain->forward({row.begin(), row.end()}, i).empty();
+    };
+    return std::make_shared<const Destination>(
+        Destination{has_image, chain->refills(), chain->outcome_axes()});
+}
+
+}  // namespace
+
 std::shared_ptr<Sequence> GeneratedSets::sequence(std::uint64_t set, const RunContext& run) const {
     if (sequence_ && !uses_seed(generator_, asked_.options)) return sequence_;
     Plan plan = plan_;
     plan.seed += set;
+    if (generator_.whole && generator_.whole(asked_.options) && !chain_->empty())
+        plan.destination = destination_of(chain_for(set, run));
     return sequence_ = generator_.sequence(plan, asked_.options, run);
 }
 
@@ -328,6 +342,7 @@ GeneratedSets::Images GeneratedSets::images_of_more(std::uint64_t set, const Poi
     if (best.rows.empty())
         fail(ErrorKind::input, "the constraints hold for {} of {} points",
              kept.empty() ? "none" : std::to_string(kept.size() / d), count);
+    if (best.made == plan_.count) return best;
     run.notify(fmt::format(
         "{} points were made, of which {} satisfy the constraints; the properties of {} "
         "are those of the larger set",

@@ -97,7 +97,7 @@ Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& o
     check_dimension(analyzer, points.dimension());
     if (points.domain->dimension() != points.dimension())
         fail(ErrorKind::input, "points of the domain {} have dimension {}; these have {}",
-             points.domain->spec(), points.domain->dimension(), points.dimension());
+             points.domain->title(), points.domain->dimension(), points.dimension());
     if (analyzer.traits.unit_cube) require_unit_cube(points);
     if (analyzer.traits.densities && points.densities.empty()) {
         if (auto densities = biased_densities(points, run); !densities.empty()) {

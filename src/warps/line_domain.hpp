@@ -54,6 +54,10 @@ class LineDistribution {
     /// likely as they are long.
     [[nodiscard]] virtual bool even() const { return true; }
 
+    /// Whether it is of outcomes, and cube_coordinate() is the middle of a cell that is as long as the
+    /// outcome is likely.
+    [[nodiscard]] virtual bool has_outcomes() const { return false; }
+
     /// Coordinate in the cube, and the probability between two of them, where not even().
     [[nodiscard]] virtual double cube_coordinate(double x) const { return inverse(x); }
     [[nodiscard]] virtual Estimate probability(double low, double high) const {
@@ -118,6 +122,11 @@ class LineDomain final : public NamedDomain {
     }
     bool even() const override {
         return std::ranges::all_of(axes_, [](const auto& axis) { return axis->even(); });
+    }
+    bool has_outcomes() const override {
+        return !even() && std::ranges::all_of(axes_, [](const auto& axis) {
+            return axis->even() || axis->has_outcomes();
+        });
     }
     Estimate probability(const Box& cell) const override {
         Estimate product{1, 0};

@@ -90,6 +90,7 @@ class MarginalLine final : public LineDistribution {
 
     /// The middle of an outcome's cell.
     bool even() const override { return !law_->discrete(); }
+    bool has_outcomes() const override { return law_->discrete(); }
     double cube_coordinate(double x) const override {
         const auto [begin, close] = cell(x);
         return law_->discrete() ? begin + 0.5 * (close - begin) : inverse(x);

@@ -90,7 +90,7 @@ void Mapping::check_way_back() const {
 
 void Mapping::refuse_outside(std::span<const double> point) const {
     fail(ErrorKind::input, "the point ({}) is outside the domain {}", fmt::join(point, ", "),
-         domain_->spec());
+         domain_->title());
 }
 
 void Mapping::expect_inside(std::span<const double> image) const {

@@ -46,6 +46,10 @@ class Mapping {
     /// Whether a set shall have as many points as are asked for, in spite of those that have none.
     [[nodiscard]] virtual bool refills() const { return false; }
 
+    /// Of each unit coordinate what it becomes by itself; empty: all are continuous, or the outcomes
+    /// depend on others.
+    [[nodiscard]] virtual std::vector<OutcomeAxis> outcome_axes() const { return {}; }
+
     /// Whether the image of a row of the cube is infinitely far, and a finite one stands for it:
     /// asked where the domain's measure is infinite.
     [[nodiscard]] virtual bool infinite(std::span<const double> /*row*/) const { return false; }

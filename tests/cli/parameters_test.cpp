@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -53,9 +54,11 @@ TEST_F(Parameters, AreReadBackByEveryFormatAndVerb) {
     text("rm beam.json; stipple reproduce c.json");
     EXPECT_THAT(text("stipple analyze chi-square c.json"), HasSubstr("p_value"));
     EXPECT_THAT(text("stipple analyze moments c.json --json"), HasSubstr("covariance"));
-    expect_refusal(box.run({"analyze", "kolmogorov-smirnov", "c.json"}), 3,
-                   "c.json: kolmogorov-smirnov needs coordinates that preserve probability; "
-                   "parameters has none");
+    EXPECT_THAT(text("stipple analyze kolmogorov-smirnov c.json"),
+                HasSubstr("probability of kind"));
+    expect_refusal(box.run({"analyze", "serial", "c.json"}), 3,
+                   "c.json: serial needs coordinates that preserve probability; parameters has "
+                   "none");
     EXPECT_THAT(text("stipple plot c.json -f svg"), HasSubstr("length"));
 }
 
@@ -102,6 +105,58 @@ TEST_F(Parameters, ConstraintsLeaveAsManyPointsAsAreAskedFor) {
     expect_refusal(
         box.run({"generate", "latin-hypercube", "--parameters", "never.json", "-n", "10"}), 3,
         "the constraints hold for none of");
+}
+
+// A Latin hypercube of twelve points: each twelfth of the cube's axes holds one, and so do the halves
+// and quarters that levels have.
+TEST_F(Parameters, OptimizedDesignsSatisfyConstraints) {
+    box.write("near.json", R"({"parameters": [{"name": "a", "range": [0, 12]},
+        {"name": "b", "range": [0, 12]}, {"name": "m", "levels": ["p", "q"]},
+        {"name": "i", "integers": [1, 4]}], "constraints": ["abs(a - b) < 5 - i"]})");
+    const auto column = [](const std::string& from, int k, const std::string& scale) {
+        return fmt::format(
+            "awk -F, 'NR > 1 {{print int(${} * {})}}' {} | sort -n | uniq -c | "
+            "awk '{{print $1, $2}}'",
+            k, scale, from);
+    };
+    std::string each;
+    for (int i = 0; i < 12; ++i) each += fmt::format("1 {}\n", i);
+    for (const std::string criterion : {"maximin", "maxpro", "centered-l2"}) {
+        const std::string make =
+            "stipple generate latin-hypercube -n 12 --effort 0.001 "
+            "--parameters near.json --optimize " +
+            criterion;
+        EXPECT_EQ(box.shell(make + " -o x.csv").err, "") << criterion;
+        for (const int k : {1, 2}) EXPECT_EQ(text(column("x.csv", k, "1")), each) << criterion;
+        EXPECT_EQ(text(column("x.csv", 4, "1")), "3 1\n3 2\n3 3\n3 4\n");
+        EXPECT_EQ(text("cut -d, -f3 x.csv | sort | uniq -c | awk '{print $1, $2}'"),
+                  "1 m\n6 p\n6 q\n");
+        EXPECT_EQ(text("awk -F, 'NR > 1 && ($1 - $2 >= 5 - $4 || $2 - $1 >= 5 - $4)' x.csv"), "");
+        text(make + " --unit-cube -o cube.csv");
+        for (const int k : {1, 2, 3, 4})
+            EXPECT_EQ(text(column("cube.csv", k, "12 + 1e-9")), each) << criterion << k;
+    }
+}
+
+// No Latin hypercube of strata of equal width has all points below the diagonal.
+TEST_F(Parameters, OptimizedDesignsHaveOtherStrataWhereConstraintsNeedThem) {
+    const std::string make =
+        "stipple generate latin-hypercube --optimize maximin --effort 0.001 -n 40 --parameters "
+        "tight.json";
+    const auto made = box.shell(make);
+    EXPECT_THAT(made.err, HasSubstr("no Latin hypercube of 40 points was found that satisfies the "
+                                    "constraints; each axis has strata that hold equal shares"));
+    EXPECT_EQ(box.shell(make + " | tail -n +2 | awk -F, '$1+$2 < 0.25' | wc -l").out, "40\n");
+    EXPECT_EQ(made.out, good(box.shell(make + " --threads 1")));
+    // Below 0.25 - s is a share of (1 - 4 s)^2: the quarters of 40 points are 10 each, or nearly.
+    const std::string quarter =
+        make + " | awk -F, 'NR > 1 && $1 < 0.25 * (1 - sqrt(0.75))' | wc -l";
+    const int count = std::stoi(box.shell(quarter).out);
+    EXPECT_GE(count, 9);
+    EXPECT_LE(count, 11);
+    expect_refusal(box.run({"generate", "latin-hypercube", "--optimize", "maximin", "--parameters",
+                            "never.json", "-n", "10"}),
+                   3, "latin-hypercube: the constraints hold for 0 of ");
 }
 
 TEST_F(Parameters, StudiesTakeThem) {

@@ -119,7 +119,7 @@ PointSet on_cube(const PointSet& points) {
         fail_with_hint(ErrorKind::input, "--target takes points to compare with",
                        "kernel-discrepancy compares with the uniform distribution on the unit "
                        "cube; no map takes {} to it evenly",
-                       domain.spec());
+                       domain.title());
     Outside outside;
     const std::size_t d = domain.cube_dimension();
     std::vector<double> rows(points.count() * d);

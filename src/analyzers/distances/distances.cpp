@@ -91,7 +91,7 @@ Distances distances_of(const PointSet& points, const std::string& asked) {
         if (asked.starts_with("torus"))
             fail(ErrorKind::usage,
                  "--metric: a torus joins the faces of a unit cube or a box; the points live on {}",
-                 points.domain->spec());
+                 points.domain->title());
         distances.torus = false;
         require_squares(points, distances.norm);
         return distances;
@@ -116,7 +116,7 @@ Distances distances_in_box(const PointSet& points, const std::string& asked, con
     if (!box) {
         static_cast<void>(distances_of(points, asked));  // a torus is refused in its own words
         fail(ErrorKind::input, "{} takes points of the unit cube or a box; these live on {}",
-             analyzer, points.domain->spec());
+             analyzer, points.domain->title());
     }
     const Outside outside = outside_of(points);
     if (outside.count > 0)

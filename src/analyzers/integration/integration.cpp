@@ -114,7 +114,7 @@ void require_fit(const IntegrandKind& kind, const Domain& domain, const RegionVi
     const std::size_t d = domain.dimension();
     if (!view.has(kind.region))
         fail(ErrorKind::input, "--integrand: {} takes points of {}; these live on {}", kind.name,
-             words(kind.region), domain.spec());
+             words(kind.region), domain.title());
     if (d >= kind.min_dimension && d <= kind.max_dimension) return;
     const std::string range = kind.min_dimension == kind.max_dimension
                                   ? std::to_string(kind.min_dimension)
@@ -201,7 +201,7 @@ std::vector<Task> tasks_that_fit(const Domain& domain, const RegionView& view,
         fail_with_hint(ErrorKind::input, "--expression gives one",
                        "no integrand takes points of {}, which is neither a box nor of a finite "
                        "measure",
-                       domain.spec());
+                       domain.title());
     return tasks;
 }
 
@@ -365,7 +365,7 @@ class Evaluation {
         fail(ErrorKind::input, "--compare: at the uniform point made of point {} {} is {}",
              fault.point, name, fault.value);
     fail(ErrorKind::input, "at point {} the integrand {} is {} and the density of {} is {}",
-         fault.point, name, fault.value, domain.spec(), fault.density);
+         fault.point, name, fault.value, domain.title(), fault.density);
 }
 
 /// @throws Error(input) for points outside the domain, and values that are not numbers.
@@ -441,7 +441,7 @@ Uniform uniform_for(const PointSet& points, const RegionView& view, const Suppor
         fail(ErrorKind::input,
              "--compare: there are no uniform points on {}: its measure is "
              "infinite",
-             domain.spec());
+             domain.title());
     if (!support.measure) {
         const Tally found = measure_of(points);
         return {Uniform::weighed, found.mean(), found};
@@ -482,7 +482,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     const Domain& domain = *points.domain;
     if (domain.dimension() != points.dimension())
         fail(ErrorKind::input, "points of the domain {} have dimension {}; these have {}",
-             domain.spec(), domain.dimension(), points.dimension());
+             domain.title(), domain.dimension(), points.dimension());
     const Support support = domain.support();
     const RegionView view(domain, support);
     const std::vector<Task> tasks = tasks_of(domain, view, support, options);

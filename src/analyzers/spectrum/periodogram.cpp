@@ -215,7 +215,8 @@ class Summation final : public SharedAccumulator {
         const std::string spec = domain_->spec();
         if (!cube_ && !spec.starts_with("box:"))
             fail(ErrorKind::input,
-                 "periodogram takes points of the unit cube or a box; these live on {}", spec);
+                 "periodogram takes points of the unit cube or a box; these live on {}",
+                 domain_->title());
         check_options();
         if (options.given(wisdom)) read_wisdom(options[wisdom]);
         announced_ = arrival.count.value_or(0);

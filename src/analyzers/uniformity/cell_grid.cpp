@@ -67,7 +67,7 @@ Estimate mass_of(const Domain& domain, const std::vector<Box>& pieces) {
     for (const Box& piece : pieces) {
         const Estimate part = domain.probability(piece);
         if (!(part.value >= -part.error) || !(part.error >= 0) || !(part.value <= 1 + part.error))
-            fail(ErrorKind::limit, "{}: the cell {} has probability {} within {}", domain.spec(),
+            fail(ErrorKind::limit, "{}: the cell {} has probability {} within {}", domain.title(),
                  format_box(piece), part.value, part.error);
         mass += {std::max(part.value, 0.0), part.error};
     }
@@ -150,7 +150,7 @@ std::vector<Estimate> cell_masses(const Domain& domain, const CellGrid& grid, bo
     if (std::abs(sum.value - 1) > sum.error + rounding)
         fail(ErrorKind::limit,
              "{}: the probabilities of its {} cells sum to {}, not to 1 within their error {}",
-             domain.spec(), masses.size(), sum.value, sum.error);
+             domain.title(), masses.size(), sum.value, sum.error);
     return masses;
 }
 

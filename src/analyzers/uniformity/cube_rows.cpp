@@ -2,10 +2,12 @@
 #include "analyzers/uniformity/cube_rows.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/rng.hpp"
 #include "core/text.hpp"
 
 namespace stipple::analyzers {
@@ -14,7 +16,29 @@ void require_even(const Domain& domain, std::string_view analyzer) {
     if (domain.even()) return;
     fail_with_hint(ErrorKind::input, "chi-square takes every domain",
                    "{} needs coordinates that preserve probability; {} has none", analyzer,
-                   split(domain.spec(), ':').front());
+                   split(domain.title(), ':').front());
+}
+
+void spread_outcomes(const Domain& domain, std::span<double> cubes, std::uint64_t first,
+                     const RunContext& run) {
+    if (!domain.has_outcomes()) return;
+    const std::size_t axes = domain.cube_dimension();
+    const Rng rng(1, std::uint64_t{1} << 35);  // not what made the points
+    for_each_block(silent(run), cubes.size() / axes, 4096, [&](const Block& block) {
+        Box cell{std::vector<double>(axes, 0), std::vector<double>(axes, 1)};
+        for (std::uint64_t i = block.first; i < block.last; ++i)
+            for (std::size_t k = 0; k < axes; ++k) {
+                double& u = cubes[i * axes + k];
+                cell.low[k] = u;
+                cell.high[k] = std::nextafter(u, 2);
+                const double mass = domain.probability(cell).value;
+                cell.low[k] = 0;
+                cell.high[k] = 1;
+                if (mass > 1e-9)
+                    u = std::clamp(u + mass * (rng.uniform((first + i) * axes + k) - 0.5), 0.0,
+                                   1.0);
+            }
+    });
 }
 
 void tell_axes(const Domain& domain, Report& report) {

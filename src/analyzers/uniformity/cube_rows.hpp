@@ -22,6 +22,14 @@ namespace stipple::analyzers {
 /// @throws Error(input) where the domain's coordinates do not preserve probability
 void require_even(const Domain& domain, std::string_view analyzer);
 
+/// Outcomes, which have the middles of their cells, to random numbers in these: points that follow the
+/// density are uniform then. The numbers depend on the points' indices alone.
+///
+/// Source  L. Rueschendorf, J. Statist. Plann. Inference 139 (2009) 3921-3927,
+///         doi:10.1016/j.jspi.2009.05.030 (distributional transform).
+void spread_outcomes(const Domain& domain, std::span<double> cubes, std::uint64_t first,
+                     const RunContext& run);
+
 /// Adds "axes" with the names of the cube's axes, where they are more than x1, x2, ...
 void tell_axes(const Domain& domain, Report& report);
 

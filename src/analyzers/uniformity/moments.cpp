@@ -105,7 +105,7 @@ class Summation final : public SharedAccumulator {
         Report law = exact ? report_of(exact_of(*exact)) : Report();
         law.add("known", exact.has_value());
         law.add("law", fmt::format(fmt::runtime(level_ ? "uniform on {}" : "the density of {}"),
-                                   domain_->spec()));
+                                   domain_->title()));
         report.add("exact", std::move(law));
         if (cube_) report.add("cube", cube_report());
         return report;

@@ -11,7 +11,8 @@
 //     --sliced, --nested   parts of the points are Latin hypercubes, too (latin_structure.hpp)
 //     --extend     new points in the strata that given ones leave empty (latin_extension.hpp)
 //     --optimize   the permutations are those that a search finds best by a criterion
-//                  (latin_hypercube_search); it keeps slices, nested and given points
+//                  (latin_hypercube_search); it keeps slices, nested and given points, and takes
+//                  named parameters into account (latin_destination.hpp)
 //
 // Cost    O(n d); point i is found without the others, in constant memory. A search takes some 20 s
 //         of one core by default, fewer for few points, and up to 64 n^2 bytes: 256 MB at n = 2000.
@@ -30,6 +31,7 @@
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "generators/given_points.hpp"
+#include "generators/stratified/latin_destination.hpp"
 #include "generators/stratified/latin_extension.hpp"
 #include "generators/stratified/latin_hypercube_search/search.hpp"
 #include "generators/stratified/latin_structure.hpp"
@@ -199,6 +201,12 @@ void check_search(const Plan& plan, const Values& options) {
     if (plan.dimension > most_axes)
         fail(ErrorKind::usage, "--dimension: {} is outside [1, {}], what --optimize can search",
              plan.dimension, most_axes);
+    const double reach = static_cast<double>(plan.count) * static_cast<double>(plan.count);
+    if (reach * static_cast<double>(plan.dimension) >= 0x1p31)
+        fail(ErrorKind::usage,
+             "--count: {} points in {} dimensions are more than --optimize can search; at most {}",
+             plan.count, plan.dimension,
+             std::floor(std::sqrt(0x1p31 / static_cast<double>(plan.dimension))));
     if (!options.given(levels)) return;
     const std::vector<double> parts = options[levels];
     if (parts.size() != plan.dimension)
@@ -239,7 +247,8 @@ search::Design design_of(const Plan& plan, const StrataOf& strata) {
 
 search::Rules rules_of(const Plan& plan, const Values& options, std::size_t given) {
     search::Rules rules{.fixed = given};
-    for (const double m : options[levels]) rules.parts.push_back(static_cast<search::Level>(m));
+    for (const double m : options[levels])
+        rules.axes.push_back(search::even_parts(plan.count, static_cast<search::Level>(m)));
     if (options.given(sliced)) {
         const auto slices = static_cast<std::size_t>(options[sliced]);
         for (std::size_t s = 1; s <= slices; ++s) rules.groups.push_back(plan.count / slices * s);
@@ -267,25 +276,17 @@ search::Objective objective_of(const Values& options) {
 }
 
 /// Points in the strata of a design, behind given ones.
-std::unique_ptr<Sequence> points_of(const Plan& plan, bool centered, search::Design design,
-                                    PointSet given) {
-    const std::size_t d = plan.dimension;
-    std::shared_ptr<const Sequence> all = stratified_sequence(
-        plan, {.centered = centered, .shuffled = false},
-        [design = std::move(design)](std::size_t k, std::span<const double> index,
-                                     std::span<double> low) {
-            for (std::size_t j = 0; j < index.size(); ++j)
-                low[j] = design.along(k)[static_cast<std::size_t>(index[j])];
-            return std::uint64_t{design.points};
-        });
-    return sequence_of(
-        [all, given = std::move(given), d](std::uint64_t first, std::span<double> rows) {
-            all->fill(first, rows);
-            const auto flat = given.flat();
-            const std::size_t from = std::min<std::size_t>(first * d, flat.size());
-            std::ranges::copy(flat.subspan(from, std::min(rows.size(), flat.size() - from)),
-                              rows.begin());
-        });
+std::unique_ptr<Sequence> points_of(std::shared_ptr<const LatinPlaces> places,
+                                    search::Design design, PointSet given) {
+    return sequence_of([places = std::move(places), design = std::move(design),
+                        given = std::move(given)](std::uint64_t first, std::span<double> rows) {
+        const std::size_t d = design.dimension;
+        for (std::size_t j = 0; j < rows.size(); ++j) {
+            const std::uint64_t i = first + j / d;
+            rows[j] =
+                i < given.count() ? given[i][j % d] : places->at(j % d, i, design.along(j % d)[i]);
+        }
+    });
 }
 
 /// What is worked out as a whole: searched, or behind given points.
@@ -294,14 +295,15 @@ std::unique_ptr<Sequence> make_design(const Plan& plan, const Values& options,
     const PointSet given = options.given(extend) ? given_points(options, run) : PointSet();
     run.need_memory(16 * static_cast<double>(plan.count) * static_cast<double>(plan.dimension),
                     "the design");
+    const auto places = std::make_shared<LatinPlaces>(plan, options[centered_option]);
     search::Search task{.objective = {},
                         .rules = rules_of(plan, options, given.count()),
                         .start = options.given(extend)
                                      ? extended(given, plan.count, stratified_numbers(plan, 0))
                                      : design_of(plan, strata_of(plan, options)),
                         .seed = plan.seed};
-    if (!options.given(optimize))
-        return points_of(plan, options[centered_option], std::move(task.start), given);
+    if (!options.given(optimize)) return points_of(places, std::move(task.start), given);
+    if (plan.destination) aim_at_destination(plan, places, task, run);
     task.objective = objective_of(options);
     task.trials = options[effort] * search::usual_trials(task.objective, task.start);
     const search::Result result = search::best_design(task, options[optimize], run);
@@ -310,7 +312,7 @@ std::unique_ptr<Sequence> make_design(const Plan& plan, const Values& options,
     auto found = search::described(task.objective, result.design, task.rules,
                                    result.stopped ? unstopped(run) : run);
     if (result.stopped) found.emplace_back(interrupted);
-    auto points = points_of(plan, options[centered_option], result.design, given);
+    auto points = points_of(places, result.design, given);
     points->set_found([found] { return found; });
     return points;
 }

@@ -76,6 +76,13 @@ Rng stratified_numbers(const Plan& plan, std::uint64_t stream) {
     return numbers_of(plan, StratifiedStream::first_of_unit, stream);
 }
 
+double place_in_stratum(const Plan& plan, bool centered, std::size_t coordinate,
+                        std::uint64_t index, double stratum, std::uint64_t parts) {
+    double x = 0;
+    place({.low = {&stratum, 1}, .parts = parts}, plan, centered, coordinate, index, {&x, 1});
+    return x;
+}
+
 std::unique_ptr<Sequence> stratified_sequence(const Plan& plan, const StratifiedStyle& style,
                                               StrataOf strata) {
     std::optional<Permutation> order;

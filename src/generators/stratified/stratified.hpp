@@ -56,6 +56,10 @@ using StrataOf = std::function<std::uint64_t(std::size_t coordinate, std::span<c
 std::unique_ptr<Sequence> stratified_sequence(const Plan& plan, const StratifiedStyle& style,
                                               StrataOf strata);
 
+/// A coordinate of point `index`, which is in a stratum of `parts`: where such a sequence has it.
+double place_in_stratum(const Plan& plan, bool centered, std::size_t coordinate,
+                        std::uint64_t index, double stratum, std::uint64_t parts);
+
 /// Random numbers for a unit's own use, stream 0, 1, ...
 Rng stratified_numbers(const Plan& plan, std::uint64_t stream);
 

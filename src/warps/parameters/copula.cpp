@@ -62,6 +62,13 @@ void Copula::forward(std::span<Share> row) const {
     }
 }
 
+bool Copula::leaves(std::size_t i) const {
+    const auto row = factor_.begin() + static_cast<std::ptrdiff_t>(i * d_);
+    const bool alone =
+        std::all_of(row, row + static_cast<std::ptrdiff_t>(i), [](double x) { return x == 0; });
+    return alone && (!degrees_ || i == 0);
+}
+
 void Copula::inverse(std::span<Share> row) const {
     std::vector<double> y(d_);
     double squares = 0;

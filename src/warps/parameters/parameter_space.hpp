@@ -38,6 +38,9 @@ class ParameterSpace {
     [[nodiscard]] std::vector<std::string> names() const;
     [[nodiscard]] Levels levels() const;
 
+    /// Whether no copula changes the coordinate of the cube that a parameter is the quantile of.
+    [[nodiscard]] bool takes_own(std::size_t k) const { return !copula_ || copula_->leaves(k); }
+
     /// Whether the law of some parameter depends on others.
     [[nodiscard]] bool conditional() const { return conditional_; }
     /// Whether some parameter is discrete.

@@ -58,6 +58,7 @@ class ParameterDomain final : public NamedDomain {
 
     const ParameterSpace& space() const { return space_; }
 
+    std::string title() const override { return std::string(parse_spec(spec()).name); }
     double measure() const override {
         return axes_ ? axes_->measure() : std::numeric_limits<double>::infinity();
     }
@@ -72,6 +73,7 @@ class ParameterDomain final : public NamedDomain {
         space_.to_cube(point, cube);
     }
     bool even() const override { return by_axes() ? axes_->even() : !space_.discrete(); }
+    bool has_outcomes() const override { return by_axes() && axes_->has_outcomes(); }
     Estimate probability(const Box& cell) const override {
         require_known();
         if (by_axes()) return axes_->probability(cell);
@@ -145,6 +147,16 @@ class ParameterMapping final : public Mapping {
         for (std::size_t i = 0; (!in_cube_ || drops()) && i < cube.size() / d; ++i)
             if (!space_.from_cube(cube.subspan(i * d, d), image.subspan(i * d, d))) keep[i] = 0;
         if (in_cube_) std::ranges::copy(cube, image.begin());
+    }
+
+    std::vector<OutcomeAxis> outcome_axes() const override {
+        std::vector<OutcomeAxis> axes(space_.parameters().size());
+        for (std::size_t k = 0; k < axes.size(); ++k) {
+            const auto& [name, unit, levels, law, given] = space_.parameters()[k];
+            if (law && law->discrete() && space_.takes_own(k))
+                axes[k] = {[law](double u) { return law->quantile(u); }, !levels.empty()};
+        }
+        return axes;
     }
 
     bool infinite(std::span<const double> row) const override {

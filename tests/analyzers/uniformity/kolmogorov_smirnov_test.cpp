@@ -188,6 +188,30 @@ TEST(KolmogorovSmirnov, TakesEveryEvenDomainAndNamesPointsOutside) {
               std::string::npos);
 }
 
+// 200 sets at level 0.01 again, of outcomes: above 10 false alarms with probability 6e-6. A wrong
+// probability of outcomes is found.
+TEST(KolmogorovSmirnov, OutcomesAreSpreadEvenly) {
+    const auto map = mapping("binomial:trials=4,probability=0.3");
+    const auto other = mapping("binomial:trials=4,probability=0.35");
+    int alarms = 0, low = 0;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        const PointSet points = warped(*map, make("random", {50, 2}, {}, {.seed = seed}));
+        const Report report = analyze("kolmogorov-smirnov", points, {{"level", "0.01"}});
+        alarms += report.text("verdict") != "uniform";
+        low += report.number("combined_p_value") < 0.5;
+    }
+    EXPECT_LE(alarms, 10);
+    EXPECT_NEAR(low, 100, 33);
+    PointSet wrong = warped(*other, make("random", {5000, 2}));
+    wrong.domain = map->domain();
+    EXPECT_EQ(analyze("kolmogorov-smirnov", wrong).text("verdict"), "non-uniform");
+    // All in one outcome of probability 1: the numbers that outcomes are spread by, which are random.
+    const auto sure = mapping("integers:low=3,high=3");
+    EXPECT_EQ(
+        analyze("kolmogorov-smirnov", warped(*sure, make("random", {1000, 2}))).text("verdict"),
+        "uniform");
+}
+
 TEST(KolmogorovSmirnov, NeedsCoordinatesThatPreserveProbability) {
     PointSet set = make("random", {100, 1});
     set.domain = std::make_shared<Steps>(std::vector<double>{0.5, 0.5});

@@ -50,6 +50,10 @@ bool Exchanges::draw(SplitMix64& draws, Exchange& exchange) const {
     exchange.coordinate = draws.below(design_.dimension);
     exchange.a = rules_.fixed + draws.below(design_.points - rules_.fixed);
     exchange.b = partner(draws, exchange.coordinate, exchange.a);
+    return possible(exchange);
+}
+
+bool Exchanges::possible(const Exchange& exchange) const {
     return exchange.a != exchange.b && design_.along(exchange.coordinate)[exchange.b] >= 0;
 }
 
@@ -59,7 +63,7 @@ bool Exchanges::fits(std::size_t row, std::size_t k, Level level) {
     if (row >= design_.points) return true;
     for (std::size_t l = 0; l < design_.dimension; ++l) row_[l] = design_.along(l)[row];
     row_[k] = level;
-    return rules_.feasible(row_);
+    return rules_.feasible(row, row_);
 }
 
 int Exchanges::infeasible(const Exchange& exchange) {
@@ -78,25 +82,40 @@ void Exchanges::make(const Exchange& exchange) {
             static_cast<std::uint32_t>(row);
 }
 
-void Exchanges::shuffle(SplitMix64& draws, std::size_t times) {
-    Exchange one{};
-    const std::size_t all = times * design_.points * design_.dimension;
-    std::size_t wrong = 0;
-    for (std::size_t i = rules_.fixed; i < design_.points && rules_.feasible; ++i)
-        wrong += !fits(i);
-    for (std::size_t i = 0; i < 100 * all && wrong > 0; ++i) {
-        if (!draw(draws, one)) continue;
-        const int before = !fits(one.a) + (one.b < design_.points && !fits(one.b));
-        const int after = infeasible(one);
-        if (after > before) continue;
-        make(one);
-        wrong -= static_cast<std::size_t>(before - after);
+void Exchanges::make_fit(SplitMix64& draws, std::size_t row) {
+    constexpr int tries = 30;
+    for (int i = 0; i < tries && !fits(row); ++i) {
+        Exchange one{draws.below(design_.dimension), row, 0};
+        one.b = partner(draws, one.coordinate, row);
+        if (!possible(one)) continue;
+        const int before = 1 + !fits(one.b);
+        if (infeasible(one) <= before) make(one);
     }
-    if (wrong > 0)
+}
+
+std::size_t Exchanges::make_feasible(SplitMix64& draws) {
+    if (!rules_.feasible) return 0;
+    constexpr int rounds = 300;
+    std::size_t wrong = 1;
+    for (int i = 0; i < rounds && wrong > 0; ++i) {
+        wrong = 0;
+        for (std::size_t row = rules_.fixed; row < design_.points; ++row) {
+            if (fits(row)) continue;
+            ++wrong;
+            make_fit(draws, row);
+        }
+    }
+    return wrong;
+}
+
+void Exchanges::shuffle(SplitMix64& draws, std::size_t times) {
+    const std::size_t all = times * design_.points * design_.dimension;
+    if (const std::size_t wrong = make_feasible(draws); wrong > 0)
         fail(ErrorKind::limit,
              "latin-hypercube: no design found that is feasible; {} of {} points "
              "are not",
              wrong, design_.points);
+    Exchange one{};
     for (std::size_t i = 0; i < all; ++i)
         if (draw(draws, one) && infeasible(one) == 0) make(one);
 }

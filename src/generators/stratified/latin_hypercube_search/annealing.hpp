@@ -46,12 +46,17 @@ class Exchanges {
     void make(const Exchange& exchange);
     [[nodiscard]] const Design& design() const { return design_; }
 
+    /// Exchanges levels until all points are feasible: how many are not, in the end.
+    std::size_t make_feasible(SplitMix64& draws);
+
     /// Makes random exchanges, as many for each level as `times`, and before them those that make all
     /// points feasible. @throws Error(limit) where it finds none
     void shuffle(SplitMix64& draws, std::size_t times);
 
   private:
     [[nodiscard]] std::size_t partner(SplitMix64& draws, std::size_t k, std::size_t a) const;
+    [[nodiscard]] bool possible(const Exchange& exchange) const;
+    void make_fit(SplitMix64& draws, std::size_t row);
     [[nodiscard]] bool fits(std::size_t row);
     bool fits(std::size_t row, std::size_t k, Level level);
 

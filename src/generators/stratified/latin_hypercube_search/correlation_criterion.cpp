@@ -72,7 +72,7 @@ class CorrelationCriterion final : public Criterion {
   private:
     [[nodiscard]] std::int64_t twice_from_middle(Level level, std::size_t k,
                                                  const Rules& rules) const {
-        return 2 * std::int64_t{place_of(level, parts_of(rules, k), points_)} + 1 -
+        return 2 * std::int64_t{rules.axis(k).place(level)} + 1 -
                static_cast<std::int64_t>(points_);
     }
 

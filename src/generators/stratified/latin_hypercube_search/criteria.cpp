@@ -27,7 +27,7 @@ std::vector<Level> placed(const Design& design, const Rules& rules) {
     std::vector<Level> x;
     for (std::size_t i = 0; i < design.points; ++i)
         for (std::size_t k = 0; k < design.dimension; ++k)
-            x.push_back(place_of(design.along(k)[i], parts_of(rules, k), design.points));
+            x.push_back(rules.axis(k).place(design.along(k)[i]));
     return x;
 }
 
@@ -39,32 +39,31 @@ void for_pairs(const std::vector<Level>& x, std::size_t d, const RunContext& run
     }
 }
 
-double square_between(const Level* a, const Level* b, std::size_t d) {
+double square_between(const Level* a, const Level* b, std::size_t d, const Rules& rules) {
     double sum = 0;
-    for (std::size_t k = 0; k < d; ++k) {
-        const double difference = a[k] - b[k];
-        sum += difference * difference;
-    }
+    for (std::size_t k = 0; k < d; ++k) sum += rules.axis(k).square(a[k], b[k]);
     return sum;
 }
 
 using Found = std::vector<std::pair<std::string, std::string>>;
 
-Found described_distances(const std::vector<Level>& x, std::size_t d, const RunContext& run) {
+Found described_distances(const std::vector<Level>& x, std::size_t d, const Rules& rules,
+                          const RunContext& run) {
     double least = 0x1p62;
     std::uint64_t count = 0;
     for_pairs(x, d, run, [&](const Level* a, const Level* b) {
-        const double square = square_between(a, b, d);
+        const double square = square_between(a, b, d, rules);
         count = square < least ? 1 : count + (square == least);
         least = std::min(least, square);
     });
     return {{"squared_distance", format_number(least)}, {"pairs", std::to_string(count)}};
 }
 
-double power_sum(const std::vector<Level>& x, std::size_t d, int power, const RunContext& run) {
+double power_sum(const std::vector<Level>& x, std::size_t d, const Rules& rules, int power,
+                 const RunContext& run) {
     double sum = 0;
     for_pairs(x, d, run, [&](const Level* a, const Level* b) {
-        const double square = square_between(a, b, d);
+        const double square = square_between(a, b, d, rules);
         double term = power % 2 == 1 ? 1 / std::sqrt(square) : 1;
         for (int i = 0; i < power / 2; ++i) term /= square;
         sum += term;
@@ -81,9 +80,9 @@ double maxpro_of(const std::vector<Level>& x, std::size_t d, const Rules& rules,
     for_pairs(x, d, run, [&](const Level* a, const Level* b) {
         double term = 1;
         for (std::size_t k = 0; k < d; ++k) {
-            const Level parts = parts_of(rules, k);
-            const double more = parts > 0 ? n / parts : 0;
-            const double factor = scale / (std::abs(a[k] - b[k]) + more);
+            const Axis& axis = rules.axis(k);
+            const double more = axis.parts > 0 ? n / axis.parts : 0;
+            const double factor = scale / (std::sqrt(axis.square(a[k], b[k])) + more);
             term *= factor * factor;
         }
         sum += term;
@@ -187,13 +186,13 @@ Found described(const Objective& objective, const Design& design, const Rules& r
     if (objective.kind == Kind::centered_l2) return described_l2(x, d, run);
     if (objective.kind == Kind::correlation) return described_correlations(x, d);
     if (design.points < 2) return {};
-    if (objective.kind == Kind::maximin) return described_distances(x, d, run);
+    if (objective.kind == Kind::maximin) return described_distances(x, d, rules, run);
     const auto named = [](const char* name, double value) {
         return std::isfinite(value) ? Found{{name, format_number(value)}} : Found();
     };
     if (objective.kind == Kind::maxpro) return named("maxpro", maxpro_of(x, d, rules, run));
     const int power = objective.kind == Kind::phi_p ? objective.power : 2;
-    const double sum = power_sum(x, d, power, run);
+    const double sum = power_sum(x, d, rules, power, run);
     if (power == 2 && objective.kind == Kind::audze_eglais) return named("audze_eglais", sum);
     return named("phi_p", std::isfinite(sum) ? root(sum, power) : sum);
 }

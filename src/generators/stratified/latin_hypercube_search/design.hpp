@@ -33,6 +33,29 @@ struct Design {
     bool operator==(const Design&) const = default;
 };
 
+/// A coordinate whose levels stand for fewer outcomes, parts of them that follow each other.
+struct Axis {
+    std::vector<Level> places = {};  ///< where each level counts as being; empty: where it is
+    Level parts = 0;                 ///< outcomes; 0: the coordinate is continuous
+    Level apart = 0;                 ///< squared distance of two categories; 0: places have it
+
+    [[nodiscard]] Level place(Level level) const {
+        return places.empty() || level < 0 ? level : places[static_cast<std::size_t>(level)];
+    }
+    /// Of two places.
+    [[nodiscard]] Level square(Level a, Level b) const {
+        return apart == 0 ? (a - b) * (a - b) : a == b ? 0 : apart;
+    }
+};
+
+/// Of floor(level m / n), m = parts: levels count as the middle of such a part, rounded down.
+Axis even_parts(std::size_t points, Level parts);
+
+/// Of outcomes of the levels 0, 1, ...: those that follow each other and are the same are in their
+/// middle. Categories are all as far apart that two points are as far from each other, in the mean of
+/// squares, as along other axes; but never farther than n.
+Axis parts_by(std::span<const double> outcomes, bool categories);
+
 /// What exchanges of levels must leave as it is, and how levels count.
 struct Rules {
     std::size_t fixed = 0;  ///< the first rows stay
@@ -42,25 +65,17 @@ struct Rules {
     std::vector<std::size_t> groups = {};
     Level coarse = 1;
 
-    /// Of each coordinate, the categories or numeric levels m that floor(level m / n) stands for; 0:
-    /// none, the coordinate is continuous. Empty: all are continuous.
-    std::vector<Level> parts = {};
+    /// Of each coordinate; empty: all are continuous.
+    std::vector<Axis> axes = {};
 
-    /// Whether a point may have these levels; empty: any. A pure function, called by many threads.
-    std::function<bool(std::span<const Level>)> feasible = {};
+    /// Whether the point of this row may have these levels; empty: any. A pure function, called by
+    /// many threads.
+    std::function<bool(std::size_t row, std::span<const Level> levels)> feasible = {};
+
+    [[nodiscard]] const Axis& axis(std::size_t coordinate) const {
+        static const Axis continuous;
+        return axes.empty() ? continuous : axes[coordinate];
+    }
 };
-
-/// Where along a coordinate of m parts a level counts as being: in the middle of the levels of its
-/// part, rounded down.
-inline Level place_of(Level level, Level parts, std::size_t points) {
-    if (parts == 0 || level < 0) return level;
-    const auto n = static_cast<std::int64_t>(points);
-    const std::int64_t part = level * std::int64_t{parts} / n;
-    return static_cast<Level>((n * (2 * part + 1) - parts) / (2 * std::int64_t{parts}));
-}
-
-inline Level parts_of(const Rules& rules, std::size_t coordinate) {
-    return rules.parts.empty() ? 0 : rules.parts[coordinate];
-}
 
 }  // namespace stipple::latin_hypercube_search

@@ -37,26 +37,42 @@ struct Row {
     std::size_t size;
     Level from;
     Level to;
+    Level apart;  ///< of categories, as an Axis has it
 };
 
 /// (to - x)^2 - (from - x)^2 as shift + slope x.
 struct Shift {
-    template <class Value>
-    explicit Shift(const Row<Value>& row)
+    explicit Shift(const Row<Level>& row)
         : shift(row.to * row.to - row.from * row.from), slope(2 * (row.from - row.to)) {}
+    STIPPLE_INLINE Level operator()(Level x) const { return shift + slope * x; }
     Level shift;
     Level slope;
 };
 
-STIPPLE_WIDE std::int64_t shortfall_change(const Row<Level>& row, Level target) {
-    const auto [shift, slope] = Shift(row);
+/// The same of categories.
+struct Change {
+    explicit Change(const Row<Level>& row) : apart(row.apart), from(row.from), to(row.to) {}
+    STIPPLE_INLINE Level operator()(Level x) const {
+        return (to == x ? 0 : apart) - (from == x ? 0 : apart);
+    }
+    Level apart;
+    Level from;
+    Level to;
+};
+
+template <class Step>
+STIPPLE_INLINE std::int64_t shortfall_by(const Row<Level>& row, Level target, Step step) {
     const Level* pairs = row.pairs;
     const Level* x = row.x;
     std::int64_t sum = 0;
     for (std::size_t j = 0; j < row.size; ++j)
-        sum += std::max(0, target - (pairs[j] + shift + slope * x[j])) -
-               std::max(0, target - pairs[j]);
+        sum += std::max(0, target - (pairs[j] + step(x[j]))) - std::max(0, target - pairs[j]);
     return sum;
+}
+
+STIPPLE_WIDE std::int64_t shortfall_change(const Row<Level>& row, Level target) {
+    return row.apart == 0 ? shortfall_by(row, target, Shift(row))
+                          : shortfall_by(row, target, Change(row));
 }
 
 /// r^(power / 2) of some numbers, in place.
@@ -76,9 +92,9 @@ STIPPLE_INLINE double over(double scale, Level square) {
     return scale / std::max(0.25, static_cast<double>(square));
 }
 
-STIPPLE_WIDE double power_change(const Row<Level>& row, int power, double scale) {
+template <class Step>
+STIPPLE_INLINE double powers_by(const Row<Level>& row, int power, double scale, Step step) {
     constexpr std::size_t some = 64;
-    const auto [shift, slope] = Shift(row);
     double sum = 0;
     for (std::size_t first = 0; first < row.size; first += some) {
         const std::size_t n = std::min(some, row.size - first);
@@ -88,13 +104,18 @@ STIPPLE_WIDE double power_change(const Row<Level>& row, int power, double scale)
         double then[some];
         for (std::size_t l = 0; l < n; ++l) {
             now[l] = over(scale, pairs[l]);
-            then[l] = over(scale, pairs[l] + shift + slope * x[l]);
+            then[l] = over(scale, pairs[l] + step(x[l]));
         }
         raise(now, n, power);
         raise(then, n, power);
         sum += lane_sum(n, [&](std::size_t l) { return then[l] - now[l]; });
     }
     return sum;
+}
+
+STIPPLE_WIDE double power_change(const Row<Level>& row, int power, double scale) {
+    return row.apart == 0 ? powers_by(row, power, scale, Shift(row))
+                          : powers_by(row, power, scale, Change(row));
 }
 
 /// 1 + |z|/2 + |z'|/2 - |z - z'|/2 of two places on a scale of 1 / (4 n) from the middle.
@@ -114,17 +135,24 @@ STIPPLE_WIDE double centered_change(const Row<double>& row, double n) {
 }
 
 /// Never 0: the point itself and what pads the rows have no energy.
-STIPPLE_INLINE double gap_between(Level a, Level b, double more) {
-    return std::max(0.5, std::abs(static_cast<double>(a - b)) + more);
+STIPPLE_INLINE double gap_between(Level a, Level b, double far, double more) {
+    const double difference = far == 0 ? std::abs(static_cast<double>(a - b)) : a == b ? 0 : far;
+    return std::max(0.5, difference + more);
 }
 
-STIPPLE_WIDE double projection_change(const Row<double>& row, double more) {
+/// @param far between two categories; 0: places have a difference
+STIPPLE_INLINE double projections_by(const Row<double>& row, double far, double more) {
     return lane_sum(row.size, [&](std::size_t j) {
         const double now = row.pairs[j];
         const double factor =
-            gap_between(row.from, row.x[j], more) / gap_between(row.to, row.x[j], more);
+            gap_between(row.from, row.x[j], far, more) / gap_between(row.to, row.x[j], far, more);
         return now * (factor * factor) - now;
     });
+}
+
+STIPPLE_WIDE double projection_change(const Row<double>& row, double more) {
+    return row.apart == 0 ? projections_by(row, 0, more)
+                          : projections_by(row, std::sqrt(row.apart), more);
 }
 
 /// Squared distances, which a coordinate adds to.
@@ -133,11 +161,11 @@ struct Distances {
     static constexpr Level start = 0;
     static constexpr Level neutral = Level{1} << 30;
 
-    static Level with(std::size_t, Level value, Level a, Level b) {
-        return value + (a - b) * (a - b);
+    static Level with(const Axis& axis, Level value, Level a, Level b) {
+        return value + axis.square(a, b);
     }
-    static Level moved(std::size_t, Level value, Level from, Level to, Level x) {
-        return value + (to - x) * (to - x) - (from - x) * (from - x);
+    static Level moved(const Axis& axis, Level value, Level from, Level to, Level x) {
+        return value + axis.square(to, x) - axis.square(from, x);
     }
 };
 
@@ -146,7 +174,7 @@ struct Shortfall : Distances {
     Level target = 1;
 
     [[nodiscard]] double energy(Level value) const { return std::max(0, target - value); }
-    [[nodiscard]] double change(std::size_t, const Row<Level>& row) const {
+    [[nodiscard]] double change(const Axis&, const Row<Level>& row) const {
         return static_cast<double>(shortfall_change(row, target));
     }
 };
@@ -161,7 +189,7 @@ struct Powers : Distances {
         raise(&r, 1, power);
         return r;
     }
-    [[nodiscard]] double change(std::size_t, const Row<Level>& row) const {
+    [[nodiscard]] double change(const Axis&, const Row<Level>& row) const {
         return power_change(row, power, scale);
     }
 };
@@ -173,11 +201,12 @@ struct Products : Factor {
     static constexpr double start = 1;
     static constexpr double neutral = 0;
 
-    [[nodiscard]] double with(std::size_t k, double value, Level a, Level b) const {
-        return value * this->factor(k, a, b);
+    [[nodiscard]] double with(const Axis& axis, double value, Level a, Level b) const {
+        return value * this->factor(axis, a, b);
     }
-    [[nodiscard]] double moved(std::size_t k, double value, Level from, Level to, Level x) const {
-        return value * this->factor(k, to, x) / this->factor(k, from, x);
+    [[nodiscard]] double moved(const Axis& axis, double value, Level from, Level to,
+                               Level x) const {
+        return value * this->factor(axis, to, x) / this->factor(axis, from, x);
     }
 };
 
@@ -185,10 +214,11 @@ struct CenteredFactor {
     double n = 1;
 
     [[nodiscard]] double energy(double value) const { return 2 * value; }
-    [[nodiscard]] double change(std::size_t, const Row<double>& row) const {
+    [[nodiscard]] double change(const Axis&, const Row<double>& row) const {
         return centered_change(row, n);
     }
-    [[nodiscard]] double factor(std::size_t, Level a, Level b) const {
+    [[nodiscard]] double factor(const Axis&, Level a, Level b) const { return factor(a, b); }
+    [[nodiscard]] double factor(Level a, Level b) const {
         return centered_factor(2 * a + 1 - n, 2 * b + 1 - n, 1 / (4 * n));
     }
     /// 1 + |z|/2 - z^2/2.
@@ -199,15 +229,19 @@ struct CenteredFactor {
 };
 
 struct ProjectionFactor {
-    double scale = 1;          ///< of the order of a difference of levels
-    std::vector<double> more;  ///< of each coordinate: what differences of its parts count more
+    double scale = 1;  ///< of the order of a difference of levels
+    double n = 1;
 
-    [[nodiscard]] static double energy(double value) { return value; }
-    [[nodiscard]] double change(std::size_t k, const Row<double>& row) const {
-        return projection_change(row, more[k]);
+    /// What differences of parts count more.
+    [[nodiscard]] double more(const Axis& axis) const {
+        return axis.parts > 0 ? n / axis.parts : 0;
     }
-    [[nodiscard]] double factor(std::size_t k, Level a, Level b) const {
-        const double f = scale / gap_between(a, b, more[k]);
+    [[nodiscard]] static double energy(double value) { return value; }
+    [[nodiscard]] double change(const Axis& axis, const Row<double>& row) const {
+        return projection_change(row, more(axis));
+    }
+    [[nodiscard]] double factor(const Axis& axis, Level a, Level b) const {
+        const double f = scale / gap_between(a, b, std::sqrt(axis.apart), more(axis));
         return f * f;
     }
 };
@@ -223,7 +257,7 @@ class Singles {
         : measure_(measure), own_(points, 1), mean_(points, 1) {}
 
     void with(std::size_t i, Level x) {
-        own_[i] *= measure_.factor(0, x, x);
+        own_[i] *= measure_.factor(x, x);
         mean_[i] *= measure_.mean_factor(x);
     }
     void move(std::size_t i, Level from, Level to) {
@@ -242,7 +276,7 @@ class Singles {
 
   private:
     [[nodiscard]] double own_ratio(Level from, Level to) const {
-        return measure_.factor(0, to, to) / measure_.factor(0, from, from);
+        return measure_.factor(to, to) / measure_.factor(from, from);
     }
     [[nodiscard]] double mean_ratio(Level from, Level to) const {
         return measure_.mean_factor(to) / measure_.mean_factor(from);
@@ -269,6 +303,7 @@ class PairCriterion final : public Criterion {
   public:
     PairCriterion(Measure measure, const Design& design, const Rules& rules)
         : measure_(std::move(measure)),
+          rules_(rules),
           points_(design.points),
           fixed_(rules.fixed),
           stride_(padded(design.rows)),
@@ -279,8 +314,7 @@ class PairCriterion final : public Criterion {
           singles_(measure_, points_) {
         for (std::size_t k = 0; k < dimension_; ++k)
             for (std::size_t i = 0; i < design.rows; ++i)
-                places_[k * stride_ + i] =
-                    place_of(design.along(k)[i], parts_of(rules, k), points_);
+                places_[k * stride_ + i] = rules.axis(k).place(design.along(k)[i]);
         rebuild();
     }
 
@@ -337,15 +371,16 @@ class PairCriterion final : public Criterion {
     Value& at(std::size_t a, std::size_t b) { return pairs_[a * width_ + b]; }
 
     double change_of(std::size_t k, std::size_t a, Level from, Level to) {
-        return measure_.change(k, Row<Value>{&at(a, 0), places(k), width_, from, to}) +
-               singles_.change(a, from, to);
+        const Axis& axis = rules_.axis(k);
+        const Row<Value> row{&at(a, 0), places(k), width_, from, to, axis.apart};
+        return measure_.change(axis, row) + singles_.change(a, from, to);
     }
 
     void move(std::size_t k, std::size_t a, std::size_t except, Level from, Level to) {
         const Level* x = places(k);
         for (std::size_t j = 0; j < points_; ++j)
             if (j != a && j != except)
-                at(a, j) = at(j, a) = measure_.moved(k, at(a, j), from, to, x[j]);
+                at(a, j) = at(j, a) = measure_.moved(rules_.axis(k), at(a, j), from, to, x[j]);
         singles_.move(a, from, to);
     }
 
@@ -383,7 +418,7 @@ class PairCriterion final : public Criterion {
             for (std::size_t j = 0; i >= fixed_ && j < i; ++j) {
                 Value value = Measure::start;
                 for (std::size_t k = 0; k < dimension_; ++k)
-                    value = measure_.with(k, value, places(k)[i], places(k)[j]);
+                    value = measure_.with(rules_.axis(k), value, places(k)[i], places(k)[j]);
                 at(i, j) = at(j, i) = value;
             }
         }
@@ -391,6 +426,7 @@ class PairCriterion final : public Criterion {
     }
 
     Measure measure_;
+    Rules rules_;
     std::size_t points_;
     std::size_t fixed_;
     std::size_t stride_;  ///< of places
@@ -418,13 +454,8 @@ std::unique_ptr<Criterion> pair_criterion(const Objective& objective, const Desi
             return criterion_by(Shortfall(), design, rules);
         case Kind::centered_l2:
             return criterion_by(Centered{{n}}, design, rules);
-        case Kind::maxpro: {
-            Projections measure{
-                {usual_difference(design.points), std::vector<double>(design.dimension)}};
-            for (std::size_t k = 0; k < design.dimension; ++k)
-                if (const Level parts = parts_of(rules, k); parts > 0) measure.more[k] = n / parts;
-            return criterion_by(std::move(measure), design, rules);
-        }
+        case Kind::maxpro:
+            return criterion_by(Projections{{usual_difference(design.points), n}}, design, rules);
         default: {
             Powers measure;
             measure.power = objective.kind == Kind::phi_p ? objective.power : 2;

@@ -61,7 +61,7 @@ class Rounds {
 
     [[nodiscard]] bool is_free() const {
         const Rules& rules = search_.rules;
-        return rules.fixed == 0 && rules.groups.empty() && rules.parts.empty() && !rules.feasible;
+        return rules.fixed == 0 && rules.groups.empty() && rules.axes.empty() && !rules.feasible;
     }
 
     /// Whether lattices are good starts.

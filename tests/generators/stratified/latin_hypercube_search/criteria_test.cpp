@@ -70,7 +70,12 @@ Design with_spare_rows() {
 
 // What an exchange changes is the difference of two energies that are worked out anew.
 TEST(LatinCriteria, ExchangesChangeEnergiesByTheDifference) {
-    const Rules cases[] = {{}, {.fixed = 3}, {.parts = {0, 3, 14, 5}}};
+    const std::vector<double> outcomes = {0, 0, 0, 5, 5, 1, 1, 1, 1, 1, 1, 2, 3, 3};
+    const Rules cases[] = {
+        {},
+        {.fixed = 3},
+        {.axes = {{}, even_parts(14, 3), even_parts(14, 14), even_parts(14, 5)}},
+        {.axes = {parts_by(outcomes, true), {}, parts_by(outcomes, false), even_parts(14, 2)}}};
     for (const Kind kind : all_kinds)
         for (const Rules& rules : cases)
             for (const int power : {1, 2, 15, 30}) {
@@ -116,20 +121,35 @@ TEST(LatinCriteria, EnergiesOfDistancesAreWholeNumbers) {
 
 // Twelve levels of three parts count as their middles 1.5, 5.5, 9.5, rounded down.
 TEST(LatinCriteria, LevelsOfAPartCountAsItsMiddle) {
-    using latin_hypercube_search::place_of;
     for (Level level = 0; level < 12; ++level) {
-        EXPECT_EQ(place_of(level, 0, 12), level);
-        EXPECT_EQ(place_of(level, 12, 12), level);
-        EXPECT_EQ(place_of(level, 3, 12), 1 + 4 * (level / 4));
-        EXPECT_EQ(place_of(level, 1, 12), 5);
+        EXPECT_EQ(even_parts(12, 0).place(level), level);
+        EXPECT_EQ(even_parts(12, 12).place(level), level);
+        EXPECT_EQ(even_parts(12, 3).place(level), 1 + 4 * (level / 4));
+        EXPECT_EQ(even_parts(12, 1).place(level), 5);
     }
-    EXPECT_EQ(place_of(-1, 3, 12), -1);
+    EXPECT_EQ(even_parts(12, 3).place(-1), -1);
     for (const Level parts : {2, 3, 7, 10})
         for (Level level = 0; level < 10; ++level) {
             const double middle = 10 * (std::floor(level * parts / 10.0) + 0.5) / parts - 0.5;
-            EXPECT_EQ(place_of(level, parts, 10), static_cast<Level>(std::floor(middle + 1e-9)))
+            EXPECT_EQ(even_parts(10, parts).place(level),
+                      static_cast<Level>(std::floor(middle + 1e-9)))
                 << parts << " " << level;
         }
+}
+
+// Of ten levels, 12 pairs of 45 have the same outcome, and two levels are 110 / 6 apart on average.
+TEST(LatinCriteria, CategoriesAreAsFarApartAsOtherAxesAreOnAverage) {
+    const std::vector<double> outcomes = {2, 2, 2, 2, 7, 7, 7, 4, 4, 4};
+    const Axis ordered = parts_by(outcomes, false);
+    EXPECT_THAT(ordered.places, ElementsAre(1, 1, 1, 1, 5, 5, 5, 8, 8, 8));
+    EXPECT_EQ(ordered.parts, 3);
+    EXPECT_EQ(ordered.square(1, 8), 49);
+    const Axis categories = parts_by(outcomes, true);
+    EXPECT_EQ(categories.places, ordered.places);
+    EXPECT_EQ(categories.square(5, 5), 0);
+    EXPECT_EQ(categories.square(1, 8), std::round(110 / 6.0 * 45 / (45 - 12)));
+    EXPECT_EQ(categories.square(1, 5), categories.square(5, 8));
+    EXPECT_EQ(parts_by(std::vector<double>{3, 3}, true).square(0, 0), 0);
 }
 
 }  // namespace stipple::testing::latin_criteria_test

@@ -131,23 +131,27 @@ TEST(LatinSearch, GivesNewPointsLevelsOfSpareRowsWhereTheyAreBetter) {
 
 // The sum of two levels is to be below n: half of all rows are not feasible at first.
 TEST(LatinSearch, KeepsRowsFeasible) {
-    const auto below = [](std::span<const Level> row) { return std::abs(row[0] - row[1]) < 10; };
+    const auto below = [](std::size_t, std::span<const Level> row) {
+        return std::abs(row[0] - row[1]) < 10;
+    };
     for (const Kind kind : {Kind::maximin, Kind::centered_l2}) {
         const Design design = found(kind, random_design(20, 3, 3), 50'000, {.feasible = below});
         EXPECT_TRUE(is_latin(design));
         for (std::size_t i = 0; i < 20; ++i)
             EXPECT_LT(std::abs(design.along(0)[i] - design.along(1)[i]), 10) << i;
     }
-    EXPECT_EQ(error_of([] {
-                  found(Kind::maximin, random_design(5, 2, 1), 1000,
-                        {.feasible = [](std::span<const Level> row) { return row[0] > 0; }});
-              }),
-              "limit: latin-hypercube: no design found that is feasible; 1 of 5 points are not");
+    EXPECT_EQ(
+        error_of([] {
+            found(Kind::maximin, random_design(5, 2, 1), 1000,
+                  {.feasible = [](std::size_t, std::span<const Level> row) { return row[0] > 0; }});
+        }),
+        "limit: latin-hypercube: no design found that is feasible; 1 of 5 points are not");
 }
 
 // Eight points of two coordinates of two categories: each of the four cells is to hold two of them.
 TEST(LatinSearch, SpreadsCategories) {
-    const Design design = found(Kind::maxpro, random_design(8, 2, 1), 50'000, {.parts = {2, 2}});
+    const Design design = found(Kind::maxpro, random_design(8, 2, 1), 50'000,
+                                {.axes = {even_parts(8, 2), even_parts(8, 2)}});
     std::map<std::pair<Level, Level>, int> cells;
     for (std::size_t i = 0; i < 8; ++i) ++cells[{design.along(0)[i] / 4, design.along(1)[i] / 4}];
     EXPECT_EQ(cells.size(), 4U);
