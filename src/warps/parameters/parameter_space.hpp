@@ -56,7 +56,8 @@ class ParameterSpace {
     /// Whether each is a number that it may be, and all constraints hold.
     [[nodiscard]] bool contains(std::span<const double> row) const;
 
-    /// Of the parameters before constraints, without a reordering; of those that are discrete, their probability.
+    /// Of the parameters before constraints, without a reordering; of those that are discrete, their
+    /// probability.
     [[nodiscard]] double density(std::span<const double> row) const;
 
   private:
