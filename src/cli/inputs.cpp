@@ -112,7 +112,7 @@ DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
                        const Arguments& arguments, const RunContext& run) {
     const auto file = arguments.get("parameters");
     const std::string domain = file && arguments.verb != Verb::warp
-                                   ? parameters::read_parameters(*file).domain
+                                   ? parameters::read_parameters(*file, run).domain
                                    : provenance.domain;
     // Columns picked by hand are not what the file's domain speaks of.
     if (arguments.has("column") || domain == "unit-cube" || domain.empty())

@@ -182,7 +182,7 @@ int warp(const Arguments& arguments, Session& session) {
     settings_of(scrambled ? scrambled->options : find_warp(arguments.unit).options, arguments);
     Spec spec{.name = arguments.unit, .coordinates = {}, .settings = arguments.settings};
     if (const auto file = arguments.get("parameters")) {
-        const Spec named = parameters::read_parameters(*file).spec;
+        const Spec named = parameters::read_parameters(*file, session.run()).spec;
         if (spec.name != named.name)
             fail(ErrorKind::usage, "--parameters: is of the warp {}", named.name);
         spec.settings.insert(spec.settings.end(), named.settings.begin(), named.settings.end());
@@ -209,7 +209,8 @@ int warp(const Arguments& arguments, Session& session) {
     if (at_points)
         arguments.refuse({"inverse", "with-pdf", "with-weight"},
                          "--density-at leaves the points where they are");
-    if (!can_stream(*stream, target)) {
+    const bool whole = !inverse && !at_points && takes_whole_sets(spec, stream->dimension(), run);
+    if (whole || !can_stream(*stream, target)) {
         auto sets = read_all(*stream, arguments, run);
         if (at_points)
             write_density_at(std::move(sets), spec, target, run);

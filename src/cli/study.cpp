@@ -92,7 +92,7 @@ SweepRequest request_of(const Arguments& arguments, const Ranks& ranks, Session&
     request.seeds = arguments.integer("seeds").value_or(1);
     request.warps = arguments.all("warp");
     if (const auto file = arguments.get("parameters")) {
-        const auto named = parameters::read_parameters(*file);
+        const auto named = parameters::read_parameters(*file, session.run());
         request.warps.push_back(named.domain);
         if (!arguments.has("dimension")) request.dimensions = {named.names.size()};
     }

@@ -2,6 +2,7 @@
 #include "pipeline/chain.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -343,6 +344,25 @@ std::vector<OutcomeAxis> WarpChain::outcome_axes() const {
     return axes;
 }
 
+bool WarpChain::reorders() const { return stops().size() > 1; }
+
+std::vector<std::size_t> WarpChain::stops() const {
+    std::vector<std::size_t> at;
+    for (std::size_t i = 0; i < steps_.size(); ++i)
+        if (steps_[i].mapping && steps_[i].mapping->reorders()) at.push_back(i);
+    at.push_back(steps_.size());
+    return at;
+}
+
+void WarpChain::reorder(const Step& step, std::span<double> rows, const RunContext& run) {
+    std::vector<double> part = gather(rows, step.width_in, step.coordinates);
+    step.mapping->reorder(part, run);
+    const std::size_t d = step.coordinates.size();
+    for (std::size_t i = 0; i < part.size() / d; ++i)
+        for (std::size_t k = 0; k < d; ++k)
+            rows[i * step.width_in + step.coordinates[k]] = part[i * d + k];
+}
+
 void WarpChain::note_infinite(const Step& step, std::span<const double> cube,
                               std::uint64_t first) const {
     if (step.mapping->domain()->measure() < std::numeric_limits<double>::infinity()) return;
@@ -369,7 +389,18 @@ void WarpChain::tell_infinite(const RunContext& run) const {
 }
 
 std::vector<double> WarpChain::forward(std::vector<double> rows, std::uint64_t first) const {
-    for (const Step& step : steps_) {
+    std::size_t from = 0;
+    for (const std::size_t stop : stops()) {
+        rows = through(std::move(rows), first, from, stop);
+        if (stop < steps_.size()) reorder(steps_[stop], rows, {});
+        from = stop;
+    }
+    return rows;
+}
+
+std::vector<double> WarpChain::through(std::vector<double> rows, std::uint64_t first,
+                                       std::size_t from, std::size_t to) const {
+    for (const Step& step : std::span(steps_).subspan(from, to - from)) {
         if (!step.mapping && !step.randomization) continue;
         const std::size_t count = rows.size() / step.width_in;
         const bool whole = step.coordinates == all_of(step.width_in);
@@ -405,21 +436,19 @@ std::vector<double> WarpChain::inverse(std::vector<double> rows) const {
     return rows;
 }
 
-std::vector<double> WarpChain::mapped(std::span<const double> rows, bool back, std::uint64_t first,
-                                      const RunContext& run) const {
-    const std::size_t d = back ? dimension_out_ : dimension_in_;
-    const std::size_t wide = back ? dimension_in_ : dimension_out_;
+namespace {
+
+/// What `images` gives of blocks of rows of d numbers, one after the other.
+std::vector<double> in_blocks(
+    std::span<const double> rows, std::size_t d, const RunContext& run,
+    const std::function<std::vector<double>(std::vector<double>, std::size_t first)>& images) {
     const std::size_t count = rows.size() / d;
-    run.need_memory(8.0 * static_cast<double>(count * wide), "the image of the points");
     const std::size_t block = std::max<std::size_t>(1, 16384 / d);
     std::vector<std::vector<double>> parts(block_count(count, block));
     for_each_block(run, count, block, [&](const Block& b) {
         const auto from = rows.subspan(b.first * d, (b.last - b.first) * d);
-        std::vector<double> part(from.begin(), from.end());
-        parts[b.index] =
-            back ? inverse(std::move(part)) : forward(std::move(part), first + b.first);
+        parts[b.index] = images({from.begin(), from.end()}, b.first);
     });
-    tell_infinite(run);
     std::size_t numbers = 0;
     for (const auto& part : parts) numbers += part.size();
     std::vector<double> all;
@@ -428,6 +457,32 @@ std::vector<double> WarpChain::mapped(std::span<const double> rows, bool back, s
         all.insert(all.end(), part.begin(), part.end());
         part = {};  // so that the points are not held twice
     }
+    return all;
+}
+
+}  // namespace
+
+std::vector<double> WarpChain::mapped(std::span<const double> rows, bool back, std::uint64_t first,
+                                      const RunContext& run) const {
+    const std::size_t d = back ? dimension_out_ : dimension_in_;
+    const std::size_t wide = back ? dimension_in_ : dimension_out_;
+    run.need_memory(8.0 * static_cast<double>(rows.size() / d * wide), "the image of the points");
+    if (back)
+        return in_blocks(rows, d, run, [&](std::vector<double> block, std::size_t) {
+            return inverse(std::move(block));
+        });
+    std::vector<double> all;
+    std::size_t from = 0;
+    for (const std::size_t stop : stops()) {
+        const std::size_t width = steps_.empty() ? d : steps_[from].width_in;
+        all = in_blocks(rows, width, run, [&](std::vector<double> block, std::size_t at) {
+            return through(std::move(block), first + at, from, stop);
+        });
+        if (stop < steps_.size()) reorder(steps_[stop], all, run);
+        rows = all;
+        from = stop;
+    }
+    tell_infinite(run);
     return all;
 }
 

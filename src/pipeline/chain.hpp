@@ -68,6 +68,10 @@ class WarpChain {
     /// What each coordinate of the points becomes by itself.
     [[nodiscard]] std::vector<OutcomeAxis> outcome_axes() const;
 
+    /// Whether the image of a point depends on all points of its set: rows are then always those of a
+    /// whole set.
+    [[nodiscard]] bool reorders() const;
+
     /// Whether the images depend on the set's seed.
     [[nodiscard]] bool seeded() const { return seeded_; }
 
@@ -132,6 +136,16 @@ class WarpChain {
         std::size_t width_in = 0;                   ///< numbers of the row before
         std::size_t width_out = 0;                  ///< and after
     };
+
+    /// Rows through the steps [from, to), none of which looks at the whole set.
+    [[nodiscard]] std::vector<double> through(std::vector<double> rows, std::uint64_t first,
+                                              std::size_t from, std::size_t to) const;
+
+    /// The steps that take all rows of a set together, in order, and the number of steps.
+    [[nodiscard]] std::vector<std::size_t> stops() const;
+
+    /// Of all rows of a set, those numbers that a step takes.
+    static void reorder(const Step& step, std::span<double> rows, const RunContext& run);
 
     /// Remembers the first of some rows of a step's cube whose image is infinitely far.
     void note_infinite(const Step& step, std::span<const double> cube, std::uint64_t first) const;

@@ -177,7 +177,8 @@ GeneratedSets::GeneratedSets(SetsToMake asked, const RunContext& run)
 
 std::optional<std::uint64_t> GeneratedSets::streamed() const {
     const bool whole = generator_.whole && generator_.whole(asked_.options);
-    if (!generator_.traits.sequence || whole || chain_->drops()) return std::nullopt;
+    if (!generator_.traits.sequence || whole || chain_->drops() || chain_->reorders())
+        return std::nullopt;
     return plan_.count;
 }
 
@@ -206,7 +207,7 @@ std::shared_ptr<const Destination> destination_of(const std::shared_ptr<const Wa
         return !chain->forward({row.begin(), row.end()}, i).empty();
     };
     return std::make_shared<const Destination>(
-        Destination{has_image, chain->refills(), chain->outcome_axes()});
+        Destination{has_image, chain->refills() && !chain->reorders(), chain->outcome_axes()});
 }
 
 }  // namespace
@@ -352,7 +353,8 @@ GeneratedSets::Images GeneratedSets::images_of_more(std::uint64_t set, const Poi
 
 PointSet GeneratedSets::filled_up(std::uint64_t set, const PointSet& first,
                                   const RunContext& run) const {
-    const bool goes_on = generator_.traits.sequence && generator_.traits.prefix;
+    const bool goes_on =
+        generator_.traits.sequence && generator_.traits.prefix && !chain_->reorders();
     auto [rows, made] = goes_on ? next_images(set, first, run) : images_of_more(set, first, run);
     const std::size_t d = dimension();
     const double share = static_cast<double>(rows.size() / d) / static_cast<double>(made);

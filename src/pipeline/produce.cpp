@@ -329,6 +329,9 @@ class Producer {
           sets_(job, job.shard.index == 0 ? run : untold(run)) {
         if (job_.shard.of > 1 && job_.sets > 1)
             fail(ErrorKind::usage, "--shard and --sets: parts are of one set; choose it by --seed");
+        if (job_.shard.of > 1 && sets_.chain().reorders())
+            fail(ErrorKind::usage,
+                 "--shard: the parameters of a whole set are reordered; make all points at once");
         check_columns();
         check_side_files();
     }
@@ -467,6 +470,12 @@ void write_sets(std::vector<PointSet> sets, const Target& target, const RunConte
         if (!sets[i].domain) sets[i].domain = unit_cube(d);
     }
     write_all(sets, WarpChain({}, d), target, run);
+}
+
+bool takes_whole_sets(const Spec& warp, std::size_t dimension, const RunContext& run) {
+    const Warp& unit = find_warp(warp.name);
+    const std::size_t given = warp.coordinates.empty() ? dimension : warp.coordinates.size();
+    return unit.traits.reorders && unit.make(warp.values(unit.options), given, run)->reorders();
 }
 
 PointSet warped_set(const PointSet& set, const Spec& warp, bool inverse, const RunContext& run) {

@@ -50,6 +50,9 @@ PointSet warped_set(const PointSet& set, const Spec& warp, bool inverse, const R
 void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, const Target& target,
                   const RunContext& run);
 
+/// Whether the images of points of such a dimension depend on all points of their set.
+bool takes_whole_sets(const Spec& warp, std::size_t dimension, const RunContext& run);
+
 /// Whether points can be written to the target as they come, before their number is known.
 bool can_stream(const io::PointStream& stream, const Target& target);
 

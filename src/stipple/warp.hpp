@@ -55,7 +55,8 @@ class Warper {
     [[nodiscard]] std::size_t dimension_in() const;
     [[nodiscard]] std::size_t dimension_out() const;
 
-    /// Images of rows in [0, 1); fewer rows where a method rejects some.
+    /// Images of rows in [0, 1); fewer rows where a method rejects some. Where a warp reorders a set
+    /// before it maps it, the rows are a whole set.
     /// @throws Error(usage) for a size that is no multiple of dimension_in(), Error(input) for
     /// numbers outside [0, 1]
     [[nodiscard]] std::vector<double> forward(std::span<const double> rows) const;

@@ -141,7 +141,8 @@ bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunCon
     if (spec == "unit-cube") return true;
     if (measure.unit->traits.unit_cube) return false;
     if (measure.unit->traits.boxed && !spec.starts_with("box")) return false;
-    const PointSet points = some_points(chain.dimension_in());
+    const std::size_t d = chain.dimension_in();
+    const PointSet points = some_points(d, chain.reorders() ? 64 + d : 64);
     return takes_points(measure, chain.image(points, silent(run)), run) ||
            !takes_points(measure, points, run);
 }
@@ -169,11 +170,11 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
     // What a scramble draws depends on seed and coordinates: cut in two, the chain is the same.
     if (sweep.later_warps().empty()) return;
     const WarpChain chain(sweep.later_warps(), d, set, run);
-    if (!chain.refills()) {
+    if (!chain.refills() && !chain.reorders()) {
         made.image = chain.image(points, run);
         return;
     }
-    const auto refilled = [&](std::vector<Spec> warps) {
+    const auto made_together = [&](std::vector<Spec> warps) {
         warps.insert(warps.begin(), sweep.scrambles().begin(), sweep.scrambles().end());
         return GeneratedSets({.generator = generator.unit,
                               .options = generator.values,
@@ -184,9 +185,9 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
             .made(0, run);
     };
     std::vector<Spec> warps(sweep.later_warps().begin(), sweep.later_warps().end());
-    made.image = refilled(warps);
+    made.image = made_together(warps);
     warps.back() = parameters::in_unit_cube(warps.back());
-    points = refilled(warps);
+    points = made_together(warps);
 }
 
 MadeSet made_set(const Sweep& sweep, const Cell& cell, std::uint64_t seed, const RunContext& run) {

@@ -50,6 +50,14 @@ class Mapping {
     /// depend on others.
     [[nodiscard]] virtual std::vector<OutcomeAxis> outcome_axes() const { return {}; }
 
+    /// Whether the numbers of each coordinate are first given out anew among the points of a set, so
+    /// that forward() takes what reorder() has made of the whole set.
+    [[nodiscard]] virtual bool reorders() const { return false; }
+
+    /// Does so in place, for all points of a set: count x cube_dimension() numbers.
+    /// @throws Error(input) for points that cannot be reordered; Error(limit), Error(cancelled)
+    virtual void reorder(std::span<double> /*cube*/, const RunContext& /*run*/) const {}
+
     /// Whether the image of a row of the cube is infinitely far, and a finite one stands for it:
     /// asked where the domain's measure is infinite.
     [[nodiscard]] virtual bool infinite(std::span<const double> /*row*/) const { return false; }
@@ -103,6 +111,7 @@ struct WarpTraits {
     bool drops = false;   ///< with some options, some points have no image
     bool biased = false;  ///< with some options, deliberately wrong; the option's help says which
     bool tabulated = false;  ///< points follow a table, near the domain's density
+    bool reorders = false;   ///< with some options, a set is reordered before it is mapped
     bool discrete = false;   ///< points are outcomes, each with a probability, and have no density
 };
 

@@ -159,6 +159,80 @@ TEST_F(Parameters, OptimizedDesignsHaveOtherStrataWhereConstraintsNeedThem) {
                    3, "latin-hypercube: the constraints hold for 0 of ");
 }
 
+// The set as a whole: made, read, one of several, measured and made again.
+TEST_F(Parameters, AreReorderedAsAWholeSet) {
+    box.write("r.json", R"({"parameters": [{"name": "a", "range": [0, 2]}, {"name": "b",
+        "distribution": "normal"}], "correlation": {"reordering": "iman-conover",
+        "spearman": [["a", "b", 0.7]]}})");
+    const std::string make = "stipple generate latin-hypercube -n 40 --parameters r.json ";
+    const std::string one = text(make);
+    EXPECT_NE(one, text("sed 's/0.7/-0.7/' r.json > s.json; stipple generate latin-hypercube -n 40 "
+                        "--parameters s.json"));
+    EXPECT_EQ(one, text(make + "--threads 1"));
+    EXPECT_EQ(text("stipple generate latin-hypercube -n 40 | stipple warp parameters --parameters "
+                   "r.json"),
+              one);
+    text("stipple generate latin-hypercube -n 40 -o p.csv");
+    EXPECT_EQ(text("stipple warp parameters --parameters r.json p.csv"), one);
+    EXPECT_EQ(text(make + "-m 2 | sed -n 's/^1,//p'"), text(make + "-s 2 | tail -n +2"));
+    EXPECT_EQ(text("stipple generate latin-hypercube -n 40 -m 2 -o m.csv; "
+                   "stipple warp parameters --parameters r.json m.csv"),
+              text(make + "-m 2"));
+
+    text(make + "-f json -o a.json; " + make + "--unit-cube -o cube.csv");
+    EXPECT_EQ(text("cut -d, -f2 cube.csv | tail -n +2 | sort"),
+              text("cut -d, -f2 p.csv | tail -n +2 | sort"));
+    EXPECT_EQ(text("stipple analyze star-discrepancy cube.csv | grep '\"value\"'"),
+              text("stipple analyze star-discrepancy --generate latin-hypercube -n 40 --parameters "
+                   "r.json --unit-cube | grep '\"value\"'"));
+    const std::string star = text(
+        "stipple analyze star-discrepancy cube.csv | sed -n "
+        "'s/.*\"value\": \\(.*\\),/\\1/p'");
+    EXPECT_THAT(text("stipple study --generators latin-hypercube --analyze star-discrepancy -n 40 "
+                     "--keys value --parameters r.json --quiet -f jsonl"),
+                HasSubstr("\"value\":" + star.substr(0, star.size() - 1)));
+    text("rm r.json; stipple reproduce a.json");
+    expect_refusal(box.run({"analyze", "chi-square", "a.json"}), 3,
+                   "a.json: the density of parameters that are reordered is not known");
+}
+
+TEST_F(Parameters, ReorderedAreRefusedInOneLine) {
+    box.write("r.json", R"({"parameters": [{"name": "a", "range": [0, 2]}, {"name": "b",
+        "range": [0, 1]}], "correlation": {"reordering": "iman-conover"},
+        "constraints": ["a + b < 1.5"]})");
+    expect_refusal(
+        box.run({"generate", "random", "-n", "8", "--parameters", "r.json", "--shard", "0/2"}), 2,
+        "--shard: the parameters of a whole set are reordered; make all points at once");
+    expect_refusal(box.run({"generate", "random", "-n", "2", "--parameters", "r.json"}), 3,
+                   "iman-conover takes 3 points or more for 2 parameters; there are 2");
+    box.write("p.csv", "x,y\n0.5,0.5\n0.5,0.25\n0.5,0.75\n");
+    expect_refusal(box.run({"warp", "parameters", "--parameters", "r.json", "p.csv"}), 3,
+                   "all points have the same number for a");
+    const Outcome held = box.shell(
+        "stipple generate sobol -n 100 --parameters r.json | tail -n +2 | awk -F, '$1+$2 < 1.5' | "
+        "wc -l");
+    EXPECT_EQ(held.out, "100\n");
+    EXPECT_THAT(held.err, HasSubstr("of which 100 satisfy the constraints"));
+}
+
+TEST_F(Parameters, FollowColumnsOfFiles) {
+    box.write("wind.csv", "day,speed\n1,3.5\n2,4.5\n3,3.5\n4,8\n");
+    box.write("w.json",
+              R"({"parameters": [{"name": "wind", "file": "wind.csv", "column": "speed"}]})");
+    text("stipple generate halton -n 4 --parameters w.json -f json -o a.json");
+    EXPECT_EQ(text("stipple convert a.json -f csv"), "wind\n3.5\n4.5\n3.5\n8\n");
+    expect_refusal(box.run({"generate", "halton", "-d", "1", "-w", "parameters:file=w.json"}), 3,
+                   "w.json: $.parameters[0].file: only --parameters FILE reads columns of other "
+                   "files; give their numbers, \"values\": [...]");
+    text("rm wind.csv; stipple reproduce a.json");
+    expect_refusal(box.run({"generate", "halton", "--parameters", "w.json"}), 4,
+                   "wind.csv: no such file");
+    box.write("wind.csv", "day,speed\n1,3.5\n");
+    box.write("w.json", R"({"parameters": [{"name": "wind", "file": "wind.csv"}]})");
+    expect_refusal(box.run({"generate", "halton", "--parameters", "w.json"}), 3,
+                   "w.json: $.parameters[0].file: wind.csv has 2 columns; \"column\" names one");
+}
+
 TEST_F(Parameters, StudiesTakeThem) {
     EXPECT_THAT(
         text("stipple study --generators random,sobol --analyze nearest-neighbor --parameters "

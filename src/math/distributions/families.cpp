@@ -221,4 +221,21 @@ MarginalPtr make_marginal(std::string_view name, const NamedNumbers& given,
     return family.make(values);
 }
 
+MarginalPtr measured_law(std::vector<double> numbers, bool linear, ErrorKind kind,
+                         const std::string& where) {
+    for (double& x : numbers) {
+        if (!(std::abs(x) <= 1e150)) fail(kind, "{}: {} is outside [-1e150, 1e150]", where, x);
+        x += 0.0;  // -0 would show in points
+    }
+    if (!linear) return empirical_law(std::move(numbers));
+    std::ranges::sort(numbers);
+    const auto twice = std::ranges::adjacent_find(numbers);
+    if (twice != numbers.end())
+        fail_with_hint(kind, "steps take them",
+                       "{}: {} stands twice; linear needs numbers of which no two are the same",
+                       where, *twice);
+    if (numbers.size() < 2) fail(kind, "{}: 1 number; linear needs 2 or more", where);
+    return interpolated_law(std::move(numbers));
+}
+
 }  // namespace stipple

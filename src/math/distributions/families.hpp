@@ -3,6 +3,8 @@
 // Distributions on the line by name, with their parameters:
 //
 //     MarginalPtr law = make_marginal("gamma", {{"shape", 2}, {"scale", 0.5}});
+//
+// and those of numbers that were measured.
 #pragma once
 
 #include <functional>
@@ -13,6 +15,7 @@
 #include <vector>
 
 #include "math/distributions/marginal.hpp"
+#include "stipple/error.hpp"
 
 namespace stipple {
 
@@ -56,5 +59,11 @@ const MarginalFamily& marginal_family(std::string_view name);
 /// @throws Error(usage): unknown names, numbers out of range or that do not go together
 MarginalPtr make_marginal(std::string_view family, const NamedNumbers& given,
                           std::string_view where = {});
+
+/// Each of these numbers as often as it stands there or, with `linear`, straight between them.
+/// @param where what messages call the numbers
+/// @throws Error(kind) "WHERE: 3 stands twice; ..."
+MarginalPtr measured_law(std::vector<double> numbers, bool linear, ErrorKind kind,
+                         const std::string& where);
 
 }  // namespace stipple

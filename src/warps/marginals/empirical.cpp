@@ -15,13 +15,10 @@
 // Source  linear: definition 7 of R. J. Hyndman, Y. Fan, The American Statistician 50 (1996)
 //         361-365, doi:10.1080/00031305.1996.10473566.
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
-#include "math/distributions/laws.hpp"
+#include "math/distributions/families.hpp"
 #include "warps/marginal_mapping.hpp"
 
 namespace stipple::warps::empirical {
@@ -62,23 +59,6 @@ std::vector<std::vector<double>> columns_of(const Values& options, const RunCont
     return columns;
 }
 
-MarginalPtr law_of(std::vector<double> column_values, bool linear, ErrorKind kind,
-                   const std::string& name) {
-    for (double& x : column_values) {
-        if (!(std::abs(x) <= 1e150)) fail(kind, "{}: {} is outside [-1e150, 1e150]", name, x);
-        x += 0.0;  // -0 would show in points
-    }
-    if (!linear) return empirical_law(std::move(column_values));
-    std::ranges::sort(column_values);
-    const auto twice = std::ranges::adjacent_find(column_values);
-    if (twice != column_values.end())
-        fail_with_hint(kind, "steps take them",
-                       "{}: {} stands twice; linear needs numbers of which no two are the same",
-                       name, *twice);
-    if (column_values.size() < 2) fail(kind, "{}: 1 number; linear needs 2 or more", name);
-    return interpolated_law(std::move(column_values));
-}
-
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const bool from_file = want.options.given(file);
     const std::string name = from_file ? want.options[file] : "--values";
@@ -88,7 +68,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     for (auto& column_values : columns_of(want.options, want.run)) {
         if (column_values.empty() || column_values.size() > (std::size_t{1} << 28))
             fail(kind, "{}: {} numbers; 1 to 2^28 are needed", name, column_values.size());
-        laws.push_back(law_of(std::move(column_values), linear, kind, name));
+        laws.push_back(measured_law(std::move(column_values), linear, kind, name));
     }
     return marginal_mapping(laws, want.given, want.spec());
 }

@@ -10,6 +10,7 @@
 #include "math/functions/exponential.hpp"
 #include "math/functions/incomplete_functions.hpp"
 #include "math/functions/normal_distribution.hpp"
+#include "math/functions/trigonometry.hpp"
 
 namespace stipple::parameters {
 namespace {
@@ -100,6 +101,10 @@ double Copula::density(std::span<const Share> row) const {
     log_density += log_gamma((nu + d) / 2) - log_gamma(nu / 2) -
                    d * (log_gamma((nu + 1) / 2) - log_gamma(nu / 2));
     return exponential(log_density - (nu + d) / 2 * log_1p(squares / nu));
+}
+
+double score_correlation(double spearman) {
+    return std::copysign(2 * cos_sin_turns(std::abs(spearman) / 12).sin, spearman);
 }
 
 bool is_correlation(const std::vector<double>& matrix, std::size_t d) {

@@ -69,6 +69,9 @@ class Copula {
     std::vector<MarginalPtr> laws_;  ///< Student's, for 0, 1, ... coordinates given
 };
 
+/// The correlation 2 sin(pi r / 6) of normal scores whose rank correlation, Spearman's, is r.
+double score_correlation(double spearman);
+
 /// Whether a symmetric matrix with ones on its diagonal has a Cholesky factor.
 bool is_correlation(const std::vector<double>& matrix, std::size_t d);
 

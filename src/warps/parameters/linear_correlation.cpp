@@ -42,7 +42,8 @@ std::array<double, terms> hermite_series(const Marginal& law) {
 double correlation_of_scores(const Marginal& a, const Marginal& b, double r) {
     const double size = std::sqrt(a.moments().variance * b.moments().variance);
     if (!std::isfinite(size) || !(size > 0))
-        fail(ErrorKind::usage, "a parameter without a finite variance has no linear correlation");
+        fail(ErrorKind::usage,
+             "a parameter whose variance is 0 or infinite has no linear correlation");
     const auto x = hermite_series(a);
     const auto y = hermite_series(b);
     const auto correlation = [&](double rho) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <numeric>
 #include <set>
 
@@ -14,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "core/text.hpp"
+#include "io/files.hpp"
 #include "math/distributions/families.hpp"
 #include "math/distributions/outcomes.hpp"
 #include "math/functions/trigonometry.hpp"
@@ -98,6 +100,14 @@ Entry entry_of(const Place& place, const std::vector<std::string>& before) {
         [&] { return Entry{.formula = Expression("", place.value().get<std::string>(), before)}; });
 }
 
+/// All numbers are in the provenance of points.
+void check_size(const Place& values, std::size_t count) {
+    constexpr std::size_t most = 100'000;
+    if (count > most)
+        values.refuse(fmt::format("{} numbers; 1 to {} are possible", count, most),
+                      "take some thousand quantiles of them");
+}
+
 /// What the keys of one parameter give, with the names of those before it.
 class ParameterReader {
   public:
@@ -105,7 +115,8 @@ class ParameterReader {
         : place_(place), before_(before) {}
 
     Parameter read() {
-        constexpr std::array kinds = {"range", "distribution", "integers", "levels"};
+        constexpr std::array kinds = {"range",  "distribution", "integers",
+                                      "levels", "values",       "file"};
         if (!place_.value().is_object()) place_.refuse("expected an object, {\"name\": ...}");
         const auto given =
             std::ranges::count_if(kinds, [&](const char* k) { return place_.has(k); });
@@ -115,6 +126,11 @@ class ParameterReader {
         Parameter parameter{.name = name(), .unit = unit(), .levels = {}, .law = {}};
         if (place_.has("levels"))
             take_levels(parameter);
+        else if (place_.has("values"))
+            take_values(parameter);
+        else if (place_.has("file"))
+            place_.at("file").refuse("only --parameters FILE reads columns of other files",
+                                     "give their numbers, \"values\": [...]");
         else
             take_law(parameter);
         return parameter;
@@ -273,6 +289,26 @@ class ParameterReader {
             std::make_shared<const Outcomes>("levels", std::move(rising), std::move(of_rising));
     }
 
+    void take_values(Parameter& parameter) const {
+        check_keys({"values", "interpolation"});
+        const Place at = place_.at("values");
+        const auto list = at.list("expected a list of numbers");
+        check_size(at, list.size());
+        std::vector<double> numbers;
+        for (const Place& number : list) numbers.push_back(number.number());
+        const std::string between =
+            place_.has("interpolation")
+                ? place_.at("interpolation").text("expected steps or linear")
+                : "steps";
+        if (between != "steps" && between != "linear")
+            place_.at("interpolation")
+                .refuse(fmt::format("{} is not steps or linear", shown(between)));
+        parameter.law = at.naming([&] {
+            return measured_law(std::move(numbers), between == "linear", ErrorKind::usage,
+                                "--values");
+        });
+    }
+
     /// Of the levels: those that the file gives, or equal ones. Whole numbers are ratios, 2:1:1.
     std::vector<double> probabilities(std::size_t count) const {
         std::vector<double> p(count, 1);
@@ -304,7 +340,13 @@ class ParameterReader {
     const std::vector<std::string>& before_;
 };
 
-/// The copula of the key "correlation".
+/// What joins parameters: one of both.
+struct Joint {
+    std::optional<Copula> copula = {};
+    std::optional<Reordering> reordering = {};
+};
+
+/// What the key "correlation" says.
 class CorrelationReader {
   public:
     CorrelationReader(const Place& place, const std::vector<Parameter>& parameters)
@@ -313,11 +355,12 @@ class CorrelationReader {
           matrix_(parameters.size() * parameters.size()),
           given_(matrix_.size()) {}
 
-    Copula read() {
-        place_.check_keys({"copula", "degrees", "spearman", "kendall", "pearson"},
+    Joint read() {
+        place_.check_keys({"copula", "degrees", "reordering", "spearman", "kendall", "pearson"},
                           "expected an object, {\"spearman\": [[\"length\", \"load\", 0.7]]}");
         const std::size_t d = parameters_.size();
         for (std::size_t i = 0; i < d; ++i) matrix_[i * d + i] = 1;
+        const bool reordered = read_reordering();
         const auto degrees = read_degrees();
         if (degrees && place_.has("spearman"))
             place_.at("spearman")
@@ -327,10 +370,29 @@ class CorrelationReader {
                 for (const Place& pair : place_.at(kind).list("expected a list of pairs"))
                     read_pair(pair, kind, degrees.has_value());
         if (!is_correlation(matrix_, d)) offer_nearest();
-        return Copula(matrix_, degrees);
+        if (!reordered) return {.copula = Copula(matrix_, degrees)};
+        std::vector<std::string> names;
+        for (const Parameter& parameter : parameters_) names.push_back(parameter.name);
+        return {.reordering = Reordering(matrix_, std::move(names))};
     }
 
   private:
+    /// Whether a set is reordered, in place of a copula.
+    bool read_reordering() const {
+        if (!place_.has("reordering")) return false;
+        const Place at = place_.at("reordering");
+        const std::string method = at.text("expected iman-conover");
+        if (method != "iman-conover")
+            at.refuse(fmt::format("{} is not iman-conover", shown(method)));
+        for (const char* key : {"copula", "degrees"})
+            if (place_.has(key))
+                place_.at(key).refuse("is of copulas, in place of which a reordering is given");
+        for (const char* key : {"kendall", "pearson"})
+            if (place_.has(key))
+                place_.at(key).refuse("a reordering gives rank correlations", "give \"spearman\"");
+        return true;
+    }
+
     std::optional<double> read_degrees() const {
         const std::string kind = place_.has("copula")
                                      ? place_.at("copula").text("expected gaussian or student")
@@ -378,12 +440,8 @@ class CorrelationReader {
     /// The correlation of the scores, of which the copula is made, that has a parameter's.
     double of_scores(const Place& pair, std::size_t i, std::size_t j, double r,
                      std::string_view kind, bool student) const {
-        const auto sine = [](double turns) {
-            const double size = cos_sin_turns(std::abs(turns)).sin;
-            return turns < 0 ? -size : size;
-        };
-        if (kind == "spearman") return 2 * sine(r / 12);
-        if (kind == "kendall") return sine(r / 4);
+        if (kind == "spearman") return score_correlation(r);
+        if (kind == "kendall") return std::copysign(cos_sin_turns(std::abs(r) / 4).sin, r);
         const MarginalPtr& a = parameters_[i].law;
         const MarginalPtr& b = parameters_[j].law;
         if (!a || !b) pair.refuse("a parameter that depends on others has no correlation known");
@@ -394,7 +452,10 @@ class CorrelationReader {
     /// Says which correlations would be possible. @throws Error(input)
     [[noreturn]] void offer_nearest() const {
         const std::size_t d = parameters_.size();
-        const auto nearest = nearest_correlation(matrix_, d);
+        auto nearest = nearest_correlation(matrix_, d);
+        const bool ranks = !place_.has("kendall") && !place_.has("pearson");
+        for (double& r : nearest)
+            if (ranks) r = 6 / std::numbers::pi * std::asin(r / 2);
         std::vector<std::string> pairs;
         for (std::size_t i = 0; i < d; ++i)
             for (std::size_t j = i + 1; j < d; ++j)
@@ -402,8 +463,8 @@ class CorrelationReader {
                     pairs.push_back(fmt::format("{} and {} {:.6f}", parameters_[i].name,
                                                 parameters_[j].name, nearest[i * d + j]));
         place_.refuse("no parameters have all these correlations",
-                      fmt::format("the nearest that some have, of the scores of a Gaussian copula: "
-                                  "{}",
+                      fmt::format("the nearest that some have, {}: {}",
+                                  ranks ? "as \"spearman\"" : "of the scores of a Gaussian copula",
                                   fmt::join(pairs, ", ")));
     }
 
@@ -427,9 +488,9 @@ ParameterSpace parse_parameters(std::string_view json, const std::string& source
         parameters.push_back(ParameterReader(place, names).read());
         names.push_back(parameters.back().name);
     }
-    std::optional<Copula> copula;
+    Joint joint;
     if (root.has("correlation"))
-        copula = CorrelationReader(root.at("correlation"), parameters).read();
+        joint = CorrelationReader(root.at("correlation"), parameters).read();
     std::vector<Expression> constraints;
     if (root.has("constraints"))
         for (const Place& place : root.at("constraints").list("expected a list of formulas"))
@@ -437,7 +498,8 @@ ParameterSpace parse_parameters(std::string_view json, const std::string& source
                 return Expression("", place.text("expected a formula, \"length*load < 300\""),
                                   names);
             }));
-    return {std::move(parameters), std::move(copula), std::move(constraints)};
+    return {std::move(parameters), std::move(joint.copula), std::move(constraints),
+            std::move(joint.reordering)};
 }
 
 std::string one_line(std::string_view json, const std::string& source) {
@@ -446,8 +508,48 @@ std::string one_line(std::string_view json, const std::string& source) {
     return json_text(value);
 }
 
-NamedParameters read_parameters(const std::string& path) {
+namespace {
+
+/// The column of a file that a parameter names.
+Json column_of(const Place& parameter, const RunContext& run) {
+    const Place file = parameter.at("file");
+    const std::string path = file.text("expected the name of a file");
+    ReadOptions how{.all_columns = true};
+    if (parameter.has("column")) {
+        const Place column = parameter.at("column");
+        how.columns = {column.value().is_number_unsigned()
+                           ? json_text(column.value())
+                           : column.text("expected a column's name, or its number from 1")};
+    }
+    const PointSet read = file.naming([&] { return io::read_given("file", path, how, run); });
+    if (read.dimension() != 1)
+        file.refuse(fmt::format("{} has {} columns", path, read.dimension()),
+                    "\"column\" names one of them");
+    check_size(file, read.count());
+    return Json(std::vector<double>(read.flat().begin(), read.flat().end()));
+}
+
+/// The text of a file, with the numbers of columns that it names.
+std::string text_of(const std::string& path, const RunContext& run) {
     const std::string text = read_file(path);
+    Json value = parse_written_json(text, path);
+    if (!value.is_object() || !value.contains("parameters")) return text;
+    std::size_t index = 0;
+    for (Json& parameter : value["parameters"]) {
+        const std::string place = fmt::format("$.parameters[{}]", index++);
+        if (!parameter.is_object() || !parameter.contains("file") || parameter.contains("values"))
+            continue;
+        parameter["values"] = column_of(Place(parameter, place, path), run);
+        parameter.erase("file");
+        parameter.erase("column");
+    }
+    return json_text(value);
+}
+
+}  // namespace
+
+NamedParameters read_parameters(const std::string& path, const RunContext& run) {
+    const std::string text = text_of(path, run);
     const ParameterSpace space = parse_parameters(text, path);
     std::string domain = "parameters:json=[" + one_line(text, path) + "]";
     Spec spec = parse_spec(domain);

@@ -7,10 +7,12 @@
 #include <string_view>
 
 #include "core/spec.hpp"
+#include "stipple/run.hpp"
 #include "warps/parameters/parameter_space.hpp"
 
 namespace stipple::parameters {
 
+/// Opens no file: a text that names others is refused.
 /// @param source what messages call the text
 /// @throws Error(input) "SOURCE: $.parameters[2].range: what is wrong; what is expected"
 ParameterSpace parse_parameters(std::string_view json, const std::string& source);
@@ -23,8 +25,9 @@ struct NamedParameters {
     Levels levels;
 };
 
+/// Columns of other files that it names are read, too, and stand in the text.
 /// @throws Error(input), Error(io)
-NamedParameters read_parameters(const std::string& path);
+NamedParameters read_parameters(const std::string& path, const RunContext& run = {});
 
 /// The same warp, which leaves the numbers in the unit cube.
 Spec in_unit_cube(Spec parameters);

@@ -25,10 +25,12 @@ Share share_of(const Marginal& law, double x) {
 }  // namespace
 
 ParameterSpace::ParameterSpace(std::vector<Parameter> parameters, std::optional<Copula> copula,
-                               std::vector<Expression> constraints)
+                               std::vector<Expression> constraints,
+                               std::optional<Reordering> reordering)
     : parameters_(std::move(parameters)),
       copula_(std::move(copula)),
-      constraints_(std::move(constraints)) {
+      constraints_(std::move(constraints)),
+      reordering_(std::move(reordering)) {
     for (const Parameter& parameter : parameters_) {
         conditional_ |= !parameter.law;
         discrete_ |= parameter.law && parameter.law->discrete();

@@ -14,6 +14,7 @@
 #include "math/distributions/marginal.hpp"
 #include "stipple/points.hpp"
 #include "warps/parameters/copula.hpp"
+#include "warps/parameters/reordering.hpp"
 
 namespace stipple::parameters {
 
@@ -30,11 +31,14 @@ class ParameterSpace {
   public:
     /// @param constraints formulas in all parameters, which hold where they are not 0
     ParameterSpace(std::vector<Parameter> parameters, std::optional<Copula> copula,
-                   std::vector<Expression> constraints);
+                   std::vector<Expression> constraints,
+                   std::optional<Reordering> reordering = std::nullopt);
 
     [[nodiscard]] const std::vector<Parameter>& parameters() const { return parameters_; }
     [[nodiscard]] const std::vector<Expression>& constraints() const { return constraints_; }
     [[nodiscard]] bool has_copula() const { return copula_.has_value(); }
+    /// Of a set, in place of a copula, before from_cube().
+    [[nodiscard]] const std::optional<Reordering>& reordering() const { return reordering_; }
     [[nodiscard]] std::vector<std::string> names() const;
     [[nodiscard]] Levels levels() const;
 
@@ -55,7 +59,8 @@ class ParameterSpace {
     /// Whether each is a number that it may be, and all constraints hold.
     [[nodiscard]] bool contains(std::span<const double> row) const;
 
-    /// Of the parameters before constraints; of those that are discrete, their probability.
+    /// Of the parameters before constraints, without a reordering; of those that are discrete, their
+    /// probability.
     [[nodiscard]] double density(std::span<const double> row) const;
 
   private:
@@ -68,6 +73,7 @@ class ParameterSpace {
     std::vector<Parameter> parameters_;
     std::optional<Copula> copula_;
     std::vector<Expression> constraints_;
+    std::optional<Reordering> reordering_;
     bool discrete_ = false;
     bool conditional_ = false;
 };

@@ -7,7 +7,8 @@
 //     x_k = F_k^-1(v_k | x_1 ... x_(k-1)),    v = copula(u)
 //
 // Shape   one unit coordinate a parameter.
-// Strata  without a copula, xi as it is; with one, those of the first parameter that it joins.
+// Strata  without a copula, xi as it is, also where a set is reordered; with one, those of the first
+//         parameter that it joins.
 // Cost    that of the quantiles, and d^2 / 2 multiplications of a copula; some 50 ns a constraint.
 // Promise a point breaks no constraint. The way back of outcomes is the middle of their interval.
 //         The same bits on every machine.
@@ -51,7 +52,8 @@ class ParameterDomain final : public NamedDomain {
 
     /// Where the parameters do not depend on each other: each by itself.
     const Mapping* by_axes() const {
-        return axes_ != nullptr && !space_.has_copula() && space_.constraints().empty()
+        return axes_ != nullptr && !space_.has_copula() && !space_.reordering() &&
+                       space_.constraints().empty()
                    ? each_.get()
                    : nullptr;
     }
@@ -72,7 +74,9 @@ class ParameterDomain final : public NamedDomain {
         if (by_axes()) return axes_->to_cube(point, cube);
         space_.to_cube(point, cube);
     }
-    bool even() const override { return by_axes() ? axes_->even() : !space_.discrete(); }
+    bool even() const override {
+        return by_axes() ? axes_->even() : !space_.discrete() && !space_.reordering();
+    }
     bool has_outcomes() const override { return by_axes() && axes_->has_outcomes(); }
     Estimate probability(const Box& cell) const override {
         require_known();
@@ -105,6 +109,8 @@ class ParameterDomain final : public NamedDomain {
     void require_known() const {
         if (!space_.constraints().empty())
             fail(ErrorKind::input, "the density of parameters under constraints is not known");
+        if (space_.reordering())
+            fail(ErrorKind::input, "the density of parameters that are reordered is not known");
     }
 
     /// Around some images, where the distributions depend on each other.
@@ -140,6 +146,10 @@ class ParameterMapping final : public Mapping {
 
     bool drops() const override { return !space_.constraints().empty(); }
     bool refills() const override { return drops(); }
+    bool reorders() const override { return space_.reordering().has_value(); }
+    void reorder(std::span<double> cube, const RunContext& run) const override {
+        if (space_.reordering()) space_.reordering()->apply(cube, run);
+    }
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> keep) const override {
         if (by_axes_ != nullptr && !in_cube_) return by_axes_->forward(cube, image, keep);
@@ -191,10 +201,13 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
 Warp unit() {
     return {.name = "parameters",
             .summary = "Named parameters: distributions, levels, correlations, constraints",
-            .source = "Rosenblatt 1952, doi:10.1214/aoms/1177729394 (copulas)",
-            .related = {"copula", "correlation", "constraints", "names", "columns", "experiment"},
-            .strata = "without a correlation, xi as it is",
-            .traits = {.drops = true, .discrete = true},
+            .source =
+                "Rosenblatt 1952, doi:10.1214/aoms/1177729394 (copulas); Iman, Conover 1982, "
+                "doi:10.1080/03610918208812265 (reordering)",
+            .related = {"copula", "correlation", "reordering", "constraints", "names", "columns",
+                        "experiment"},
+            .strata = "without a copula, xi as it is",
+            .traits = {.drops = true, .reorders = true, .discrete = true},
             .options = Schema(file, json, unit_cube),
             .mapping = make};
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/temporary_file.hpp"
 #include "support/warping.hpp"
 #include "warps/parameters/parameter_file.hpp"
 
@@ -120,6 +121,20 @@ TEST(Parameters, OfferTheNearestCorrelations) {
     }
 }
 
+// What is offered for rank correlations can be asked for.
+TEST(Parameters, OfferRankCorrelationsForThose) {
+    try {
+        parameters_of(joined(R"({"reordering":"iman-conover",)"
+                             R"("spearman":[["a","b",0.9],["b","c",0.9],["a","c",-0.9]]})"));
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_THAT(e.hint(), HasSubstr("as \"spearman\": a and b 0.482583, a and c -0.482583, "
+                                        "b and c 0.482583"));
+    }
+    parameters_of(joined(R"({"reordering":"iman-conover","spearman":)"
+                         R"([["a","b",0.482583],["b","c",0.482583],["a","c",-0.482583]]})"));
+}
+
 TEST(Parameters, AreInversesOfTheirDistributions) {
     const auto map = parameters_of(
         R"({"parameters":[{"name":"a","range":[1,100],"scale":"log"},)"
@@ -168,6 +183,58 @@ TEST(Parameters, HoldTheirConstraints) {
     for (std::size_t i = 0; i < kept.count(); ++i)
         EXPECT_TRUE(kept[i][0] + kept[i][1] < 2 && kept[i][0] > 0.5);
     EXPECT_THROW(static_cast<void>(map->density(kept[0])), Error);
+}
+
+// Each number as often as it stands there, or straight between them: as the warp of data has it.
+TEST(Parameters, FollowNumbersThatWereMeasured) {
+    const auto map = parameters_of(R"({"parameters":[{"name":"a","values":[3,-0.0,2,2]},)"
+                                   R"({"name":"b","values":[3,1,7],"interpolation":"linear"},)"
+                                   R"({"name":"c","values":[5]},)"
+                                   R"({"name":"d","values":[0.5,0.25],"interpolation":"steps"},)"
+                                   R"({"name":"e","range":[0,"1+a"]}]})");
+    EXPECT_EQ(image_of(*map, {0.2, 0.25, 0.1, 0.49, 0.5}),
+              (std::vector<double>{0, 2, 5, 0.25, 0.5}));
+    EXPECT_EQ(image_of(*map, {0.74, 0.75, 0.9, 0.5, 0.5}),
+              (std::vector<double>{2, 5, 5, 0.5, 1.5}));
+    EXPECT_EQ(inverse_of(*map, {2, 5, 5, 0.5, 1.5}),
+              (std::vector<double>{0.5, 0.75, 0.5, 0.75, 0.5}));
+    EXPECT_FALSE(map->domain()->contains(std::vector<double>{1, 5, 5, 0.5, 1}));
+    EXPECT_FALSE(std::signbit(image_of(*map, {0, 0, 0, 0, 0})[0]));
+}
+
+// The column stands in the text that points keep, which opens no file.
+TEST(Parameters, ReadColumnsOfFilesOnce) {
+    const TemporaryFile table("day,speed\n1,3.25\n2,1e-3\n", ".csv");
+    const auto file = [&](const std::string& more) {
+        return R"({"parameters":[{"name":"wind","file":")" + table.path() + "\"" + more + "}]}";
+    };
+    const TemporaryFile named(file(R"(,"column":"speed","interpolation":"linear")"));
+    const auto read = parameters::read_parameters(named.path());
+    EXPECT_EQ(read.domain, R"(parameters:json=[{"parameters":[{"name":"wind",)"
+                           R"("interpolation":"linear","values":[3.25,0.001]}]}])");
+    const TemporaryFile counted(file(R"(,"column":2)"));
+    EXPECT_THAT(parameters::read_parameters(counted.path()).domain,
+                HasSubstr(R"("values":[3.25,0.001])"));
+    EXPECT_THROW(static_cast<void>(parse_parameters(named.bytes(), "t.json")), Error);
+    EXPECT_THROW(static_cast<void>(mapping("parameters:file=" + named.path())), Error);
+
+    std::string many = "x\n";
+    for (int i = 0; i < 100'000; ++i) many += "1\n";
+    const TemporaryFile most(many);
+    const TemporaryFile over(many + "1\n");
+    for (const auto* numbers : {&most, &over}) {
+        const TemporaryFile of(R"({"parameters":[{"name":"x","file":")" + numbers->path() +
+                               "\"}]}");
+        try {
+            EXPECT_EQ(parameters::read_parameters(of.path()).names.size(), 1U);
+            EXPECT_EQ(numbers, &most);
+        } catch (const Error& e) {
+            EXPECT_EQ(numbers, &over);
+            EXPECT_THAT(
+                std::string(e.what()),
+                HasSubstr("$.parameters[0].file: 100001 numbers; 1 to 100000 are possible"));
+        }
+    }
 }
 
 struct Wrong {
@@ -222,6 +289,32 @@ TEST(Parameters, SayWhatIsWrongAndWhere) {
         {R"({"parameters":[{"name":"a","range":[0,1]},{"name":"b","levels":[0,1]}],)"
          R"("correlation":{"pearson":[["a","b",0.95]]}})",
          "0.95 is out of reach: these two have correlations in [-0.86"},
+        {R"({"parameters":[{"name":"a","values":[]}]})", "$.parameters[0].values: expected a list"},
+        {R"({"parameters":[{"name":"a","values":[1,"2"]}]})",
+         "$.parameters[0].values[1]: '\"2\"' is no number"},
+        {R"({"parameters":[{"name":"a","values":[1,1],"interpolation":"linear"}]})",
+         "$.parameters[0].values: 1 stands twice; linear needs"},
+        {R"({"parameters":[{"name":"a","values":[1],"interpolation":"linear"}]})",
+         "$.parameters[0].values: 1 number; linear needs 2 or more"},
+        {R"({"parameters":[{"name":"a","values":[1,2],"interpolation":"cubic"}]})",
+         "$.parameters[0].interpolation: 'cubic' is not steps or linear"},
+        {R"({"parameters":[{"name":"a","values":[-2e150]}]})",
+         "$.parameters[0].values: -2e+150 is outside [-1e150, 1e150]"},
+        {R"({"parameters":[{"name":"a","values":[1],"truncate":[0,1]}]})",
+         "'truncate' is not known"},
+        {R"({"parameters":[{"name":"a","file":"/dev/null"}]})",
+         "$.parameters[0].file: only --parameters FILE reads columns of other files"},
+        {R"({"parameters":[{"name":"a","values":[1,2]},{"name":"b","values":[3]}],)"
+         R"("correlation":{"pearson":[["a","b",0.5]]}})",
+         "a parameter whose variance is 0 or infinite has no linear correlation"},
+        {R"({"parameters":[{"name":"a","range":[0,1]}],"correlation":{"reordering":"ranks"}})",
+         "$.correlation.reordering: 'ranks' is not iman-conover"},
+        {R"({"parameters":[{"name":"a","range":[0,1]}],)"
+         R"("correlation":{"reordering":"iman-conover","copula":"gaussian"}})",
+         "$.correlation.copula: is of copulas, in place of which a reordering is given"},
+        {R"({"parameters":[{"name":"a","range":[0,1]},{"name":"b","range":[0,1]}],)"
+         R"("correlation":{"reordering":"iman-conover","pearson":[["a","b",0.5]]}})",
+         "$.correlation.pearson: a reordering gives rank correlations"},
     };
     for (const auto& [json, says] : cases) {
         try {
