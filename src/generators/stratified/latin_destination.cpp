@@ -121,9 +121,10 @@ void aim_at_destination(const Plan& plan, const std::shared_ptr<LatinPlaces>& pl
                             "shares of what satisfies them instead",
                             plan.count));
     }
-    fail(ErrorKind::input,
-         "latin-hypercube: no design of {} points was found that satisfies the constraints",
-         plan.count);
+    fail_with_hint(
+        ErrorKind::input, "without --optimize a larger design is made and cut",
+        "latin-hypercube: no design of {} points was found that satisfies the constraints",
+        plan.count);
 }
 
 }  // namespace stipple::generators

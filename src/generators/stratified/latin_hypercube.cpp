@@ -303,6 +303,10 @@ std::unique_ptr<Sequence> make_design(const Plan& plan, const Values& options,
                                      : design_of(plan, strata_of(plan, options)),
                         .seed = plan.seed};
     if (!options.given(optimize)) return points_of(places, std::move(task.start), given);
+    for (std::size_t i = 0; i < given.count() && plan.destination; ++i)
+        if (!plan.destination->has_image(i, given[i]))
+            fail(ErrorKind::input, "--extend: point {} of {} breaks the constraints", i,
+                 options[extend]);
     if (plan.destination) aim_at_destination(plan, places, task, run);
     task.objective = objective_of(options);
     task.trials = options[effort] * search::usual_trials(task.objective, task.start);

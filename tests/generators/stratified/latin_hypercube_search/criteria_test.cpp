@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "generators/stratified/latin_hypercube_search/criteria.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "generators/stratified/latin_hypercube_search/support.hpp"
@@ -141,7 +142,7 @@ TEST(LatinCriteria, LevelsOfAPartCountAsItsMiddle) {
 TEST(LatinCriteria, CategoriesAreAsFarApartAsOtherAxesAreOnAverage) {
     const std::vector<double> outcomes = {2, 2, 2, 2, 7, 7, 7, 4, 4, 4};
     const Axis ordered = parts_by(outcomes, false);
-    EXPECT_THAT(ordered.places, ElementsAre(1, 1, 1, 1, 5, 5, 5, 8, 8, 8));
+    EXPECT_THAT(ordered.places, ::testing::ElementsAre(1, 1, 1, 1, 5, 5, 5, 8, 8, 8));
     EXPECT_EQ(ordered.parts, 3);
     EXPECT_EQ(ordered.square(1, 8), 49);
     const Axis categories = parts_by(outcomes, true);

@@ -13,10 +13,13 @@
 
 namespace stipple::testing {
 
+using latin_hypercube_search::Axis;
 using latin_hypercube_search::Design;
+using latin_hypercube_search::even_parts;
 using latin_hypercube_search::Kind;
 using latin_hypercube_search::Level;
 using latin_hypercube_search::Objective;
+using latin_hypercube_search::parts_by;
 using latin_hypercube_search::Rules;
 
 inline constexpr Kind all_kinds[] = {Kind::maximin,     Kind::phi_p,  Kind::audze_eglais,
