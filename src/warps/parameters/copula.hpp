@@ -45,6 +45,9 @@ class Copula {
     void forward(std::span<Share> row) const;
     void inverse(std::span<Share> row) const;
 
+    /// Whether coordinate i depends on others.
+    [[nodiscard]] bool joins(std::size_t i) const;
+
     /// With respect to the uniform distribution.
     [[nodiscard]] double density(std::span<const Share> row) const;
 

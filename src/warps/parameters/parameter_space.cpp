@@ -22,17 +22,34 @@ Share share_of(const Marginal& law, double x) {
     return {at.below - half, at.above + half};
 }
 
+bool hold(const std::vector<Expression>& constraints, std::span<const double> row) {
+    return std::ranges::all_of(constraints, [&](const Expression& constraint) {
+        const double holds = constraint.at(row);
+        return holds != 0 && holds == holds;
+    });
+}
+
+UniformRange uniform_range(const Parameter& parameter) {
+    if (!parameter.law || !parameter.uniform) return std::nullopt;
+    return parameter.law->support();
+}
+
 }  // namespace
 
 ParameterSpace::ParameterSpace(std::vector<Parameter> parameters, std::optional<Copula> copula,
                                std::vector<Expression> constraints)
     : parameters_(std::move(parameters)),
       copula_(std::move(copula)),
-      constraints_(std::move(constraints)) {
+      constraints_(std::move(constraints)),
+      rejecting_(constraints_) {
+    std::vector<UniformRange> ranges;
     for (const Parameter& parameter : parameters_) {
         conditional_ |= !parameter.law;
         discrete_ |= parameter.law && parameter.law->discrete();
+        const bool alone = !copula_ || !copula_->joins(ranges.size());
+        ranges.push_back(alone ? uniform_range(parameter) : std::nullopt);
     }
+    linear_ = take_linear_part(names(), ranges, rejecting_);
 }
 
 std::vector<std::string> ParameterSpace::names() const {
@@ -60,9 +77,11 @@ bool ParameterSpace::from_cube(std::span<const double> cube, std::span<double> r
     std::vector<Share> shares(cube.size());
     for (std::size_t k = 0; k < cube.size(); ++k) shares[k] = {cube[k], 1 - cube[k]};
     if (copula_) copula_->forward(shares);
+    if (linear_) linear_->from_cube(cube, row, row.size());
     MarginalPtr held;
-    for (std::size_t k = 0; k < row.size(); ++k) row[k] = place(law(k, row, held), shares[k]);
-    return allowed(row);
+    for (std::size_t k = 0; k < row.size(); ++k)
+        if (!in_linear(k)) row[k] = place(law(k, row, held), shares[k]);
+    return hold(rejecting_, row);
 }
 
 std::vector<Share> ParameterSpace::shares(std::span<const double> row) const {
@@ -79,13 +98,7 @@ void ParameterSpace::to_cube(std::span<const double> row, std::span<double> cube
         const auto [below, above] = at[k];
         cube[k] = std::clamp(above < below ? 1 - above : below, 0.0, 1.0);
     }
-}
-
-bool ParameterSpace::allowed(std::span<const double> row) const {
-    return std::ranges::all_of(constraints_, [&](const Expression& constraint) {
-        const double holds = constraint.at(row);
-        return holds != 0 && holds == holds;
-    });
+    if (linear_) linear_->to_cube(row, cube);
 }
 
 bool ParameterSpace::contains(std::span<const double> row) const {
@@ -96,13 +109,15 @@ bool ParameterSpace::contains(std::span<const double> row) const {
         if (!(row[k] >= low && row[k] <= high) || (of.discrete() && !(of.density(row[k]) > 0)))
             return false;
     }
-    return allowed(row);
+    return hold(constraints_, row);
 }
 
 double ParameterSpace::density(std::span<const double> row) const {
     double product = copula_ ? copula_->density(shares(row)) : 1;
+    if (linear_) product /= linear_->polytope().volume();
     MarginalPtr held;
-    for (std::size_t k = 0; k < row.size(); ++k) product *= law(k, row, held).density(row[k]);
+    for (std::size_t k = 0; k < row.size(); ++k)
+        if (!in_linear(k)) product *= law(k, row, held).density(row[k]);
     return product;
 }
 

@@ -14,6 +14,7 @@
 #include "math/distributions/marginal.hpp"
 #include "stipple/points.hpp"
 #include "warps/parameters/copula.hpp"
+#include "warps/parameters/linear_part.hpp"
 
 namespace stipple::parameters {
 
@@ -22,6 +23,7 @@ struct Parameter {
     std::string unit;
     std::vector<std::string> levels;  ///< words that its numbers 0, 1, ... stand for; none: numbers
     MarginalPtr law;                  ///< none: it depends on the parameters before
+    bool uniform = false;             ///< its law is
     /// Makes it, given the parameters before.
     std::function<MarginalPtr(std::span<const double> before)> law_given = {};
 };
@@ -29,11 +31,15 @@ struct Parameter {
 class ParameterSpace {
   public:
     /// @param constraints formulas in all parameters, which hold where they are not 0
+    /// @throws Error(usage) if no parameters satisfy those that are linear
     ParameterSpace(std::vector<Parameter> parameters, std::optional<Copula> copula,
                    std::vector<Expression> constraints);
 
     [[nodiscard]] const std::vector<Parameter>& parameters() const { return parameters_; }
-    [[nodiscard]] const std::vector<Expression>& constraints() const { return constraints_; }
+    /// Whether rows of the cube may have no parameters, since some constraint is not linear.
+    [[nodiscard]] bool rejects() const { return !rejecting_.empty(); }
+    /// What linear constraints join; null: nothing.
+    [[nodiscard]] const LinearPart* linear() const { return linear_ ? &*linear_ : nullptr; }
     [[nodiscard]] bool has_copula() const { return copula_.has_value(); }
     [[nodiscard]] std::vector<std::string> names() const;
     [[nodiscard]] Levels levels() const;
@@ -43,7 +49,8 @@ class ParameterSpace {
     /// Whether some parameter is discrete.
     [[nodiscard]] bool discrete() const { return discrete_; }
 
-    /// The parameters that a row of the unit cube gives. False: they break a constraint.
+    /// The parameters that a row of the unit cube gives. False: they break a constraint that is not
+    /// linear.
     [[nodiscard]] bool from_cube(std::span<const double> cube, std::span<double> row) const;
 
     /// The way back; of a number that stands for an interval of the cube, to its middle.
@@ -52,11 +59,11 @@ class ParameterSpace {
     /// Whether each is a number that it may be, and all constraints hold.
     [[nodiscard]] bool contains(std::span<const double> row) const;
 
-    /// Of the parameters before constraints; of those that are discrete, their probability.
+    /// Of the parameters before constraints that are not linear; of those that are discrete, their probability.
     [[nodiscard]] double density(std::span<const double> row) const;
 
   private:
-    [[nodiscard]] bool allowed(std::span<const double> row) const;
+    [[nodiscard]] bool in_linear(std::size_t k) const { return linear_ && linear_->holds(k); }
     /// @param held keeps a law that was made for this row
     [[nodiscard]] const Marginal& law(std::size_t k, std::span<const double> row,
                                       MarginalPtr& held) const;
@@ -65,6 +72,8 @@ class ParameterSpace {
     std::vector<Parameter> parameters_;
     std::optional<Copula> copula_;
     std::vector<Expression> constraints_;
+    std::vector<Expression> rejecting_;  ///< those that are not linear
+    std::optional<LinearPart> linear_;
     bool discrete_ = false;
     bool conditional_ = false;
 };
