@@ -122,11 +122,11 @@ TEST_F(Parameters, LinearConstraintsAreMetExactly) {
     text("stipple generate sobol -n 256 --parameters linear.json -f json -o l.json");
     EXPECT_THAT(text("stipple analyze chi-square l.json"), HasSubstr("\"stratified\""));
     text("stipple warp parameters --parameters linear.json --inverse l.json -o back.csv");
-    EXPECT_EQ(text("stipple reproduce l.json --quiet"), "");
+    EXPECT_THAT(text("stipple reproduce l.json"), HasSubstr("identical"));
     box.write("empty.json", R"({"parameters": [{"name": "a", "range": [0, 1]}],
         "constraints": ["a > 2"]})");
     expect_refusal(box.run({"generate", "sobol", "--parameters", "empty.json"}), 3,
-                   "empty.json: $.constraints: no point satisfies 'a>2' and all before it");
+                   "empty.json: $.constraints: no point in the ranges satisfies 'a>2'");
 }
 
 TEST_F(Parameters, ThePolytopeAloneIsAWarp) {
@@ -139,7 +139,7 @@ TEST_F(Parameters, ThePolytopeAloneIsAWarp) {
                 HasSubstr("\"stratified\""));
     text("stipple reproduce p.json");
     expect_refusal(box.run({"generate", "sobol", "-w", "polytope:constraints=[x+y>=3]"}), 2,
-                   "--constraints: no point satisfies 'x+y>=3' and all before it");
+                   "--constraints: no point in the ranges satisfies 'x+y>=3'");
 }
 
 TEST_F(Parameters, StudiesTakeThem) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_faces = 200'000;
 constexpr std::size_t most_facets = 2'000'000;
-constexpr std::size_t most_plane_tests = 1'000'000'000;  // of vertices with planes, some seconds
+constexpr std::size_t most_plane_tests = 400'000'000;  // of vertices with planes, a second
 
 [[noreturn]] void refuse_close() {
     fail(ErrorKind::limit, "planes of the polytope meet so closely that they are not told apart");

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double tolerance = 1e-11;
 constexpr std::size_t most_vertices = 10'000;
-constexpr std::size_t most_comparisons = 1'000'000'000;  // of vertices, some seconds
+constexpr std::size_t most_comparisons = 400'000'000;  // of vertices, a second
 
 /// The place of a vertex as that of the planes on which it lies, by Gauss's elimination with the
 /// largest pivots; of more planes than coordinates, those that are told apart best.
@@ -92,7 +92,8 @@ class DoubleDescription {
         const auto [least, most] = std::ranges::minmax(slack);
         if (least >= -tolerance) return;  // it cuts nothing off
         if (most < -tolerance)
-            fail(ErrorKind::usage, "no point satisfies '{}' and all before it", half.text);
+            fail(ErrorKind::usage, "no point in the ranges satisfies '{}'{}", half.text,
+                 polytope_.planes.size() > 2 * d_ ? " and those before it" : "");
         if (polytope_.planes.size() == most_polytope_planes)
             fail(ErrorKind::limit, "more than {} inequalities cut something off",
                  most_polytope_planes - 2 * d_);
@@ -105,8 +106,8 @@ class DoubleDescription {
     /// What is left.
     PolytopeVertices take() {
         if (!flat_.empty())
-            fail(ErrorKind::usage,
-                 "the polytope is flat: no point of it has '{}' with room to spare", flat_);
+            fail(ErrorKind::usage, "the polytope is flat: '{}' can only hold as an equality",
+                 flat_);
         for (PolytopeVertex& vertex : polytope_.all) settle(vertex);
         keep_facets();
         std::ranges::sort(polytope_.all, [](const PolytopeVertex& a, const PolytopeVertex& b) {

@@ -20,16 +20,23 @@ bool LinearPart::holds(std::size_t k) const {
 
 void LinearPart::from_cube(std::span<const double> cube, std::span<double> rows,
                            std::size_t dimension) const {
+    constexpr std::size_t some_rows = 512;
     const std::size_t size = coordinates_.size();
-    std::vector<double> own(cube.size() / dimension * size);
-    for (std::size_t i = 0; i < own.size(); ++i)
-        own[i] = cube[i / size * dimension + coordinates_[i % size]];
-    std::vector<double> points(own.size());
-    polytope_.from_cube(own, points);
-    for (std::size_t i = 0; i < own.size(); ++i)
-        rows[i / size * dimension + coordinates_[i % size]] = points[i];
-    for (std::size_t first = 0; first < rows.size(); first += dimension)
-        move_inside(rows.subspan(first, dimension));
+    const std::size_t count = rows.size() / dimension;
+    std::vector<double> own(std::min(count, some_rows) * size), points(own.size());
+    for (std::size_t first = 0; first < count; first += some_rows) {
+        const std::size_t some = std::min(some_rows, count - first);
+        for (std::size_t i = 0; i < some; ++i)
+            for (std::size_t k = 0; k < size; ++k)
+                own[i * size + k] = cube[(first + i) * dimension + coordinates_[k]];
+        polytope_.from_cube(std::span(own).first(some * size),
+                            std::span(points).first(some * size));
+        for (std::size_t i = 0; i < some; ++i) {
+            const auto row = rows.subspan((first + i) * dimension, dimension);
+            for (std::size_t k = 0; k < size; ++k) row[coordinates_[k]] = points[i * size + k];
+            move_inside(row);
+        }
+    }
 }
 
 void LinearPart::to_cube(std::span<const double> row, std::span<double> cube) const {

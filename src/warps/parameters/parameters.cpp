@@ -13,7 +13,7 @@
 // Strata  without a copula, xi as it is; with one, those of the first parameter that it joins; of
 //         parameters on a polytope, the first one's xi chooses a simplex.
 // Cost    that of the quantiles, and d^2 / 2 multiplications of a copula; some 50 ns a constraint;
-//         of a polytope, some 15 ns a coordinate.
+//         of a polytope, some 20 ns a coordinate.
 // Promise a point breaks no constraint. The way back of outcomes is the middle of their interval.
 //         The same bits on every machine.
 // Beware  constraints that are not linear, or join what is not uniform, leave a density that is known
