@@ -21,9 +21,11 @@ class Parameters : public ::testing::Test {
     Parameters() {
         box.write("beam.json", beam);
         box.write("tight.json", R"({"parameters": [{"name": "a", "range": [0, 1]},
+            {"name": "b", "range": [0, 1]}], "constraints": ["(a + b)^2 < 0.0625"]})");
+        box.write("linear.json", R"({"parameters": [{"name": "a", "range": [0, 1]},
             {"name": "b", "range": [0, 1]}], "constraints": ["a + b < 0.25"]})");
         box.write("never.json", R"({"parameters": [{"name": "a", "range": [0, 1]}],
-            "constraints": ["a > 2"]})");
+            "constraints": ["a^2 > 2"]})");
     }
     std::string text(const std::string& line) const { return good(box.shell(line)); }
 
@@ -231,6 +233,42 @@ TEST_F(Parameters, FollowColumnsOfFiles) {
     box.write("w.json", R"({"parameters": [{"name": "wind", "file": "wind.csv"}]})");
     expect_refusal(box.run({"generate", "halton", "--parameters", "w.json"}), 3,
                    "w.json: $.parameters[0].file: wind.csv has 2 columns; \"column\" names one");
+}
+
+// No point is dropped, so that a sequence keeps its structure and is cut as without constraints.
+TEST_F(Parameters, LinearConstraintsAreMetExactly) {
+    for (const std::string unit : {"random", "sobol", "latin-hypercube", "poisson-disk"})
+        EXPECT_EQ(box.shell("stipple generate " + unit +
+                            " -n 256 --parameters linear.json | tail -n +2 | "
+                            "awk -F, '$1+$2 < 0.25' | wc -l")
+                      .out,
+                  "256\n")
+            << unit;
+    EXPECT_EQ(text("stipple generate sobol -n 256 --parameters linear.json --unit-cube"),
+              "a,b\n" + text("stipple generate sobol -n 256 --no-header"));
+    EXPECT_EQ(text("stipple generate sobol -n 256 --parameters linear.json"),
+              text("stipple generate sobol -n 512 --parameters linear.json | head -n 257"));
+    text("stipple generate sobol -n 256 --parameters linear.json -f json -o l.json");
+    EXPECT_THAT(text("stipple analyze chi-square l.json"), HasSubstr("\"stratified\""));
+    text("stipple warp parameters --parameters linear.json --inverse l.json -o back.csv");
+    EXPECT_THAT(text("stipple reproduce l.json"), HasSubstr("identical"));
+    box.write("empty.json", R"({"parameters": [{"name": "a", "range": [0, 1]}],
+        "constraints": ["a > 2"]})");
+    expect_refusal(box.run({"generate", "sobol", "--parameters", "empty.json"}), 3,
+                   "empty.json: $.constraints: no point in the ranges satisfies 'a>2'");
+}
+
+TEST_F(Parameters, ThePolytopeAloneIsAWarp) {
+    text(
+        "stipple generate sobol -n 256 -d 3 -w 'polytope:constraints=[x+y<=1; z>=x],"
+        "bounds=[0..2,0..1,0..1]' -f json -o p.json");
+    EXPECT_THAT(text("stipple analyze chi-square,moments p.json"), HasSubstr("\"stratified\""));
+    EXPECT_THAT(text("stipple analyze chi-square p.json --domain 'polytope:constraints=[x+y<=1,"
+                     "z>=x],bounds=[0..2,0..1,0..1]'"),
+                HasSubstr("\"stratified\""));
+    text("stipple reproduce p.json");
+    expect_refusal(box.run({"generate", "sobol", "-w", "polytope:constraints=[x+y>=3]"}), 2,
+                   "--constraints: no point in the ranges satisfies 'x+y>=3'");
 }
 
 TEST_F(Parameters, StudiesTakeThem) {

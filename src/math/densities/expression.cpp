@@ -154,8 +154,9 @@ constexpr char power_mark = '~';  // ^ is built in and the C library's; this one
 constexpr std::string_view name_letters =
     "0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
 
-/// Names of variables, each with the coordinate that it is.
-using Names = std::vector<std::pair<std::string, std::size_t>>;
+using Names = VariableNames;
+
+constexpr std::string_view letters = "xyz";
 
 /// muParser with our functions and none of its own.
 class Parser final : public mu::ParserBase {
@@ -315,12 +316,7 @@ struct Expression::Variables {
 
     /// x, y, z where they are no more; else x1, x2, ...
     static Variables usual(std::size_t dimension) {
-        constexpr std::string_view letters = "xyz";
-        Variables all{.dimension = dimension};
-        for (std::size_t k = 0; k < dimension; ++k) {
-            all.names.emplace_back(fmt::format("x{}", k + 1), k);
-            if (dimension <= letters.size()) all.names.emplace_back(letters.substr(k, 1), k);
-        }
+        Variables all{.dimension = dimension, .names = usual_variables(dimension)};
         all.told = dimension > letters.size()
                        ? fmt::format("x1 to x{}", dimension)
                        : fmt::format("{}", fmt::join(letters.substr(0, dimension), ", "));
@@ -328,12 +324,9 @@ struct Expression::Variables {
     }
 
     static Variables named(const std::vector<std::string>& names) {
-        Variables all{.dimension = names.size()};
-        for (std::size_t k = 0; k < names.size(); ++k)
-            if (may_name_variable(names[k])) {
-                all.names.emplace_back(names[k], k);
-                all.told += (all.told.empty() ? "" : ", ") + names[k];
-            }
+        Variables all{.dimension = names.size(), .names = named_variables(names)};
+        for (const auto& variable : all.names)
+            all.told += (all.told.empty() ? "" : ", ") + variable.first;
         return all;
     }
 };
@@ -362,6 +355,22 @@ Expression::Expression(std::string_view option, std::string_view text, const Var
                 machine ? machine->parser.GetFunDef() : mu::funmap_type());
     }
     machines_ = std::make_shared<Machines>(text_, variables.names, dimension_);
+}
+
+VariableNames usual_variables(std::size_t dimension) {
+    VariableNames names;
+    for (std::size_t k = 0; k < dimension; ++k) {
+        names.emplace_back(fmt::format("x{}", k + 1), k);
+        if (dimension <= letters.size()) names.emplace_back(letters.substr(k, 1), k);
+    }
+    return names;
+}
+
+VariableNames named_variables(const std::vector<std::string>& names) {
+    VariableNames variables;
+    for (std::size_t k = 0; k < names.size(); ++k)
+        if (may_name_variable(names[k])) variables.emplace_back(names[k], k);
+    return variables;
 }
 
 bool may_name_variable(std::string_view name) {

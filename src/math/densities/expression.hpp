@@ -15,9 +15,19 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace stipple {
+
+/// Names of variables, each with the coordinate that it is.
+using VariableNames = std::vector<std::pair<std::string, std::size_t>>;
+
+/// x1, x2, ... and, of up to three coordinates, x, y, z.
+VariableNames usual_variables(std::size_t dimension);
+
+/// Those of the names that are words of a formula.
+VariableNames named_variables(const std::vector<std::string>& names);
 
 class Expression {
   public:

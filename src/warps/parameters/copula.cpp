@@ -81,6 +81,13 @@ void Copula::inverse(std::span<Share> row) const {
     }
 }
 
+bool Copula::joins(std::size_t i) const {
+    bool alone = !degrees_;
+    for (std::size_t j = 0; j < d_; ++j)
+        alone = alone && (j == i || (factor_[i * d_ + j] == 0 && factor_[j * d_ + i] == 0));
+    return !alone;
+}
+
 double Copula::density(std::span<const Share> row) const {
     std::vector<double> y(d_);
     double log_density = 0;

@@ -48,6 +48,9 @@ class Copula {
     /// Whether coordinate i stays what it is.
     [[nodiscard]] bool leaves(std::size_t i) const;
 
+    /// Whether coordinate i depends on others.
+    [[nodiscard]] bool joins(std::size_t i) const;
+
     /// With respect to the uniform distribution.
     [[nodiscard]] double density(std::span<const Share> row) const;
 

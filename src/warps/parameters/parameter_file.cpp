@@ -257,6 +257,7 @@ class ParameterReader {
             };
         else
             parameter.law = place_.at(law.key).naming([&] { return given({}); });
+        parameter.uniform = law.family == "uniform";
     }
 
     void take_levels(Parameter& parameter) const {
@@ -498,8 +499,11 @@ ParameterSpace parse_parameters(std::string_view json, const std::string& source
                 return Expression("", place.text("expected a formula, \"length*load < 300\""),
                                   names);
             }));
-    return {std::move(parameters), std::move(joint.copula), std::move(constraints),
-            std::move(joint.reordering)};
+    const Place at = constraints.empty() ? root : root.at("constraints");
+    return at.naming([&] {
+        return ParameterSpace(std::move(parameters), std::move(joint.copula),
+                              std::move(constraints), std::move(joint.reordering));
+    });
 }
 
 std::string one_line(std::string_view json, const std::string& source) {

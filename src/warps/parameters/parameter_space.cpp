@@ -22,6 +22,18 @@ Share share_of(const Marginal& law, double x) {
     return {at.below - half, at.above + half};
 }
 
+bool hold(const std::vector<Expression>& constraints, std::span<const double> row) {
+    return std::ranges::all_of(constraints, [&](const Expression& constraint) {
+        const double holds = constraint.at(row);
+        return holds != 0 && holds == holds;
+    });
+}
+
+UniformRange uniform_range(const Parameter& parameter) {
+    if (!parameter.law || !parameter.uniform) return std::nullopt;
+    return parameter.law->support();
+}
+
 }  // namespace
 
 ParameterSpace::ParameterSpace(std::vector<Parameter> parameters, std::optional<Copula> copula,
@@ -30,11 +42,16 @@ ParameterSpace::ParameterSpace(std::vector<Parameter> parameters, std::optional<
     : parameters_(std::move(parameters)),
       copula_(std::move(copula)),
       constraints_(std::move(constraints)),
-      reordering_(std::move(reordering)) {
+      reordering_(std::move(reordering)),
+      others_(constraints_) {
+    std::vector<UniformRange> ranges;
     for (const Parameter& parameter : parameters_) {
         conditional_ |= !parameter.law;
         discrete_ |= parameter.law && parameter.law->discrete();
+        const bool alone = !copula_ || !copula_->joins(ranges.size());
+        ranges.push_back(alone ? uniform_range(parameter) : std::nullopt);
     }
+    if (!reordering_) linear_ = take_linear_part(names(), ranges, others_);
 }
 
 std::vector<std::string> ParameterSpace::names() const {
@@ -62,9 +79,12 @@ bool ParameterSpace::from_cube(std::span<const double> cube, std::span<double> r
     std::vector<Share> shares(cube.size());
     for (std::size_t k = 0; k < cube.size(); ++k) shares[k] = {cube[k], 1 - cube[k]};
     if (copula_) copula_->forward(shares);
+    const bool maps = maps_linear();
+    if (maps) linear_->from_cube(cube, row, row.size());
     MarginalPtr held;
-    for (std::size_t k = 0; k < row.size(); ++k) row[k] = place(law(k, row, held), shares[k]);
-    return allowed(row);
+    for (std::size_t k = 0; k < row.size(); ++k)
+        if (!maps || !in_linear(k)) row[k] = place(law(k, row, held), shares[k]);
+    return hold(maps ? others_ : constraints_, row);
 }
 
 std::vector<Share> ParameterSpace::shares(std::span<const double> row) const {
@@ -83,13 +103,6 @@ void ParameterSpace::to_cube(std::span<const double> row, std::span<double> cube
     }
 }
 
-bool ParameterSpace::allowed(std::span<const double> row) const {
-    return std::ranges::all_of(constraints_, [&](const Expression& constraint) {
-        const double holds = constraint.at(row);
-        return holds != 0 && holds == holds;
-    });
-}
-
 bool ParameterSpace::contains(std::span<const double> row) const {
     MarginalPtr held;
     for (std::size_t k = 0; k < row.size(); ++k) {
@@ -98,13 +111,15 @@ bool ParameterSpace::contains(std::span<const double> row) const {
         if (!(row[k] >= low && row[k] <= high) || (of.discrete() && !(of.density(row[k]) > 0)))
             return false;
     }
-    return allowed(row);
+    return hold(constraints_, row);
 }
 
 double ParameterSpace::density(std::span<const double> row) const {
     double product = copula_ ? copula_->density(shares(row)) : 1;
+    if (linear_) product /= linear_->polytope().volume();
     MarginalPtr held;
-    for (std::size_t k = 0; k < row.size(); ++k) product *= law(k, row, held).density(row[k]);
+    for (std::size_t k = 0; k < row.size(); ++k)
+        if (!in_linear(k)) product *= law(k, row, held).density(row[k]);
     return product;
 }
 

@@ -14,6 +14,7 @@
 #include "math/distributions/marginal.hpp"
 #include "stipple/points.hpp"
 #include "warps/parameters/copula.hpp"
+#include "warps/parameters/linear_part.hpp"
 #include "warps/parameters/reordering.hpp"
 
 namespace stipple::parameters {
@@ -23,6 +24,7 @@ struct Parameter {
     std::string unit;
     std::vector<std::string> levels;  ///< words that its numbers 0, 1, ... stand for; none: numbers
     MarginalPtr law;                  ///< none: it depends on the parameters before
+    bool uniform = false;             ///< its law is
     /// Makes it, given the parameters before.
     std::function<MarginalPtr(std::span<const double> before)> law_given = {};
 };
@@ -30,12 +32,20 @@ struct Parameter {
 class ParameterSpace {
   public:
     /// @param constraints formulas in all parameters, which hold where they are not 0
+    /// @throws Error(usage) if no parameters satisfy those that are linear
     ParameterSpace(std::vector<Parameter> parameters, std::optional<Copula> copula,
                    std::vector<Expression> constraints,
                    std::optional<Reordering> reordering = std::nullopt);
 
     [[nodiscard]] const std::vector<Parameter>& parameters() const { return parameters_; }
-    [[nodiscard]] const std::vector<Expression>& constraints() const { return constraints_; }
+    /// What linear constraints join; null: nothing.
+    [[nodiscard]] const LinearPart* linear() const { return linear_ ? &*linear_ : nullptr; }
+    /// Whether from_cube() maps onto that, since rejection would leave little.
+    [[nodiscard]] bool maps_linear() const { return linear_ && linear_->share() < 0.1; }
+    /// Whether rows of the cube may have no parameters.
+    [[nodiscard]] bool rejects() const { return !others_.empty() || (linear_ && !maps_linear()); }
+    /// Whether all constraints are linear, and no set is reordered.
+    [[nodiscard]] bool density_known() const { return others_.empty() && !reordering_; }
     [[nodiscard]] bool has_copula() const { return copula_.has_value(); }
     /// Of a set, in place of a copula, before from_cube().
     [[nodiscard]] const std::optional<Reordering>& reordering() const { return reordering_; }
@@ -53,18 +63,19 @@ class ParameterSpace {
     /// The parameters that a row of the unit cube gives. False: they break a constraint.
     [[nodiscard]] bool from_cube(std::span<const double> cube, std::span<double> row) const;
 
-    /// The way back; of a number that stands for an interval of the cube, to its middle.
+    /// The way back of each from its own law, before constraints; of a number that stands for an
+    /// interval of the cube, to its middle.
     void to_cube(std::span<const double> row, std::span<double> cube) const;
 
     /// Whether each is a number that it may be, and all constraints hold.
     [[nodiscard]] bool contains(std::span<const double> row) const;
 
-    /// Of the parameters before constraints, without a reordering; of those that are discrete, their
-    /// probability.
+    /// Of the parameters before constraints that are not linear, without a reordering; of those that
+    /// are discrete, their probability.
     [[nodiscard]] double density(std::span<const double> row) const;
 
   private:
-    [[nodiscard]] bool allowed(std::span<const double> row) const;
+    [[nodiscard]] bool in_linear(std::size_t k) const { return linear_ && linear_->holds(k); }
     /// @param held keeps a law that was made for this row
     [[nodiscard]] const Marginal& law(std::size_t k, std::span<const double> row,
                                       MarginalPtr& held) const;
@@ -74,6 +85,8 @@ class ParameterSpace {
     std::optional<Copula> copula_;
     std::vector<Expression> constraints_;
     std::optional<Reordering> reordering_;
+    std::vector<Expression> others_;  ///< constraints that are not linear
+    std::optional<LinearPart> linear_;
     bool discrete_ = false;
     bool conditional_ = false;
 };

@@ -6,14 +6,19 @@
 //
 //     x_k = F_k^-1(v_k | x_1 ... x_(k-1)),    v = copula(u)
 //
+// Constraints that are linear in parameters uniform on ranges leave a polytope of these, and densities
+// stay known. Where that is less than a tenth of their volume, they are mapped onto it and no point is
+// dropped (linear_part.hpp); else rejection keeps what neighbours and strata points have.
+//
 // Shape   one unit coordinate a parameter.
 // Strata  without a copula, xi as it is, also where a set is reordered; with one, those of the first
-//         parameter that it joins.
-// Cost    that of the quantiles, and d^2 / 2 multiplications of a copula; some 50 ns a constraint.
+//         parameter that it joins; on a polytope, the first parameter's xi chooses a simplex.
+// Cost    that of the quantiles, and d^2 / 2 multiplications of a copula; some 50 ns a constraint;
+//         of a polytope, some 20 ns a coordinate.
 // Promise a point breaks no constraint. The way back of outcomes is the middle of their interval.
 //         The same bits on every machine.
-// Beware  constraints leave a density that is known up to a factor: it, and cells of known
-//         probability, are refused.
+// Beware  constraints that are not linear, or join what is not uniform, leave a density that is known
+//         up to a factor: it, and cells of known probability, are refused.
 
 #include <cmath>
 #include <limits>
@@ -30,6 +35,7 @@
 namespace stipple::warps::parameters {
 namespace {
 
+using stipple::parameters::LinearPart;
 using stipple::parameters::ParameterSpace;
 
 constexpr Param<Path> file{{.name = "file", .help = "Parameter file (stipple help parameters)"}};
@@ -50,29 +56,42 @@ class ParameterDomain final : public NamedDomain {
         axes_ = each_->domain().get();
     }
 
-    /// Where the parameters do not depend on each other: each by itself.
+    /// Where the parameters do not depend on each other but for linear constraints, which are left
+    /// out: each by itself.
     const Mapping* by_axes() const {
-        return axes_ != nullptr && !space_.has_copula() && !space_.reordering() &&
-                       space_.constraints().empty()
-                   ? each_.get()
-                   : nullptr;
+        return axes_ != nullptr && !space_.has_copula() && space_.density_known() ? each_.get()
+                                                                                  : nullptr;
     }
 
     const ParameterSpace& space() const { return space_; }
 
     std::string title() const override { return std::string(parse_spec(spec()).name); }
     double measure() const override {
-        return axes_ ? axes_->measure() : std::numeric_limits<double>::infinity();
+        if (axes_ == nullptr) return std::numeric_limits<double>::infinity();
+        return axes_->measure() * (linear() ? linear()->share() : 1);
     }
     bool contains(std::span<const double> point) const override { return space_.contains(point); }
-    Box bounding_box() const override { return axes_ ? axes_->bounding_box() : box_of_images(); }
+    Box bounding_box() const override {
+        if (axes_ == nullptr) return box_of_images();
+        Box box = axes_->bounding_box();
+        for (std::size_t i = 0; linear() && i < linear()->coordinates().size(); ++i) {
+            const std::size_t k = linear()->coordinates()[i];
+            box.low[k] = linear()->polytope().bounding_box().low[i];
+            box.high[k] = linear()->polytope().bounding_box().high[i];
+        }
+        return box;
+    }
     double density(std::span<const double> point) const override {
         require_known();
         return contains(point) ? space_.density(point) : 0;
     }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
-        if (by_axes()) return axes_->to_cube(point, cube);
-        space_.to_cube(point, cube);
+        to_own_cube(point, cube);
+        if (linear()) linear()->to_cube(point, cube);
+    }
+    /// Without constraints.
+    void to_own_cube(std::span<const double> point, std::span<double> cube) const {
+        by_axes() ? axes_->to_cube(point, cube) : space_.to_cube(point, cube);
     }
     bool even() const override {
         return by_axes() ? axes_->even() : !space_.discrete() && !space_.reordering();
@@ -88,29 +107,54 @@ class ParameterDomain final : public NamedDomain {
         return NamedDomain::probability(cell);
     }
     std::optional<Estimate> box_mass(const Box& box) const override {
-        return by_axes() ? axes_->box_mass(box) : std::nullopt;
+        return by_axes() && !linear() ? axes_->box_mass(box) : std::nullopt;
     }
     std::optional<Moments> moments() const override {
-        return by_axes() ? axes_->moments() : std::nullopt;
+        if (!by_axes()) return std::nullopt;
+        auto all = axes_->moments();
+        if (!all || !linear()) return all;
+        const auto& coordinates = linear()->coordinates();
+        const Moments& own = linear()->polytope().moments();
+        for (std::size_t i = 0; i < coordinates.size(); ++i) {
+            const std::size_t k = coordinates[i];
+            all->mean[k] = own.mean[i];
+            all->skewness[k] = own.skewness[i];
+            for (std::size_t j = 0; j < coordinates.size(); ++j)
+                all->covariance[k * dimension() + coordinates[j]] =
+                    own.covariance[i * coordinates.size() + j];
+        }
+        return all;
     }
     Support support() const override {
-        return by_axes() ? axes_->support() : Support{.whole = false, .finite = false};
+        if (!by_axes()) return Support{.whole = false, .finite = false};
+        if (!linear()) return axes_->support();
+        const Support ranges = axes_->support();
+        if (ranges.whole) return NamedDomain::support();
+        return Support{.whole = false, .finite = ranges.finite};
     }
     std::vector<std::string> cube_axes() const override {
         std::vector<std::string> axes;
-        for (const auto& parameter : space_.parameters())
-            axes.push_back("probability of " + parameter.name);
+        for (const auto& parameter : space_.parameters()) {
+            const bool placed = linear() && linear()->holds(axes.size());
+            axes.push_back((placed ? "place in the polytope, " : "probability of ") +
+                           parameter.name);
+        }
         return axes;
     }
     std::vector<std::string> names() const override { return space_.names(); }
     Levels levels() const override { return space_.levels(); }
 
   private:
+    const LinearPart* linear() const { return space_.linear(); }
+
     void require_known() const {
-        if (!space_.constraints().empty())
-            fail(ErrorKind::input, "the density of parameters under constraints is not known");
         if (space_.reordering())
             fail(ErrorKind::input, "the density of parameters that are reordered is not known");
+        if (!space_.density_known())
+            fail(
+                ErrorKind::input,
+                "the density of parameters under constraints is not known, unless these are linear "
+                "in ranges");
     }
 
     /// Around some images, where the distributions depend on each other.
@@ -144,7 +188,7 @@ class ParameterMapping final : public Mapping {
           by_axes_(parameters_->by_axes()),
           in_cube_(in_cube) {}
 
-    bool drops() const override { return !space_.constraints().empty(); }
+    bool drops() const override { return space_.rejects(); }
     bool refills() const override { return drops(); }
     bool reorders() const override { return space_.reordering().has_value(); }
     void reorder(std::span<double> cube, const RunContext& run) const override {
@@ -152,8 +196,12 @@ class ParameterMapping final : public Mapping {
     }
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> keep) const override {
-        if (by_axes_ != nullptr && !in_cube_) return by_axes_->forward(cube, image, keep);
         const std::size_t d = parameters_->dimension();
+        if (by_axes_ != nullptr && !in_cube_ && !drops()) {
+            by_axes_->forward(cube, image, keep);
+            if (space_.linear()) space_.linear()->from_cube(cube, image, d);
+            return;
+        }
         for (std::size_t i = 0; (!in_cube_ || drops()) && i < cube.size() / d; ++i)
             if (!space_.from_cube(cube.subspan(i * d, d), image.subspan(i * d, d))) keep[i] = 0;
         if (in_cube_) std::ranges::copy(cube, image.begin());
@@ -167,6 +215,15 @@ class ParameterMapping final : public Mapping {
                 axes[k] = {[law](double u) { return law->quantile(u); }, !levels.empty()};
         }
         return axes;
+    }
+
+    void inverse(std::span<const double> image, std::span<double> cube) const override {
+        if (in_cube_ || !space_.linear() || space_.maps_linear())
+            return Mapping::inverse(image, cube);
+        expect_inside(image);
+        const std::size_t d = parameters_->dimension();
+        for (std::size_t i = 0; i < image.size(); i += d)
+            parameters_->to_own_cube(image.subspan(i, d), cube.subspan(i, d));
     }
 
     bool infinite(std::span<const double> row) const override {

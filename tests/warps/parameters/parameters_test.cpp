@@ -176,7 +176,8 @@ TEST(Parameters, DependOnThoseBefore) {
 TEST(Parameters, HoldTheirConstraints) {
     const auto map =
         parameters_of(R"({"parameters":[{"name":"a","range":[0,2]},)"
-                      R"({"name":"b","range":[0,2]}],"constraints":["a+b<2","a>0.5"]})");
+                      R"({"name":"b","range":[0,2]}],"constraints":["(a+b)^2<4","a^3>0.125"]})");
+    EXPECT_TRUE(map->drops());
     const PointSet all = make("halton", points(4096, 2));
     const PointSet kept = warped(*map, all);
     EXPECT_NEAR(static_cast<double>(kept.count()), 4096 * 1.125 / 4, 20);
@@ -237,6 +238,120 @@ TEST(Parameters, ReadColumnsOfFilesOnce) {
     }
 }
 
+// The triangle with corners (1/2, 0), (2, 0), (1/2, 3/2), beside what is free.
+TEST(Parameters, LinearConstraintsDropNothing) {
+    const auto map =
+        parameters_of(R"({"parameters":[{"name":"a","range":[0,2]},{"name":"n","integers":[1,4]},)"
+                      R"({"name":"b","range":[0,20]},{"name":"h","distribution":"normal"}],)"
+                      R"("constraints":["a+b<2","2*a>1 && b < 10"]})");
+    EXPECT_FALSE(map->drops());
+    EXPECT_FALSE(map->refills());
+    const PointSet all = make("sobol", points(4096, 4));
+    const PointSet image = warped(*map, all);
+    ASSERT_EQ(image.count(), 4096U);
+    for (std::size_t i = 0; i < image.count(); ++i)
+        ASSERT_TRUE(image[i][0] + image[i][2] < 2 && image[i][0] > 0.5) << i;
+    const DomainPtr domain = map->domain();
+    EXPECT_DOUBLE_EQ(map->density(std::vector{1.0, 2.0, 0.5, 0.0}),
+                     1 / 1.125 / 4 / std::sqrt(2 * std::acos(-1)));
+    EXPECT_EQ(map->density(std::vector{1.0, 2.0, 1.5, 0.0}), 0);
+    EXPECT_EQ(domain->bounding_box().low[0], 0.5);
+    EXPECT_EQ(domain->bounding_box().high[2], 1.5);
+    const Moments m = *domain->moments();
+    EXPECT_DOUBLE_EQ(m.mean[0], 1);
+    EXPECT_DOUBLE_EQ(m.mean[2], 0.5);
+    EXPECT_DOUBLE_EQ(m.covariance[0 * 4 + 2], -0.0625);
+    EXPECT_DOUBLE_EQ(m.covariance[1 * 4 + 1], 1.25);
+    EXPECT_DOUBLE_EQ(m.covariance[3 * 4 + 3], 1);
+    PointSet back(4096, 4);
+    map->inverse(image.flat(), back.flat());
+    for (std::size_t i = 64; i < 4096; ++i)
+        for (const std::size_t k : {0U, 2U, 3U}) ASSERT_NEAR(back[i][k], all[i][k], 1e-12) << i;
+    EXPECT_GT(p_of_random(*map, 50'000), 1e-4);
+}
+
+// Given its parameters before it, one that depends on them follows its law as without constraints.
+TEST(Parameters, LinearConstraintsBesideCopulasAndDependence) {
+    const auto given =
+        parameters_of(R"({"parameters":[{"name":"a","range":[0,1]},{"name":"b","range":[0,6]},)"
+                      R"({"name":"c","range":["a","a+b+1"]}],"constraints":["a+b<1"]})");
+    EXPECT_FALSE(given->drops());
+    EXPECT_THAT(image_of(*given, {0.5, 0.25, 0.5}), ::testing::ElementsAre(0.25, 0.25, 0.875));
+    expect_density_is_one_over_stretch(*given, 1e-5);
+
+    const auto beside =
+        parameters_of(R"({"parameters":[{"name":"a","range":[0,1]},{"name":"b","range":[0,6]},)"
+                      R"({"name":"c","range":[0,1]},{"name":"d","range":[0,1]}],)"
+                      R"("correlation":{"spearman":[["c","d",0.7]]},"constraints":["a+b<1"]})");
+    EXPECT_FALSE(beside->drops());
+    EXPECT_EQ(image_of(*beside, {0.5, 0.25, 0.5, 0.5})[0], 0.25);
+    expect_density_is_one_over_stretch(*beside, 2e-5);
+}
+
+// A half of the square is left: points are tried, and stay where the square has them, but their density
+// is known.
+TEST(Parameters, LinearConstraintsThatLeaveMuchRejectPoints) {
+    const auto map = parameters_of(
+        R"({"parameters":[{"name":"a","range":[0,2]},{"name":"b","range":[0,2]}],"constraints":["a+b<2"]})");
+    EXPECT_TRUE(map->drops());
+    EXPECT_TRUE(map->refills());
+    EXPECT_EQ(image_of(*map, {0.25, 0.5}), (std::vector<double>{0.5, 1}));
+    EXPECT_EQ(inverse_of(*map, {0.5, 1}), (std::vector<double>{0.25, 0.5}));
+    EXPECT_DOUBLE_EQ(map->density(std::vector{0.5, 1.0}), 0.5);
+    EXPECT_DOUBLE_EQ(map->domain()->measure(), 2);
+    EXPECT_DOUBLE_EQ(map->domain()->moments()->mean[0], 2 / 3.0);
+    const PointSet kept = warped(*map, make("random", points(50'000, 2)));
+    EXPECT_GT(measure("chi-square", "p_value", kept), 1e-4);
+    PointSet sloping = kept;
+    for (std::size_t i = 0; i < sloping.count(); ++i) sloping[i][0] *= 0.97;
+    EXPECT_LT(measure("chi-square", "p_value", sloping), 1e-4);
+}
+
+// Points that rejection leaves follow the same distribution: false alarm 1e-4.
+TEST(Parameters, BothWaysToHoldLinearConstraintsAreOneDistribution) {
+    const std::string parameters =
+        R"({"parameters":[{"name":"a","range":[0,2]},{"name":"b","range":[1,)";
+    const std::string wide = parameters + R"(40]}],"constraints":)";
+    const std::string near = parameters + R"(4]}],"constraints":)";
+    const auto exact = parameters_of(wide + R"(["a+b<3.5","b-a<2"]})");
+    const auto tried = parameters_of(near + R"(["(a+b)^3<42.875","(b-a)^3<8"]})");
+    EXPECT_FALSE(exact->drops());
+    ASSERT_TRUE(tried->drops());
+    PointSet kept = warped(*tried, make("random", points(100'000, 2)));
+    kept.domain = exact->domain();
+    EXPECT_GT(measure("chi-square", "p_value", kept), 1e-4);
+    // And both at once: what is linear drops nothing, the rest does.
+    const auto both = parameters_of(wide + R"(["a+b<3.5","(b-a)^3<8"]})");
+    PointSet mixed = warped(*both, make("random", points(100'000, 2)));
+    EXPECT_GT(mixed.count(), kept.count());
+    mixed.domain = exact->domain();
+    EXPECT_GT(measure("chi-square", "p_value", mixed), 1e-4);
+}
+
+TEST(Parameters, ConstraintsOnWhatIsNotUniformAreTried) {
+    const char* others[] = {
+        R"({"name":"b","range":[0.1,1],"scale":"log"}], "constraints":["a+b<1"]})",
+        R"({"name":"b","distribution":"normal"}], "constraints":["a+b<1"]})",
+        R"({"name":"b","integers":[0,1]}], "constraints":["a+b<1"]})",
+        R"({"name":"b","levels":[0.1,0.7]}], "constraints":["a+b<1"]})",
+        R"({"name":"b","range":[0,"a"]}], "constraints":["a+b<1"]})",
+        R"({"name":"b","range":[0,1]}], "constraints":["a+b<1 || a > b"]})",
+        R"({"name":"b","range":[0,1]}], "correlation":{"spearman":[["a","b",0.5]]},
+            "constraints":["a+b<1"]})",
+        R"({"name":"b","range":[0,1]}], "correlation":{"copula":"student","degrees":3},
+            "constraints":["a+b<1"]})"};
+    for (const char* other : others)
+        EXPECT_TRUE(
+            parameters_of(R"({"parameters":[{"name":"a","range":[0,1]},)" + std::string(other))
+                ->drops())
+            << other;
+    const auto truncated =
+        parameters_of(R"({"parameters":[{"name":"a","distribution":"uniform","low":0,"high":4,)"
+                      R"("truncate":[1,2]},{"name":"b","range":[0,6]}],"constraints":["a+b<2"]})");
+    EXPECT_FALSE(truncated->drops());
+    EXPECT_DOUBLE_EQ(truncated->domain()->measure(), 0.5);
+}
+
 struct Wrong {
     const char* json;
     const char* says;
@@ -280,6 +395,10 @@ TEST(Parameters, SayWhatIsWrongAndWhere) {
          "$.parameters[0].integers: low: 0.5 is not a whole number"},
         {R"({"parameters":[{"name":"a","range":[0,1]}],"constraints":["a<"]})",
          "$.constraints[0]: 'a<': the formula ends"},
+        {R"({"parameters":[{"name":"a","range":[0,1]}],"constraints":["a>2"]})",
+         "t.json: $.constraints: no point in the ranges satisfies 'a>2'"},
+        {R"({"parameters":[{"name":"a","range":[0,1]}],"constraints":["a>0.5","a<0.5"]})",
+         "t.json: $.constraints: the polytope is flat: 'a<0.5' can only hold as an equality"},
         {R"({"parameters":[{"name":"a","range":[0,1]}],"constraints":["b<1"]})",
          "$.constraints[0]: 'b<1', column 1: 'b':"},
         {R"({"parameters":[{"name":"a","range":[0,1]}],"correlation":{"spearman":[["a","b",1]]}})",
