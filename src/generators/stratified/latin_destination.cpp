@@ -20,6 +20,7 @@ namespace {
 /// Random points of the cube, those that have an image; as many as are needed, or a little more.
 std::vector<double> points_with_image(const Plan& plan, std::size_t need, const RunContext& run) {
     constexpr std::uint64_t most = std::uint64_t{1} << 27;
+    constexpr std::uint64_t enough = std::uint64_t{1} << 22;  // where none is found
     constexpr std::uint64_t block = 4096;
     constexpr std::size_t at_once = 64;
     const std::size_t d = plan.dimension;
@@ -27,7 +28,7 @@ std::vector<double> points_with_image(const Plan& plan, std::size_t need, const 
     const Rng rng(1, std::uint64_t{1} << 34);  // strata depend on no seed
     std::vector<double> found;
     std::uint64_t made = 0;
-    while (found.size() < need * d && made < most) {
+    while (found.size() < need * d && made < (found.empty() ? enough : most)) {
         std::vector<std::vector<double>> parts(at_once);
         for_each_block(silent(run), at_once * block, block, [&](const Block& b) {
             std::vector<double> rows(block * d);

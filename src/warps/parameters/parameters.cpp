@@ -210,9 +210,10 @@ class ParameterMapping final : public Mapping {
     std::vector<OutcomeAxis> outcome_axes() const override {
         std::vector<OutcomeAxis> axes(space_.parameters().size());
         for (std::size_t k = 0; k < axes.size(); ++k) {
-            const auto& [name, unit, levels, law, given] = space_.parameters()[k];
-            if (law && law->discrete() && space_.takes_own(k))
-                axes[k] = {[law](double u) { return law->quantile(u); }, !levels.empty()};
+            const auto& parameter = space_.parameters()[k];
+            if (parameter.law && parameter.law->discrete() && space_.takes_own(k))
+                axes[k] = {[law = parameter.law](double u) { return law->quantile(u); },
+                           !parameter.levels.empty()};
         }
         return axes;
     }

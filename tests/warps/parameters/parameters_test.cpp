@@ -256,7 +256,7 @@ TEST(Parameters, LinearConstraintsDropNothing) {
                      1 / 1.125 / 4 / std::sqrt(2 * std::acos(-1)));
     EXPECT_EQ(map->density(std::vector{1.0, 2.0, 1.5, 0.0}), 0);
     EXPECT_EQ(domain->bounding_box().low[0], 0.5);
-    EXPECT_EQ(domain->bounding_box().high[2], 1.5);
+    EXPECT_DOUBLE_EQ(domain->bounding_box().high[2], 1.5);
     const Moments m = *domain->moments();
     EXPECT_DOUBLE_EQ(m.mean[0], 1);
     EXPECT_DOUBLE_EQ(m.mean[2], 0.5);
