@@ -25,7 +25,7 @@ namespace stipple {
 struct Destination {
     /// Whether point i, which is there, has an image; safe to call from several threads.
     std::function<bool(std::uint64_t i, std::span<const double> row)> has_image = {};
-    bool drops = false;  ///< some have none
+    bool drops = false;                  ///< some have none
     std::vector<OutcomeAxis> axes = {};  ///< of each coordinate
 };
 

@@ -12,18 +12,20 @@ namespace stipple {
 namespace {
 
 constexpr std::size_t most_faces = 200'000;
-constexpr std::size_t most_facets = 2'000'000;
+constexpr std::size_t most_facets = 500'000;
 constexpr std::size_t most_plane_tests = 400'000'000;  // of vertices with planes, a second
-
-[[noreturn]] void refuse_close() {
-    fail(ErrorKind::limit, "planes of the polytope meet so closely that they are not told apart");
-}
 
 double dot(const PolytopePoint& a, const PolytopePoint& b, std::size_t d) {
     double sum = 0;
     for (std::size_t k = 0; k < d; ++k) sum += a[k] * b[k];
     return sum;
 }
+
+/// Of the volume: smaller parts of a face are left out, as their share of random numbers is nothing.
+constexpr double least_share = 1e-14;
+
+/// Of a point's distance from a plane.
+constexpr double rounding = 0x1p-48;
 
 }  // namespace
 
@@ -35,19 +37,26 @@ class FaceTree::Builder {
     void build() {
         std::vector<std::uint32_t> all(of_.all.size());
         for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::uint32_t>(i);
-        tree_.volume_ = volumes_[face({.members = all, .planes = planes_of(all)}, {})];
+        const Node polytope{.members = all, .planes = planes_of(all)};
+        tree_.volume_ = built_[face(polytope, tree_.d_)].volume;
     }
 
   private:
     struct Node {
         std::vector<std::uint32_t> members;  ///< vertices, rising
         PlaneSet planes;                     ///< that hold all of them
-        std::size_t plane = 0;  ///< of those that cut it out of a larger face, the steepest
-        double steepness = 0;   ///< the length of its normal within that face
-        PolytopePoint normal{};
     };
-    /// Orthonormal normals of a face.
-    using Normals = std::vector<PolytopePoint>;
+    /// A facet of a face, and where it lies.
+    struct Part {
+        Facet facet;
+        PolytopePoint normal;  ///< of length 1, to the apex, within the face
+        double offset;         ///< normal . x on the facet
+    };
+    /// A face that is built.
+    struct Built {
+        double volume;           ///< within its own space
+        std::uint32_t heaviest;  ///< facet that has most of the volume; of a vertex, itself
+    };
 
     PlaneSet planes_of(const std::vector<std::uint32_t>& members) const {
         PlaneSet planes = of_.all[members[0]].planes;
@@ -55,44 +64,79 @@ class FaceTree::Builder {
         return planes;
     }
 
-    std::uint32_t face(const Node& node, const Normals& normals) {
+    std::uint32_t face(const Node& node, std::size_t dimension) {
         if (const auto known = numbers_.find(node.planes); known != numbers_.end())
             return known->second;
-        const std::size_t dimension = tree_.d_ - normals.size();
-        if (dimension == 0 ? node.members.size() != 1 : node.members.size() <= dimension)
-            refuse_close();
         double volume = dimension == 0 ? 1 : 0;
-        std::vector<Facet> facets;
-        if (dimension > 0)
-            for (const Node& facet : facets_of(node, normals)) {
-                Normals all = normals;
-                all.push_back(facet.normal);
-                const std::uint32_t number = face(facet, all);
-                const double height = slack(node.members[0], facet.plane) / facet.steepness;
-                const double part = volumes_[number] * height / static_cast<double>(dimension);
-                facets.push_back({number, static_cast<std::uint32_t>(facet.plane), volume, part});
-                volume += part;
+        std::vector<Part> parts;
+        if (dimension > 0 && node.members.size() > dimension)
+            for (const Node& facet : facets_of(node)) {
+                Part part = part_of(node.members[0], face(facet, dimension - 1));
+                part.facet.share *= part.facet.height / static_cast<double>(dimension);
+                if (!(part.facet.share > 0)) continue;
+                volume += part.facet.share;
+                parts.push_back(part);
             }
-        if (!(volume > 0)) refuse_close();
         return add({node.members[0], static_cast<std::uint32_t>(dimension), 0, 0}, node.planes,
-                   volume, facets);
+                   volume, std::move(parts));
     }
 
-    std::uint32_t add(Face face, const PlaneSet& planes, double volume,
-                      const std::vector<Facet>& facets) {
+    std::uint32_t add(Face face, const PlaneSet& planes, double volume, std::vector<Part> parts) {
         const std::size_t number = tree_.faces_.size();
         if (number == most_faces || tree_.facets_.size() > most_facets) refuse_many();
+        std::erase_if(parts, [&](const Part& p) { return p.facet.share < least_share * volume; });
+        double sum = 0;
+        Built built{volume, static_cast<std::uint32_t>(number)};
+        double heaviest = 0;
+        for (Part& part : parts) {
+            part.facet.before = sum;
+            sum += part.facet.share;
+            if (part.facet.share > heaviest) built.heaviest = part.facet.face;
+            heaviest = std::max(heaviest, part.facet.share);
+        }
         face.first = tree_.facets_.size();
-        face.count = facets.size();
-        for (Facet facet : facets) {
-            facet.before /= volume;
-            facet.share /= volume;
-            tree_.facets_.push_back(facet);
+        face.count = parts.size();
+        for (Part& part : parts) {
+            part.facet.before /= sum;
+            part.facet.share /= sum;
+            tree_.facets_.push_back(part.facet);
+            for (std::size_t k = 0; k < tree_.d_; ++k) tree_.normals_.push_back(part.normal[k]);
+            tree_.normals_.push_back(part.offset);
         }
         tree_.faces_.push_back(face);
-        volumes_.push_back(volume);
+        built_.push_back(built);
         numbers_.emplace(planes, static_cast<std::uint32_t>(number));
         return static_cast<std::uint32_t>(number);
+    }
+
+    /// A facet, with its volume as its share. Its space is spanned by the apexes on the way down
+    /// through the heaviest facets, which lie far from each other.
+    Part part_of(std::size_t apex, std::uint32_t number) const {
+        const std::size_t d = tree_.d_;
+        std::vector<PolytopePoint> span;  // orthonormal, from the facet's apex
+        const std::size_t origin = tree_.faces_[number].apex;
+        const auto across = [&](std::size_t vertex, double& length) {
+            PolytopePoint way{};
+            for (std::size_t k = 0; k < d; ++k)
+                way[k] = of_.all[vertex].at[k] - of_.all[origin].at[k];
+            for (int pass = 0; pass < 2; ++pass)
+                for (const PolytopePoint& other : span) {
+                    const double along = dot(way, other, d);
+                    for (std::size_t k = 0; k < d; ++k) way[k] -= along * other[k];
+                }
+            length = std::sqrt(dot(way, way, d));
+            for (std::size_t k = 0; k < d && length > 0; ++k) way[k] /= length;
+            return way;
+        };
+        double length = 0;
+        for (std::uint32_t face = number; built_[face].heaviest != face;) {
+            face = built_[face].heaviest;
+            span.push_back(across(tree_.faces_[face].apex, length));
+        }
+        const PolytopePoint normal = across(apex, length);
+        return {.facet = {number, 0, built_[number].volume, length},
+                .normal = normal,
+                .offset = dot(normal, of_.all[origin].at, d)};
     }
 
     [[noreturn]] void refuse_many() const {
@@ -101,21 +145,17 @@ class FaceTree::Builder {
     }
 
     /// The facets of a face that do not hold its apex.
-    std::vector<Node> facets_of(const Node& face, const Normals& normals) {
+    std::vector<Node> facets_of(const Node& face) {
         std::vector<Node> parts;
         for (std::size_t j = 0; j < of_.planes.size(); ++j) {
             if (face.planes[j]) continue;
-            Node part{.members = {}, .planes = {}, .plane = j};
+            Node part;
             for (const std::uint32_t i : face.members)
                 if (of_.all[i].planes[j]) part.members.push_back(i);
             if (part.members.empty()) continue;
             part.planes = planes_of(part.members);
-            take_normal(part, normals);
-            const auto same = std::ranges::find(parts, part.planes, &Node::planes);
-            if (same == parts.end())
+            if (std::ranges::find(parts, part.planes, &Node::planes) == parts.end())
                 parts.push_back(std::move(part));
-            else if (same->steepness < part.steepness)
-                *same = std::move(part);
         }
         comparisons_ += of_.planes.size() * face.members.size() + parts.size() * parts.size();
         if (comparisons_ > most_plane_tests) refuse_many();
@@ -124,47 +164,21 @@ class FaceTree::Builder {
             const bool within_another = std::ranges::any_of(parts, [&](const Node& other) {
                 return other.planes != part.planes && (other.planes & ~part.planes).none();
             });
-            if (within_another || part.members[0] == face.members[0]) continue;
-            if (part.steepness < 1e-9) refuse_close();
-            facets.push_back(part);
+            if (!within_another && part.members[0] != face.members[0]) facets.push_back(part);
         }
         return facets;
-    }
-
-    /// The normal of a plane within a face.
-    void take_normal(Node& part, const Normals& normals) const {
-        const std::size_t d = tree_.d_;
-        part.normal = of_.planes[part.plane].normal;
-        for (int pass = 0; pass < 2; ++pass)
-            for (const PolytopePoint& other : normals) {
-                const double along = dot(part.normal, other, d);
-                for (std::size_t k = 0; k < d; ++k) part.normal[k] -= along * other[k];
-            }
-        part.steepness = std::sqrt(dot(part.normal, part.normal, d));
-        for (std::size_t k = 0; k < d && part.steepness > 0; ++k) part.normal[k] /= part.steepness;
-    }
-
-    double slack(std::size_t vertex, std::size_t plane) const {
-        return tree_.slacks_[vertex * of_.planes.size() + plane];
     }
 
     FaceTree& tree_;
     const PolytopeVertices& of_;
     std::unordered_map<PlaneSet, std::uint32_t> numbers_;
+    std::vector<Built> built_;
     std::size_t comparisons_ = 0;
-    std::vector<double> volumes_;  ///< each within its own space
 };
 
-FaceTree::FaceTree(PolytopeVertices polytope) : d_(polytope.dimension) {
-    for (const PolytopeVertex& vertex : polytope.all) {
-        vertices_.push_back(vertex.at);
-        for (std::size_t j = 0; j < polytope.planes.size(); ++j)
-            slacks_.push_back(vertex.planes[j]
-                                  ? 0
-                                  : std::max(polytope.planes[j].slack(vertex.at.data(), d_), 0.0));
-    }
+FaceTree::FaceTree(const PolytopeVertices& polytope) : d_(polytope.dimension) {
+    for (const PolytopeVertex& vertex : polytope.all) vertices_.push_back(vertex.at);
     Builder(*this, polytope).build();
-    planes_ = std::move(polytope.planes);
 }
 
 /// The facet of a face that u in [0, 1) chooses; leaves in u where between its ends u was.
@@ -242,28 +256,35 @@ double FaceTree::number_of(const Path& path, double last) const {
 }
 
 void FaceTree::inverse(const double* point, double* cube) const {
-    std::array<double, most_polytope_planes> slack;  // of the point, less the apexes' parts
-    for (std::size_t j = 0; j < planes_.size(); ++j)
-        slack[j] = std::max(planes_[j].slack(point, d_), 0.0);
+    PolytopePoint left{};  // of the point, less the apexes by their weights
+    std::copy_n(point, d_, left.begin());
     Path path{};
     double rest = 1;
     std::size_t face = faces_.size() - 1;
     for (std::size_t k = 0; k < d_; ++k) {
-        const double* of_apex = &slacks_[faces_[face].apex * planes_.size()];
-        double weight = std::numeric_limits<double>::infinity();
-        for (const Facet& facet : facets(face))
-            if (const double w = slack[facet.plane] / of_apex[facet.plane]; w < weight) {
-                weight = w;
+        double least = std::numeric_limits<double>::infinity();
+        double weight = 0;
+        path.facets[k] = facets(face).data();
+        const double* normal = &normals_[faces_[face].first * (d_ + 1)];
+        for (const Facet& facet : facets(face)) {
+            double above = -rest * normal[d_];
+            for (std::size_t j = 0; j < d_; ++j) above += normal[j] * left[j];
+            normal += d_ + 1;
+            // Of facets next to the apex, rounding must not choose one.
+            if (const double w = (above + rounding) / facet.height; w < least) {
+                least = w;
+                weight = above / facet.height;
                 path.facets[k] = &facet;
             }
+        }
         weight = std::clamp(weight, 0.0, rest);
-        const double left = rest > 0 ? (rest - weight) / rest : 0;
+        const double share = rest > 0 ? (rest - weight) / rest : 0;
         if (k + 1 < d_)
-            cube[k + 1] = unit_of_share(left, d_ - k);
+            cube[k + 1] = unit_of_share(share, d_ - k);
         else
-            cube[0] = number_of(path, left);
-        for (std::size_t j = 0; j < planes_.size(); ++j)
-            slack[j] = std::max(slack[j] - weight * of_apex[j], 0.0);
+            cube[0] = number_of(path, share);
+        const PolytopePoint& apex = vertices_[faces_[face].apex];
+        for (std::size_t j = 0; j < d_; ++j) left[j] -= weight * apex[j];
         rest -= weight;
         face = path.facets[k]->face;
     }

@@ -96,6 +96,18 @@ HalfSpace framed(const HalfSpace& cut, const Box& frame) {
     return to;
 }
 
+/// The polytope in its frame. Its volume is computed twice, by the simplices from one end and from
+/// the other, which differ where planes are so close that rounding decides what meets in a vertex.
+FaceTree checked_tree(PolytopeVertices vertices) {
+    FaceTree tree(vertices);
+    std::ranges::reverse(vertices.all);
+    const double volume = FaceTree(vertices).volume();
+    if (!(std::abs(volume - tree.volume()) <= 1e-9 * volume && volume > 0))
+        fail(ErrorKind::limit,
+             "inequalities differ by so little that the polytope's vertices are lost in rounding");
+    return tree;
+}
+
 /// By which a point on a plane may miss it, as its numbers and those of the box are rounded.
 double rounding_of(const PolytopePlane& plane, const Box& frame) {
     double sum = 1;
@@ -153,8 +165,9 @@ void Polytope::add_group(const std::vector<std::size_t>& coordinates,
     }
     frame = frame_of(std::move(frame), own);
     for (HalfSpace& cut : own) cut = stipple::framed(cut, frame);
-    Group group{coordinates, frame, FaceTree(polytope_vertices(coordinates.size(), own)), {}};
-    for (const PolytopePlane& plane : group.tree.planes())
+    const PolytopeVertices vertices = polytope_vertices(coordinates.size(), own);
+    Group group{coordinates, frame, checked_tree(vertices), vertices.planes, {}};
+    for (const PolytopePlane& plane : group.planes)
         group.rounding.push_back(rounding_of(plane, frame));
     take_moments(group);
     groups_.push_back(std::move(group));
@@ -162,7 +175,7 @@ void Polytope::add_group(const std::vector<std::size_t>& coordinates,
 
 /// And the volume, and the bounding box.
 void Polytope::take_moments(const Group& group) {
-    const auto& [coordinates, frame, tree, rounding] = group;
+    const auto& [coordinates, frame, tree, planes, rounding] = group;
     const Moments own = tree.moments();
     const std::size_t size = coordinates.size();
     volume_ *= tree.volume();
@@ -196,9 +209,8 @@ bool Polytope::contains(std::span<const double> point) const {
         if (!(point[k] >= box_.low[k] && point[k] <= box_.high[k])) return false;
     return std::ranges::all_of(groups_, [&](const Group& group) {
         const PolytopePoint at = framed(group, point);
-        const auto& planes = group.tree.planes();
-        for (std::size_t j = 0; j < planes.size(); ++j)
-            if (!(planes[j].slack(at.data(), group.coordinates.size()) >= -group.rounding[j]))
+        for (std::size_t j = 0; j < group.planes.size(); ++j)
+            if (!(group.planes[j].slack(at.data(), group.coordinates.size()) >= -group.rounding[j]))
                 return false;
         return true;
     });

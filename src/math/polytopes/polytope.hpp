@@ -6,8 +6,9 @@
 // dimensions, and the others are intervals.
 //
 // A group is computed in the frame of a box not much larger than itself, so that sizes may differ
-// by any factor. What is thinner than 1e-11 of that box is flat; inequalities that differ by less are
-// one. Inequalities that cut nothing off, or touch in a face, change nothing.
+// by any factor. What is thinner than 1e-11 of that box is flat. Inequalities that cut nothing off,
+// touch in a face, or say the same but for rounding, change nothing; where two differ by 1e-13 to
+// 1e-9, what meets in a vertex may be lost in rounding, which is noticed and refused.
 #pragma once
 
 #include <span>
@@ -48,6 +49,7 @@ class Polytope {
         std::vector<std::size_t> coordinates;
         Box frame;
         FaceTree tree;
+        std::vector<PolytopePlane> planes;  ///< of its facets, in the frame
         std::vector<double> rounding;  ///< by which a point on a plane may miss it, in the frame
     };
 

@@ -5,221 +5,203 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "math/arithmetic/double_double.hpp"
 
 namespace stipple {
 namespace {
 
-constexpr double tolerance = 1e-11;
+constexpr double on_plane = 1e-13;  // what rounding of a half-space's numbers may make of 0
+constexpr double flat = 1e-11;
 constexpr std::size_t most_vertices = 10'000;
 constexpr std::size_t most_comparisons = 400'000'000;  // of vertices, a second
 
-/// The place of a vertex as that of the planes on which it lies, by Gauss's elimination with the
-/// largest pivots; of more planes than coordinates, those that are told apart best.
-class PlaneSystem {
-  public:
-    PlaneSystem(const PolytopeVertices& polytope, const PlaneSet& on) : d_(polytope.dimension) {
-        for (std::size_t j = 0; j < polytope.planes.size(); ++j)
-            if (on[j]) rows_.push_back({polytope.planes[j].normal, polytope.planes[j].bound});
-    }
+using Precise = std::array<DoubleDouble, most_polytope_dimensions>;
 
-    /// False where the planes have more than a point in common.
-    bool solve(PolytopePoint& at) {
-        for (std::size_t step = 0; step < d_; ++step)
-            if (!eliminate(step)) return false;
-        for (std::size_t step = 0; step < d_; ++step)
-            at[columns_[step]] = rows_[step].bound / rows_[step].normal[columns_[step]];
-        return true;
-    }
+DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) {
+    return a + DoubleDouble{-b.high, -b.low};
+}
 
-  private:
-    struct Row {
-        PolytopePoint normal;
-        double bound;
-    };
+DoubleDouble quotient(const DoubleDouble& a, const DoubleDouble& b) {
+    const double first = a.high / b.high;
+    const DoubleDouble rest = a - b * DoubleDouble{first};
+    const double second = rest.high / b.high;
+    return exact_sum(first, second) + DoubleDouble{(rest - b * DoubleDouble{second}).high / b.high};
+}
 
-    bool eliminate(std::size_t step) {
-        std::size_t row = step, column = 0;
-        double largest = 1e-8;
-        for (std::size_t i = step; i < rows_.size(); ++i)
-            for (std::size_t k = 0; k < d_; ++k)
-                if (std::abs(rows_[i].normal[k]) > largest) {
-                    largest = std::abs(rows_[i].normal[k]);
-                    row = i;
-                    column = k;
-                }
-        if (largest == 1e-8) return false;
-        std::swap(rows_[step], rows_[row]);
-        columns_[step] = column;
-        const Row pivot = rows_[step];
-        for (std::size_t i = 0; i < rows_.size(); ++i) {
-            const double factor = rows_[i].normal[column] / pivot.normal[column];
-            if (i == step || factor == 0) continue;
-            for (std::size_t k = 0; k < d_; ++k) rows_[i].normal[k] -= factor * pivot.normal[k];
-            rows_[i].normal[column] = 0;
-            rows_[i].bound -= factor * pivot.bound;
+/// A half-space with its numbers times a power of 2, so that they are the same and not far from 1.
+struct Cut {
+    PolytopePoint normal{};
+    double bound = 0;
+    double length = 0;  ///< of the normal
+    std::string text = {};
+
+    explicit Cut(const HalfSpace& half) : text(half.text) {
+        double largest = 0;
+        for (const double a : half.normal) largest = std::max(largest, std::abs(a));
+        const int exponent = -std::ilogb(largest);
+        bound = std::ldexp(half.bound, exponent);
+        double square = 0;
+        for (std::size_t k = 0; k < half.normal.size(); ++k) {
+            normal[k] = std::ldexp(half.normal[k], exponent);
+            square += normal[k] * normal[k];
         }
-        return true;
+        length = std::sqrt(square);
     }
 
-    std::size_t d_;
-    std::vector<Row> rows_;
-    std::array<std::size_t, most_polytope_dimensions> columns_{};
+    /// How far inside, in units of `length`.
+    [[nodiscard]] DoubleDouble slack(const Precise& y, std::size_t d) const {
+        DoubleDouble sum{bound};
+        for (std::size_t k = 0; k < d; ++k) sum = sum - DoubleDouble{normal[k]} * y[k];
+        return sum;
+    }
 };
 
 class DoubleDescription {
   public:
-    explicit DoubleDescription(std::size_t d) : d_(d), polytope_{d, {}, {}} {
+    explicit DoubleDescription(std::size_t d) : d_(d) {
         for (std::size_t k = 0; k < d; ++k)
-            for (const bool top : {false, true}) {
-                PolytopePlane face{.normal = {}, .bound = top ? 1.0 : 0.0};
-                face.normal[k] = top ? 1 : -1;
-                polytope_.planes.push_back(face);
+            for (const double sign : {-1.0, 1.0}) {
+                HalfSpace face{.normal = std::vector<double>(d), .bound = sign > 0 ? 1.0 : 0.0};
+                face.normal[k] = sign;
+                planes_.emplace_back(face);
             }
         for (std::size_t corner = 0; corner < (std::size_t{1} << d); ++corner) {
-            PolytopeVertex vertex{};
+            Vertex vertex;
             for (std::size_t k = 0; k < d; ++k) {
                 const std::size_t top = corner >> k & 1;
-                vertex.at[k] = static_cast<double>(top);
+                vertex.at[k] = {static_cast<double>(top)};
                 vertex.planes.set(2 * k + top);
             }
-            polytope_.all.push_back(vertex);
+            vertices_.push_back(vertex);
         }
     }
 
     void cut(const HalfSpace& half) {
-        const PolytopePlane plane = plane_of(half);
-        const std::vector<double> slack = slacks(plane);
-        const auto [least, most] = std::ranges::minmax(slack);
-        if (least >= -tolerance) return;  // it cuts nothing off
-        if (most < -tolerance)
+        const Cut cut(half);
+        std::vector<DoubleDouble> slack;
+        double least = 0, most = -1;
+        for (const Vertex& vertex : vertices_) {
+            slack.push_back(cut.slack(vertex.at, d_));
+            least = std::min(least, slack.back().high / cut.length);
+            most = std::max(most, slack.back().high / cut.length);
+        }
+        if (least >= -on_plane) return;  // it cuts nothing off
+        if (most <= flat && flat_.empty() && most >= -flat) flat_ = half.text;
+        if (most < -on_plane) {
+            check_flat();
             fail(ErrorKind::usage, "no point in the ranges satisfies '{}'{}", half.text,
-                 polytope_.planes.size() > 2 * d_ ? " and those before it" : "");
-        if (polytope_.planes.size() == most_polytope_planes)
+                 planes_.size() > 2 * d_ ? " and those before it" : "");
+        }
+        if (planes_.size() == most_polytope_planes)
             fail(ErrorKind::limit, "more than {} inequalities cut something off",
                  most_polytope_planes - 2 * d_);
-        if (most <= tolerance && flat_.empty()) flat_ = half.text;
-        const std::size_t number = polytope_.planes.size();
-        polytope_.planes.push_back(plane);
-        keep(slack, number);
+        planes_.push_back(cut);
+        keep(slack);
     }
 
     /// What is left.
     PolytopeVertices take() {
-        if (!flat_.empty())
-            fail(ErrorKind::usage, "the polytope is flat: '{}' can only hold as an equality",
-                 flat_);
-        for (PolytopeVertex& vertex : polytope_.all) settle(vertex);
-        keep_facets();
-        std::ranges::sort(polytope_.all, [](const PolytopeVertex& a, const PolytopeVertex& b) {
+        check_flat();
+        const std::vector<std::size_t> facets = this->facets();
+        PolytopeVertices left{.dimension = d_, .planes = {}, .all = {}};
+        for (const std::size_t j : facets) {
+            const Cut& cut = planes_[j];
+            PolytopePlane plane{.normal = {}, .bound = cut.bound / cut.length};
+            for (std::size_t k = 0; k < d_; ++k) plane.normal[k] = cut.normal[k] / cut.length;
+            left.planes.push_back(plane);
+        }
+        for (const Vertex& vertex : vertices_) {
+            PolytopeVertex rounded{};
+            for (std::size_t k = 0; k < d_; ++k) rounded.at[k] = vertex.at[k].high;
+            for (std::size_t j = 0; j < facets.size(); ++j)
+                rounded.planes[j] = vertex.planes[facets[j]];
+            left.all.push_back(rounded);
+        }
+        std::ranges::sort(left.all, [](const PolytopeVertex& a, const PolytopeVertex& b) {
             const std::size_t of_a = a.planes.count();
             const std::size_t of_b = b.planes.count();
             return of_a != of_b ? of_a > of_b : a.at < b.at;
         });
-        return std::move(polytope_);
+        return left;
     }
 
   private:
-    /// Takes out the planes whose vertices all lie on another one.
-    void keep_facets() {
-        const std::size_t planes = polytope_.planes.size();
-        std::vector<std::size_t> vertices(planes);
-        std::vector<PlaneSet> shared(planes, PlaneSet().set());  // by all vertices of a plane
-        for (const PolytopeVertex& vertex : polytope_.all)
-            for (std::size_t j = 0; j < planes; ++j)
+    struct Vertex {
+        Precise at{};
+        PlaneSet planes{};
+    };
+
+    void check_flat() const {
+        if (!flat_.empty())
+            fail(ErrorKind::usage, "the polytope is flat: '{}' can only hold as an equality",
+                 flat_);
+    }
+
+    /// Keeps what is not beyond the last plane, and adds the vertices of edges that cross it.
+    void keep(const std::vector<DoubleDouble>& slack) {
+        const double near = on_plane * planes_.back().length;
+        std::vector<Vertex> kept;
+        for (std::size_t i = 0; i < slack.size(); ++i)
+            if (slack[i].high >= -near) {
+                kept.push_back(vertices_[i]);
+                if (slack[i].high <= near) kept.back().planes.set(planes_.size() - 1);
+            }
+        for (std::size_t i = 0; i < slack.size(); ++i)
+            for (std::size_t j = 0; slack[i].high > near && j < slack.size(); ++j)
+                if (slack[j].high < -near && have_an_edge(i, j))
+                    kept.push_back(between(i, j, quotient(slack[i], slack[i] - slack[j])));
+        if (kept.size() > most_vertices)
+            fail(ErrorKind::limit, "the polytope has more than {} vertices", most_vertices);
+        vertices_ = std::move(kept);
+    }
+
+    bool have_an_edge(std::size_t i, std::size_t j) {
+        const PlaneSet both = vertices_[i].planes & vertices_[j].planes;
+        if (both.count() + 1 < d_) return false;
+        std::size_t k = 0;
+        while (k < vertices_.size() && (k == i || k == j || (both & ~vertices_[k].planes).any()))
+            ++k;
+        comparisons_ += k;
+        if (comparisons_ > most_comparisons)
+            fail(ErrorKind::limit, "the polytope has {} vertices or more, with too many edges",
+                 vertices_.size());
+        return k == vertices_.size();
+    }
+
+    /// Where an edge crosses the last plane.
+    Vertex between(std::size_t i, std::size_t j, const DoubleDouble& share) const {
+        const Vertex& a = vertices_[i];
+        const Vertex& b = vertices_[j];
+        Vertex vertex{.at = {}, .planes = a.planes & b.planes};
+        vertex.planes.set(planes_.size() - 1);
+        for (std::size_t k = 0; k < d_; ++k) vertex.at[k] = a.at[k] + share * (b.at[k] - a.at[k]);
+        return vertex;
+    }
+
+    /// The planes whose vertices do not all lie on another one.
+    std::vector<std::size_t> facets() const {
+        std::vector<std::size_t> vertices(planes_.size());
+        std::vector<PlaneSet> shared(planes_.size(), PlaneSet().set());  // by all of a plane's
+        for (const Vertex& vertex : vertices_)
+            for (std::size_t j = 0; j < planes_.size(); ++j)
                 if (vertex.planes[j]) {
                     ++vertices[j];
                     shared[j] &= vertex.planes;
                 }
-        std::vector<PolytopePlane> facets;
-        std::vector<std::size_t> number;  // of the facets, among the planes
-        for (std::size_t j = 0; j < planes; ++j) {
+        std::vector<std::size_t> facets;
+        for (std::size_t j = 0; j < planes_.size(); ++j) {
             bool within = vertices[j] == 0;
-            for (std::size_t i = 0; i < planes && !within; ++i)
+            for (std::size_t i = 0; i < planes_.size() && !within; ++i)
                 within = i != j && shared[j][i] &&
                          (vertices[i] > vertices[j] || (vertices[i] == vertices[j] && i < j));
-            if (within) continue;
-            facets.push_back(polytope_.planes[j]);
-            number.push_back(j);
+            if (!within) facets.push_back(j);
         }
-        polytope_.planes = std::move(facets);
-        for (PolytopeVertex& vertex : polytope_.all) {
-            PlaneSet of_facets;
-            for (std::size_t k = 0; k < number.size(); ++k) of_facets[k] = vertex.planes[number[k]];
-            vertex.planes = of_facets;
-        }
-    }
-
-    PolytopePlane plane_of(const HalfSpace& half) const {
-        double largest = 0;
-        for (const double a : half.normal) largest = std::max(largest, std::abs(a));
-        double square = 0;
-        for (const double a : half.normal) square += a / largest * (a / largest);
-        const double length = std::sqrt(square);
-        PolytopePlane plane{
-            .normal = {}, .bound = half.bound / largest / length, .text = half.text};
-        for (std::size_t k = 0; k < d_; ++k) plane.normal[k] = half.normal[k] / largest / length;
-        return plane;
-    }
-
-    std::vector<double> slacks(const PolytopePlane& plane) const {
-        std::vector<double> slack;
-        for (const PolytopeVertex& vertex : polytope_.all)
-            slack.push_back(plane.slack(vertex.at.data(), d_));
-        return slack;
-    }
-
-    /// Keeps what is not beyond a plane, and adds the vertices of edges that cross it.
-    void keep(const std::vector<double>& slack, std::size_t number) {
-        std::vector<PolytopeVertex> kept;
-        for (std::size_t i = 0; i < slack.size(); ++i)
-            if (slack[i] >= -tolerance) {
-                kept.push_back(polytope_.all[i]);
-                if (slack[i] <= tolerance) kept.back().planes.set(number);
-            }
-        for (std::size_t i = 0; i < slack.size(); ++i)
-            for (std::size_t j = 0; slack[i] > tolerance && j < slack.size(); ++j)
-                if (slack[j] < -tolerance && have_an_edge(i, j))
-                    kept.push_back(between(i, j, slack[i] / (slack[i] - slack[j]), number));
-        if (kept.size() > most_vertices)
-            fail(ErrorKind::limit, "the polytope has more than {} vertices", most_vertices);
-        polytope_.all = std::move(kept);
-    }
-
-    bool have_an_edge(std::size_t i, std::size_t j) {
-        const auto& all = polytope_.all;
-        const PlaneSet both = all[i].planes & all[j].planes;
-        if (both.count() + 1 < d_) return false;
-        std::size_t k = 0;
-        while (k < all.size() && (k == i || k == j || (both & ~all[k].planes).any())) ++k;
-        comparisons_ += k;
-        if (comparisons_ > most_comparisons)
-            fail(ErrorKind::limit, "the polytope has {} vertices or more, with too many edges",
-                 all.size());
-        return k == all.size();
-    }
-
-    /// Where an edge crosses the plane of that number.
-    PolytopeVertex between(std::size_t i, std::size_t j, double share, std::size_t number) const {
-        const PolytopeVertex& a = polytope_.all[i];
-        const PolytopeVertex& b = polytope_.all[j];
-        PolytopeVertex vertex{.at = {}, .planes = a.planes & b.planes};
-        vertex.planes.set(number);
-        for (std::size_t k = 0; k < d_; ++k) vertex.at[k] = a.at[k] + share * (b.at[k] - a.at[k]);
-        settle(vertex);
-        return vertex;
-    }
-
-    /// Puts a vertex where its planes meet, as long as they say so clearly.
-    void settle(PolytopeVertex& vertex) const {
-        PolytopePoint at{};
-        if (!PlaneSystem(polytope_, vertex.planes).solve(at)) return;
-        for (std::size_t k = 0; k < d_; ++k)
-            if (!(std::abs(at[k] - vertex.at[k]) < 1e-7)) return;
-        vertex.at = at;
+        return facets;
     }
 
     std::size_t d_;
-    PolytopeVertices polytope_;
+    std::vector<Cut> planes_;  ///< those of the cube first
+    std::vector<Vertex> vertices_;
     std::size_t comparisons_ = 0;
     std::string flat_;  ///< the inequality that left no volume
 };

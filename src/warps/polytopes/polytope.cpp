@@ -15,11 +15,12 @@
 //         xi chooses the simplex and what is left of it is the place along its last edge; the others
 //         are the shares of its vertices, 0 at the vertex. So strata of the first xi are pieces of
 //         simplices side by side, and strata of several are cut where simplices meet.
-// Cost    forward some 20 ns a coordinate; back some 300 ns a point of 4 dimensions. Vertices and
+// Cost    forward some 20 ns a coordinate; back some 500 ns a point of 4 dimensions. Vertices and
 //         faces once: below a millisecond for dozens, a second for the most.
 // Promise density 1 / volume. Points are in the closed polytope up to rounding, and in its bounding
 //         box. The same bits on every machine.
-// Beware  < and <= are the same: points may lie on the rim.
+// Beware  < and <= are the same: points may lie on the rim. Inequalities that differ by more than
+//         rounding, but by less than 1e-9, may be refused.
 // Source  pulling triangulation: C. W. Lee, Handbook of Discrete and Computational Geometry (1997),
 //         section 14.3; vertices: K. Fukuda, A. Prodon, LNCS 1120 (1996) 91-111,
 //         doi:10.1007/3-540-61576-8_77.
