@@ -36,7 +36,8 @@ const std::vector<std::vector<std::string>> line = {
     {"stipple"},  {"core"},   {"math"},
     {"media"},    {"io"},     {"generators", "scrambles", "warps", "analyzers"},
     {"pipeline"}, {"report"}, {"study"},
-    {"plot"},     {"page"},   {"cli"}};
+    {"plot"},     {"page"},   {"cli"},
+    {"python"}};
 
 /// Folders whose folders are engines, which do not see each other.
 const std::set<std::string> of_engines = {"generators", "warps", "analyzers"};

@@ -14,35 +14,6 @@
 namespace stipple::cli {
 namespace {
 
-Json value_json(const Value& value) {
-    return std::visit([](const auto& held) -> Json { return held; }, value);
-}
-
-Json option_json(const Option& option) {
-    Json out = {{"name", option.name}, {"type", option.type}};
-    out["default"] = option.optional ? Json(nullptr) : value_json(option.fallback);
-    if (!option.range().empty() && option.type != "choice") out["range"] = option.range();
-    if (!option.choices.empty()) out["choices"] = option.choices;
-    if (!option.unit.empty()) out["unit"] = option.unit;
-    out["help"] = option.help;
-    return out;
-}
-
-Json unit_json(const UnitInfo& unit, std::string_view kind) {
-    Json out = {{"name", unit.name},     {"aliases", unit.aliases}, {"summary", unit.summary},
-                {"source", unit.source}, {"traits", *unit.traits},  {"options", Json::array()}};
-    if (!unit.family.empty()) out["family"] = unit.family;
-    if (!unit.strata.empty()) out["strata"] = unit.strata;
-    if (unit.stream_version > 0) out["stream_version"] = unit.stream_version;
-    for (const Option& option : unit.options) out["options"].push_back(option_json(option));
-    if (kind == "analyzers") {
-        out["results"] = Json::array();
-        for (const auto& [key, help] : unit.results)
-            out["results"].push_back({{"key", key}, {"help", help}});
-    }
-    return out;
-}
-
 /// Each unit in a line or two, by families.
 std::string list_text(const std::vector<Kind>& kinds) {
     constexpr std::size_t names = 24;  // columns, blanks around them, too
@@ -82,16 +53,6 @@ std::string list_long(const std::vector<Kind>& kinds) {
     return text;
 }
 
-std::string list_json(const std::vector<Kind>& kinds) {
-    Json out = {{"format", "stipple.list"}, {"version", 1}, {"stipple", STIPPLE_VERSION}};
-    for (const Kind& kind : kinds) {
-        out[kind.name] = Json::array();
-        for (const UnitInfo& unit : kind.units)
-            out[kind.name].push_back(unit_json(unit, kind.name));
-    }
-    return out.dump(2) + "\n";
-}
-
 std::string list_markdown(const std::vector<Kind>& kinds) {
     std::string text;
     for (const Kind& kind : kinds) {
@@ -126,7 +87,8 @@ int list(const Arguments& arguments) {
                            "unknown kind '{}'", wanted);
     }
     const std::string format = arguments.get("format").value_or("text");
-    write_text(arguments.get("output").value_or("-"), format == "json"        ? list_json(kinds)
+    write_text(arguments.get("output").value_or("-"), format == "json"
+                                                          ? json_of(kinds).dump(2) + "\n"
                                                       : format == "markdown"  ? list_markdown(kinds)
                                                       : arguments.has("long") ? list_long(kinds)
                                                                               : list_text(kinds));

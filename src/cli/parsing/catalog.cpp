@@ -122,6 +122,35 @@ Kind kind_of(std::string name, std::string verb, const std::vector<Unit>& units)
     return kind;
 }
 
+Json value_json(const Value& value) {
+    return std::visit([](const auto& held) -> Json { return held; }, value);
+}
+
+Json option_json(const Option& option) {
+    Json out = {{"name", option.name}, {"type", option.type}};
+    out["default"] = option.optional ? Json(nullptr) : value_json(option.fallback);
+    if (!option.range().empty() && option.type != "choice") out["range"] = option.range();
+    if (!option.choices.empty()) out["choices"] = option.choices;
+    if (!option.unit.empty()) out["unit"] = option.unit;
+    out["help"] = option.help;
+    return out;
+}
+
+Json unit_json(const UnitInfo& unit, std::string_view kind) {
+    Json out = {{"name", unit.name},     {"aliases", unit.aliases}, {"summary", unit.summary},
+                {"source", unit.source}, {"traits", *unit.traits},  {"options", Json::array()}};
+    if (!unit.family.empty()) out["family"] = unit.family;
+    if (!unit.strata.empty()) out["strata"] = unit.strata;
+    if (unit.stream_version > 0) out["stream_version"] = unit.stream_version;
+    for (const Option& option : unit.options) out["options"].push_back(option_json(option));
+    if (kind == "analyzers") {
+        out["results"] = Json::array();
+        for (const auto& [key, help] : unit.results)
+            out["results"].push_back({{"key", key}, {"help", help}});
+    }
+    return out;
+}
+
 }  // namespace
 
 const std::vector<Kind>& catalog() {
@@ -191,6 +220,16 @@ std::string option_notes(const Option& option) {
     if (!option.optional && option.type != "flag")
         notes.push_back("default " + format_value(option.fallback));
     return notes.empty() ? "" : " (" + join(notes, "; ") + ")";
+}
+
+Json json_of(const std::vector<Kind>& kinds) {
+    Json out = {{"format", "stipple.list"}, {"version", 1}, {"stipple", STIPPLE_VERSION}};
+    for (const Kind& kind : kinds) {
+        out[kind.name] = Json::array();
+        for (const UnitInfo& unit : kind.units)
+            out[kind.name].push_back(unit_json(unit, kind.name));
+    }
+    return out;
 }
 
 }  // namespace stipple::cli

@@ -37,6 +37,9 @@ struct Kind {
 /// Generators, scrambles, warps, analyzers, formats.
 const std::vector<Kind>& catalog();
 
+/// The kinds as `list --json` has them.
+Json json_of(const std::vector<Kind>& kinds);
+
 /// All units that a verb takes, under the name of the last of their kinds; nullptr if it takes
 /// none.
 const Kind* units_for(std::string_view verb);

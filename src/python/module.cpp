@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: MIT
+//
+// stipple._stipple: the library's calls as the package stipple wraps them. Points come as arrays (n, d)
+// that were checked there, settings as pairs of texts, domains as specs.
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/parsing/catalog.hpp"
+#include "core/error.hpp"
+#include "core/json.hpp"
+#include "core/spec.hpp"
+#include "io/provenance.hpp"
+#include "pipeline/chain.hpp"
+#include "pipeline/generated.hpp"
+#include "pipeline/pipeline.hpp"
+#include "pipeline/produce.hpp"
+#include "plot/points_picture.hpp"
+#include "python/conversion.hpp"
+#include "python/run.hpp"
+#include "stipple/stipple.hpp"
+
+namespace stipple::python {
+
+void show(const std::vector<std::string>& notes) {
+    if (notes.empty()) return;
+    const py::object note = py::module_::import("stipple._errors").attr("Note");
+    for (const std::string& sentence : notes)
+        if (PyErr_WarnEx(note.ptr(), sentence.c_str(), 2) != 0) throw py::error_already_set();
+}
+
+namespace {
+
+Spec spec_of(const std::string& text, const Settings& settings) {
+    Spec spec = parse_spec(text);
+    spec.settings.insert(spec.settings.end(), settings.begin(), settings.end());
+    return spec;
+}
+
+/// What is asked of a generator.
+struct Asked {
+    std::string generator;
+    Settings settings;
+    std::optional<std::uint64_t> count;
+    std::optional<std::size_t> dimension;
+    std::uint64_t seed;
+    std::uint64_t start;
+    std::uint64_t sets;
+    std::string bounds;  ///< empty: none
+    std::vector<std::string> warps;
+};
+
+SetsToMake to_make(const Asked& asked) {
+    const Spec spec = spec_of(asked.generator, asked.settings);
+    const Generator& generator = find_generator(spec.name);
+    SetsToMake make{.generator = &generator,
+                    .options = spec.values(generator.options),
+                    .request = {.count = asked.count,
+                                .dimension = asked.dimension,
+                                .start = asked.start,
+                                .seed = asked.seed},
+                    .sets = asked.sets};
+    for (const std::string& warp : asked.warps) make.warps.push_back(parse_spec(warp));
+    if (!asked.bounds.empty()) {
+        Request plain = make.request;
+        const std::size_t d = plan_for(generator, plain, make.options).dimension;
+        make.request.bounds = parse_box(asked.bounds, d);
+    }
+    return make;
+}
+
+py::tuple generate(const Asked& asked, const How& how) {
+    auto sets = released(how, [&](const RunContext& run) {
+        const GeneratedSets made(to_make(asked), run);
+        std::vector<PointSet> all;
+        for (std::uint64_t set = 0; set < made.sets(); ++set) all.push_back(made.made(set, run));
+        return all;
+    });
+    py::list meta;
+    for (const PointSet& set : sets) meta.append(object_of(io::to_json(set.provenance)));
+    py::object points =
+        asked.sets == 1 ? py::object(array_of(std::move(sets[0]))) : arrays_of(std::move(sets));
+    return py::make_tuple(points, meta);
+}
+
+py::array warp(const std::string& text, const Settings& settings, const Array& rows,
+               const std::string& domain, bool back, const How& how) {
+    const Spec spec = spec_of(text, settings);
+    return array_of(released(how, [&, points = points_of(rows, domain)](const RunContext& run) {
+        return warped_set(points, spec, back, run);
+    }));
+}
+
+/// What the images of points of the unit cube are on.
+std::string domain_of_warp(const std::string& text, const Settings& settings, std::size_t d) {
+    const Spec spec = spec_of(text, settings);
+    return WarpChain({&spec, 1}, d).domain()->spec();
+}
+
+py::array scramble(const std::string& text, const Settings& settings, const Array& rows,
+                   std::uint64_t seed, std::uint64_t start, const How& how) {
+    const Spec spec = spec_of(text, settings);
+    if (scramble_named(spec.name) == nullptr) refuse_unit("scramble", spec.name);
+    return array_of(
+        released(how, [&, points = points_of(rows, "unit-cube")](const RunContext& run) {
+            const WarpChain chain({&spec, 1}, points.dimension(),
+                                  {.seed = seed, .count = start + points.count()}, run);
+            return chain.image(points, run, start);
+        }));
+}
+
+/// The density of images: of a warp with its own, else of a domain.
+py::array density(const std::string& domain, const std::string& text, const Settings& settings,
+                  const Array& rows, std::size_t d) {
+    const PointSet points = points_of(rows, domain);
+    std::vector<double> values;
+    if (text.empty()) {
+        values = densities(points);
+    } else {
+        const Spec spec = spec_of(text, settings);
+        values = WarpChain({&spec, 1}, d).density(points.flat());
+    }
+    PointSet column(std::move(values), 1);
+    return array_of(std::move(column)).attr("reshape")(-1).cast<py::array>();
+}
+
+py::tuple analyze(const std::string& text, const Settings& settings, const Array& rows,
+                  const std::string& domain, const How& how) {
+    const Report report =
+        released(how, [&, points = points_of(rows, domain)](const RunContext& run) {
+            return stipple::analyze(text, points, settings, run);
+        });
+    return py::make_tuple(dict_of(report), to_text(report), report.unmet());
+}
+
+py::list read(const std::string& path, const std::string& format, std::size_t dimension,
+              bool single, const How& how) {
+    auto sets = released(how, [&](const RunContext& run) {
+        return read_sets(path, {.format = format, .dimension = dimension, .single = single}, run);
+    });
+    py::list all;
+    for (PointSet& set : sets) {
+        py::dict meta = object_of(io::to_json(set.provenance)).cast<py::dict>();
+        if (set.domain) meta["domain"] = set.domain->spec();
+        all.append(py::make_tuple(array_of(std::move(set)), meta));
+    }
+    return all;
+}
+
+/// A set with the provenance that it had.
+PointSet with_meta(const Array& rows, const std::string& domain, const std::string& meta) {
+    PointSet points = points_of(rows, domain);
+    if (!meta.empty()) points.provenance = io::provenance_from(parse_json(meta));
+    points.provenance.domain = domain;
+    points.provenance.count = points.count();
+    points.provenance.dimension = points.dimension();
+    return points;
+}
+
+using Given = std::tuple<Array, std::string, std::string>;  ///< rows, domain, meta as JSON
+
+void write(const std::string& path, const std::vector<Given>& given, const std::string& format,
+           bool header, bool meta, bool single, std::optional<int> precision, const How& how) {
+    std::vector<PointSet> sets;
+    for (const auto& [rows, domain, text] : given) sets.push_back(with_meta(rows, domain, text));
+    released(how, [&](const RunContext& run) {
+        stipple::write(path, sets,
+                       {.format = format,
+                        .header = header,
+                        .meta = meta,
+                        .single = single,
+                        .precision = precision},
+                       run);
+        return true;
+    });
+}
+
+py::list study(const std::vector<std::string>& generators,
+               const std::vector<std::string>& analyzers, const std::vector<std::string>& warps,
+               const std::vector<std::uint64_t>& counts,
+               const std::vector<std::uint64_t>& dimensions, std::uint64_t first_seed,
+               std::uint64_t seeds, const How& how) {
+    const auto values = released(how, [&](const RunContext& run) {
+        return stipple::study({.generators = generators,
+                               .analyzers = analyzers,
+                               .warps = warps,
+                               .counts = counts,
+                               .dimensions = dimensions,
+                               .first_seed = first_seed,
+                               .seeds = seeds},
+                              run);
+    });
+    py::list rows;
+    for (const StudyValue& v : values)
+        rows.append(py::make_tuple(v.generator, v.analyzer, v.dimension, v.count, v.seed, v.key,
+                                   v.value ? py::object(py::float_(*v.value)) : py::none(),
+                                   v.failure));
+    return rows;
+}
+
+using StudyRow = std::tuple<std::string, std::string, std::uint64_t, std::uint64_t, std::uint64_t,
+                            std::string, std::optional<double>, std::string>;
+
+py::list means(const std::vector<StudyRow>& rows, double confidence) {
+    std::vector<StudyValue> values;
+    for (const auto& [generator, analyzer, dimension, count, seed, key, value, failure] : rows)
+        values.push_back({generator, analyzer, dimension, count, seed, key, value, failure});
+    py::list all;
+    for (const StudyMean& m : means_of(values, confidence))
+        all.append(py::make_tuple(m.generator, m.analyzer, m.dimension, m.count, m.key, m.sets,
+                                  m.mean, m.low, m.high, m.rms));
+    return all;
+}
+
+void report(const std::string& path, const std::vector<std::pair<std::string, Given>>& given,
+            const How& how) {
+    std::vector<NamedSet> sets;
+    for (const auto& [name, set] : given)
+        sets.push_back({name, with_meta(std::get<0>(set), std::get<1>(set), std::get<2>(set))});
+    released(how, [&](const RunContext& run) {
+        write_report(path, sets, run);
+        return true;
+    });
+}
+
+std::string picture(const std::vector<std::pair<std::string, Given>>& given, double width,
+                    double height, const How& how) {
+    std::vector<PointSet> sets;
+    for (const auto& [name, set] : given)
+        sets.push_back(with_meta(std::get<0>(set), std::get<1>(set), std::get<2>(set)));
+    plot::PointsPicture picture;
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+        picture.sets.push_back(&sets[i]);
+        picture.names.push_back(given[i].first);
+    }
+    return released(how, [&](const RunContext& run) {
+        const plot::Drawing drawing =
+            plot::draw_points(picture, {.width = width, .height = height}, run);
+        return plot::svg_bytes(drawing, 1);
+    });
+}
+
+/// A sequence by index.
+class Indexed {
+  public:
+    Indexed(const std::string& text, const Settings& settings, std::optional<std::size_t> d,
+            std::uint64_t seed) {
+        const Spec spec = spec_of(text, settings);
+        const Generator& generator = find_generator(spec.name);
+        const std::string whole =
+            format_spec(generator.name, spec.values(generator.options), generator.options);
+        sampler_ = std::make_unique<Sampler>(whole, Request{.dimension = d, .seed = seed});
+        if (!generator.traits.prefix)
+            fail(ErrorKind::usage, "{} is no sequence: its points depend on how many there are",
+                 generator.name);
+    }
+
+    [[nodiscard]] std::size_t dimension() const { return sampler_->dimension(); }
+
+    [[nodiscard]] py::array part(std::uint64_t first, std::uint64_t count, const How& how) const {
+        const std::size_t d = dimension();
+        return array_of(released(how, [&](const RunContext& run) {
+            run.need_memory(8 * static_cast<double>(count) * static_cast<double>(d), "the points");
+            PointSet points(Rows::unwritten(count * d), d);
+            constexpr std::uint64_t some = 65'536;
+            for (std::uint64_t i = 0; i < count; i += some) {
+                run.check_stop();
+                const std::uint64_t rows = std::min(some, count - i);
+                sampler_->fill(first + i, points.flat().subspan(i * d, rows * d));
+            }
+            return points;
+        }));
+    }
+
+  private:
+    std::unique_ptr<Sampler> sampler_;
+};
+
+const char* word_of(ErrorKind kind) {
+    switch (kind) {
+        case ErrorKind::usage:
+            return "usage";
+        case ErrorKind::input:
+            return "input";
+        case ErrorKind::io:
+            return "io";
+        case ErrorKind::limit:
+            return "limit";
+        default:
+            return "cancelled";
+    }
+}
+
+void translate(std::exception_ptr thrown) {
+    try {
+        if (thrown) std::rethrow_exception(thrown);
+    } catch (const Error& e) {
+        const py::object type = py::module_::import("stipple._errors").attr("Error");
+        const py::object error = type(py::str(e.what()), word_of(e.kind()), py::str(e.hint()));
+        PyErr_SetObject(type.ptr(), error.ptr());
+    }
+}
+
+}  // namespace
+}  // namespace stipple::python
+
+PYBIND11_MODULE(_stipple, module) {
+    namespace python = stipple::python;
+    namespace py = pybind11;
+    using python::How;
+    py::register_exception_translator(python::translate);
+
+    py::class_<How>(module, "How")
+        .def(py::init([](unsigned threads, double max_memory, py::object progress) {
+            return How{threads, max_memory, std::move(progress)};
+        }));
+    py::class_<python::Asked>(module, "Asked")
+        .def(py::init([](std::string generator, stipple::Settings settings,
+                         std::optional<std::uint64_t> count, std::optional<std::size_t> dimension,
+                         std::uint64_t seed, std::uint64_t start, std::uint64_t sets,
+                         std::string bounds, std::vector<std::string> warps) {
+            return python::Asked{
+                std::move(generator), std::move(settings), count, dimension, seed, start, sets,
+                std::move(bounds),    std::move(warps)};
+        }));
+    module.attr("version") = STIPPLE_VERSION;
+    module.def("records",
+               [] { return python::object_of(stipple::cli::json_of(stipple::cli::catalog())); });
+    module.def("generate", python::generate);
+    module.def("warp", python::warp);
+    module.def("domain_of_warp", python::domain_of_warp);
+    module.def("scramble", python::scramble);
+    module.def("density", python::density);
+    module.def("analyze", python::analyze);
+    module.def("read", python::read);
+    module.def("write", python::write);
+    module.def("study", python::study);
+    module.def("means", python::means);
+    module.def("report", python::report);
+    module.def("picture", python::picture);
+    py::class_<python::Indexed>(module, "Indexed")
+        .def(py::init<const std::string&, const stipple::Settings&, std::optional<std::size_t>,
+                      std::uint64_t>())
+        .def_property_readonly("dimension", &python::Indexed::dimension)
+        .def("part", &python::Indexed::part);
+}

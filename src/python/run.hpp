@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+//
+// Long work from Python: without the interpreter's lock, while the calling thread looks for Ctrl-C and
+// shows progress.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "stipple/error.hpp"
+#include "stipple/run.hpp"
+
+namespace stipple::python {
+
+namespace py = pybind11;
+
+/// What a call says beside its work.
+struct How {
+    unsigned threads = 0;
+    double max_memory = 0;  ///< bytes; 0: any
+    py::object progress;    ///< called with the share that is done, or None
+};
+
+/// Shows the notes that the work gave, as warnings.
+void show(const std::vector<std::string>& notes);
+
+/// What work(run) gives, on a thread of its own. @throws what it throws; KeyboardInterrupt
+template <class Work>
+auto released(const How& how, Work work) {
+    using Result = decltype(work(std::declval<const RunContext&>()));
+    std::optional<Result> result;
+    std::exception_ptr error;
+    std::atomic<double> done = 0;
+    std::vector<std::string> notes;
+    std::mutex mutex;
+    std::condition_variable ended;
+    bool over = false;
+    std::stop_source stop;
+
+    RunContext run{.threads = how.threads, .stop = stop.get_token()};
+    run.progress = [&](double share) { done = share; };
+    run.warn = [&](const std::string& sentence) {
+        const std::lock_guard lock(mutex);
+        notes.push_back(sentence);
+    };
+    if (how.max_memory > 0) run.max_memory = static_cast<std::uint64_t>(how.max_memory);
+
+    std::jthread worker([&] {
+        try {
+            result.emplace(work(std::as_const(run)));
+        } catch (...) {
+            error = std::current_exception();
+        }
+        const std::lock_guard lock(mutex);
+        over = true;
+        ended.notify_all();
+    });
+    const auto wait = [&] {
+        const py::gil_scoped_release free;
+        std::unique_lock lock(mutex);
+        return ended.wait_for(lock, std::chrono::milliseconds(50), [&] { return over; });
+    };
+    std::exception_ptr problem;  // Ctrl-C, or one of whoever shows progress
+    while (!wait()) {
+        if (problem) continue;
+        try {
+            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+            if (!how.progress.is_none()) how.progress(done.load());
+        } catch (...) {
+            problem = std::current_exception();
+            stop.request_stop();
+        }
+    }
+    {
+        const py::gil_scoped_release free;
+        worker.join();
+    }
+    if (problem) std::rethrow_exception(problem);
+    if (error) std::rethrow_exception(error);
+    if (!how.progress.is_none()) how.progress(1.0);
+    show(notes);
+    return std::move(*result);
+}
+
+}  // namespace stipple::python

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: MIT
+"""What analyzers find."""
+
+import html
+from collections.abc import Mapping
+
+
+class Report(Mapping):
+    """Results of an analyzer by name, also as attributes: report["value"] is report.value.
+
+    Numbers, flags and texts are Python's; curves are arrays (k,), grids arrays (rows, columns), and
+    what belongs together is a Report of its own. unmet lists what was expected and does not hold.
+    """
+
+    def __init__(self, values, text="", unmet=()):
+        self._values = {
+            name: Report(value) if isinstance(value, dict) else value
+            for name, value in values.items()
+        }
+        self._text = text
+        self.unmet = list(unmet)
+
+    def __getitem__(self, key):
+        value = self._values
+        for name in key.split(".") if key not in self._values else [key]:
+            try:
+                value = value[name]
+            except (KeyError, TypeError, IndexError):
+                raise KeyError(key) from None
+        return value
+
+    def __getattr__(self, name):
+        if name.startswith("__"):
+            raise AttributeError(name)
+        try:
+            return self._values[name]
+        except KeyError:
+            raise AttributeError(f"the report has no {name}; it has {', '.join(self)}") from None
+
+    def __iter__(self):
+        return iter(self._values)
+
+    def __len__(self):
+        return len(self._values)
+
+    def __dir__(self):
+        return [*super().__dir__(), *self._values]
+
+    def __repr__(self):
+        return self._text.rstrip("\n") or repr(self._values)
+
+    def _repr_html_(self):
+        return f"<pre>{html.escape(repr(self))}</pre>"
+
+
+class Picture:
+    """An SVG picture: shown by notebooks, saved by save(path)."""
+
+    def __init__(self, svg):
+        self.svg = svg
+
+    def _repr_svg_(self):
+        return self.svg
+
+    def save(self, path):
+        """Writes the SVG to a file."""
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(self.svg)
+
+    def __repr__(self):
+        return f"<SVG picture, {len(self.svg)} bytes>"

@@ -1,0 +1,360 @@
+# SPDX-License-Identifier: MIT
+"""The functions of the package."""
+
+import collections
+import json
+import os
+import sys
+
+import numpy as np
+
+from . import _stipple
+from ._arrays import (
+    as_rows,
+    bounds_text,
+    domain_of,
+    listed,
+    meta_text,
+    settings_of,
+    spec_text,
+    with_meta,
+)
+from ._errors import Error
+from ._reports import Picture, Report
+
+
+def _bar(share):
+    done = int(30 * share)
+    end = "\r\033[K" if share >= 1 else ""
+    sys.stderr.write(f"\r[{'=' * done}{' ' * (30 - done)}] {100 * share:3.0f} %{end}")
+    sys.stderr.flush()
+
+
+def _how(threads=0, max_memory=0, progress=None):
+    shown = _bar if progress is True else progress or None
+    return _stipple.How(threads, max_memory, shown)
+
+
+def _take_how(options):
+    """The arguments that all calls have, out of the others."""
+    return _how(*(options.pop(name, default) for name, default in
+                  (("threads", 0), ("max_memory", 0), ("progress", None))))
+
+
+def _parameters_spec(parameters):
+    """A parameter file, or what would stand in one, as a warp."""
+    if not isinstance(parameters, dict):
+        with open(os.fspath(parameters), encoding="utf-8") as file:
+            parameters = json.load(file)
+    text = json.dumps({k: v for k, v in parameters.items() if k != "$schema"})
+    return f"parameters:json=[{text}]"
+
+
+def generate(generator, n=None, d=None, *, seed=1, start=0, sets=1, bounds=None, warp=None,
+             parameters=None, return_meta=False, **options):
+    """Points of a generator: an array (n, d) of float64, or (sets, n, d) of several sets.
+
+    generator   name or spec: "halton", "sobol:scramble=owen"; list("generators") names all
+    n, d        points and coordinates; what is not given, the generator decides
+    seed        of the first set; the others have seed + 1, ...
+    start       index of the first point, for sequences
+    bounds      (low, high), or one for each coordinate: the box that the points fill
+    warp        a warp or scramble, or a list of them: "disk:method=concentric"
+    parameters  a parameter file, or a dictionary of the same content
+    return_meta gives Points, arrays that have a dictionary .meta of where they come from, by which
+                analyze() knows the domain of a warp
+    options     of the generator: scramble="owen"; and threads, max_memory, progress
+
+    The numbers are those of `stipple generate` with the same arguments, bit by bit. Memory of one set
+    is not copied. Sets of different sizes come as a list of arrays.
+    """
+    how = _take_how(options)
+    warps = listed(warp)
+    if parameters is not None:
+        warps.append(_parameters_spec(parameters))
+    asked = _stipple.Asked(
+        generator, settings_of(options), n, d, seed, start, sets, bounds_text(bounds), warps
+    )
+    points, meta = _stipple.generate(asked, how)
+    if not return_meta:
+        return points
+    if isinstance(points, list):
+        return [with_meta(one, each) for one, each in zip(points, meta)]
+    return with_meta(points, meta[0] if sets == 1 else meta)
+
+
+class Sequence:
+    """Points of a sequence by index: s[10] is an array (d,), s[10:20] one of (10, d), and
+    s.blocks(1000) gives blocks of 1000 points without end."""
+
+    def __init__(self, generator, d=None, *, seed=1, **options):
+        self._how = _take_how(options)
+        self._points = _stipple.Indexed(generator, settings_of(options), d, seed)
+
+    @property
+    def d(self):
+        """Coordinates of a point."""
+        return self._points.dimension
+
+    def __getitem__(self, index):
+        if isinstance(index, slice):
+            first, step = index.start or 0, index.step or 1
+            if index.stop is None or first < 0 or index.stop < 0 or step < 1:
+                raise IndexError("a sequence has no end; slices are [first:last] with 0 <= first")
+            rows = self._points.part(first, max(0, index.stop - first), self._how)
+            return rows if step == 1 else rows[::step].copy()
+        index = index.__index__()
+        if index < 0:
+            raise IndexError("a sequence has no end to count from")
+        return self._points.part(index, 1, self._how)[0]
+
+    def blocks(self, size, start=0):
+        """Blocks of `size` points, one after the other, from point `start` on."""
+        if size < 1:
+            raise Error("size: a block has one point or more")
+        while True:
+            yield self[start : start + size]
+            start += size
+
+    def __iter__(self):
+        for block in self.blocks(1024):
+            yield from block
+
+
+def sequence(generator, d=None, *, seed=1, **options):
+    """The points of a sequence by index and in blocks; see Sequence. Takes generators whose points do
+    not depend on how many there are."""
+    return Sequence(generator, d, seed=seed, **options)
+
+
+def _each_set(x, work):
+    """work(rows) of the rows of a set, or of each of several sets."""
+    rows = as_rows(x, most=3)
+    if rows.ndim == 2:
+        return work(rows)
+    return np.stack([work(one) for one in rows])
+
+
+def warp(x, warp, **options):
+    """The images of points of the unit cube: arrays (n, k), of (sets, n, d) each set by itself.
+
+    warp     name or spec: "disk", "triangle:method=fold", "disk@1,2"; list("warps") names all
+    options  of the warp: method="concentric"; and threads, max_memory, progress
+
+    The result is Points, whose meta has the domain, so that analyze() and inverse() know it.
+    """
+    how = _take_how(options)
+    settings = settings_of(options)
+    text = spec_text(warp)
+    before = domain_of(x, None)
+    image = _each_set(x, lambda rows: _stipple.warp(text, settings, rows, before, False, how))
+    d = np.shape(x)[-1]
+    return with_meta(image, {"domain": _stipple.domain_of_warp(text, settings, d)})
+
+
+def inverse(x, warp, **options):
+    """The points of the unit cube that a warp takes to these; arguments as those of warp()."""
+    how = _take_how(options)
+    settings = settings_of(options)
+    text = spec_text(warp)
+    rows = as_rows(x, most=3)
+    domain = domain_of(x, None)
+    if domain == "unit-cube":
+        domain = _stipple.domain_of_warp(text, settings, rows.shape[-1])
+    return _each_set(rows, lambda one: _stipple.warp(text, settings, one, domain, True, how))
+
+
+def pdf(x, warp, **options):
+    """The density of each image of a warp with respect to length, area, volume ... of its domain: an
+    array (n,), or (sets, n); 0 outside the domain. Arguments as those of warp()."""
+    settings = settings_of(options)
+    text = spec_text(warp)
+    rows = as_rows(x, most=3)
+    d = rows.shape[-1]
+    domain = _stipple.domain_of_warp(text, settings, d)
+    return _each_set(rows, lambda one: _stipple.density(domain, text, settings, one, d))
+
+
+def scramble(x, scramble, *, seed=1, start=0, **options):
+    """Points of the unit cube, moved at random so that each is uniform and together they stay as even.
+
+    scramble  name or spec: "owen", "cranley-patterson"; list("scrambles") names all
+    start     index of the first point, for parts of a sequence
+    Of several sets (sets, n, d), set k has the seed seed + k.
+    """
+    how = _take_how(options)
+    settings = settings_of(options)
+    text = spec_text(scramble)
+    rows = as_rows(x, most=3)
+    if rows.ndim == 2:
+        return _stipple.scramble(text, settings, rows, seed, start, how)
+    return np.stack([_stipple.scramble(text, settings, one, seed + k, start, how)
+                     for k, one in enumerate(rows)])
+
+
+def analyze(analyzer, x, *, domain=None, integrand=None, **options):
+    """What an analyzer finds of a set of points: a Report, a mapping with attributes.
+
+    analyzer   name or spec: "star-discrepancy", "l2-discrepancy:kind=centered"
+    x          points (n, d)
+    domain     what they live on, as `stipple analyze --domain` has it; default: that of their meta, or
+               the unit cube
+    integrand  of the analyzer integration: a name, or a function of an array (n, d) that gives (n,)
+    options    of the analyzer; and threads, max_memory, progress
+    """
+    how = _take_how(options)
+    rows = as_rows(x)
+    on = domain_of(x, domain)
+    if callable(integrand):
+        return _integral_of(integrand, rows, on, options)
+    found = _stipple.analyze(
+        analyzer, settings_of({"integrand": integrand, **options}), rows, on, how
+    )
+    return Report(*found)
+
+
+def _values(function, x):
+    values = np.asarray(function(x), dtype=float)
+    if values.shape != (len(x),):
+        raise Error(
+            f"the integrand gives the shape {values.shape} for {len(x)} points; expected "
+            f"({len(x)},)", "input"
+        )
+    if not np.isfinite(values).all():
+        i = int(np.argmin(np.isfinite(values)))
+        raise Error(f"the integrand is {values[i]} at x[{i}]", "input")
+    return values
+
+
+def _integral_of(function, rows, domain, options):
+    exact = options.pop("exact", None)
+    if options:
+        raise Error(f"{next(iter(options))}: a function as integrand takes `exact` only")
+    values = _values(function, rows) / _stipple.density(domain, "", [], rows, 0)
+    estimate = float(np.mean(values))
+    found = {"estimate": estimate}
+    if exact is not None:
+        found |= {"exact": float(exact), "error": estimate - float(exact)}
+    name = getattr(function, "__name__", "integrand").strip("<>")
+    text = "".join(f"{name}.{key}  {value!r}\n" for key, value in found.items())
+    return Report({name: found}, text)
+
+
+Integral = collections.namedtuple("Integral", "estimate standard_error low high estimates")
+Integral.__doc__ = """An integral by replications: the mean of their estimates, its standard error, and
+the interval of Student's t that has the integral in it with the confidence asked for."""
+
+
+def integrate(function, generator, n, d, *, replications=16, seed=1, confidence=0.95, warp=None,
+              **options):
+    """The integral of a function over the unit cube, or over the domain of a warp: an Integral.
+
+    function      of an array (m, d) of points; gives an array (m,) of values
+    generator     name or spec of one whose seeds give independent sets: "sobol:scramble=owen"
+    replications  sets of n points each, with seeds seed, seed + 1, ...; 2 or more
+    warp          a warp; values are divided by the density of its images
+    options       of the generator; and threads, max_memory, progress
+    """
+    if replications < 2:
+        raise Error("replications: an error needs two or more")
+    estimates = []
+    for r in range(replications):
+        x = generate(generator, n, d, seed=seed + r, **options)
+        weights = 1.0
+        if warp is not None:
+            x = globals()["warp"](x, warp)
+            weights = 1 / pdf(x, warp)
+        estimates.append(float(np.mean(_values(function, np.asarray(x)) * weights)))
+    if len(set(estimates)) == 1 and np.array_equal(x, generate(generator, n, d, seed=seed,
+                                                               **options)) and warp is None:
+        raise Error(f"{generator}: its points do not depend on the seed; scramble them")
+    rows = [("", "", d, n, r, "", value, "") for r, value in enumerate(estimates)]
+    mean, low, high = _stipple.means(rows, confidence)[0][6:9]
+    error = float(np.std(estimates, ddof=1) / np.sqrt(replications))
+    return Integral(mean, error, low, high, np.array(estimates))
+
+
+def read(path, *, format="", d=0, single=False, **options):
+    """The points of a file: Points (n, d) with the meta that the file has; a list of them where the file
+    holds several sets. d and single (float32) are what raw binary files do not say."""
+    sets = _stipple.read(os.fspath(path), format, d, single, _take_how(options))
+    points = [with_meta(rows, meta) for rows, meta in sets]
+    return points[0] if len(points) == 1 else points
+
+
+def _given(x, domain=None):
+    return as_rows(x), domain_of(x, domain), meta_text(x)
+
+
+def write(path, x, *, domain=None, format="", header=True, meta=False, single=False,
+          precision=None, **options):
+    """Writes points (n, d), or several sets, to a file whose format follows from its name: csv, txt,
+    json, jsonl, npy, bin, utk, psa, ply, svg; .gz and .zst compress it."""
+    several = x if isinstance(x, list) and np.ndim(x[0]) == 2 else None
+    if several is None:
+        several = [x] if np.ndim(x) != 3 else list(x)
+    _stipple.write(os.fspath(path), [_given(one, domain) for one in several], format, header, meta,
+                   single, precision, _take_how(options))
+
+
+StudyValue = collections.namedtuple(
+    "StudyValue", "generator analyzer dimension count seed key value failure"
+)
+StudyMean = collections.namedtuple(
+    "StudyMean", "generator analyzer dimension count key sets mean low high rms"
+)
+
+
+class Study(list):
+    """The numbers of a study, each a StudyValue; means() takes them over seeds."""
+
+    def means(self, confidence=0.95):
+        """Means over the seeds, with the interval of Student's t: a list of StudyMean."""
+        return [StudyMean(*row) for row in _stipple.means([tuple(row) for row in self], confidence)]
+
+    def _repr_html_(self):
+        head = "".join(f"<th>{name}</th>" for name in StudyValue._fields)
+        body = "".join(
+            "<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in self[:100]
+        )
+        return f"<table><tr>{head}</tr>{body}</table>"
+
+
+def study(generators, analyzers, *, n=(1024,), d=(2,), seeds=1, seed=1, warp=None, **options):
+    """Every generator at every count and dimension, with several seeds, measured by every analyzer: a
+    Study, a list of StudyValue in the order of generators, dimensions, counts, seeds and analyzers."""
+    counts = [n] if np.isscalar(n) else [int(k) for k in n]
+    dimensions = [d] if np.isscalar(d) else [int(k) for k in d]
+    rows = _stipple.study(listed(generators), listed(analyzers), listed(warp), counts, dimensions,
+                          seed, seeds, _take_how(options))
+    return Study(StudyValue(*row) for row in rows)
+
+
+def _named(x):
+    sets = x if isinstance(x, dict) else {"points": x}
+    return [(name, _given(one)) for name, one in sets.items()]
+
+
+def report(path, x, **options):
+    """Writes a self-contained HTML page that compares up to 12 sets of one dimension: points, or a
+    dictionary of them by name."""
+    _stipple.report(os.fspath(path), _named(x), _take_how(options))
+
+
+def plot(x, ax=None, *, width=0, height=0, **options):
+    """A picture of points, or of a dictionary of points by name: in 1-D a histogram, in 2-D and 3-D the
+    points with the outline of their domain, else pairs of coordinates. Notebooks show it; save(path)
+    writes the SVG. With matplotlib axes as ax, draws points (n, 2) there and gives ax."""
+    how = _take_how(options)
+    if ax is None:
+        return Picture(_stipple.picture(_named(x), width, height, how))
+    for name, one in (x if isinstance(x, dict) else {None: x}).items():
+        rows = as_rows(one)
+        if rows.shape[1] != 2:
+            raise Error(f"matplotlib axes show 2 coordinates; the points have {rows.shape[1]}",
+                        "input")
+        ax.scatter(rows[:, 0], rows[:, 1], s=max(1, 4000 / len(rows)), label=name)
+    ax.set_aspect("equal")
+    if isinstance(x, dict):
+        ax.legend()
+    return ax

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: MIT
+"""What the tests of the Python module share."""
+
+import json
+import os
+import subprocess
+
+import pytest
+
+
+@pytest.fixture(scope="session")
+def run():
+    """Runs the program; gives what it writes."""
+
+    def call(*arguments, stdin=None):
+        return subprocess.run(
+            [os.environ["STIPPLE_PROGRAM"], *arguments], input=stdin, capture_output=True, check=True
+        ).stdout
+
+    return call
+
+
+@pytest.fixture(scope="session")
+def results(run):
+    """What `stipple analyze` finds, as a dictionary."""
+
+    def call(*arguments):
+        return json.loads(run("analyze", *arguments, "--json"))["results"]
+
+    return call

@@ -1,0 +1,322 @@
+# SPDX-License-Identifier: MIT
+import io
+import os
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import stipple
+
+UNITS = [
+    ("sobol", {"scramble": "owen"}, 256, 5),
+    ("halton", {}, 100, 3),
+    ("latin-hypercube", {"centered": True}, 50, 4),
+    ("poisson-disk", {}, 200, 2),
+    ("random", {}, 1000, 7),
+    ("rank1-lattice", {}, 128, 2),
+]
+
+
+@pytest.mark.parametrize("name,options,n,d", UNITS)
+def test_points_are_those_of_the_program(run, name, options, n, d):
+    flags = [f"--{key}" if value is True else f"--{key}={value}" for key, value in options.items()]
+    out = run("generate", name, *flags, f"-n{n}", f"-d{d}", "--seed=3", "--format=npy")
+    there = np.load(io.BytesIO(out))
+    here = stipple.generate(name, n=n, d=d, seed=3, **options)
+    assert here.dtype == np.float64 and here.shape == (n, d)
+    assert here.tobytes() == there.tobytes()
+    assert stipple.generate(name, n, d, seed=3, threads=1, **options).tobytes() == there.tobytes()
+
+
+def test_sets_bounds_warps_and_parameters(run):
+    out = run("generate", "jittered", "-n16", "--sets=3", "--bounds=-1..1,0..2", "--format=npy")
+    sets = stipple.generate("jittered", 16, sets=3, bounds=[(-1, 1), (0, 2)])
+    assert sets.shape == (3, 16, 2)
+    assert sets.tobytes() == np.load(io.BytesIO(out)).tobytes()
+    out = run("generate", "sobol", "-n64", "-w", "disk:method=polar", "--format=npy")
+    disk = stipple.generate("sobol", 64, warp=("disk", {"method": "polar"}))
+    assert disk.tobytes() == np.load(io.BytesIO(out)).tobytes()
+    parameters = {"parameters": [{"name": "a", "range": [2, 3]}, {"name": "k", "integers": [1, 4]}]}
+    points = stipple.generate("sobol", 64, parameters=parameters, return_meta=True)
+    assert points[:, 0].min() >= 2 and set(points[:, 1]) == {1, 2, 3, 4}
+    assert points.meta["columns"] == ["a", "k"]
+
+
+def test_meta_is_kept_by_the_array_alone():
+    points = stipple.generate("halton", 10, return_meta=True, warp="disk")
+    assert points.meta["generator"] == "halton" and points.meta["domain"] == "disk"
+    assert points[:5].meta is None and (points + 0).meta is None
+    assert not isinstance(stipple.generate("halton", 10), stipple.Points)
+    both = stipple.generate("random", 4, sets=2, return_meta=True)
+    assert [meta["seed"] for meta in both.meta] == [1, 2]
+
+
+def test_sequences_by_index_and_in_blocks():
+    sequence = stipple.sequence("sobol", d=3, scramble="owen", seed=5)
+    with pytest.warns(stipple.Note, match="power of two"):
+        all_points = stipple.generate("sobol", 3000, 3, scramble="owen", seed=5)
+    assert sequence.d == 3
+    assert np.array_equal(sequence[0:3000], all_points)
+    assert np.array_equal(sequence[1000:2000:7], all_points[1000:2000:7])
+    assert np.array_equal(sequence[17], all_points[17])
+    assert sequence[5:5].shape == (0, 3)
+    blocks = sequence.blocks(1000)
+    assert np.array_equal(np.concatenate([next(blocks) for _ in range(3)]), all_points)
+    points = iter(sequence)
+    assert np.array_equal([next(points) for _ in range(1100)], all_points[:1100])
+    with pytest.raises(IndexError):
+        sequence[-1]
+    with pytest.raises(stipple.Error, match="no sequence"):
+        stipple.sequence("latin-hypercube")
+
+
+def test_warps_go_there_and_back():
+    x = stipple.generate("random", 1000)
+    disk = stipple.warp(x, "disk", method="concentric")
+    assert disk.shape == (1000, 2) and (np.hypot(*disk.T) <= 1).all()
+    assert np.allclose(stipple.inverse(disk, "disk", method="concentric"), x, atol=1e-12)
+    assert np.allclose(stipple.pdf(disk, "disk"), 1 / np.pi)
+    assert stipple.pdf([[2.0, 0.0]], "disk")[0] == 0
+    assert stipple.analyze("chi-square", disk).verdict == "uniform"
+    sphere = stipple.warp(x, "sphere")
+    assert sphere.shape == (1000, 3) and np.allclose((sphere**2).sum(axis=1), 1)
+    two = stipple.warp(np.stack([x, x]), "disk")
+    assert np.array_equal(two[0], stipple.warp(x, "disk")) and two.shape == (2, 1000, 2)
+
+
+def test_scrambles_are_those_of_the_program(run):
+    x = stipple.generate("sobol", 64, 2)
+    moved = stipple.scramble(x, "owen", seed=7)
+    csv = run("generate", "sobol", "-n64")
+    out = run("warp", "owen", "--seed=7", "--format=npy", stdin=csv)
+    assert moved.tobytes() == np.load(io.BytesIO(out)).tobytes()
+    assert np.array_equal(stipple.scramble(x[32:], "owen", seed=7, start=32), moved[32:])
+
+
+@pytest.mark.parametrize(
+    "analyzer", ["star-discrepancy", "l2-discrepancy", "chi-square", "periodogram", "nearest-neighbor"]
+)
+def test_results_are_those_of_the_program(results, analyzer):
+    there = results(analyzer, "--generate", "sobol", "-n128")
+    here = stipple.analyze(analyzer, stipple.generate("sobol", 128))
+
+    def compare(here, there):
+        for key, value in there.items():
+            if isinstance(value, dict):
+                if key in here:
+                    compare(here[key], value)
+            elif key in here:
+                assert np.array_equal(here[key], value), key
+
+    assert set(here) <= set(there) | {"grid"} or set(there) <= set(here)
+    compare(here, there)
+
+
+def test_reports_are_mappings_with_attributes():
+    report = stipple.analyze("star-discrepancy", [[0.5, 0.5]])
+    assert report.value == report["value"] == 0.75
+    assert "value" in repr(report) and "value" in list(report)
+    with pytest.raises(KeyError):
+        report["no_such_key"]
+    with pytest.raises(AttributeError, match="no_such_key"):
+        report.no_such_key
+    spectrum = stipple.analyze("periodogram", stipple.generate("random", 64))
+    assert isinstance(spectrum["radial.power"], np.ndarray)
+    assert "<pre>" in report._repr_html_()
+
+
+BAD = [
+    ([[1, 2], [3]], "no array of points"),
+    (np.array([["a", "b"]]), "type <U1"),
+    (np.array([[None, 1]]), "type object"),
+    ([1.0, 2.0], r"shape \(2,\)"),
+    (np.zeros((0, 2)), "there are no points"),
+    (np.zeros((3, 0)), "there are no points"),
+    ([[0.5, np.nan]], r"x\[0, 1\] is nan"),
+    ([[np.inf, 0.5]], r"x\[0, 0\] is inf"),
+    (np.zeros((1, 2), complex), "type complex128"),
+    (0.5, r"shape \(\)"),
+    (None, "type object"),
+    (np.ma.array([[0.5, 0.5]], mask=[[True, False]]), "masked"),
+]
+
+
+@pytest.mark.parametrize("x,message", BAD)
+def test_bad_arrays_are_refused(x, message):
+    for call in (
+        lambda: stipple.analyze("star-discrepancy", x),
+        lambda: stipple.warp(x, "disk"),
+        lambda: stipple.scramble(x, "owen"),
+    ):
+        with pytest.raises(stipple.Error, match=message) as caught:
+            call()
+        assert caught.value.kind == "input"
+
+
+def test_other_arrays_are_converted():
+    x = stipple.generate("sobol", 64, 2)
+    value = stipple.analyze("star-discrepancy", x).value
+    for same in (
+        x.astype(">f8"),
+        np.asfortranarray(x),
+        np.repeat(x, 2, axis=0)[::2],
+        x.astype(np.float32),
+        x.tolist(),
+        np.ma.array(x),
+    ):
+        assert stipple.analyze("star-discrepancy", same).value == value
+    assert stipple.analyze("star-discrepancy", np.array([[0, 1], [1, 0]])).value == 1
+    x.flags.writeable = False
+    assert stipple.analyze("star-discrepancy", x).value == value
+
+
+def test_errors_speak_of_arguments():
+    with pytest.raises(stipple.Error, match="did you mean 'halton'") as caught:
+        stipple.generate("haltn")
+    assert caught.value.kind == "usage"
+    with pytest.raises(stipple.Error) as caught:
+        stipple.generate("multi-jittered", n=7, d=2, no_such_option=1)
+    assert "--" not in str(caught.value)
+    with pytest.raises(stipple.Error) as caught:
+        stipple.generate("random", 10**9, 10, max_memory=10**6)
+    assert caught.value.kind == "limit"
+    with pytest.raises(stipple.Error) as caught:
+        stipple.read("no/such/file.csv")
+    assert caught.value.kind == "io"
+    with pytest.raises(TypeError):
+        stipple.generate("halton", base={})
+
+
+def test_notes_are_warnings():
+    with pytest.warns(stipple.Note, match="does not use the seed"):
+        stipple.generate("hammersley", 8, sets=2)
+
+
+def test_files_are_read_and_written(tmp_path):
+    x = stipple.generate("halton", 20, 3, return_meta=True)
+    for name in ("a.csv", "a.json", "a.npy", "a.csv.gz"):
+        stipple.write(tmp_path / name, x)
+        assert np.array_equal(stipple.read(tmp_path / name), x)
+    assert stipple.read(tmp_path / "a.json").meta["generator"] == "halton"
+    stipple.write(tmp_path / "sets.csv", np.stack([x, x]))
+    assert len(stipple.read(tmp_path / "sets.csv")) == 2
+
+
+def test_integrals_have_errors():
+    found = stipple.integrate(
+        lambda x: x[:, 0] * x[:, 1], "sobol", 256, 2, scramble="owen", replications=32
+    )
+    assert found.low < 0.25 < found.high and found.standard_error < 1e-3
+    assert len(found.estimates) == 32
+    area = stipple.integrate(lambda x: np.ones(len(x)), "random", 16, 2, warp="disk", replications=2)
+    assert area.estimate == pytest.approx(np.pi)
+    with pytest.raises(stipple.Error, match="do not depend on the seed"):
+        stipple.integrate(lambda x: x[:, 0], "halton", 16, 2)
+    with pytest.raises(stipple.Error, match="shape"):
+        stipple.integrate(lambda x: x, "random", 16, 2)
+    with pytest.raises(ZeroDivisionError):
+        stipple.integrate(lambda x: 1 // 0, "random", 16, 2)
+
+
+def test_integrands_are_functions():
+    x = stipple.generate("sobol", 1024, 2)
+
+    def product(x):
+        return x[:, 0] * x[:, 1]
+
+    found = stipple.analyze("integration", x, integrand=product, exact=0.25)
+    there = stipple.analyze("integration", x, expression="x*y", exact=0.25)
+    assert found.product.estimate == pytest.approx(there.expression.estimate, abs=1e-15)
+    assert found.product.error == pytest.approx(there.expression.error, abs=1e-15)
+    disk = stipple.warp(x, "disk")
+    ones = stipple.analyze("integration", disk, integrand=lambda x: np.ones(len(x)))
+    assert ones["lambda"].estimate == pytest.approx(np.pi)
+
+
+def test_studies_are_tables(run):
+    study = stipple.study(["random", "sobol:scramble=owen"], "star-discrepancy", n=[16, 64], seeds=3)
+    assert len({row.key for row in study}) >= 1
+    rows = [row for row in study if row.key == "value"]
+    assert [(row.generator, row.count, row.seed) for row in rows][:4] == [
+        ("random", 16, 1), ("random", 16, 2), ("random", 16, 3), ("random", 64, 1)
+    ]
+    value = stipple.analyze("star-discrepancy", stipple.generate("random", 16, seed=2)).value
+    assert rows[1].value == value
+    mean = [m for m in study.means() if m.key == "value"][0]
+    assert mean.sets == 3 and mean.low <= mean.mean <= mean.high
+    assert "<table>" in study._repr_html_()
+
+
+def test_pictures_and_pages(tmp_path):
+    x = stipple.generate("halton", 50)
+    picture = stipple.plot({"halton": x, "disk": stipple.generate("random", 50)})
+    assert picture._repr_svg_().startswith("<svg") or "<svg" in picture.svg[:200]
+    picture.save(tmp_path / "a.svg")
+    stipple.report(tmp_path / "a.html", {"halton": x, "random": stipple.generate("random", 50)})
+    assert "<html" in (tmp_path / "a.html").read_text()[:500]
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("svg")
+    from matplotlib import pyplot
+
+    figure, axes = pyplot.subplots()
+    assert stipple.plot(x, axes) is axes and len(axes.collections) == 1
+    pyplot.close(figure)
+
+
+def test_units_are_listed_and_described():
+    assert "halton" in stipple.list("generators") and "disk" in stipple.list()["warps"]
+    text = stipple.describe("sobol")
+    assert "scramble" in text and "Source" in text
+    with pytest.raises(stipple.Error):
+        stipple.list("no such kind")
+
+
+def test_progress_is_shown(capsys):
+    shares = []
+    stipple.analyze("star-discrepancy", stipple.generate("random", 3000, 4),
+                    progress=shares.append)
+    assert shares[-1] == 1 and shares == sorted(shares)
+
+    def fail(share):
+        raise RuntimeError("no more")
+
+    with pytest.raises(RuntimeError, match="no more"):
+        stipple.analyze("star-discrepancy", stipple.generate("random", 400, 7), progress=fail)
+
+
+def test_interrupts_stop_long_work():
+    x = stipple.generate("random", 600, 8)  # takes minutes
+    sent = []
+
+    def interrupt():
+        time.sleep(0.3)
+        sent.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Thread(target=interrupt).start()
+    with pytest.raises(KeyboardInterrupt):
+        stipple.analyze("star-discrepancy", x)
+    assert time.monotonic() - sent[0] < 2  # a tenth of that where nothing else runs
+    assert stipple.analyze("star-discrepancy", [[0.5]]).value == 0.5
+
+
+def test_other_threads_run_meanwhile():
+    counted = []
+    over = threading.Event()
+
+    def count():
+        while not over.is_set():
+            counted.append(time.monotonic())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    began = time.monotonic()
+    stipple.analyze("star-discrepancy", stipple.generate("random", 300, 5), threads=1)
+    ended = time.monotonic()
+    over.set()
+    thread.join()
+    assert len([t for t in counted if began < t < ended]) > 3 or ended - began < 0.01

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: MIT
+"""README and the scripts of data/examples, run as they stand."""
+
+import re
+import runpy
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def test_readme_runs():
+    [block] = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.S)
+    names = {}
+    exec(block, names)
+    assert names["points"].shape == (1024, 5)
+    assert abs(names["found"].estimate - 0.25) < 5 * names["found"].standard_error + 1e-9
+
+
+@pytest.mark.parametrize("script", sorted((ROOT / "data/examples").glob("*.py")), ids=lambda p: p.name)
+def test_examples_run(script, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    runpy.run_path(str(script), run_name="__main__")
+    assert capsys.readouterr().out
