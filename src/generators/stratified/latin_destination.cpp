@@ -20,7 +20,7 @@ namespace {
 /// Random points of the cube, those that have an image; as many as are needed, or a little more.
 std::vector<double> points_with_image(const Plan& plan, std::size_t need, const RunContext& run) {
     constexpr std::uint64_t most = std::uint64_t{1} << 27;
-    constexpr std::uint64_t enough = std::uint64_t{1} << 22;  // where none is found
+    constexpr std::uint64_t enough = std::uint64_t{1} << 20;  // where none is found
     constexpr std::uint64_t block = 4096;
     constexpr std::size_t at_once = 64;
     const std::size_t d = plan.dimension;
