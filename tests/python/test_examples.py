@@ -18,6 +18,19 @@ def test_readme_runs():
     assert abs(names["found"].estimate - 0.25) < 5 * names["found"].standard_error + 1e-9
 
 
+def test_guide_runs(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    pyplot.switch_backend("svg")
+    figure, axes = pyplot.subplots()
+    text = (ROOT / "data/guide/python.md").read_text()
+    code = "\n".join(line[4:] for line in text.splitlines() if line.startswith("    "))
+    names = {"f": lambda x: x.sum(axis=1), "axes": axes}
+    exec("import stipple\ny = stipple.generate('random', n=1024)\n" + code, names)
+    assert names["x"].shape == (1024, 5) and (tmp_path / "page.html").exists()
+    pyplot.close(figure)
+
+
 @pytest.mark.parametrize("script", sorted((ROOT / "data/examples").glob("*.py")), ids=lambda p: p.name)
 def test_examples_run(script, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
