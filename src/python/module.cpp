@@ -71,7 +71,8 @@ SetsToMake to_make(const Asked& asked) {
     return make;
 }
 
-py::tuple generate(const Asked& asked, const How& how) {
+/// The points, and their provenance where it is wanted.
+py::tuple generate(const Asked& asked, bool with_meta, const How& how) {
     auto sets = released(how, [&](const RunContext& run) {
         const GeneratedSets made(to_make(asked), run);
         std::vector<PointSet> all;
@@ -79,7 +80,8 @@ py::tuple generate(const Asked& asked, const How& how) {
         return all;
     });
     py::list meta;
-    for (const PointSet& set : sets) meta.append(object_of(io::to_json(set.provenance)));
+    for (const PointSet& set : sets)
+        if (with_meta) meta.append(object_of(io::to_json(set.provenance)));
     py::object points =
         asked.sets == 1 ? py::object(array_of(std::move(sets[0]))) : arrays_of(std::move(sets));
     return py::make_tuple(points, meta);
@@ -161,18 +163,19 @@ PointSet with_meta(const Array& rows, const std::string& domain, const std::stri
 
 using Given = std::tuple<Array, std::string, std::string>;  ///< rows, domain, meta as JSON
 
-void write(const std::string& path, const std::vector<Given>& given, const std::string& format,
-           bool header, bool meta, bool single, std::optional<int> precision, const How& how) {
+void write_points(const std::string& path, const std::vector<Given>& given,
+                  const std::string& format, bool header, bool meta, bool single,
+                  std::optional<int> precision, const How& how) {
     std::vector<PointSet> sets;
     for (const auto& [rows, domain, text] : given) sets.push_back(with_meta(rows, domain, text));
     released(how, [&](const RunContext& run) {
-        stipple::write(path, sets,
-                       {.format = format,
-                        .header = header,
-                        .meta = meta,
-                        .single = single,
-                        .precision = precision},
-                       run);
+        write(path, sets,
+              {.format = format,
+               .header = header,
+               .meta = meta,
+               .single = single,
+               .precision = precision},
+              run);
         return true;
     });
 }
@@ -335,7 +338,7 @@ PYBIND11_MODULE(_stipple, module) {
     module.def("density", python::density);
     module.def("analyze", python::analyze);
     module.def("read", python::read);
-    module.def("write", python::write);
+    module.def("write", python::write_points);
     module.def("study", python::study);
     module.def("means", python::means);
     module.def("report", python::report);

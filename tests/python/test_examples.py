@@ -24,7 +24,8 @@ def test_guide_runs(tmp_path, monkeypatch):
     pyplot.switch_backend("svg")
     figure, axes = pyplot.subplots()
     text = (ROOT / "data/guide/python.md").read_text()
-    code = "\n".join(line[4:] for line in text.splitlines() if line.startswith("    "))
+    code = "\n".join(line[4:] for line in text.splitlines()
+                     if line.startswith("    ") and not line.startswith("    stipple "))
     names = {"f": lambda x: x.sum(axis=1), "axes": axes}
     exec("import stipple\ny = stipple.generate('random', n=1024)\n" + code, names)
     assert names["x"].shape == (1024, 5) and (tmp_path / "page.html").exists()

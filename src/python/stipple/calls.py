@@ -75,7 +75,7 @@ def generate(generator, n=None, d=None, *, seed=1, start=0, sets=1, bounds=None,
     asked = _stipple.Asked(
         generator, settings_of(options), n, d, seed, start, sets, bounds_text(bounds), warps
     )
-    points, meta = _stipple.generate(asked, how)
+    points, meta = _stipple.generate(asked, return_meta, how)
     if not return_meta:
         return points
     if isinstance(points, list):
