@@ -90,6 +90,7 @@ TEST(Help, VersionNamesTheLibraries) {
     for (const char* name : {"CLI11", "fmt", "nlohmann-json", "fftw", "oneTBB", "Boost",
                              "Random123", "libpng", "muParser"})
         EXPECT_THAT(outcome.out, HasSubstr(name));
+    EXPECT_THAT(outcome.out, HasSubstr("this program, with FFTW in it, under the GPL"));
 }
 
 TEST(List, IsTheWholeRegistry) {

@@ -17,11 +17,14 @@ namespace stipple::cli {
 std::string version_text() {
     return fmt::format(
         "stipple {}\nCLI11 {}, fmt {}.{}.{}, nlohmann-json {}.{}.{}, {}, oneTBB {}.{}, Boost "
-        "{}.{}.{}, Random123 {}, libpng {}, muParser {}, {}\n",
+        "{}.{}.{}, Random123, libpng {}, muParser {}, {}\n"
+        "stipple is under the MIT licence; this program, with FFTW in it, under the GPL, version 2 "
+        "or "
+        "later.\n",
         STIPPLE_VERSION, CLI11_VERSION, FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
         FMT_VERSION % 100, NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
         NLOHMANN_JSON_VERSION_PATCH, fftw_version, TBB_VERSION_MAJOR, TBB_VERSION_MINOR,
-        BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100, RANDOM123_VERSION,
+        BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100,
         PNG_LIBPNG_VER_STRING, muparser_version(), has_mpi() ? mpi_version() : "without MPI");
 }
 
