@@ -63,11 +63,9 @@ SetsToMake to_make(const Asked& asked) {
                                 .seed = asked.seed},
                     .sets = asked.sets};
     for (const std::string& warp : asked.warps) make.warps.push_back(parse_spec(warp));
-    if (!asked.bounds.empty()) {
-        Request plain = make.request;
-        const std::size_t d = plan_for(generator, plain, make.options).dimension;
-        make.request.bounds = parse_box(asked.bounds, d);
-    }
+    if (!asked.bounds.empty())
+        make.request.bounds =
+            parse_box(asked.bounds, plan_for(generator, make.request, make.options).dimension);
     return make;
 }
 
@@ -87,18 +85,28 @@ py::tuple generate(const Asked& asked, bool with_meta, const How& how) {
     return py::make_tuple(points, meta);
 }
 
-py::array warp(const std::string& text, const Settings& settings, const Array& rows,
+/// The images of points, or what they are the images of, and the domain of these as a spec.
+py::tuple warp(const std::string& text, const Settings& settings, const Array& rows,
                const std::string& domain, bool back, const How& how) {
     const Spec spec = spec_of(text, settings);
-    return array_of(released(how, [&, points = points_of(rows, domain)](const RunContext& run) {
+    PointSet image = released(how, [&, points = points_of(rows, domain)](const RunContext& run) {
         return warped_set(points, spec, back, run);
-    }));
+    });
+    const std::string on = domain_of(image);
+    return py::make_tuple(array_of(std::move(image)), on);
 }
 
-/// What the images of points of the unit cube are on.
-std::string domain_of_warp(const std::string& text, const Settings& settings, std::size_t d) {
-    const Spec spec = spec_of(text, settings);
-    return WarpChain({&spec, 1}, d).domain()->spec();
+/// A warp by itself, of points of the cube whose images have so many numbers.
+WarpChain chain_to(const Spec& spec, std::size_t images) {
+    const Warp& unit = find_warp(spec.name);
+    const std::size_t given = spec.coordinates.empty() ? images : spec.coordinates.size();
+    const auto mapping = unit.make(spec.values(unit.options), given, {});
+    return {{&spec, 1}, images + mapping->cube_dimension() - mapping->domain()->dimension()};
+}
+
+std::string domain_of_images(const std::string& text, const Settings& settings,
+                             std::size_t images) {
+    return chain_to(spec_of(text, settings), images).domain()->spec();
 }
 
 py::array scramble(const std::string& text, const Settings& settings, const Array& rows,
@@ -113,19 +121,18 @@ py::array scramble(const std::string& text, const Settings& settings, const Arra
         }));
 }
 
-/// The density of images: of a warp with its own, else of a domain.
-py::array density(const std::string& domain, const std::string& text, const Settings& settings,
-                  const Array& rows, std::size_t d) {
-    const PointSet points = points_of(rows, domain);
-    std::vector<double> values;
-    if (text.empty()) {
-        values = densities(points);
-    } else {
-        const Spec spec = spec_of(text, settings);
-        values = WarpChain({&spec, 1}, d).density(points.flat());
-    }
-    PointSet column(std::move(values), 1);
-    return array_of(std::move(column)).attr("reshape")(-1).cast<py::array>();
+py::array column(std::vector<double> values) {
+    return array_of({std::move(values), 1}).attr("reshape")(-1).cast<py::array>();
+}
+
+/// The density that a warp gives its images.
+py::array warp_density(const std::string& text, const Settings& settings, const Array& rows) {
+    const PointSet points = points_of(rows, "unit-cube");
+    return column(chain_to(spec_of(text, settings), points.dimension()).density(points.flat()));
+}
+
+py::array density(const std::string& domain, const Array& rows) {
+    return column(densities(points_of(rows, domain)));
 }
 
 py::tuple analyze(const std::string& text, const Settings& settings, const Array& rows,
@@ -151,8 +158,11 @@ py::list read(const std::string& path, const std::string& format, std::size_t di
     return all;
 }
 
+using Given = std::tuple<Array, std::string, std::string>;  ///< rows, domain, meta as JSON
+
 /// A set with the provenance that it had.
-PointSet with_meta(const Array& rows, const std::string& domain, const std::string& meta) {
+PointSet set_of(const Given& given) {
+    const auto& [rows, domain, meta] = given;
     PointSet points = points_of(rows, domain);
     if (!meta.empty()) points.provenance = io::provenance_from(parse_json(meta));
     points.provenance.domain = domain;
@@ -161,13 +171,11 @@ PointSet with_meta(const Array& rows, const std::string& domain, const std::stri
     return points;
 }
 
-using Given = std::tuple<Array, std::string, std::string>;  ///< rows, domain, meta as JSON
-
 void write_points(const std::string& path, const std::vector<Given>& given,
                   const std::string& format, bool header, bool meta, bool single,
                   std::optional<int> precision, const How& how) {
     std::vector<PointSet> sets;
-    for (const auto& [rows, domain, text] : given) sets.push_back(with_meta(rows, domain, text));
+    for (const Given& one : given) sets.push_back(set_of(one));
     released(how, [&](const RunContext& run) {
         write(path, sets,
               {.format = format,
@@ -220,8 +228,7 @@ py::list means(const std::vector<StudyRow>& rows, double confidence) {
 void report(const std::string& path, const std::vector<std::pair<std::string, Given>>& given,
             const How& how) {
     std::vector<NamedSet> sets;
-    for (const auto& [name, set] : given)
-        sets.push_back({name, with_meta(std::get<0>(set), std::get<1>(set), std::get<2>(set))});
+    for (const auto& [name, set] : given) sets.push_back({name, set_of(set)});
     released(how, [&](const RunContext& run) {
         write_report(path, sets, run);
         return true;
@@ -231,8 +238,7 @@ void report(const std::string& path, const std::vector<std::pair<std::string, Gi
 std::string picture(const std::vector<std::pair<std::string, Given>>& given, double width,
                     double height, const How& how) {
     std::vector<PointSet> sets;
-    for (const auto& [name, set] : given)
-        sets.push_back(with_meta(std::get<0>(set), std::get<1>(set), std::get<2>(set)));
+    for (const auto& [name, set] : given) sets.push_back(set_of(set));
     plot::PointsPicture picture;
     for (std::size_t i = 0; i < sets.size(); ++i) {
         picture.sets.push_back(&sets[i]);
@@ -333,8 +339,9 @@ PYBIND11_MODULE(_stipple, module) {
                [] { return python::object_of(stipple::cli::json_of(stipple::cli::catalog())); });
     module.def("generate", python::generate);
     module.def("warp", python::warp);
-    module.def("domain_of_warp", python::domain_of_warp);
+    module.def("domain_of_images", python::domain_of_images);
     module.def("scramble", python::scramble);
+    module.def("warp_density", python::warp_density);
     module.def("density", python::density);
     module.def("analyze", python::analyze);
     module.def("read", python::read);

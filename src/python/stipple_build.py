@@ -8,6 +8,7 @@ import subprocess
 import sys
 import sysconfig
 import tarfile
+import tomllib
 import zipfile
 from pathlib import Path
 
@@ -27,9 +28,11 @@ def _package():
 
 
 def _metadata():
-    return (f"Metadata-Version: 2.1\nName: stipple\nVersion: {_version()}\n"
-            "Summary: Makes sample sets, warps them, and judges them\nLicense: MIT\n"
-            "Requires-Python: >=3.11\nRequires-Dist: numpy>=1.24\n")
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    return (f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: {_version()}\n"
+            f"Summary: {project['description']}\nLicense: {project['license']['text']}\n"
+            f"Requires-Python: {project['requires-python']}\n"
+            + "".join(f"Requires-Dist: {needed}\n" for needed in project["dependencies"]))
 
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):

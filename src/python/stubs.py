@@ -18,13 +18,12 @@ TYPES = {
 
 HEAD = '''# Written by stubs.py, from the records of the units.
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence as _Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, Literal, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Sequence = _Sequence
 Floats = NDArray[np.float64]
 __version__: str
 

@@ -83,6 +83,11 @@ def test_warps_go_there_and_back():
     assert stipple.analyze("chi-square", disk).verdict == "uniform"
     sphere = stipple.warp(x, "sphere")
     assert sphere.shape == (1000, 3) and np.allclose((sphere**2).sum(axis=1), 1)
+    assert np.allclose(stipple.inverse(np.array(sphere), "sphere"), x, atol=1e-12)
+    assert np.allclose(stipple.pdf(sphere, "sphere"), 1 / (4 * np.pi))
+    part = stipple.warp(stipple.generate("random", 10, 4), "sphere@2,3")
+    assert part.shape == (10, 5)
+    assert np.allclose(stipple.pdf(np.array(part), "sphere@2,3"), 1 / (4 * np.pi))
     two = stipple.warp(np.stack([x, x]), "disk")
     assert np.array_equal(two[0], stipple.warp(x, "disk")) and two.shape == (2, 1000, 2)
 
@@ -213,8 +218,9 @@ def test_integrals_have_errors():
     assert len(found.estimates) == 32
     area = stipple.integrate(lambda x: np.ones(len(x)), "random", 16, 2, warp="disk", replications=2)
     assert area.estimate == pytest.approx(np.pi)
-    with pytest.raises(stipple.Error, match="do not depend on the seed"):
-        stipple.integrate(lambda x: x[:, 0], "halton", 16, 2)
+    for warp in (None, "sphere"):
+        with pytest.raises(stipple.Error, match="do not depend on the seed"):
+            stipple.integrate(lambda x: x[:, 0], "halton", 16, 2, warp=warp)
     with pytest.raises(stipple.Error, match="shape"):
         stipple.integrate(lambda x: x, "random", 16, 2)
     with pytest.raises(ZeroDivisionError):

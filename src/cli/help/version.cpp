@@ -18,9 +18,8 @@ std::string version_text() {
     return fmt::format(
         "stipple {}\nCLI11 {}, fmt {}.{}.{}, nlohmann-json {}.{}.{}, {}, oneTBB {}.{}, Boost "
         "{}.{}.{}, Random123, libpng {}, muParser {}, {}\n"
-        "stipple is under the MIT licence; this program, with FFTW in it, under the GPL, version 2 "
-        "or "
-        "later.\n",
+        "stipple is under the MIT licence; this program, with FFTW in it, under the GPL, "
+        "version 2 or later.\n",
         STIPPLE_VERSION, CLI11_VERSION, FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
         FMT_VERSION % 100, NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
         NLOHMANN_JSON_VERSION_PATCH, fftw_version, TBB_VERSION_MAJOR, TBB_VERSION_MINOR,

@@ -147,9 +147,14 @@ def warp(x, warp, **options):
     settings = settings_of(options)
     text = spec_text(warp)
     before = domain_of(x, None)
-    image = _each_set(x, lambda rows: _stipple.warp(text, settings, rows, before, False, how))
-    d = np.shape(x)[-1]
-    return with_meta(image, {"domain": _stipple.domain_of_warp(text, settings, d)})
+    domains = []
+
+    def image(rows):
+        points, domain = _stipple.warp(text, settings, rows, before, False, how)
+        domains.append(domain)
+        return points
+
+    return with_meta(_each_set(x, image), {"domain": domains[0]})
 
 
 def inverse(x, warp, **options):
@@ -160,8 +165,8 @@ def inverse(x, warp, **options):
     rows = as_rows(x, most=3)
     domain = domain_of(x, None)
     if domain == "unit-cube":
-        domain = _stipple.domain_of_warp(text, settings, rows.shape[-1])
-    return _each_set(rows, lambda one: _stipple.warp(text, settings, one, domain, True, how))
+        domain = _stipple.domain_of_images(text, settings, rows.shape[-1])
+    return _each_set(rows, lambda one: _stipple.warp(text, settings, one, domain, True, how)[0])
 
 
 def pdf(x, warp, **options):
@@ -169,10 +174,7 @@ def pdf(x, warp, **options):
     array (n,), or (sets, n); 0 outside the domain. Arguments as those of warp()."""
     settings = settings_of(options)
     text = spec_text(warp)
-    rows = as_rows(x, most=3)
-    d = rows.shape[-1]
-    domain = _stipple.domain_of_warp(text, settings, d)
-    return _each_set(rows, lambda one: _stipple.density(domain, text, settings, one, d))
+    return _each_set(x, lambda rows: _stipple.warp_density(text, settings, rows))
 
 
 def scramble(x, scramble, *, seed=1, start=0, **options):
@@ -230,7 +232,7 @@ def _integral_of(function, rows, domain, options):
     exact = options.pop("exact", None)
     if options:
         raise Error(f"{next(iter(options))}: a function as integrand takes `exact` only")
-    values = _values(function, rows) / _stipple.density(domain, "", [], rows, 0)
+    values = _values(function, rows) / _stipple.density(domain, rows)
     estimate = float(np.mean(values))
     found = {"estimate": estimate}
     if exact is not None:
@@ -252,22 +254,20 @@ def integrate(function, generator, n, d, *, replications=16, seed=1, confidence=
     function      of an array (m, d) of points; gives an array (m,) of values
     generator     name or spec of one whose seeds give independent sets: "sobol:scramble=owen"
     replications  sets of n points each, with seeds seed, seed + 1, ...; 2 or more
-    warp          a warp; values are divided by the density of its images
+    warp          one warp; values are divided by the density of its images
     options       of the generator; and threads, max_memory, progress
     """
     if replications < 2:
         raise Error("replications: an error needs two or more")
     estimates = []
+    before = None
     for r in range(replications):
-        x = generate(generator, n, d, seed=seed + r, **options)
-        weights = 1.0
-        if warp is not None:
-            x = globals()["warp"](x, warp)
-            weights = 1 / pdf(x, warp)
-        estimates.append(float(np.mean(_values(function, np.asarray(x)) * weights)))
-    if len(set(estimates)) == 1 and np.array_equal(x, generate(generator, n, d, seed=seed,
-                                                               **options)) and warp is None:
-        raise Error(f"{generator}: its points do not depend on the seed; scramble them")
+        x = generate(generator, n, d, seed=seed + r, warp=warp, **options)
+        if np.array_equal(x, before):
+            raise Error(f"{generator}: its points do not depend on the seed; scramble them")
+        before = x
+        values = _values(function, x)
+        estimates.append(float(np.mean(values if warp is None else values / pdf(x, warp))))
     rows = [("", "", d, n, r, "", value, "") for r, value in enumerate(estimates)]
     mean, low, high = _stipple.means(rows, confidence)[0][6:9]
     error = float(np.std(estimates, ddof=1) / np.sqrt(replications))

@@ -82,9 +82,8 @@ void Copula::inverse(std::span<Share> row) const {
 }
 
 bool Copula::joins(std::size_t i) const {
-    bool alone = !degrees_;
-    for (std::size_t j = 0; j < d_; ++j)
-        alone = alone && (j == i || (factor_[i * d_ + j] == 0 && factor_[j * d_ + i] == 0));
+    bool alone = !degrees_ && leaves(i);
+    for (std::size_t j = i + 1; j < d_; ++j) alone = alone && factor_[j * d_ + i] == 0;
     return !alone;
 }
 
