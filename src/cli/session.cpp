@@ -2,9 +2,6 @@
 #include "cli/session.hpp"
 
 #include <fmt/format.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 #include <pthread.h>
 #include <unistd.h>
 
@@ -19,13 +16,20 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 
+#ifdef __GLIBC_PREREQ
+#if __GLIBC_PREREQ(2, 33)
+#include <malloc.h>
+#define STIPPLE_MALLINFO
+#endif
+#endif
+
 namespace stipple::cli {
 namespace {
 
 /// Bytes that the program has allocated and not freed, libraries' included; 0 where the system's
 /// allocator does not tell.
 std::uint64_t allocated_bytes() {
-#ifdef __GLIBC__
+#ifdef STIPPLE_MALLINFO
     const auto heap = ::mallinfo2();
     return heap.uordblks + heap.hblkhd;  // small blocks of all arenas, and large ones
 #else
@@ -64,10 +68,14 @@ extern "C" void on_interrupt(int signal) {
     if (!pthread_equal(pthread_self(), main_thread)) pthread_kill(main_thread, signal);
 }
 
-/// Bytes of memory that this process may use: the machine's, or its control group's.
+/// Bytes of memory that this process may use: the machine's, or those of Linux's control group; more
+/// than any has where the system does not tell.
 double memory_of_machine() {
+    double bytes = 0x1p60;
+#ifdef _SC_PHYS_PAGES
     const double pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
-    double bytes = pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+    if (pages > 0) bytes = pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+#endif
     for (const char* file :
          {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
         std::ifstream in(file);

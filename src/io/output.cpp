@@ -69,6 +69,13 @@ std::optional<std::string_view> take_text(Spool& spool, NameBuffer& buffer) {
     return std::string_view(buffer.data(), size);
 }
 
+/// How to open a file without a name; 0 where the system has none.
+#ifdef O_TMPFILE
+constexpr int unnamed_file = O_TMPFILE;
+#else
+constexpr int unnamed_file = 0;
+#endif
+
 /// The name by which the system reaches an open file that has none.
 std::string name_of_descriptor(int descriptor) {
     return fmt::format("/proc/self/fd/{}", descriptor);
@@ -109,7 +116,7 @@ Output::Output(std::string path, std::stop_token stop)
     if (there && protected_file) fail(ErrorKind::io, "{}: the file is read-only", path_);
     target_ = follow_links(path_);
     // Nobody has checked that the new bytes may run with the rights of the owner or group.
-    const mode_t mode = there ? status.st_mode & 01777 : 0666;
+    const auto mode = static_cast<mode_t>(there ? status.st_mode & 01777 : 0666);
     open_beside(mode);
     if (!there) return;
     // The owner and what the mask took of the mode stay where that is allowed; the mode comes second,
@@ -146,9 +153,9 @@ void Output::open_beside(mode_t mode) {
 
 /// Makes a file without a name, where the file system has such files and lets them be named later.
 bool Output::open_unnamed(mode_t mode) {
-#ifdef O_TMPFILE
+    if (unnamed_file == 0) return false;
     const std::string folder = folder_of(target_);
-    const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode);
+    const int descriptor = ::open(folder.c_str(), unnamed_file | O_WRONLY | O_CLOEXEC, mode);
     if (descriptor < 0) return false;
     if (leaves_descriptors(descriptor) &&
         ::access(name_of_descriptor(descriptor).c_str(), F_OK) == 0) {
@@ -157,7 +164,6 @@ bool Output::open_unnamed(mode_t mode) {
         return true;
     }
     ::close(descriptor);
-#endif
     return false;
 }
 

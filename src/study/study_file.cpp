@@ -54,6 +54,15 @@ void cut_to(int descriptor, std::uint64_t size, const std::string& path) {
 /// Whether the bytes are on the disk. Some file systems have nothing to synchronise, and say so.
 bool is_synchronised(int result) { return result == 0 || errno == EINVAL || errno == ENOTSUP; }
 
+/// Writes what a file holds to the disk, where the system can do so without its times.
+int synchronise_bytes(int descriptor) {
+#if defined(_POSIX_SYNCHRONIZED_IO) && _POSIX_SYNCHRONIZED_IO > 0
+    return ::fdatasync(descriptor);
+#else
+    return ::fsync(descriptor);
+#endif
+}
+
 /// Has a file that is new on the disk, its name in the folder, too.
 void synchronise_new(int descriptor, const std::string& path) {
     if (!is_synchronised(::fsync(descriptor))) refuse(path);
@@ -182,7 +191,7 @@ StudyFile::~StudyFile() {
 void StudyFile::sync() {
     if (!dirty_.exchange(false)) return;
     for (const int descriptor : {output_, journal_})
-        if (descriptor >= 0 && !is_synchronised(::fdatasync(descriptor))) lost_ = errno;
+        if (descriptor >= 0 && !is_synchronised(synchronise_bytes(descriptor))) lost_ = errno;
 }
 
 void StudyFile::open_file(Start start, const RunContext& run) {
@@ -397,7 +406,7 @@ void StudyFile::take_over(const Sweep& smaller, const RunContext& run) {
     end_segment();  // the last unit is done again: nobody can tell whether it is whole
     synchronise_new(journal_, journal_of(path_));
     cut_to(output_, table_.head().size(), path_);
-    if (!is_synchronised(::fdatasync(output_))) refuse(path_);
+    if (!is_synchronised(synchronise_bytes(output_))) refuse(path_);
 }
 
 void StudyFile::keep(const Segment& segment, bool in_journal) {

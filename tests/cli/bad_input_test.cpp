@@ -13,6 +13,7 @@
 #include <map>
 
 #include "support/program.hpp"
+#include "support/system.hpp"
 
 namespace stipple::testing::bad_input_test {
 
@@ -74,6 +75,7 @@ TEST(BadInput, IsReportedByEveryVerbThatRanksDoNotShare) {
 
 // A full, a closed and a deaf standard error.
 TEST(BadInput, ExitCodesHoldWhereNobodyHearsTheMessage) {
+    SKIP_WITHOUT("/dev/full");
     const Sandbox box;
     for (const char* where : {"2>/dev/full", "2>&-", "2>&1 | true"}) {
         const Outcome outcome =
@@ -121,6 +123,8 @@ TEST(BadInput, OddInputsEndWithOneLineAndTheRightCode) {
 }
 
 TEST(BadInput, OddOutputsEndWithOneLineAndTheRightCode) {
+    SKIP_WITHOUT("/dev/full");
+    SKIP_WITHOUT("/proc/self/fd");
     const Sandbox box;
     put_odd_things(box);
     const auto written = [&](const std::string& name) {
@@ -274,6 +278,7 @@ TEST(BadInput, SpecsThatDoNotParseNameTheColumn) {
 }
 
 TEST(BadInput, TargetsThatCannotBeWritten) {
+    SKIP_WITHOUT("/dev/full");
     const Sandbox box;
     expect_refusal(box.run({"generate", "halton", "-o", "missing/p.csv"}), 4, "missing/p.csv");
     expect_refusal(box.run({"generate", "halton", "-o", "/dev/full"}), 4, "/dev/full");
@@ -308,6 +313,7 @@ TEST(BadInput, AFailureLeavesTheOldTargetAlone) {
 }
 
 TEST(BadInput, CtrlCLeavesNothingBehind) {
+    SKIP_WITHOUT("/proc/self/fd");
     const Sandbox box;
     const std::string start = "stipple generate random -n 1e10 -o p.csv 2>&1 & until [ " +
                               unnamed_bytes("$!") + " -gt 0 ]; do sleep 0.01; done; ";
@@ -462,6 +468,7 @@ TEST(BadInput, DomainsInAFileAreTheFilesFault) {
 }
 
 TEST(BadInput, FilesBesideAReportStayWhenItFails) {
+    SKIP_WITHOUT("/dev/full");
     const Sandbox box;
     box.write("p.csv", "x,y\n0.1,0.2\n0.4,0.3\n");
     box.write("g.npy", "mine");

@@ -262,8 +262,9 @@ TEST(Report, RefusesWhatItCannotReportOn) {
     expect_refusal(box.run({"report", "a.csv", "--check", "dispersion.method>1", "-o", "r.html"}),
                    2, "--check");
     expect_refusal(box.run({"report", "a.csv", "-o", "no/such/r.html"}), 4, "no/such");
-    expect_refusal(box.run({"report", "a.csv", "-o", "/proc/r.html"}), 4,
-                   "/proc/r.html: no file can be made in its folder");
+    if (std::filesystem::exists("/proc/self"))
+        expect_refusal(box.run({"report", "a.csv", "-o", "/proc/r.html"}), 4,
+                       "/proc/r.html: no file can be made in its folder");
     expect_refusal(box.run({"report", "a.csv", "--max-work", "0", "-o", "r.html"}), 2,
                    "--max-work");
     expect_refusal(box.run({"report", "a.csv", "--seed", "3", "-o", "r.html"}), 2, "--seed");

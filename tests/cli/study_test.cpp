@@ -12,6 +12,7 @@
 #include "places.hpp"
 #include "support/launcher.hpp"
 #include "support/program.hpp"
+#include "support/system.hpp"
 
 namespace stipple::testing::study_test {
 
@@ -411,6 +412,7 @@ TEST(Study, ResumeAfterAKillGivesTheSameBytes) {
 // Dear pieces are done first, and wait in the journal for their place: a study that is stopped
 // again and again must not lose them.
 TEST(Study, ResumeKeepsWhatWaitsInTheJournal) {
+    SKIP_WITHOUT("/proc/self/fd");
     const Sandbox box;
     const std::string study =
         "stipple study --generators 'random;poisson-disk' -n 2000..5000+300 --seeds 4 --analyze "

@@ -17,6 +17,7 @@
 #include "io/feed.hpp"
 #include "io/io_support.hpp"
 #include "io/output.hpp"
+#include "support/system.hpp"
 
 namespace stipple::testing::files_test {
 
@@ -64,7 +65,8 @@ TEST_F(Files, InputGivesTheBytes) {
     EXPECT_EQ(io::read_bytes(path("a"), {}), "bytes\n");
     put("empty", "");
     EXPECT_EQ(io::read_bytes(path("empty"), {}), "");
-    EXPECT_FALSE(io::read_bytes("/proc/self/status", {}).empty());  // says its size is 0
+    if (fs::exists("/proc/self/status"))  // says its size is 0
+        EXPECT_FALSE(io::read_bytes("/proc/self/status", {}).empty());
 }
 
 TEST_F(Files, InputSaysWhyNot) {
@@ -239,8 +241,10 @@ TEST_F(Files, OutputSaysWhyNot) {
     EXPECT_EQ(output_error("protected.csv/a"),
               "io: " + path("protected.csv/a") + ": a part of its path is not a folder");
     EXPECT_EQ(get("protected.csv"), "old");
-    EXPECT_TRUE(
-        error_of([] { io::Output{"/proc/stipple.csv"}; }).starts_with("io: /proc/stipple.csv: "));
+    if (fs::exists("/proc/self"))
+        EXPECT_TRUE(error_of([] {
+                        io::Output{"/proc/stipple.csv"};
+                    }).starts_with("io: /proc/stipple.csv: "));
     EXPECT_EQ(error_of([] { io::Output{""}; }),
               "io: the output's name is empty; expected a file's name");
     if (::geteuid() != 0) {
@@ -252,6 +256,7 @@ TEST_F(Files, OutputSaysWhyNot) {
 }
 
 TEST_F(Files, AFullDiskIsAnError) {
+    SKIP_WITHOUT("/dev/full");
     EXPECT_EQ(error_of([] {
                   io::Output out("/dev/full");
                   out.write("bytes");

@@ -28,8 +28,8 @@ Outcome execute(const std::vector<std::string>& words, const std::filesystem::pa
     std::ofstream(stdin_file, std::ios::binary) << input;
     std::array<int, 2> out{};
     std::array<int, 2> err{};
-    if (pipe2(out.data(), O_CLOEXEC) != 0 || pipe2(err.data(), O_CLOEXEC) != 0)
-        throw std::runtime_error("no pipes left");
+    if (pipe(out.data()) != 0 || pipe(err.data()) != 0) throw std::runtime_error("no pipes left");
+    for (const int end : {out[0], out[1], err[0], err[1]}) fcntl(end, F_SETFD, FD_CLOEXEC);
     std::vector<char*> argv;
     for (const auto& word : words) argv.push_back(const_cast<char*>(word.c_str()));
     argv.push_back(nullptr);

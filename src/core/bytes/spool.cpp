@@ -5,12 +5,23 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <filesystem>
 
 #include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
 
 namespace stipple {
+namespace {
+
+/// Whether /dev/fd/N opens a file anew, at its first byte, and does not copy descriptor N.
+#ifdef __linux__
+constexpr bool reopens = true;
+#else
+constexpr bool reopens = false;
+#endif
+
+}  // namespace
 
 Spool::Spool(Buffered buffered) : buffered_(buffered == Buffered::yes) {
     std::error_code none;
@@ -19,9 +30,16 @@ Spool::Spool(Buffered buffered) : buffered_(buffered == Buffered::yes) {
     std::string name = folder_ + "/stipple-XXXXXX";
     const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);
     if (descriptor < 0) refuse();
-    ::unlink(name.c_str());
+    if (reopens)
+        ::unlink(name.c_str());
+    else
+        name_ = name;
     file_.reset(::fdopen(descriptor, "w+"));
     if (file_ == nullptr) refuse();
+}
+
+Spool::~Spool() {
+    if (!name_.empty()) ::unlink(name_.c_str());
 }
 
 void Spool::write(std::string_view bytes) {
@@ -45,7 +63,9 @@ std::size_t Spool::read(std::span<char> bytes) {
     return got;
 }
 
-std::string Spool::path() const { return fmt::format("/dev/fd/{}", ::fileno(file_.get())); }
+std::string Spool::path() const {
+    return reopens ? fmt::format("/dev/fd/{}", ::fileno(file_.get())) : name_;
+}
 
 void Spool::refuse() const { refuse_file("a temporary file in " + folder_, errno); }
 

@@ -11,13 +11,17 @@
 
 namespace stipple {
 
-/// Bytes that are read in the order in which they were written: a file without a name in the folder
-/// of temporary files (TMPDIR), which goes with the process. @throws Error(io) where it has no room
+/// Bytes that are read in the order in which they were written: a file in the folder of temporary
+/// files (TMPDIR); where the system can, one without a name, which goes with the process.
+/// @throws Error(io) where it has no room
 class Spool {
   public:
     /// Without a buffer, what was written can be read though what came later had no room.
     enum class Buffered { no, yes };
     explicit Spool(Buffered buffered = Buffered::yes);
+    Spool(const Spool&) = delete;
+    Spool& operator=(const Spool&) = delete;
+    ~Spool();
 
     void write(std::string_view bytes);
 
@@ -38,6 +42,7 @@ class Spool {
 
     bool buffered_;
     std::string folder_;
+    std::string name_ = {};  ///< empty: it has none
     std::unique_ptr<std::FILE, Close> file_;
 };
 

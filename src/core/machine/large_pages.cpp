@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "core/machine/large_pages.hpp"
 
-#ifdef __linux__
 #include <sys/mman.h>
 #include <unistd.h>
 
 #include <cstdint>
-#endif
 
 namespace stipple {
 
 void ask_for_large_pages([[maybe_unused]] void* room, [[maybe_unused]] std::size_t bytes) {
-#ifdef __linux__
+#ifdef MADV_HUGEPAGE
     constexpr std::size_t large = std::size_t{1} << 22;  // two large pages of x86-64
     if (bytes < large) return;
     const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+//
+// Tests that need what only some systems have: /dev/full, which is always full, and /proc are Linux's.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+/// Skips a test where there is no such file.
+#define SKIP_WITHOUT(file) \
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "this system has no " << (file)
