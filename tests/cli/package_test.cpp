@@ -70,9 +70,10 @@ TEST(Package, OfDebianAndAsArchiveAreWholeAndRun) {
         EXPECT_THAT(depends("stipple"), HasSubstr(library));
     for (const char* needed : {"libfftw3-dev", "libfmt-dev", "libtbb-dev", "libpng-dev"})
         EXPECT_THAT(depends("libstipple-dev"), HasSubstr(needed));
-    if (box.exists("deb/usr/lib/python3"))
+    if (box.exists("deb/usr/lib/python3")) {
         for (const char* needed : {"python3 (<< ", "python3-numpy", "libfftw3"})
             EXPECT_THAT(depends("python3-stipple"), HasSubstr(needed));
+    }
     EXPECT_THAT(good(box.shell("dpkg-deb --contents made/stipple_*.deb")),
                 HasSubstr("-rwxr-xr-x root/root"));
     if (box.shell("test $(id -u) = 0").code == 0) expect_that_dpkg_takes_it(box);
