@@ -191,8 +191,7 @@ std::vector<Position> thinned(const std::vector<Position>& vertices) {
             first, last, [](const Position& a, const Position& b) { return a.y < b.y; });
         auto kept = std::vector{first, low, high, last - 1};
         std::ranges::sort(kept);
-        const auto repeated = std::ranges::unique(kept);
-        kept.erase(repeated.begin(), repeated.end());
+        kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
         for (const auto it : kept) out.push_back(*it);
         i = end;
     }

@@ -622,8 +622,9 @@ Projected project(const Box& box, std::span<const double> point) {
     constexpr double side_sine = 0.5;
     constexpr double rise_cosine = 0.9063077870366499;
     constexpr double rise_sine = 0.42261826174069944;
-    const auto [shortest, longest] = std::minmax({box.extent(0), box.extent(1), box.extent(2)});
-    const bool alike = longest <= most_unlike * shortest;
+    const auto extents = std::minmax({box.extent(0), box.extent(1), box.extent(2)});
+    const double longest = extents.second;
+    const bool alike = longest <= most_unlike * extents.first;
     const auto share = [&](std::size_t k) {
         return (point[k] - box.low[k]) / (alike ? longest : box.extent(k));
     };

@@ -34,14 +34,7 @@ class Report {
     /// Adds a value under `name`: a flag, a number, a text or any other item. An entry that is there
     /// already is replaced. A unit may be named.
     template <class T>
-    Report& add(std::string_view name, T value, std::string_view unit = {}) {
-        if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
-            return put(name, static_cast<std::int64_t>(value), unit);
-        else if constexpr (std::is_convertible_v<T, std::string>)
-            return put(name, std::string(std::move(value)), unit);
-        else
-            return put(name, std::move(value), unit);
-    }
+    Report& add(std::string_view name, T value, std::string_view unit = {});
 
     [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
     [[nodiscard]] std::vector<Entry>& entries() { return entries_; }
@@ -78,5 +71,15 @@ struct Report::Entry {
     std::string unit;
     bool operator==(const Entry&) const = default;
 };
+
+template <class T>
+Report& Report::add(std::string_view name, T value, std::string_view unit) {
+    if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
+        return put(name, static_cast<std::int64_t>(value), unit);
+    else if constexpr (std::is_convertible_v<T, std::string>)
+        return put(name, std::string(std::move(value)), unit);
+    else
+        return put(name, std::move(value), unit);
+}
 
 }  // namespace stipple

@@ -56,8 +56,7 @@ class ConfigReader {
         if (!root.is_object()) refuse("$", "expected an object, {\"generators\": ...}");
         for (const auto& [name, value] : root.items()) {
             if (std::ranges::find(remarks, name) != remarks.end()) continue;
-            const auto* key =
-                std::ranges::find_if(config_keys, [&](const Key& k) { return k.name == name; });
+            const auto* key = std::ranges::find(config_keys, name, &Key::name);
             if (key == config_keys.end())
                 refuse(path("$", name), "there is no such key", suggest(name, study_config_keys()));
             read_key(*key, value, path("$", name));

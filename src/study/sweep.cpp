@@ -88,7 +88,8 @@ bool names_result(const std::string& result, std::string_view wanted) {
                          part.find_first_of("abcdefghijklmnopqrstuvwxyz") == std::string_view::npos;
         return any || part == word;
     };
-    return !std::ranges::search(parts, asked, alike).empty();
+    return std::search(parts.begin(), parts.end(), asked.begin(), asked.end(), alike) !=
+           parts.end();
 }
 
 Sweep::Sweep(SweepRequest request) : request_(std::move(request)) {

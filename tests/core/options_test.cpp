@@ -150,10 +150,10 @@ TEST(Spec, BracketsNest) {
     EXPECT_THROW(parse_spec("mixture:components=[cone:axis=[1,0,0]"), Error);
 
     constexpr Param<Text> parts{{.name = "parts", .fallback = "none", .help = "Parts"}};
-    const Schema schema(parts);
-    Values values = schema.defaults();
+    const Schema of_parts(parts);
+    Values values = of_parts.defaults();
     values.put("parts", std::string("a:b=[c]"));
-    EXPECT_EQ(format_spec("unit", values, schema), "unit:parts=[a:b=[c]]");
+    EXPECT_EQ(format_spec("unit", values, of_parts), "unit:parts=[a:b=[c]]");
     EXPECT_EQ(parse_spec("unit:parts=[a:b=[c]]").values(schema), values);
 }
 

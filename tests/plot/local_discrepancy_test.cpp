@@ -164,18 +164,17 @@ TEST(LocalDiscrepancy, ADrawingHasTheImageThePointsAndBothBoxes) {
     const Drawing drawing = drawn(points);
     const auto images = shapes_of<PixelImage>(drawing);
     ASSERT_EQ(images.size(), 2U);  // and the bar of colours
-    const auto& [area, columns, rows, pixels] = *images[0];
-    EXPECT_EQ(columns, static_cast<std::size_t>(2 * area.width));
+    const Area area = images[0]->area;
+    EXPECT_EQ(images[0]->columns, static_cast<std::size_t>(2 * area.width));
     ASSERT_EQ(shapes_of<Disks>(drawing).size(), 1U);
     EXPECT_EQ(shapes_of<Disks>(drawing)[0]->centres.size(), 40U);
     // The upper right corner of the outlines, solid and dashed.
-    for (const auto& [box, dash] :
-         {std::pair{worst.closed, Dash::none}, {worst.open, Dash::dashed}})
+    for (const auto& box : {std::pair{worst.closed, Dash::none}, {worst.open, Dash::dashed}})
         EXPECT_TRUE(std::ranges::any_of(shapes_of<Line>(drawing), [&](const Line* line) {
-            return line->vertices.size() == 5 && line->dash == dash &&
-                   std::abs(line->vertices[2].x - area.left - box->corner.x * area.width) < 1e-9 &&
-                   std::abs(line->vertices[2].y - area.bottom() + box->corner.y * area.height) <
-                       1e-9;
+            const auto corner = box.first->corner;
+            return line->vertices.size() == 5 && line->dash == box.second &&
+                   std::abs(line->vertices[2].x - area.left - corner.x * area.width) < 1e-9 &&
+                   std::abs(line->vertices[2].y - area.bottom() + corner.y * area.height) < 1e-9;
         }));
     const std::string svg = svg_bytes(drawing, 1);
     EXPECT_THAT(svg, HasSubstr(text_of(*worst.closed, 4)));

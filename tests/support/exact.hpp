@@ -3,10 +3,6 @@
 // Exact arithmetic for oracles: doubles as fractions of whole numbers.
 #pragma once
 
-// GCC 12 takes the small-number storage of these numbers for uninitialised once it has inlined
-// enough; it decides so at the end of the file, hence no pop.
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 

@@ -179,8 +179,7 @@ class Search {
                      found.along.push_back(along);
                  });
         std::ranges::sort(found.along, {}, combination_number);
-        const auto again = std::ranges::unique(found.along);
-        found.along.erase(again.begin(), again.end());
+        found.along.erase(std::unique(found.along.begin(), found.along.end()), found.along.end());
         return found;
     }
 

@@ -102,8 +102,8 @@ class AberrationSearch {
                 std::popcount(column) > 1)
                 candidates_.push_back(column);
         // Odd sets have no words of three; what is left out last are small subspaces.
-        std::ranges::stable_partition(candidates_,
-                                      [](auto column) { return std::popcount(column) % 2 != 0; });
+        std::stable_partition(candidates_.begin(), candidates_.end(),
+                              [](auto column) { return std::popcount(column) % 2 != 0; });
         for (std::size_t j = 0; j < basic; ++j) {
             design_.basic.push_back(j);
             design_.columns.push_back(bit(j));

@@ -320,9 +320,8 @@ class BoxObjective final : public Objective {
             if (a.value != b.value) return a.value > b.value;
             return a.open != b.open ? a.open : a.axes < b.axes;
         });
-        const auto [first, last] = std::ranges::unique(
-            pool_, [](const PoolBox& a, const PoolBox& b) { return a.same(b); });
-        pool_.erase(first, last);
+        const auto same = [](const PoolBox& a, const PoolBox& b) { return a.same(b); };
+        pool_.erase(std::unique(pool_.begin(), pool_.end(), same), pool_.end());
         const double least = pool_.front().value * std::max(1 - reach / sharpness, 0.2);
         while (pool_.size() > 1 && (pool_.size() > most_boxes || pool_.back().value < least))
             pool_.pop_back();

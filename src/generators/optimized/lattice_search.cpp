@@ -21,11 +21,10 @@ std::vector<double> korobov_rows(std::size_t count, std::size_t dimension, std::
 OptimizedRows least_lattice(std::size_t count, std::size_t dimension,
                             const std::function<std::unique_ptr<Objective>()>& objective,
                             const std::string& words, const RunContext& run) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     constexpr std::size_t together = 16;
     const RunContext inner = until_best_is_wanted(silent(run));
     const std::size_t last = count / 2 + 1;
-    OptimizedRows best{{}, infinity};
+    OptimizedRows best{{}, std::numeric_limits<double>::infinity()};
     const auto named = objective();
     for (std::size_t first = 1; first <= last && (first == 1 || !run.best_is_wanted());
          first += together) {

@@ -219,8 +219,8 @@ class OrderSearch {
     /// In order of their levels, each once.
     static void keep_best(std::vector<Descent>& all, std::size_t most) {
         std::ranges::stable_sort(all, {}, &Descent::ranks);
-        const auto [first, last] = std::ranges::unique(all, {}, &Descent::ranks);
-        all.erase(first, last);
+        const auto same = [](const Descent& a, const Descent& b) { return a.ranks == b.ranks; };
+        all.erase(std::unique(all.begin(), all.end(), same), all.end());
         std::ranges::stable_sort(all, better);
         if (all.size() > most) all.resize(most);
     }

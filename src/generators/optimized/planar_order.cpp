@@ -108,13 +108,12 @@ void PlanarOrder::exchange(const Swap& swap) {
 
 /// Whether the swap changes the count of a box on the cycle.
 bool PlanarOrder::is_critical(const Swap& swap) const {
-    const auto [by_x, p] = swap;
-    const auto& along = by_x ? rank_ : place_;
-    const auto [low, high] = std::minmax(along[p], along[p + 1]);
+    const auto& along = swap.by_x ? rank_ : place_;
+    const auto [low, high] = std::minmax(along[swap.at], along[swap.at + 1]);
     return std::ranges::any_of(cycle_, [&, first = low, last = high](const Bound& bound) {
-        const std::size_t here = by_x ? bound.i : bound.j;
-        const std::size_t there = by_x ? bound.j : bound.i;
-        return here == p && there >= first && there < last;
+        const std::size_t here = swap.by_x ? bound.i : bound.j;
+        const std::size_t there = swap.by_x ? bound.j : bound.i;
+        return here == swap.at && there >= first && there < last;
     });
 }
 
@@ -221,9 +220,9 @@ bool PlanarOrder::relax_y(std::size_t j, Node node) {
 
 /// Moves coordinates until all bounds hold.
 PlanarOrder::Outcome PlanarOrder::relax() {
-    constexpr std::uint64_t patience = 1024;
+    constexpr std::uint64_t turns_at_a_time = 1024;
     while (first_ != last_) {
-        if (++turns_ % patience == 0) run_.check_stop();
+        if (++turns_ % turns_at_a_time == 0) run_.check_stop();
         const Node node = pop();
         const bool closed = node == 0    ? relax_x(n_ + 1, 0) || relax_y(n_ + 1, 0)
                             : node <= n_ ? relax_x(node, node)

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include <fmt/format.h>
+
 #include "core/machine/wide.hpp"
 #include "core/parallel.hpp"
 #include "core/rng.hpp"

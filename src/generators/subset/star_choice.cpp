@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"

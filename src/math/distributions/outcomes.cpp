@@ -184,7 +184,7 @@ MarginalPtr empirical_law(std::vector<double> values) {
         else
             ++counts.back();
     }
-    values.erase(std::ranges::unique(values).begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
     return std::make_shared<Outcomes>("empirical", std::move(values), std::move(counts));
 }
 

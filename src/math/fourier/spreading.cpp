@@ -206,9 +206,9 @@ void Spreader::sort(std::span<const double> rows, const RunContext& run) {
 void Spreader::spread_colour(std::size_t colour, std::size_t first, std::size_t last,
                              const RunContext& run) {
     // Enough blocks for all threads, but none with less work than handing it over is.
-    const std::size_t block =
+    const std::size_t tiles_per_block =
         std::max(1 + (last - first) / 128, 1024 * tiling_->count() / (waits_ + 1));
-    for_each_block(silent(run), last - first, block, [&](const Block& b) {
+    for_each_block(silent(run), last - first, tiles_per_block, [&](const Block& b) {
         GridCells buffer(tiling_->buffer_size());
         for (std::size_t i = b.first; i < b.last; ++i)
             spread_tile(tiling_->tile(colour, first + i), buffer.get(), run);

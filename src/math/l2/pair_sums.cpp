@@ -347,8 +347,8 @@ void halve(std::span<std::size_t> order, const PointSet& points, const Axes& axe
     std::size_t middle = block_count(order.size(), block_width) / 2 * block_width;
     if (sides && depth < axes.places.size()) {
         const auto upper =
-            std::ranges::partition(order, [&](std::size_t i) { return at(i) < 0.5; });
-        middle = order.size() - upper.size();
+            std::partition(order.begin(), order.end(), [&](std::size_t i) { return at(i) < 0.5; });
+        middle = static_cast<std::size_t>(upper - order.begin());
     } else {
         std::ranges::nth_element(
             order, order.begin() + static_cast<std::ptrdiff_t>(middle),

@@ -207,14 +207,14 @@ void Delaunay::relink(std::uint32_t t, std::uint32_t from, std::uint32_t to) {
 }
 
 /// Walks from the last triangle towards the place. @param on_edge the corner opposite to an edge on
-/// which it is, or -1
-std::uint32_t Delaunay::locate(const double* place, int& on_edge) const {
+/// which it is, or 3
+std::uint32_t Delaunay::locate(const double* place, std::size_t& on_edge) const {
     std::uint32_t t = last_;
-    for (int turn = 0;; turn = after(turn)) {
+    for (std::size_t turn = 0;; turn = after(turn)) {
         const Triangle& triangle = triangles_[t];
         bool found = true;
-        on_edge = -1;
-        for (int i = 0, k = turn; i < 3 && found; ++i, k = after(k)) {
+        on_edge = 3;
+        for (std::size_t i = 0, k = turn; i < 3 && found; ++i, k = after(k)) {
             const int side = side_of_line(at(triangle.corners[after(k)]),
                                           at(triangle.corners[before(k)]), place);
             if (side == 0) on_edge = k;
@@ -227,11 +227,11 @@ std::uint32_t Delaunay::locate(const double* place, int& on_edge) const {
 }
 
 void Delaunay::insert(std::uint32_t point) {
-    int on_edge = -1;
+    std::size_t on_edge = 3;
     const std::uint32_t t = locate(at(point), on_edge);
     for (const std::uint32_t corner : triangles_[t].corners)
         if (at(corner)[0] == at(point)[0] && at(corner)[1] == at(point)[1]) return;
-    if (on_edge < 0)
+    if (on_edge == 3)
         split_triangle(t, point);
     else
         split_edge(t, on_edge, point);
@@ -252,14 +252,14 @@ void Delaunay::split_triangle(std::uint32_t t, std::uint32_t point) {
 }
 
 /// The point is on the edge opposite to corner k: two triangles become four.
-void Delaunay::split_edge(std::uint32_t t, int k, std::uint32_t point) {
+void Delaunay::split_edge(std::uint32_t t, std::size_t k, std::uint32_t point) {
     const auto [corners, across] = triangles_[t];
     const std::uint32_t s = across[k];
     const auto [corners_s, across_s] = triangles_[s];
     const std::uint32_t a = corners[k];
     const std::uint32_t b = corners[after(k)];
     const std::uint32_t c = corners[before(k)];
-    const int m = 3 - corner_of(triangles_[s], b) - corner_of(triangles_[s], c);
+    const std::size_t m = 3 - corner_of(triangles_[s], b) - corner_of(triangles_[s], c);
     const std::uint32_t d = corners_s[m];
     const auto u = static_cast<std::uint32_t>(triangles_.size());
     triangles_.resize(u + 2);
@@ -281,14 +281,14 @@ void Delaunay::make_delaunay(std::uint32_t point) {
     while (!unsure_.empty()) {
         const std::uint32_t t = unsure_.back();
         unsure_.pop_back();
-        const int k = corner_of(triangles_[t], point);
+        const std::size_t k = corner_of(triangles_[t], point);
         const std::uint32_t s = triangles_[t].across[k];
         if (s == none) continue;
         const auto [corners, across] = triangles_[t];
         const auto [corners_s, across_s] = triangles_[s];
         const std::uint32_t b = corners[after(k)];
         const std::uint32_t c = corners[before(k)];
-        const int m = 3 - corner_of(triangles_[s], b) - corner_of(triangles_[s], c);
+        const std::size_t m = 3 - corner_of(triangles_[s], b) - corner_of(triangles_[s], c);
         const std::uint32_t d = corners_s[m];
         if (!surely_inside(at(point), at(b), at(c), at(d))) continue;
         const std::uint32_t beyond_ca = across[after(k)];

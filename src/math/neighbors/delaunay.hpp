@@ -42,7 +42,7 @@ class Delaunay {
         if (first == none) return;
         for (std::uint32_t t = first;;) {
             const Triangle& triangle = triangles_[t];
-            const int k = corner_of(triangle, center);
+            const std::size_t k = corner_of(triangle, center);
             const std::uint32_t next = triangle.corners[after(k)];
             if (next >= outer) take(static_cast<std::size_t>(next - outer));
             t = triangle.across[after(k)];
@@ -60,18 +60,18 @@ class Delaunay {
         std::array<std::uint32_t, 3> across;
     };
 
-    static int after(int k) { return k < 2 ? k + 1 : 0; }
-    static int before(int k) { return k > 0 ? k - 1 : 2; }
-    static int corner_of(const Triangle& triangle, std::uint32_t point) {
+    static std::size_t after(std::size_t k) { return k < 2 ? k + 1 : 0; }
+    static std::size_t before(std::size_t k) { return k > 0 ? k - 1 : 2; }
+    static std::size_t corner_of(const Triangle& triangle, std::uint32_t point) {
         return triangle.corners[0] == point ? 0 : triangle.corners[1] == point ? 1 : 2;
     }
 
     [[nodiscard]] const double* at(std::uint32_t point) const { return &places_[2 * point]; }
     void start(std::span<const double> rows);
     void insert(std::uint32_t point);
-    [[nodiscard]] std::uint32_t locate(const double* place, int& on_edge) const;
+    [[nodiscard]] std::uint32_t locate(const double* place, std::size_t& on_edge) const;
     void split_triangle(std::uint32_t t, std::uint32_t point);
-    void split_edge(std::uint32_t t, int k, std::uint32_t point);
+    void split_edge(std::uint32_t t, std::size_t k, std::uint32_t point);
     void set(std::uint32_t t, const Triangle& triangle);
     void relink(std::uint32_t t, std::uint32_t from, std::uint32_t to);
     void make_delaunay(std::uint32_t point);

@@ -108,7 +108,7 @@ void VoronoiCell::enclose(std::vector<CellCorner>& planes) {
     // The nearest plane is sure to have an edge.
     const auto nearest = std::ranges::max_element(
         planes, {}, [](const CellCorner& plane) { return dot(plane.at, plane.at); });
-    std::ranges::rotate(planes, nearest);
+    std::rotate(planes.begin(), nearest, planes.end());
     spare_.clear();
     const auto drop_hidden_before = [&](const Vec2& next) {
         while (spare_.size() > 1 && is_hidden(spare_[spare_.size() - 2].at, spare_.back().at, next))

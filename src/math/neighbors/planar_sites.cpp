@@ -103,7 +103,7 @@ PlanarSites planar_sites(std::span<const double> rows, const Box& box, bool toru
             cell.push_back({sorted[s][0], sorted[s][1], sorted.original(s)});
         std::ranges::sort(cell);
         const auto same = [](const Place& a, const Place& b) { return a.x == b.x && a.y == b.y; };
-        cell.erase(std::ranges::unique(cell, same).begin(), cell.end());
+        cell.erase(std::unique(cell.begin(), cell.end(), same), cell.end());
         for (const Place& place : cell) {
             sites.rows.insert(sites.rows.end(), {place.x, place.y});
             sites.points.push_back(place.point);

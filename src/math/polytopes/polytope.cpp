@@ -175,7 +175,9 @@ void Polytope::add_group(const std::vector<std::size_t>& coordinates,
 
 /// And the volume, and the bounding box.
 void Polytope::take_moments(const Group& group) {
-    const auto& [coordinates, frame, tree, planes, rounding] = group;
+    const auto& coordinates = group.coordinates;
+    const Box& frame = group.frame;
+    const FaceTree& tree = group.tree;
     const Moments own = tree.moments();
     const std::size_t size = coordinates.size();
     volume_ *= tree.volume();

@@ -52,8 +52,7 @@ LineRange range_of(const Values& options) {
         fail(ErrorKind::usage, "--range: '{}' is not a,b with a < b", format_value(ends));
     LineRange out{ends[0], ends[1], options[breaks]};
     std::ranges::sort(out.breaks);
-    const auto repeated = std::ranges::unique(out.breaks);
-    out.breaks.erase(repeated.begin(), repeated.end());
+    out.breaks.erase(std::unique(out.breaks.begin(), out.breaks.end()), out.breaks.end());
     for (const double x : out.breaks)
         if (!(x > out.low && x < out.high))
             fail(ErrorKind::usage, "--breaks: {} is not between {} and {}", x, out.low, out.high);

@@ -456,7 +456,7 @@ TEST(StarDiscrepancy, DoesNotDependOnTheOrderOfTheAxes) {
         std::vector<std::size_t> axes(d);
         std::iota(axes.begin(), axes.end(), std::size_t{0});
         for (std::size_t turn = 1; turn < d; ++turn) {
-            std::ranges::rotate(axes, axes.begin() + 1);
+            std::rotate(axes.begin(), axes.begin() + 1, axes.end());
             PointSet q(p.count(), d);
             for (std::size_t i = 0; i < p.count(); ++i)
                 for (std::size_t k = 0; k < d; ++k) q[i][k] = p[i][axes[k]];

@@ -20,7 +20,7 @@ std::vector<Fraction> golden_powers(unsigned d) {
         const Whole g = (low + high) / 2;
         Whole value = (Whole(1) << bits) + g;
         for (unsigned k = 0; k < d; ++k) value = (value * g) >> bits;
-        (value >> bits > 0 ? high : low) = g;
+        ((value >> bits) > 0 ? high : low) = g;
     }
     std::vector<Fraction> powers;
     Whole power = low;

@@ -84,8 +84,8 @@ void expect_same_edges(const Edges& found, const Edges& oracle, double tolerance
     Edges all = found;
     all.insert(oracle.begin(), oracle.end());
     for (const auto& [pair, length] : all) {
-        const auto length_in = [&](const Edges& edges) {
-            const auto at = edges.find(pair);
+        const auto length_in = [&, &wanted = pair](const Edges& edges) {
+            const auto at = edges.find(wanted);
             return at == edges.end() ? 0 : at->second;
         };
         ASSERT_NEAR(length_in(found), length_in(oracle), tolerance)

@@ -122,8 +122,8 @@ TEST(Reordering, GivesTheRankCorrelationsThatAreAskedFor) {
         double by_copula = 0;
         double by_order = 0;
         for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-            const auto set = [&](const char* generator) {
-                return numbers_of(make(generator, points(n, 3), {}, {.seed = seed}));
+            const auto set = [seed, count = n](const char* generator) {
+                return numbers_of(make(generator, points(count, 3), {}, {.seed = seed}));
             };
             const auto design = reordered(set("latin-hypercube"), asked);
             EXPECT_LT(worst(design), tolerance) << n << " points, seed " << seed;

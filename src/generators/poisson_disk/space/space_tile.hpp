@@ -35,7 +35,7 @@ class SpaceBits {
 
     void set(const TileCell<3>& halo_cell) {
         const auto x = static_cast<std::size_t>(halo_cell[0]);
-        const auto byte = static_cast<std::size_t>(halo_cell[2] * across + halo_cell[1]);
+        const auto byte = static_cast<std::size_t>(halo_cell[2] * space_across + halo_cell[1]);
         const auto bit = static_cast<std::uint8_t>(1U << (x % 4));
         if (x < space_side) bytes_[x / 4 * strip + byte] |= bit;
         if (x >= 4) bytes_[(x / 4 - 1) * strip + byte] |= static_cast<std::uint8_t>(bit << 4);
@@ -45,7 +45,7 @@ class SpaceBits {
     [[nodiscard]] std::uint64_t layer(const TileCell<3>& cell, std::size_t z) const {
         std::uint64_t word;
         const auto x = static_cast<std::size_t>(cell[0]);
-        const auto byte = static_cast<std::size_t>(cell[2] * across + cell[1]);
+        const auto byte = static_cast<std::size_t>(cell[2] * space_across + cell[1]);
         std::memcpy(&word, &bytes_[x / 4 * strip + byte + across * z], sizeof word);
         return word >> (x % 4) & 0x1f1f1f1f1fU;
     }

@@ -61,8 +61,7 @@ RadiusField::RadiusField(const Box& box, const FieldSource& source, const RunCon
         if (source.lengths) add(k == 0 ? source.lengths->width : source.lengths->height);
         if (source.mask) add(k == 0 ? source.mask->width() : source.mask->height());
         std::ranges::sort(lines_[k]);
-        const auto rest = std::ranges::unique(lines_[k]);
-        lines_[k].erase(rest.begin(), rest.end());
+        lines_[k].erase(std::unique(lines_[k].begin(), lines_[k].end()), lines_[k].end());
         most[k] = lines_[k].size() - 1;
     }
     const double cells = static_cast<double>(most[0]) * static_cast<double>(most[1]);
@@ -75,7 +74,8 @@ RadiusField::RadiusField(const Box& box, const FieldSource& source, const RunCon
 
 void RadiusField::fill(const Box& box, const FieldSource& source, const RunContext& run) {
     Level& cells = levels_[0];
-    const auto [width, height] = cells.count;
+    const std::size_t width = cells.count[0];
+    const std::size_t height = cells.count[1];
     cells.least.assign(width * height, 1);
     const auto for_all = [&](const Seen& seen, const auto& work) {
         for (std::size_t j = 0; j < height; ++j) {

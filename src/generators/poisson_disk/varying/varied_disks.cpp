@@ -6,6 +6,7 @@
 #include <boost/container/static_vector.hpp>
 #include <deque>
 #include <ranges>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -185,7 +186,7 @@ class VariedSampler {
     }
 
     [[nodiscard]] bool blocked(const Disk& disk, std::size_t first) const {
-        return std::ranges::any_of(near_ | std::views::drop(first),
+        return std::ranges::any_of(std::span(near_).subspan(first),
                                    [&](const Disk& other) { return index_.too_near(disk, other); });
     }
 

@@ -369,14 +369,14 @@ class CellBounder {
 
     /// Takes the ends of an axis without a candidate whose term is at most this; false if none is left.
     bool cut_ends(std::size_t k, double most, const Cell& seen, Cell& cell) {
-        const auto& [size, ranks, counts] = candidates_[k];
+        const Candidates& candidates = candidates_[k];
         const auto rank = [&](std::size_t i) {
-            return seen.lo[k] + static_cast<std::uint32_t>(ranks[i]);
+            return seen.lo[k] + static_cast<std::uint32_t>(candidates.ranks[i]);
         };
         const auto out = [&](std::size_t i) { return !(terms_[k][i] <= most); };
         std::size_t first = 0;
-        while (first < size && (rank(first) < cell.lo[k] || out(first))) ++first;
-        std::size_t last = size;
+        while (first < candidates.size && (rank(first) < cell.lo[k] || out(first))) ++first;
+        std::size_t last = candidates.size;
         while (last > first && (rank(last - 1) > cell.hi[k] || out(last - 1))) --last;
         if (first == last) return false;
         cell.lo[k] = rank(first);

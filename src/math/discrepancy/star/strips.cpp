@@ -343,7 +343,8 @@ class Sweep {
         of_strip_.assign(1, {0, best_a});
         if (const std::size_t size = size_of(plane_.strips, strip_); size > 1)
             gather(strip_weight_.data(), strip_points_.data(), size, y, best_a - room, of_strip_);
-        const auto [first, last] = std::ranges::equal_range(entering_, u, {}, &Entering::block);
+        const auto first = std::ranges::lower_bound(entering_, u, {}, &Entering::block);
+        const auto last = std::ranges::upper_bound(entering_, u, {}, &Entering::block);
         const auto corner_points = static_cast<std::uint64_t>(std::abs(signed_points));
         const double least = best_a + best_j - room;
         for (const auto& [a, height_a] : of_strip_)
