@@ -33,15 +33,22 @@ endforeach()
 install(FILES ${words}/stipple.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
 
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE licence)
+if(STIPPLE_FFT STREQUAL fftw)
+  set(fft_licence
+"Binaries are linked with FFTW, which is under the GNU General Public License, version 2 or later: as a
+whole, a binary is under that licence, which Debian systems have in /usr/share/common-licenses/GPL-2.")
+else()
+  file(READ ${POCKETFFT_INCLUDE_DIR}/pocketfft_hdronly.h fft_licence LIMIT 4000)
+  string(REGEX REPLACE "^[^*]*[*]+\n|[*]/.*" "" fft_licence "${fft_licence}")
+  string(PREPEND fft_licence "So is this binary, which has code of pocketfft in it:\n\n")
+endif()
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/copyright @ONLY CONTENT
 "stipple ${PROJECT_VERSION}
 
 The sources are under this licence:
 
 @licence@
-Binaries are linked with FFTW, which is under the GNU General Public License, version 2 or later: as a
-whole, a binary is under that licence, which Debian systems have in
-/usr/share/common-licenses/GPL-2.
+@fft_licence@
 ")
 install(FILES ${PROJECT_BINARY_DIR}/copyright ${words}/changelog.gz ${PROJECT_SOURCE_DIR}/README.md
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
@@ -109,7 +116,10 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 # What stippleConfig.cmake finds and a static library is linked with.
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-    "libfftw3-dev, libfmt-dev, libmuparser-dev, libpng-dev, libtbb-dev, libzstd-dev, zlib1g-dev, pkgconf")
+    "libfmt-dev, libmuparser-dev, libpng-dev, libtbb-dev, libzstd-dev, zlib1g-dev, pkgconf")
+if(STIPPLE_FFT STREQUAL fftw)
+  string(APPEND CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS ", libfftw3-dev")
+endif()
 if(MPI_CXX_FOUND)
   string(APPEND CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS ", libopenmpi-dev")
 endif()

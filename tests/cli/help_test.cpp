@@ -12,6 +12,7 @@
 #include "cli/parsing/catalog.hpp"
 #include "cli/terminal.hpp"
 #include "core/text.hpp"
+#include "math/fourier/fft.hpp"
 #include "support/program.hpp"
 
 namespace stipple::testing::help_test {
@@ -87,10 +88,13 @@ TEST(Help, VersionNamesTheLibraries) {
     const Sandbox box;
     const Outcome outcome = box.run({"--version"});
     EXPECT_TRUE(outcome.out.starts_with("stipple ")) << outcome.out;
-    for (const char* name : {"CLI11", "fmt", "nlohmann-json", "fftw", "oneTBB", "Boost",
-                             "Random123", "libpng", "muParser"})
+    for (const char* name :
+         {"CLI11", "fmt", "nlohmann-json", "oneTBB", "Boost", "Random123", "libpng", "muParser"})
         EXPECT_THAT(outcome.out, HasSubstr(name));
-    EXPECT_THAT(outcome.out, HasSubstr("this program, with FFTW in it, under the GPL"));
+    EXPECT_THAT(outcome.out, HasSubstr(fft_library()));
+    EXPECT_THAT(outcome.out, HasSubstr(fft_library().starts_with("fftw")
+                                           ? "this program, with FFTW in it, under the GPL"
+                                           : "under the MIT licence; so is this program"));
 }
 
 TEST(List, IsTheWholeRegistry) {

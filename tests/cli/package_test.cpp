@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "math/fourier/fft.hpp"
 #include "places.hpp"
 #include "support/program.hpp"
 
@@ -66,14 +67,19 @@ TEST(Package, OfDebianAndAsArchiveAreWholeAndRun) {
         EXPECT_TRUE(box.exists("deb/usr/share/doc/" + package + "/copyright")) << package;
         return good(box.shell("dpkg-deb --field made/" + package + "_*.deb Depends"));
     };
-    for (const char* library : {"libc6", "libfftw3", "libfmt", "libtbb", "libpng"})
+    for (const char* library : {"libc6", "libfmt", "libtbb", "libpng"})
         EXPECT_THAT(depends("stipple"), HasSubstr(library));
-    for (const char* needed : {"libfftw3-dev", "libfmt-dev", "libtbb-dev", "libpng-dev"})
+    for (const char* needed : {"libfmt-dev", "libtbb-dev", "libpng-dev"})
         EXPECT_THAT(depends("libstipple-dev"), HasSubstr(needed));
     if (box.exists("deb/usr/lib/python3")) {
-        for (const char* needed : {"python3 (<< ", "python3-numpy", "libfftw3"})
+        for (const char* needed : {"python3 (<< ", "python3-numpy"})
             EXPECT_THAT(depends("python3-stipple"), HasSubstr(needed));
     }
+    const bool fftw = fft_library().starts_with("fftw");
+    EXPECT_EQ(depends("stipple").find("libfftw3-double3") != std::string::npos, fftw);
+    EXPECT_EQ(depends("libstipple-dev").find("libfftw3-dev") != std::string::npos, fftw);
+    EXPECT_THAT(box.read("deb/usr/share/doc/stipple/copyright"),
+                HasSubstr(fftw ? "GPL-2" : "Copyright (C) 2010-2022 Max-Planck-Society"));
     EXPECT_THAT(good(box.shell("dpkg-deb --contents made/stipple_*.deb")),
                 HasSubstr("-rwxr-xr-x root/root"));
     if (box.shell("test $(id -u) = 0").code == 0) expect_that_dpkg_takes_it(box);

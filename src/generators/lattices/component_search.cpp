@@ -2,8 +2,6 @@
 #include "generators/lattices/component_search.hpp"
 
 #include <cmath>
-#include <mutex>
-#include <new>
 #include <numeric>
 
 namespace stipple {
@@ -20,29 +18,17 @@ CyclicCorrelation::CyclicCorrelation(const std::vector<int>& shape) {
     values_ = GridCells(size_);
     spectrum_ = GridCells(2 * halves_);
     kernel_ = GridCells(2 * halves_);
-    const int rank = static_cast<int>(shape.size());
-    const std::lock_guard lock(fftw_planner());
-    forward_ = fftw_plan_dft_r2c(rank, shape.data(), values_.get(), as_fftw(spectrum_.get()),
-                                 FFTW_ESTIMATE);
-    backward_ = fftw_plan_dft_c2r(rank, shape.data(), as_fftw(spectrum_.get()), values_.get(),
-                                  FFTW_ESTIMATE);
-    if (forward_ == nullptr || backward_ == nullptr) throw std::bad_alloc();
-}
-
-CyclicCorrelation::~CyclicCorrelation() {
-    const std::lock_guard lock(fftw_planner());
-    fftw_destroy_plan(forward_);
-    fftw_destroy_plan(backward_);
+    transform_.emplace(shape, values_.get(), spectrum_.get());
 }
 
 void CyclicCorrelation::take_kernel() {
-    fftw_execute(forward_);
+    transform_->forward();
     for (std::size_t k = 0; k < 2 * halves_; ++k)
         kernel_[k] = spectrum_[k] / static_cast<double>(size_);
 }
 
 void CyclicCorrelation::correlate() {
-    fftw_execute(forward_);
+    transform_->forward();
     for (std::size_t k = 0; k < halves_; ++k) {  // the conjugate, times the kernel's
         const double re = spectrum_[2 * k];
         const double im = spectrum_[2 * k + 1];
@@ -51,7 +37,7 @@ void CyclicCorrelation::correlate() {
         spectrum_[2 * k] = re * kernel_re + im * kernel_im;
         spectrum_[2 * k + 1] = re * kernel_im - im * kernel_re;
     }
-    fftw_execute(backward_);
+    transform_->backward();
 }
 
 void Products::keep_in_range() {

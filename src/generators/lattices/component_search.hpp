@@ -10,15 +10,15 @@
 // have kept from being the best are compared by plain sums in a fixed order.
 #pragma once
 
-#include <fftw3.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "math/fourier/fft.hpp"
 #include "math/fourier/grid_cells.hpp"
 #include "stipple/run.hpp"
 
@@ -33,9 +33,6 @@ class CyclicCorrelation {
     /// @param shape orders of the groups; of a function's values those are neighbours whose
     /// exponents differ in the last
     explicit CyclicCorrelation(const std::vector<int>& shape);
-    CyclicCorrelation(const CyclicCorrelation&) = delete;
-    CyclicCorrelation& operator=(const CyclicCorrelation&) = delete;
-    ~CyclicCorrelation();
 
     [[nodiscard]] std::span<double> values() { return {values_.get(), size_}; }
 
@@ -51,8 +48,7 @@ class CyclicCorrelation {
     GridCells values_;
     GridCells spectrum_;
     GridCells kernel_;
-    fftw_plan forward_ = nullptr;
-    fftw_plan backward_ = nullptr;
+    std::optional<GroupTransform> transform_;
 };
 
 /// The products p of the components so far, up to a common factor, which changes no choice.

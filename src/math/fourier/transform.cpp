@@ -4,12 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <filesystem>
-#include <memory>
-#include <new>
 
-#include "core/bytes/file_bytes.hpp"
-#include "core/error.hpp"
 #include "core/machine/large_pages.hpp"
 #include "core/parallel.hpp"
 #include "math/functions/powers.hpp"
@@ -20,44 +15,13 @@ namespace {
 /// One complex number, moved as a whole.
 using PairInMemory = double __attribute__((vector_size(16), aligned(8), may_alias));
 
-/// A transform of one length, in place, that any number of threads may execute.
-class LineTransform {
-  public:
-    enum class Kind { real, complex };
-
-    LineTransform(Kind kind, std::size_t length, Planning planning) : kind_(kind) {
-        const auto n = static_cast<int>(length);
-        const unsigned effort = planning == Planning::measured ? FFTW_MEASURE : FFTW_ESTIMATE;
-        const GridCells line(2 * length + 2);
-        double* p = line.get();
-        const std::lock_guard lock(fftw_planner());
-        plan_ = kind == Kind::real
-                    ? fftw_plan_dft_r2c_1d(n, p, as_fftw(p), effort)
-                    : fftw_plan_dft_1d(n, as_fftw(p), as_fftw(p), FFTW_FORWARD, effort);
-        if (plan_ == nullptr) throw std::bad_alloc();
-    }
-    LineTransform(const LineTransform&) = delete;
-    LineTransform& operator=(const LineTransform&) = delete;
-    ~LineTransform() {
-        const std::lock_guard lock(fftw_planner());
-        fftw_destroy_plan(plan_);
-    }
-
-    /// @param line aligned as GridCells are, or a multiple of 8 numbers behind.
-    void execute(double* line) const {
-        if (kind_ == Kind::real)
-            fftw_execute_dft_r2c(plan_, line, as_fftw(line));
-        else
-            fftw_execute_dft(plan_, as_fftw(line), as_fftw(line));
-    }
-
-  private:
-    Kind kind_;
-    fftw_plan plan_ = nullptr;
-};
-
 /// Lines whose transform takes about a quarter of a millisecond.
 std::size_t lines_at_a_time(std::size_t side) { return std::max<std::size_t>(1, 65536 / side); }
+
+constexpr std::size_t batch_size = 16;  // columns that share the cache lines they are read from
+
+/// Rows that are scaled while they are in the cache.
+constexpr std::size_t rows_at_a_time = 8;
 
 /// Transforms the rows of the grid and scales what is wanted of them.
 void transform_rows(const CellGrid& grid, std::span<const double> factors, Planning planning,
@@ -66,11 +30,13 @@ void transform_rows(const CellGrid& grid, std::span<const double> factors, Plann
     std::size_t rows = 1;
     for (std::size_t k = 1; k < grid.dimension; ++k) rows *= grid.side;
     for_each_block(run, rows, lines_at_a_time(grid.side), [&](const Block& b) {
-        for (std::size_t i = b.first; i < b.last; ++i) {
-            double* row = grid.cells + i * grid.stride;
-            line.execute(row);
-            auto* numbers = reinterpret_cast<PairInMemory*>(row);
-            for (std::size_t f = 0; f < factors.size(); ++f) numbers[f] *= factors[f];
+        for (std::size_t first = b.first; first < b.last; first += rows_at_a_time) {
+            const std::size_t last = std::min(first + rows_at_a_time, b.last);
+            line.execute(grid.cells + first * grid.stride, grid.stride, last - first);
+            for (std::size_t i = first; i < last; ++i) {
+                auto* row = reinterpret_cast<PairInMemory*>(grid.cells + i * grid.stride);
+                for (std::size_t f = 0; f < factors.size(); ++f) row[f] *= factors[f];
+            }
         }
     });
 }
@@ -84,8 +50,6 @@ struct Columns {
     std::size_t stride;
     std::size_t width;
 };
-
-constexpr std::size_t batch_size = 16;  // columns that share the cache lines they are read from
 
 /// Some columns of a plane, gathered into lines.
 class Gathered {
@@ -102,7 +66,7 @@ class Gathered {
     }
 
     void transform(const LineTransform& line, std::size_t count) {
-        for (std::size_t c = 0; c < count; ++c) line.execute(lines_.get() + c * spacing_);
+        line.execute(lines_.get(), spacing_, count);
     }
 
     /// Gives the frequencies -F..F, scaled, one row of `width` numbers each.
@@ -204,23 +168,6 @@ FourierSums transform_grid(GridCells cells, const CellGrid& grid, std::span<cons
                                         planning, run.stage(0.75, 1));
     }
     return sums;
-}
-
-void read_wisdom(const std::string& path) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored) && !ignored) return;
-    const std::string text = read_file(path);
-    const std::lock_guard lock(fftw_planner());
-    if (fftw_import_wisdom_from_string(text.c_str()) == 0)
-        fail_with_hint(ErrorKind::input, "it is written anew where it is not there",
-                       "{}: this is no wisdom of {}", path, fftw_version);
-}
-
-std::string wisdom_text() {
-    const std::lock_guard lock(fftw_planner());
-    const std::unique_ptr<char, void (*)(void*)> text(fftw_export_wisdom_to_string(), std::free);
-    if (!text) throw std::bad_alloc();
-    return std::string(text.get()) + "\n";
 }
 
 }  // namespace stipple

@@ -17,9 +17,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "math/fourier/fft.hpp"
 #include "math/fourier/grid_cells.hpp"
 #include "math/fourier/spreading.hpp"
 #include "stipple/run.hpp"
@@ -38,15 +38,11 @@ struct FourierSums {
 /// Number of values of such sums.
 double fourier_sums_size(std::size_t dimension, std::size_t max_frequency);
 
-/// How FFTW looks for its way: it guesses, or tries several, which takes up to seconds and may
-/// change last bits from run to run.
-enum class Planning { estimated, measured };
-
 /// Numbers from one row of a grid to the next: room for the transform of a row in place, and no
 /// power of two, which would put a column into few lines of the cache.
 std::size_t stride_of(std::size_t side);
 
-/// A side that FFTW is quick at and that is at least `least`: even, times 1 to 27 a power of two.
+/// A side that transforms are quick at and that is at least `least`: even, times 1 to 27 a power of two.
 std::size_t quick_length(std::size_t least);
 
 /// Seconds, nearly, that the transform takes one core.
@@ -56,12 +52,5 @@ double transform_seconds(std::size_t dimension, std::size_t side);
 /// @param factors c(0..F).
 FourierSums transform_grid(GridCells cells, const CellGrid& grid, std::span<const double> factors,
                            Planning planning, const RunContext& run);
-
-/// Takes what FFTW learnt about this machine from a file; where there is none, nothing.
-/// @throws Error(io), Error(input)
-void read_wisdom(const std::string& path);
-
-/// What FFTW knows by now, as such a file holds it.
-std::string wisdom_text();
 
 }  // namespace stipple

@@ -364,6 +364,10 @@ TEST(Nufft, MeasuredPlansStayWithinTheTolerance) {
 TEST(Nufft, WisdomIsWrittenAndReadBack) {
     const TemporaryFile file("");
     std::filesystem::remove(file.path());
+    if (!fft_library().starts_with("fftw")) {
+        EXPECT_THROW(read_wisdom(file.path()), Error);
+        return;
+    }
     read_wisdom(file.path());  // is not there: nothing to learn
     std::ofstream(file.path()) << wisdom_text();
     read_wisdom(file.path());
