@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Studies in memory, for the public API.
+#include <algorithm>
+#include <string_view>
+
 #include "core/error.hpp"
 #include "stipple/study.hpp"
 #include "study/study_summary.hpp"
@@ -24,11 +27,13 @@ std::vector<StudyValue> study(const Study& wanted, const RunContext& run) {
     runner.require_options(run);
     std::vector<StudyValue> values;
     for (const Segment& segment : runner.run({{0, sweep.units()}}, run).segments)
-        for (const std::string& line : segment.lines) {
-            const auto row = table.parse(std::string_view(line).substr(0, line.find('\n')));
-            values.push_back({row->generator, row->measure, row->dimension, row->count, row->seed,
-                              row->key, row->value, row->reason});
-        }
+        for (std::string_view lines : segment.lines)
+            while (!lines.empty()) {
+                const auto row = table.parse(lines.substr(0, lines.find('\n')));
+                lines.remove_prefix(std::min(lines.find('\n'), lines.size() - 1) + 1);
+                values.push_back({row->generator, row->measure, row->dimension, row->count,
+                                  row->seed, row->key, row->value, row->reason});
+            }
     return values;
 }
 

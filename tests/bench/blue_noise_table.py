@@ -31,10 +31,20 @@ from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
-import stipple_io as io
-
 REFERENCES = ("random", "jittered")
+# From the plainest to the most laboured.
+BLUE_NOISE = (
+    "dart-throwing",
+    "best-candidate",
+    "poisson-disk",
+    "sample-elimination",
+    "void-and-cluster",
+    "lloyd",
+    "farthest-point",
+    "capacity-constrained",
+    "gaussian-blue-noise",
+    "tiled",
+)
 BAND = 8  # rings
 
 COLUMNS = (
@@ -214,7 +224,7 @@ def main():
     program, names, count, sets = arguments(sys.argv[1:])
     if not names:
         known = registered(program)
-        names = [name for name in REFERENCES + io.BLUE_NOISE if name in known]
+        names = [name for name in REFERENCES + BLUE_NOISE if name in known]
     with tempfile.TemporaryDirectory() as folder:
         rows = [row(program, name, count, sets, folder) for name in names]
     print_table(COLUMNS, rows)

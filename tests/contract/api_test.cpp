@@ -114,6 +114,15 @@ TEST(Api, SetsAreWrittenAndReadBack) {
     std::filesystem::remove_all(folder);
 }
 
+TEST(Api, StudiesHaveAllNumbersOfAnAnalyzer) {
+    std::vector<std::string> keys;
+    for (const StudyValue& v : study({.generators = {"halton"},
+                               .analyzers = {"integration:integrand=owen", "moments"},
+                               .counts = {16}}))
+        if (v.analyzer != "moments") keys.push_back(v.key);
+    EXPECT_EQ(keys, (std::vector<std::string>{"owen.estimate", "owen.exact", "owen.error"}));
+}
+
 // Worked by hand: the mean of four values, and its interval of 3.182 standard errors.
 TEST(Api, MeansOfAStudyHaveStudentsInterval) {
     std::vector<StudyValue> values;

@@ -29,8 +29,8 @@ Complex sum_of(const std::vector<Complex>& x, std::size_t k) {
 }
 
 struct Lines {
-    Lines(std::size_t spacing, std::size_t count)
-        : spacing(spacing), numbers(spacing * count), cells(numbers) {
+    Lines(std::size_t between, std::size_t count)
+        : spacing(between), numbers(between * count), cells(numbers) {
         Rng(7).fill(0, {cells.get(), numbers});
     }
     [[nodiscard]] double* line(std::size_t i) const { return cells.get() + i * spacing; }
