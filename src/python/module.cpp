@@ -18,8 +18,10 @@
 #include "pipeline/pipeline.hpp"
 #include "pipeline/produce.hpp"
 #include "plot/points_picture.hpp"
+#include "plot/report_charts.hpp"
 #include "python/conversion.hpp"
 #include "python/run.hpp"
+#include "report/document.hpp"
 #include "stipple/stipple.hpp"
 
 namespace stipple::python {
@@ -137,11 +139,17 @@ py::array density(const std::string& domain, const Array& rows) {
 
 py::tuple analyze(const std::string& text, const Settings& settings, const Array& rows,
                   const std::string& domain, const How& how) {
-    const Report report =
-        released(how, [&, points = points_of(rows, domain)](const RunContext& run) {
-            return stipple::analyze(text, points, settings, run);
-        });
-    return py::make_tuple(dict_of(report), to_text(report), report.unmet());
+    PointSet points = points_of(rows, domain);
+    Measurement found = {};
+    found.count = points.count();
+    found.dimension = points.dimension();
+    found.domain = domain;
+    found.results = released(how, [&, points = std::move(points)](const RunContext& run) {
+        return stipple::analyze(text, points, settings, run);
+    });
+    found.analyzer = find_analyzer(parse_spec(text).name).name;
+    const Report& report = found.results;
+    return py::make_tuple(dict_of(report), to_text(report), report.unmet(), found);
 }
 
 py::list read(const std::string& path, const std::string& format, std::size_t dimension,
@@ -251,6 +259,17 @@ std::string picture(const std::vector<std::pair<std::string, Given>>& given, dou
     });
 }
 
+std::string report_picture(std::vector<std::pair<std::string, Measurement>> named,
+                           const std::string& key, double width, double height) {
+    std::vector<Measurement> reports;
+    for (auto& [name, found] : named) {
+        found.source = name;
+        reports.push_back(std::move(found));
+    }
+    const plot::PictureStyle style{.width = width, .height = height};
+    return plot::svg_bytes(plot::draw_chart(plot::chart_of(reports, key), style), 1);
+}
+
 /// A sequence by index.
 class Indexed {
   public:
@@ -321,6 +340,7 @@ PYBIND11_MODULE(_stipple, module) {
     using python::How;
     py::register_exception_translator(python::translate);
 
+    py::class_<stipple::Measurement>(module, "Measurement");
     py::class_<How>(module, "How")
         .def(py::init([](unsigned threads, double max_memory, py::object progress) {
             return How{threads, max_memory, std::move(progress)};
@@ -344,6 +364,7 @@ PYBIND11_MODULE(_stipple, module) {
     module.def("warp_density", python::warp_density);
     module.def("density", python::density);
     module.def("analyze", python::analyze);
+    module.def("report_picture", python::report_picture);
     module.def("read", python::read);
     module.def("write", python::write_points);
     module.def("study", python::study);

@@ -261,8 +261,18 @@ def test_pictures_and_pages(tmp_path):
     picture = stipple.plot({"halton": x, "disk": stipple.generate("random", 50)})
     assert picture._repr_svg_().startswith("<svg") or "<svg" in picture.svg[:200]
     picture.save(tmp_path / "a.svg")
-    stipple.report(tmp_path / "a.html", {"halton": x, "random": stipple.generate("random", 50)})
+    page = stipple.report(tmp_path / "a.html", {"halton": x, "random": stipple.generate("random", 50)})
     assert "<html" in (tmp_path / "a.html").read_text()[:500]
+    assert "srcdoc=" in page._repr_html_() and "&lt;html" in page._repr_html_()
+    spectra = {name: stipple.analyze("periodogram", stipple.generate(name, 64)) for name in ("halton", "random")}
+    for drawn in (stipple.plot(spectra), stipple.plot(spectra["halton"])):
+        assert "<svg" in drawn.svg[:200] and "radial power" in drawn.svg
+    stars = {str(n): stipple.analyze("star-discrepancy", stipple.generate("halton", n)) for n in (8, 16, 64)}
+    assert "<svg" in stipple.plot(stars).svg[:200]
+    with pytest.raises(stipple.Error, match="no_such"):
+        stipple.plot(spectra, key="no_such")
+    with pytest.raises(stipple.Error, match="part of a report"):
+        stipple.plot(spectra["halton"].radial)
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("svg")
     from matplotlib import pyplot

@@ -12,13 +12,14 @@ class Report(Mapping):
     what belongs together is a Report of its own. unmet lists what was expected and does not hold.
     """
 
-    def __init__(self, values, text="", unmet=()):
+    def __init__(self, values, text="", unmet=(), found=None):
         self._values = {
             name: Report(value) if isinstance(value, dict) else value
             for name, value in values.items()
         }
         self._text = text
         self.unmet = list(unmet)
+        self._found = found  # what plot() draws
 
     def __getitem__(self, key):
         value = self._values
@@ -30,7 +31,7 @@ class Report(Mapping):
         return value
 
     def __getattr__(self, name):
-        if name.startswith("__"):
+        if name.startswith("_"):
             raise AttributeError(name)
         try:
             return self._values[name]
@@ -69,3 +70,18 @@ class Picture:
 
     def __repr__(self):
         return f"<SVG picture, {len(self.svg)} bytes>"
+
+
+class Page:
+    """An HTML page in a file: shown by notebooks."""
+
+    def __init__(self, path):
+        self.path = path
+
+    def _repr_html_(self):
+        with open(self.path, encoding="utf-8") as file:
+            page = html.escape(file.read())
+        return f'<iframe srcdoc="{page}" width="100%" height="640"></iframe>'
+
+    def __repr__(self):
+        return f"<HTML page {self.path}>"

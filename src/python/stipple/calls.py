@@ -20,7 +20,7 @@ from ._arrays import (
     with_meta,
 )
 from ._errors import Error
-from ._reports import Picture, Report
+from ._reports import Page, Picture, Report
 
 
 def _bar(share):
@@ -337,15 +337,24 @@ def _named(x):
 
 def report(path, x, **options):
     """Writes a self-contained HTML page that compares up to 12 sets of one dimension: points, or a
-    dictionary of them by name."""
+    dictionary of them by name. Notebooks show the Page that it gives."""
     _stipple.report(os.fspath(path), _named(x), _take_how(options))
+    return Page(os.fspath(path))
 
 
-def plot(x, ax=None, *, width=0, height=0, **options):
+def plot(x, ax=None, *, key="", width=0, height=0, **options):
     """A picture of points, or of a dictionary of points by name: in 1-D a histogram, in 2-D and 3-D the
-    points with the outline of their domain, else pairs of coordinates. Notebooks show it; save(path)
-    writes the SVG. With matplotlib axes as ax, draws points (n, 2) there and gives ax."""
+    points with the outline of their domain, else pairs of coordinates. Of reports of one analyzer, their
+    curves (of several without any, one number over the number of points; key names the result). Notebooks
+    show it; save(path) writes the SVG. With matplotlib axes as ax, draws points (n, 2) there and gives
+    ax."""
     how = _take_how(options)
+    reports = x if isinstance(x, dict) else {"report": x}
+    if ax is None and reports and all(isinstance(one, Report) for one in reports.values()):
+        found = [(name, one._found) for name, one in reports.items()]
+        if any(one is None for _, one in found):
+            raise Error("a part of a report, or an integral of a function, has no picture", "input")
+        return Picture(_stipple.report_picture(found, key, width, height))
     if ax is None:
         return Picture(_stipple.picture(_named(x), width, height, how))
     for name, one in (x if isinstance(x, dict) else {None: x}).items():
