@@ -35,5 +35,7 @@ def test_guide_runs(tmp_path, monkeypatch):
 @pytest.mark.parametrize("script", sorted((ROOT / "data/examples").glob("*.py")), ids=lambda p: p.name)
 def test_examples_run(script, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
+    cells = script.read_text().split("# %%")[1:]  # words and code in turn
+    assert len(cells) > 3 and [cell.startswith(" [markdown]\n# ") for cell in cells] == [True, False] * (len(cells) // 2)
     runpy.run_path(str(script), run_name="__main__")
     assert capsys.readouterr().out
