@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
+
+#include "math/functions/logarithm.hpp"
 
 namespace stipple::analyzers {
 namespace {
@@ -75,10 +78,15 @@ Rings rings_of(const Grid& power, const RunContext& run) {
     return rings;
 }
 
+double decibels(double ratio) {
+    constexpr DoubleDouble per_log{std::numbers::log10e, 1.098319650216765e-17};
+    return 10 * (logarithm_parts(ratio) * per_log).high;  // whole numbers for powers of 10
+}
+
 double anisotropy_db(double variance, double mean, double least) {
     if (!(mean > least)) return lowest_db;
     const double ratio = variance / (mean * mean);
-    return ratio > 1e-10 ? 10 * std::log10(ratio) : lowest_db;
+    return ratio > 1e-10 ? decibels(ratio) : lowest_db;
 }
 
 namespace {
@@ -202,8 +210,8 @@ std::optional<double> low_frequency_exponent(const Rings& rings, double regular_
     for (std::size_t i = 0; i < last; ++i) {
         if (rings.power[i] <= least) continue;
         const auto weight = static_cast<double>(rings.cells[i]);
-        const double u = std::log(static_cast<double>(i + 1));
-        const double v = std::log(rings.power[i]);
+        const double u = logarithm(static_cast<double>(i + 1));
+        const double v = logarithm(rings.power[i]);
         weights += weight;
         x += weight * u;
         y += weight * v;

@@ -24,6 +24,9 @@ struct Rings {
 /// @param power at the frequencies -F..F of each axis, one row for each (f_2, f_1).
 Rings rings_of(const Grid& power, const RunContext& run);
 
+/// A ratio above 0 of powers.
+double decibels(double ratio);
+
 /// Of a ring in dB, no less than -100; that, too, where its mean is no more than `least`.
 double anisotropy_db(double variance, double mean, double least = 0);
 

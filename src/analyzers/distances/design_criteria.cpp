@@ -7,6 +7,7 @@
 
 #include "analyzers/distances/distances.hpp"
 #include "core/parallel.hpp"
+#include "math/functions/logarithm.hpp"
 
 namespace stipple::analyzers {
 namespace {
@@ -74,16 +75,18 @@ PairCriteria pair_criteria(const PointSet& points, double p, double minimum,
                     product *= 4 * difference;
                 }
                 const double ratio = minimum * minimum / squared;
-                sums += {std::pow(ratio, p / 2), 1 / squared, 1 / (product * product)};
+                sums += {real_power(ratio, p / 2), 1 / squared, 1 / (product * product)};
             }
         parts[block.index] = sums;
     });
     PairSums all;
     for (const PairSums& part : parts) all += part;
     const auto pairs = 0.5 * static_cast<double>(n) * static_cast<double>(n - 1);
-    return {minimum > 0 ? std::pow(all.powers, 1 / p) / minimum : infinite,
+    return {minimum > 0 ? real_power(all.powers, 1 / p) / minimum : infinite,
             minimum > 0 ? all.reciprocals : infinite,
-            16 * std::pow(all.products / pairs, 1 / static_cast<double>(d))};
+            std::isfinite(all.products)
+                ? 16 * real_power(all.products / pairs, 1 / static_cast<double>(d))
+                : infinite};
 }
 
 std::optional<Correlation> correlation_of(const PointSet& points) {

@@ -8,6 +8,7 @@
 #include "analyzers/outside.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "math/functions/logarithm.hpp"
 #include "math/neighbors/grid_nearest.hpp"
 
 namespace stipple::analyzers {
@@ -132,8 +133,8 @@ double shortest_side(const Box& box) {
 }
 
 double mean_distance(const Box& box, std::size_t n) {
-    return std::pow(volume_of(box) / static_cast<double>(n),
-                    1 / static_cast<double>(box.dimension()));
+    return real_power(volume_of(box) / static_cast<double>(n),
+                      1 / static_cast<double>(box.dimension()));
 }
 
 bool all_equal(const PointSet& points) {

@@ -10,6 +10,9 @@
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "math/combinatorics/radix_sort.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/incomplete_functions.hpp"
+#include "math/functions/logarithm.hpp"
 #include "math/neighbors/covering_bound.hpp"
 #include "math/neighbors/kd_tree.hpp"
 
@@ -75,9 +78,9 @@ class Search {
           tree_(points.flat(), points.dimension(), sides_, run.stage(0, 0.05)),
           neighbors_(std::min(points.count(), 4 * (points.dimension() + 1))) {
         const auto d = static_cast<double>(points.dimension());
-        const double ball = std::pow(std::numbers::pi, d / 2) / std::tgamma(d / 2 + 1);
+        const double ball = real_power(std::numbers::pi, d / 2) / exponential(log_gamma(d / 2 + 1));
         // Balls of this radius just have the volume; no box that is larger can be done.
-        least_ = std::pow(volume_of(box_) / ball / static_cast<double>(points.count()), 1 / d);
+        least_ = real_power(volume_of(box_) / ball / static_cast<double>(points.count()), 1 / d);
     }
 
     EmptyBall find() {

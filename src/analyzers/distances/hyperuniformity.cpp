@@ -62,6 +62,9 @@
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"
+#include "math/functions/logarithm.hpp"
+#include "math/functions/powers.hpp"
+#include "math/functions/radians.hpp"
 #include "math/neighbors/point_grid.hpp"
 
 namespace stipple::analyzers::hyperuniformity {
@@ -117,7 +120,7 @@ struct Ball {
         if (!(gap > 0)) return 0;
         if (dimension == 1) return gap;
         if (dimension == 2)
-            return 2 * radius * radius * std::acos(r / (2 * radius)) -
+            return 2 * radius * radius * arc_cosine(r / (2 * radius)) -
                    r * std::sqrt(gap * (2 * radius + r)) / 2;
         return std::numbers::pi / 12 * (4 * radius + r) * gap * gap;
     }
@@ -152,7 +155,7 @@ Plan plan_for(const PointSet& points, const Box& box, const Values& options) {
     plan.width = 2 * most * plan.unit / bins;
     const auto steps = static_cast<double>(options[radius_count] - 1);
     for (double i = 0; i <= steps; ++i) {
-        const double radius = least * std::pow(most / least, i / steps);
+        const double radius = least * real_power(most / least, i / steps);
         const auto half =
             static_cast<std::size_t>(std::clamp(std::round(radius / most * bins), 1.0, bins));
         if (plan.halves.empty() || half > plan.halves.back()) plan.halves.push_back(half);
@@ -237,8 +240,8 @@ void add_exponent(Report& report) {
     std::vector<std::array<double, 2>> logs;
     for (std::size_t i = 0; i < variance.size(); ++i)
         if (variance[i] > 1e-9 * mean[i] * mean[i])
-            logs.push_back({std::log(report.curve("radius")[i]),
-                            std::log(report.curve("dispersion")[i] * mean[i])});
+            logs.push_back({logarithm(report.curve("radius")[i]),
+                            logarithm(report.curve("dispersion")[i] * mean[i])});
     if (logs.size() < 3) return drop(report, {"exponent", "exponent_standard_error"});
     const auto count = static_cast<double>(logs.size());
     double mx = 0;
@@ -255,7 +258,7 @@ void add_exponent(Report& report) {
     }
     const double slope = xy / xx;
     double residual = 0;
-    for (const auto& [u, v] : logs) residual += std::pow(v - my - slope * (u - mx), 2);
+    for (const auto& [u, v] : logs) residual += whole_power(v - my - slope * (u - mx), 2);
     report.add("exponent", slope);
     report.add("exponent_standard_error", std::sqrt(residual / (count - 2) / xx));
 }

@@ -8,6 +8,8 @@
 
 #include "core/parallel.hpp"
 #include "math/functions/cholesky.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
 #include "math/functions/powers.hpp"
 
 namespace stipple::analyzers {
@@ -102,7 +104,7 @@ Efficiency model_efficiency(std::span<const double> coded, std::size_t dimension
     const auto n = static_cast<double>(coded.size() / d);
     const auto terms = static_cast<double>(p);
     double log_determinant = 0;
-    for (std::size_t i = 0; i < p; ++i) log_determinant += 2 * std::log(root.factor[i * p + i]);
+    for (std::size_t i = 0; i < p; ++i) log_determinant += 2 * logarithm(root.factor[i * p + i]);
     const auto grid_place = [&](std::uint64_t i, std::vector<double>& x) {
         for (double& c : x) {
             c = 2 * static_cast<double>(i % levels) / static_cast<double>(levels - 1) - 1;
@@ -115,7 +117,7 @@ Efficiency model_efficiency(std::span<const double> coded, std::size_t dimension
     const double variance =
         all ? largest_variance(root.factor, d, model, grid, grid_place, run)
             : largest_variance(root.factor, d, model, coded.size() / d, own_place, run);
-    return {.d = std::exp(log_determinant / terms) / n,
+    return {.d = exponential(log_determinant / terms) / n,
             .a = terms / (n * trace_of_inverse(root.factor, p, run)),
             .g = terms / (n * variance),
             .places = places};

@@ -39,6 +39,7 @@
 #include "analyzers/distances/distances.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "math/functions/logarithm.hpp"
 
 namespace stipple::analyzers::nearest_neighbor {
 namespace {
@@ -50,7 +51,7 @@ constexpr std::array<double, 8> packing = {4, 12, 32, 64, 128, 192, 256, 256};
 double packing_distance(const Box& box, double n) {
     const std::size_t d = box.dimension();
     return 2 *
-           std::pow(volume_of(box) / (n * std::sqrt(packing[d - 1])), 1 / static_cast<double>(d));
+           real_power(volume_of(box) / (n * std::sqrt(packing[d - 1])), 1 / static_cast<double>(d));
 }
 
 /// Of two points, or on the torus of a point and its copy.

@@ -9,6 +9,8 @@
 
 #include "core/machine/wide.hpp"
 #include "core/parallel.hpp"
+#include "math/functions/radians.hpp"
+#include "math/functions/roots.hpp"
 #include "math/neighbors/point_grid.hpp"
 
 namespace stipple::analyzers {
@@ -107,7 +109,7 @@ class PairCounter {
   private:
     /// A fifth of the reach, but not below 4 points a cell.
     static double cell_side(const Box& box, std::size_t count, double reach) {
-        return std::max(std::pow(4, 1.0 / D) * mean_distance(box, count), reach / 5);
+        return std::max(nth_root(4, D) * mean_distance(box, count), reach / 5);
     }
 
     /// Counts the pairs of point s and some points from `from` on.
@@ -176,7 +178,7 @@ double under_arc(const Axis& a, const Axis& b, double r, double low, double high
     const auto root = [&](double x) { return std::sqrt(std::max(0.0, (r - x) * (r + x))); };
     const auto arc = [&](double x) {  // of the root, and of what it has before it
         const double s = root(x);
-        const double plain = (x * s + r * r * std::asin(std::min(1.0, x / r))) / 2;
+        const double plain = (x * s + r * r * arc_sine(std::min(1.0, x / r))) / 2;
         const double slanted = -s * s * s / 3;
         return plain - a.slope / a.side * slanted;
     };
@@ -197,15 +199,17 @@ double within_disk(const Axis& a, const Axis& b, double r) {
 
 /// Over the height c = r sin(angle), cut where the disk beside it meets a side or a corner.
 double within_ball(const Axis& a, const Axis& b, const Axis& c, double r) {
-    const double top = r > c.reach() ? std::asin(c.reach() / r) : std::numbers::pi / 2;
+    const double top = r > c.reach() ? arc_sine(c.reach() / r) : std::numbers::pi / 2;
     std::array<double, 5> cuts{0, top, top, top, top};
     std::size_t count = 2;
-    for (const double rim : {a.reach(), b.reach(), std::hypot(a.reach(), b.reach())})
-        if (rim < r) cuts[count++] = std::min(top, std::acos(rim / r));
+    for (const double rim :
+         {a.reach(), b.reach(), std::sqrt(squared(a.reach()) + squared(b.reach()))})
+        if (rim < r) cuts[count++] = std::min(top, arc_cosine(rim / r));
     std::ranges::sort(cuts);
     const auto slice = [&](double angle) {
-        const double z = r * std::sin(angle);
-        const double across = r * std::cos(angle);
+        const auto [cos, sin] = cos_sin_radians(angle);
+        const double z = r * sin;
+        const double across = r * cos;
         return 2 / c.side * (1 - c.slope * z / c.side) * across * within_disk(a, b, across);
     };
     // Beyond a cut the disk's share begins with a broken power, which this rule takes well.

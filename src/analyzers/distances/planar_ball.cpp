@@ -9,6 +9,7 @@
 
 #include "analyzers/distances/empty_ball.hpp"
 #include "core/parallel.hpp"
+#include "math/arithmetic/double_double.hpp"
 #include "math/neighbors/planar_sites.hpp"
 #include "math/neighbors/point_grid.hpp"
 
@@ -19,15 +20,18 @@ double squared_length(const Vec2& v) { return v.x * v.x + v.y * v.y; }
 
 /// The corner anew from the sites beyond its two edges, in more digits than it was cut with.
 Vec2 refined(const CellCorner& before, const CellCorner& corner, double squared_reach) {
-    using Long = long double;
     const Vec2& a = before.neighbor;
     const Vec2& b = corner.neighbor;
     const auto limit = [](const Vec2& site) {
-        return (Long{site.x} * site.x + Long{site.y} * site.y) / 2;
+        return exact_product(0.5 * site.x, site.x) + exact_product(0.5 * site.y, site.y);
     };
-    const Long determinant = Long{a.x} * b.y - Long{a.y} * b.x;
-    const Vec2 found{static_cast<double>((limit(a) * b.y - limit(b) * a.y) / determinant),
-                     static_cast<double>((limit(b) * a.x - limit(a) * b.x) / determinant)};
+    const DoubleDouble determinant = exact_product(a.x, b.y) + exact_product(-a.y, b.x);
+    const auto solved = [&](double p, double q) {  // (limit(a) p - limit(b) q) / determinant
+        const DoubleDouble sum = limit(a) * DoubleDouble{p} + limit(b) * DoubleDouble{-q};
+        const double ratio = sum.high / determinant.high;
+        return ratio + (sum + determinant * DoubleDouble{-ratio}).high / determinant.high;
+    };
+    const Vec2 found{solved(b.y, a.y), -solved(b.x, a.x)};
     const Vec2 change{found.x - corner.at.x, found.y - corner.at.y};
     // Nearly parallel edges: the corner as it was cut is inside what they leave.
     return squared_length(change) < 1e-12 * squared_reach ? found : corner.at;

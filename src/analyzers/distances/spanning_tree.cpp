@@ -31,6 +31,9 @@
 
 #include "analyzers/analyzer.hpp"
 #include "analyzers/distances/distances.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
+#include "math/functions/powers.hpp"
 #include "math/neighbors/minimum_spanning_tree.hpp"
 
 namespace stipple::analyzers::spanning_tree {
@@ -40,8 +43,8 @@ namespace {
 double unit_length(const Box& box, double n) {
     const auto d = static_cast<double>(box.dimension());
     double log_volume = 0;  // a product of many sides might be out of range
-    for (std::size_t k = 0; k < box.dimension(); ++k) log_volume += std::log(box.extent(k));
-    return std::exp((log_volume + (d - 1) * std::log(n)) / d) / (n - 1);
+    for (std::size_t k = 0; k < box.dimension(); ++k) log_volume += logarithm(box.extent(k));
+    return exponential((log_volume + (d - 1) * logarithm(n)) / d) / (n - 1);
 }
 
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
@@ -58,7 +61,8 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     const auto count = static_cast<double>(edges.size());
     const double mean = total / count;
     double variance = 0;
-    for (const double squared : edges) variance += std::pow(std::sqrt(squared) - mean, 2) / count;
+    for (const double squared : edges)
+        variance += whole_power(std::sqrt(squared) - mean, 2) / count;
     Report results;
     results.add("mean", mean);
     results.add("standard_deviation", std::sqrt(variance));

@@ -59,6 +59,8 @@ constexpr Param<double> shortest_edge{
 constexpr std::size_t fewest_neighbors = 3;
 constexpr std::size_t most_neighbors = 16;  ///< and more
 
+double length_of(const Vec2& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
+
 /// Sums over cells, lengths in sqrt(V / m).
 struct Sums {
     double squared_deviation = 0;  ///< of areas from 1
@@ -108,7 +110,7 @@ void add_shape(const VoronoiCell& cell, double unit, Sums& sums) {
     sums.smallest = std::min(sums.smallest, area);
     sums.largest = std::max(sums.largest, area);
     sums.second_moment += moments.second / (unit * unit * unit * unit);
-    const double offset = std::hypot(moments.first.x, moments.first.y) / moments.mass / unit;
+    const double offset = length_of(moments.first) / moments.mass / unit;
     sums.offset += offset;
     sums.squared_offset += offset * offset;
     sums.farthest_offset = std::max(sums.farthest_offset, offset);
@@ -121,7 +123,7 @@ void add_neighbors(const VoronoiCell& cell, double shortest, Sums& sums) {
     for (std::size_t k = 0; k < corners.size(); ++k) {
         const CellCorner& from = corners[k];
         const Vec2& to = corners[k + 1 < corners.size() ? k + 1 : 0].at;
-        if (!(std::hypot(to.x - from.at.x, to.y - from.at.y) > shortest)) continue;
+        if (!(length_of({to.x - from.at.x, to.y - from.at.y}) > shortest)) continue;
         if (from.site == CellCorner::wall) return;
         sum += sixfold(from.neighbor);
         ++neighbors;
@@ -132,7 +134,7 @@ void add_neighbors(const VoronoiCell& cell, double shortest, Sums& sums) {
     ++sums.valences[std::min<std::uint64_t>(neighbors, most_neighbors)];
     sums.bonds += neighbors;
     sums.squared_bonds += neighbors * neighbors;
-    sums.local_order += std::abs(mean);
+    sums.local_order += std::sqrt(std::norm(mean));
     sums.global_order += mean;
     sums.bond_sum += sum;
 }
@@ -191,8 +193,8 @@ Report order_of(const Sums& sums) {
     const auto inner = static_cast<double>(sums.inner);
     Report order;
     order.add("local", sums.local_order / inner);
-    order.add("global", std::abs(sums.global_order) / inner);
-    order.add("bonds", std::abs(sums.bond_sum) / static_cast<double>(sums.bonds));
+    order.add("global", std::sqrt(std::norm(sums.global_order)) / inner);
+    order.add("bonds", std::sqrt(std::norm(sums.bond_sum)) / static_cast<double>(sums.bonds));
     return order;
 }
 

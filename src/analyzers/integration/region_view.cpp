@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/functions/trigonometry.hpp"
+
 namespace stipple::analyzers {
 namespace {
 
@@ -24,7 +26,7 @@ Frame axes_about(const Vector3& z) {
     const Vector3 other{near_x ? 0.0 : 1.0, near_x ? 1.0 : 0.0, 0.0};
     const double along = near_x ? z[1] : z[0];
     Vector3 x = minus(other, times(z, along));
-    const double size = std::hypot(x[0], x[1], x[2]);
+    const double size = std::sqrt(dot(x, x));
     for (double& t : x) t /= size;
     return {x, cross(z, x), z};
 }
@@ -68,8 +70,8 @@ void RegionView::uniform(std::span<const double> cube, std::span<double> point) 
     const double drop = axes_ ? cube[0] : 2 * cube[0];
     const double z = 1 - drop;
     const double r = std::sqrt(drop * (2 - drop));
-    const double turn = 2 * std::numbers::pi * cube[1];
-    std::ranges::copy(axes.out({r * std::cos(turn), r * std::sin(turn), z}), point.begin());
+    const auto [cos, sin] = cos_sin_turns(cube[1]);
+    std::ranges::copy(axes.out({r * cos, r * sin, z}), point.begin());
 }
 
 }  // namespace stipple::analyzers

@@ -61,6 +61,8 @@
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "math/fourier/nufft.hpp"
+#include "math/functions/logarithm.hpp"
+#include "math/functions/trigonometry.hpp"
 
 namespace stipple::analyzers::periodogram {
 namespace {
@@ -151,13 +153,13 @@ constexpr std::uint64_t most_points = std::uint64_t{1} << 30;  // that larger se
 std::size_t default_frequency(std::uint64_t count, std::size_t dimension) {
     constexpr double most[] = {0, 65536, 1024, 64};
     const double twice =
-        2 * std::pow(static_cast<double>(count), 1 / static_cast<double>(dimension));
+        2 * real_power(static_cast<double>(count), 1 / static_cast<double>(dimension));
     // A root such as 1000^(1/3) may come out a little above the whole number that it is.
     return static_cast<std::size_t>(std::clamp(std::ceil(twice - 1e-9), 16.0, most[dimension]));
 }
 
 double regular_nyquist(double count, std::size_t dimension) {
-    return std::pow(count, 1 / static_cast<double>(dimension)) / 2;
+    return real_power(count, 1 / static_cast<double>(dimension)) / 2;
 }
 
 /// Puts all that follows from the power into the report.
@@ -181,7 +183,7 @@ void summarize(Report& report, const Grid& power, std::size_t sets, const Values
     radial.add("anisotropy_db", std::move(anisotropy), "dB");
     radial.add("cells", rings.cells);
     report.add("radial", std::move(radial));
-    const double expected = sets > 1 ? -10 * std::log10(static_cast<double>(sets)) : 0;
+    const double expected = sets > 1 ? -decibels(static_cast<double>(sets)) : 0;
     report.add("expected_anisotropy_db", expected, "dB");
     const double nyquist = effective_nyquist(power, rings, run);
     report.add("effective_nyquist", nyquist / unit, unit_name);
@@ -373,7 +375,7 @@ class Summation final : public SharedAccumulator {
         double product = 1;
         if (hann_)
             for (const double x : point) {
-                const double s = std::sin(std::numbers::pi * x);
+                const double s = cos_sin_turns(x / 2).sin;
                 product *= s * s;
             }
         return product;

@@ -4,6 +4,7 @@
 #include <complex>
 
 #include "core/machine/large_pages.hpp"
+#include "math/functions/powers.hpp"
 
 namespace stipple::analyzers {
 namespace {
@@ -23,7 +24,7 @@ Grid power_of(const FourierSums& sums, const Strengths& strengths, bool hann,
     const std::size_t width = 2 * last + 1;
     Grid power{.rows = sums.values.size() / (last + 1), .columns = width, .values = {}};
     fill_with_zeros(power.values, power.rows * width);
-    const double squared = hann ? std::pow(0.375, static_cast<double>(sums.dimension)) : 1;
+    const double squared = hann ? whole_power(0.375, sums.dimension) : 1;
     const double scale = 1 / (squared * strengths.squares);
     for (std::size_t row = 0; row < power.rows; ++row) {
         run.check_stop();

@@ -8,6 +8,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "math/combinatorics/primes.hpp"
+#include "math/functions/logarithm.hpp"
 
 namespace stipple::analyzers {
 namespace {
@@ -84,7 +85,7 @@ CellGrid default_grid(std::uint64_t n, std::size_t axes) {
     const std::uint64_t count = rounded_count(n);
     const std::size_t cap = count / fewest_expected;
     const double target =
-        std::min(2 * std::pow(static_cast<double>(count), 0.4), static_cast<double>(cap));
+        std::min(2 * real_power(static_cast<double>(count), 0.4), static_cast<double>(cap));
     std::size_t cut = 1;     // axes to cut
     std::size_t others = 1;  // 3^(cut - 1): room to leave for the axes that come later
     while (cut < std::min(axes, most_cut_axes) && static_cast<double>(9 * others) <= target) {
@@ -95,7 +96,7 @@ CellGrid default_grid(std::uint64_t n, std::size_t axes) {
     std::size_t product = 1;
     for (std::size_t k = 0; k < cut; ++k, others /= 3) {
         const double share =
-            std::pow(target / static_cast<double>(product), 1 / static_cast<double>(cut - k));
+            real_power(target / static_cast<double>(product), 1 / static_cast<double>(cut - k));
         grid[k] = odd_prime_near(share, cap / (product * others));
         product *= grid[k];
     }

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "math/functions/distributions.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
 
 namespace stipple::analyzers {
 namespace {
@@ -80,10 +82,10 @@ class EqualCounts {
 double binomial_chance(double count, double n, double expected) {
     const auto off = [](double found, double right) {
         const double e = (found - right) / right;
-        return right * (found > 0 ? (1 + e) * std::log1p(e) - e : 1);
+        return right * (found > 0 ? (1 + e) * log_1p(e) - e : 1);
     };
-    return std::exp(log_excess(n) - log_excess(count) - log_excess(n - count) -
-                    off(count, expected) - off(n - count, n - expected));
+    return exponential(log_excess(n) - log_excess(count) - log_excess(n - count) -
+                       off(count, expected) - off(n - count, n - expected));
 }
 
 /// Counts of unequal groups, the one that expects the most last.
@@ -150,8 +152,8 @@ std::optional<double> exact_lower_tail(double statistic, std::uint64_t n, std::u
     // ln(n! / (K^n m!^K m^r)) by ln n! = n ln n - n + log_excess(n).
     const auto points = static_cast<double>(n);
     const double ways = log_excess(points) - k * log_excess(static_cast<double>(m)) +
-                        points * std::log1p(rest / (points - rest)) - rest;
-    return std::min(1.0, sum * std::exp(ways));
+                        points * log_1p(rest / (points - rest)) - rest;
+    return std::min(1.0, sum * exponential(ways));
 }
 
 std::optional<double> exact_lower_tail(double statistic, std::uint64_t n,

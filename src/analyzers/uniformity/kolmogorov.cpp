@@ -6,6 +6,11 @@
 #include <numbers>
 #include <vector>
 
+#include "math/functions/distributions.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
+#include "math/functions/powers.hpp"
+
 namespace stipple::analyzers {
 namespace {
 
@@ -64,7 +69,7 @@ Scaled transitions(std::size_t k, double h) {
         a.at[i * m] -= power * inverse[i + 1];
         a.at[(m - 1) * m + (m - 1 - i)] -= power * inverse[i + 1];
     }
-    if (2 * h > 1) a.at[(m - 1) * m] += std::pow(2 * h - 1, static_cast<double>(m)) * inverse[m];
+    if (2 * h > 1) a.at[(m - 1) * m] += whole_power(2 * h - 1, m) * inverse[m];
     return a;
 }
 
@@ -75,7 +80,7 @@ double theta_sum(double z, double offset, const F& term) {
     double sum = 0;
     for (int k = 0; k < 1000; ++k) {
         const double q = pi * (k + offset);
-        const double weight = std::exp(-q * q / (2 * z * z));
+        const double weight = exponential(-q * q / (2 * z * z));
         if (weight == 0) break;
         // k and -k - 1 (half numbers), k and -k (whole ones) give the same.
         sum += (offset > 0 || k > 0 ? 2 : 1) * weight * term(q * q);
@@ -105,8 +110,8 @@ double kolmogorov_exact(std::uint64_t n, double x, const RunContext& run) {
         if (bits == 0) break;
         power = squared(power, run);
     }
-    const double factor = std::lgamma(count + 1) - count * std::log(count);  // ln n! / n^n
-    return std::min(1.0, row[k - 1] * std::exp(exponent * std::numbers::ln2 + factor));
+    const double factor = log_excess(count) - count;  // ln n! / n^n
+    return std::min(1.0, row[k - 1] * exponential(exponent * std::numbers::ln2 + factor));
 }
 
 double kolmogorov_expansion(std::uint64_t n, double x) {
@@ -143,16 +148,16 @@ double smirnov_upper(std::uint64_t n, double x) {
     constexpr std::uint64_t most_terms = 1'000'000;
     if (n > most_terms) {
         const double t = 6 * count * x + 1;
-        return std::exp(-t * t / (18 * count));
+        return exponential(-t * t / (18 * count));
     }
-    const double whole = std::lgamma(count + 1);
+    const double whole = log_factorial(count);
     double sum = 0;
     for (double j = 0; j < count * (1 - x); ++j) {
         const double above = x + j / count;
         const double below = 1 - above;
         if (below <= 0) break;
-        sum += std::exp(whole - std::lgamma(j + 1) - std::lgamma(count - j + 1) +
-                        (j - 1) * std::log(above) + (count - j) * std::log(below));
+        sum += exponential(whole - log_factorial(j) - log_factorial(count - j) +
+                           (j - 1) * logarithm(above) + (count - j) * logarithm(below));
     }
     return std::min(1.0, x * sum);
 }

@@ -11,6 +11,8 @@
 #include "core/error.hpp"
 #include "core/machine/int128.hpp"
 #include "math/functions/distributions.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
 
 namespace stipple::analyzers {
 namespace {
@@ -35,11 +37,10 @@ double most_even_chance(std::uint64_t n, std::uint64_t groups) {
     const auto k = static_cast<double>(groups);
     const auto more = static_cast<double>(n % groups);
     const auto each = static_cast<double>(n / groups);
-    const auto log_factorial = [](double x) { return std::lgamma(x + 1); };
     const double ways = log_factorial(k) - log_factorial(more) - log_factorial(k - more);
     const double counts = log_factorial(static_cast<double>(n)) - (k - more) * log_factorial(each) -
                           more * log_factorial(each + 1);
-    return std::min(1.0, std::exp(ways + counts - static_cast<double>(n) * std::log(k)));
+    return std::min(1.0, exponential(ways + counts - static_cast<double>(n) * logarithm(k)));
 }
 
 /// q_1, q_2, ... of groups that expect this, the least first: all, or those above 1e-30.
@@ -52,7 +53,7 @@ class ModalProbabilities {
         if (!found_.empty() && found_.back() < 1e-30) return;
         rest_ -= expected;
         log_ -= log_excess(expected);
-        found_.push_back(std::exp(log_excess(whole_) + log_ - log_excess(rest_)));
+        found_.push_back(exponential(log_excess(whole_) + log_ - log_excess(rest_)));
     }
 
     std::vector<double> take() { return std::move(found_); }
@@ -231,7 +232,7 @@ Tails count_tails(double statistic, const Fit& fit) {
     return tails;
 }
 
-double sidak(double p, double tests) { return p < 1 ? -std::expm1(tests * std::log1p(-p)) : 1; }
+double sidak(double p, double tests) { return p < 1 ? -exp_minus_1(tests * log_1p(-p)) : 1; }
 
 double p_value_of(const Tails& plain, const Tails* second) {
     const double p = plain.two_sided();
@@ -249,11 +250,12 @@ Tails sidak(std::span<const Tails> tests) {
 }
 
 Tails fisher(std::span<const Tails> tests) {
+    constexpr double least = std::numeric_limits<double>::min();
     double upper = 0;
     double lower = 0;
     for (const Tails& t : tests) {
-        upper -= 2 * std::log(t.upper);
-        lower -= 2 * std::log(t.lower);
+        upper -= 2 * logarithm(std::max(t.upper, least));
+        lower -= 2 * logarithm(std::max(t.lower, least));
     }
     const double freedom = 2 * static_cast<double>(tests.size());
     return {.upper = chi_square_tails(upper, freedom).upper,

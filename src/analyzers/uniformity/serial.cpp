@@ -36,6 +36,7 @@
 #include "analyzers/uniformity/pearson.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "math/functions/normal_distribution.hpp"
 
 namespace stipple::analyzers::serial {
 namespace {
@@ -79,7 +80,7 @@ void sum_axis(std::span<const double> cubes, std::size_t axes, std::size_t axis,
     }
 }
 
-double two_sided_normal(double z) { return std::erfc(std::abs(z) / std::numbers::sqrt2); }
+double two_sided_normal(double z) { return 2 * normal_distribution(-std::abs(z)); }
 
 void conclude(Report& report, double p, const Values& options) {
     const std::string verdict = p < options[level_option] ? "dependent" : "independent";

@@ -112,7 +112,8 @@ Sheet sheet_of(const Layout& layout) {
 
 /// Less the letters that mean something to XML.
 std::string without_markup(std::string text) {
-    std::erase_if(text, [](char c) { return c == '<' || c == '&' || (c >= 0 && c < 0x20); });
+    std::erase_if(
+        text, [](char c) { return c == '<' || c == '&' || static_cast<unsigned char>(c) < 0x20; });
     return text;
 }
 

@@ -19,6 +19,7 @@
 #include "core/text.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
+#include "math/functions/powers.hpp"
 #include "math/functions/roots.hpp"
 #include "math/functions/trigonometry.hpp"
 
@@ -79,17 +80,11 @@ double tanh_of(double x) {
     return std::copysign(rise / (rise + 2), x);
 }
 
-double whole_power(double x, int n) {
-    double power = 1;
-    for (; n > 0; n /= 2, x *= x)
-        if (n % 2 == 1) power *= x;
-    return power;
-}
 double power(double x, double y) {
     if (std::isnan(x) || std::isnan(y)) return nan;
     // Small whole exponents by products, as one would write them out.
     if (y == std::floor(y) && std::abs(y) <= 16) {
-        const double up = whole_power(x, static_cast<int>(std::abs(y)));
+        const double up = whole_power(x, static_cast<std::size_t>(std::abs(y)));
         return y < 0 ? 1 / up : up;
     }
     if (y == 0.5) return std::sqrt(x);

@@ -8,6 +8,7 @@
 #include "core/machine/wide.hpp"
 #include "math/densities/expression.hpp"
 #include "math/densities/quadrature.hpp"
+#include "math/functions/powers.hpp"
 
 namespace stipple {
 namespace {
@@ -279,7 +280,7 @@ double LineTable::density(double x) const {
 
 LineMoments LineTable::moments_of(const std::function<double(double)>& f, double mass) const {
     const auto expect = [&](double about, int power) {
-        const auto integrand = [&](double x) { return f(x) * std::pow(x - about, power); };
+        const auto integrand = [&](double x) { return f(x) * whole_power(x - about, power); };
         double sum = 0;
         for (const LinePiece& piece : pieces_)
             sum += gauss_kronrod(integrand, piece.x_low, piece.x_high).value;

@@ -243,6 +243,7 @@ struct BaseOwen::Stretch {
 /// ones and those of `above`.
 void BaseOwen::append_digit(const Stretch& stretch, std::uint64_t above, std::size_t depth,
                             std::uint32_t digit, std::uint64_t* image) const {
+    if (stretch.count == 0) return;
     Prefixes at;
     std::uint32_t rank[lanes];
     std::uint32_t leading[lanes];

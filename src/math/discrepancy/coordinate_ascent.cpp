@@ -9,6 +9,7 @@
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
 #include "math/discrepancy/worst_interval.hpp"
+#include "math/functions/logarithm.hpp"
 
 namespace stipple::discrepancy {
 namespace {
@@ -169,7 +170,7 @@ class BoxAscent {
 /// from the distribution of the largest.
 double largest_of(std::size_t d, const Rng& rng, std::uint64_t first) {
     constexpr std::size_t many = 64;
-    if (d > many) return std::pow(rng.uniform(first), 1 / static_cast<double>(d));
+    if (d > many) return real_power(rng.uniform(first), 1 / static_cast<double>(d));
     double most = 0;
     for (std::size_t j = 0; j < d; ++j) most = std::max(most, rng.uniform(first + j));
     return most;

@@ -127,6 +127,8 @@ struct Normal {
     std::pair<double, double> support() const { return {-infinite, infinite}; }
 };
 
+double bounded_exponential(double x) { return x <= 709 ? stipple::exponential(x) : infinite; }
+
 struct Lognormal {
     static constexpr std::string_view name = "lognormal";
     double mu;
@@ -138,8 +140,9 @@ struct Lognormal {
     double probability(double x, Tail tail) const { return standard_probability(place(x), tail); }
     double density(double x) const { return x > 0 ? standard_density(place(x)) / (sigma * x) : 0; }
     MarginalMoments moments() const {
-        const double more = std::expm1(sigma * sigma);
-        return {std::exp(mu + 0.5 * sigma * sigma), more * std::exp(2 * mu + sigma * sigma),
+        const double square = sigma * sigma;
+        const double more = square <= 709 ? exp_minus_1(square) : infinite;
+        return {bounded_exponential(mu + 0.5 * square), more * bounded_exponential(2 * mu + square),
                 (more + 3) * std::sqrt(more)};
     }
     std::pair<double, double> support() const { return {0, infinite}; }

@@ -10,6 +10,7 @@
 
 #include "core/parallel.hpp"
 #include "math/functions/powers.hpp"
+#include "math/functions/trigonometry.hpp"
 
 namespace stipple {
 namespace {
@@ -200,7 +201,8 @@ void phases(double x, std::size_t last, std::complex<double>* out) {
         const auto frequency = static_cast<double>(f);
         const double product = frequency * high;  // 24 + 20 bits: exact
         const double turn = (product - std::round(product)) + frequency * (x - high);
-        out[f] = std::polar(1.0, -2 * std::numbers::pi * turn);
+        const auto [cos, sin] = cos_sin_turns(std::abs(turn));
+        out[f] = {cos, turn > 0 ? -sin : sin};
     }
 }
 

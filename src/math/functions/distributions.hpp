@@ -19,6 +19,9 @@ double detectable_noncentrality(double freedom, double level);
 /// ln(n! / (n^n e^-n)), which is nearly ln(2 pi n) / 2; 0 at 0.
 double log_excess(double n);
 
+/// ln n!
+double log_factorial(double n);
+
 /// What Student's t with these degrees of freedom exceeds with the probability `above`.
 double student_quantile(double above, double freedom);
 

@@ -13,12 +13,11 @@
 #include <cmath>
 #include <compare>
 #include <limits>
-#include <numbers>
 #include <type_traits>
 
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
-#include "math/functions/trigonometry.hpp"
+#include "math/functions/radians.hpp"
 
 namespace stipple {
 
@@ -81,25 +80,10 @@ inline PortableDouble frexp(PortableDouble x, int* exponent) {
     return std::frexp(x.value, exponent);
 }
 
-namespace detail {
-
-inline CosSin cos_sin_radians(double x) {
-    const double turns = x / (2 * std::numbers::pi);
-    return cos_sin_turns(turns - std::floor(turns));
-}
-
-inline double other_leg(double x) { return std::sqrt((1 - x) * (1 + x)); }
-
-}  // namespace detail
-
-inline PortableDouble cos(PortableDouble x) { return detail::cos_sin_radians(x.value).cos; }
-inline PortableDouble sin(PortableDouble x) { return detail::cos_sin_radians(x.value).sin; }
-inline PortableDouble acos(PortableDouble x) {
-    return 2 * std::numbers::pi * turns_of(x.value, detail::other_leg(x.value));
-}
-inline PortableDouble asin(PortableDouble x) {
-    return 2 * std::numbers::pi * turns_of(detail::other_leg(x.value), x.value);
-}
+inline PortableDouble cos(PortableDouble x) { return cos_sin_radians(x.value).cos; }
+inline PortableDouble sin(PortableDouble x) { return cos_sin_radians(x.value).sin; }
+inline PortableDouble acos(PortableDouble x) { return arc_cosine(x.value); }
+inline PortableDouble asin(PortableDouble x) { return arc_sine(x.value); }
 
 namespace detail {
 

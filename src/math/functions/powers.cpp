@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "math/functions/powers.hpp"
 
-#include <cmath>
 #include <limits>
 
 namespace stipple {
@@ -42,7 +41,7 @@ std::uint64_t rounded_root(std::uint64_t value) {
 }
 
 double real_power_of(std::size_t base, std::size_t exponent) {
-    return std::pow(static_cast<double>(base), static_cast<double>(exponent));
+    return whole_power(static_cast<double>(base), exponent);
 }
 
 }  // namespace stipple

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/functions/radians.hpp"
+
 namespace stipple {
 namespace {
 
@@ -26,7 +28,7 @@ PlanePair between(const PlanePair& a, const PlanePair& b, double t) {
 /// What a disk about 0 shares with the triangle 0, p, q.
 double triangle_in_disk(const PlanePair& p, const PlanePair& q, double radius) {
     const auto sector = [&](const PlanePair& from, const PlanePair& to) {
-        return radius * radius * std::atan2(planar_cross(from, to), planar_dot(from, to)) / 2;
+        return radius * radius * signed_angle(planar_cross(from, to), planar_dot(from, to)) / 2;
     };
     const PlanePair along = planar_minus(q, p);
     const double a = planar_dot(along, along);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "math/densities/quadrature.hpp"
+#include "math/functions/trigonometry.hpp"
 
 namespace stipple {
 namespace {
@@ -15,7 +16,8 @@ constexpr double full_turn = 2 * std::numbers::pi;
 /// Where a circle meets the half-circle of a longitude, and that opposite of it.
 void add_meridian(const SphereCircle& circle, double turn, std::vector<double>& cuts) {
     const auto& [n, h] = circle;
-    const double p = n[0] * std::cos(full_turn * turn) + n[1] * std::sin(full_turn * turn);
+    const auto [cos, sin] = cos_sin_turns(turn);
+    const double p = n[0] * cos + n[1] * sin;
     const double a = n[2] * n[2] + p * p;
     const double root = a - h * h;
     if (!(a > 0) || !(root >= 0)) return;
@@ -62,8 +64,8 @@ std::vector<double> turn_cuts(double z, const Zone& zone, const Discontinuities&
         const double across = r * std::sqrt(n[0] * n[0] + n[1] * n[1]);
         const double cosine = (h - n[2] * z) / across;
         if (!(std::abs(cosine) < 1)) continue;
-        const double middle = std::atan2(n[1], n[0]) / full_turn;
-        const double half = std::acos(cosine) / full_turn;
+        const double middle = turns_of(n[0], n[1]);
+        const double half = turns_of(cosine, std::sqrt((1 - cosine) * (1 + cosine)));
         for (const double turn : {middle - half, middle + half})
             cuts.push_back(turn - std::floor(turn));
     }
@@ -75,7 +77,8 @@ Estimate integrate_row(const SphereDensity& f, double z, const Zone& zone,
                        const Discontinuities& discontinuities) {
     const double r = std::sqrt((1 - z) * (1 + z));
     const auto at = [&](double turn) {
-        return f({r * std::cos(full_turn * turn), r * std::sin(full_turn * turn), z});
+        const auto [cos, sin] = cos_sin_turns(turn);
+        return f({r * cos, r * sin, z});
     };
     const auto turns = turn_cuts(z, zone, discontinuities);
     Estimate sum;

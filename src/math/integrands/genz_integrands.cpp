@@ -30,11 +30,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
 
 #include "core/rng.hpp"
+#include "math/functions/distributions.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
+#include "math/functions/normal_distribution.hpp"
+#include "math/functions/radians.hpp"
 
 namespace stipple {
 namespace {
@@ -93,14 +99,18 @@ double square(double x) { return x * x; }
 Integrand oscillatory(Draw g) {
     const double shift = 2 * std::numbers::pi * g.u[0];
     const double middle = std::accumulate(g.a.begin(), g.a.end(), 0.0) / 2;
-    const double exact = std::cos(shift + middle) *
-                         g.product([](double a, double) { return std::sin(a / 2) / (a / 2); });
-    return {[g = std::move(g), shift](auto x) { return std::cos(shift + g.sum(x, along)); }, exact};
+    const double exact = cos_sin_radians(shift + middle).cos * g.product([](double a, double) {
+        return cos_sin_radians(a / 2).sin / (a / 2);
+    });
+    return {
+        [g = std::move(g), shift](auto x) { return cos_sin_radians(shift + g.sum(x, along)).cos; },
+        exact};
 }
 
 Integrand product_peak(Draw g) {
-    const double exact = g.product(
-        [](double a, double u) { return a * (std::atan(a * (1 - u)) + std::atan(a * u)); });
+    const double exact = g.product([](double a, double u) {
+        return a * (signed_angle(a * (1 - u), 1) + signed_angle(a * u, 1));
+    });
     return {[g = std::move(g)](auto x) {
                 double product = 1;
                 for (std::size_t i = 0; i < g.dimension(); ++i)
@@ -115,13 +125,13 @@ Integrand product_peak(Draw g) {
 double corner_peak_integral(const std::vector<double>& a) {
     const auto d = static_cast<double>(a.size());
     const auto term = [&](double y) {
-        const double t = std::exp(y);
-        double log = (d + 1) * y - t - std::lgamma(d + 1);
-        for (const double s : a) log += std::log(-std::expm1(-s * t) / (s * t));
-        return std::exp(log);
+        const double t = exponential(y);
+        double log = (d + 1) * y - t - log_factorial(d);
+        for (const double s : a) log += logarithm(-exp_minus_1(-s * t) / (s * t));
+        return exponential(log);
     };
     const double step = std::min(0.125, 0.25 / std::sqrt(d + 1));
-    const double top = std::log((d + 1) / (1 + std::accumulate(a.begin(), a.end(), 0.0) / d));
+    const double top = logarithm((d + 1) / (1 + std::accumulate(a.begin(), a.end(), 0.0) / d));
     double sum = term(top);
     for (const double way : {-step, step}) {
         double before = 0;
@@ -139,16 +149,17 @@ double corner_peak_integral(const std::vector<double>& a) {
 Integrand corner_peak(Draw g) {
     const double exact = corner_peak_integral(g.a);
     const auto power = -static_cast<double>(g.dimension() + 1);
-    return {[g = std::move(g), power](auto x) { return std::pow(1 + g.sum(x, along), power); },
+    return {[g = std::move(g), power](auto x) { return real_power(1 + g.sum(x, along), power); },
             exact};
 }
 
 Integrand gaussian(Draw g) {
     const double exact = g.product([](double a, double u) {
-        return (std::erf(a * (1 - u)) + std::erf(a * u)) / (2 * std::numbers::inv_sqrtpi * a);
+        return (error_function(a * (1 - u)) + error_function(a * u)) /
+               (2 * std::numbers::inv_sqrtpi * a);
     });
     return {[g = std::move(g)](auto x) {
-                return std::exp(
+                return exponential(
                     -g.sum(x, [](double a, double u, double t) { return square(a * (t - u)); }));
             },
             exact};
@@ -156,22 +167,27 @@ Integrand gaussian(Draw g) {
 
 Integrand continuous(Draw g) {
     const double exact = g.product(
-        [](double a, double u) { return -(std::expm1(-a * u) + std::expm1(-a * (1 - u))) / a; });
+        [](double a, double u) { return -(exp_minus_1(-a * u) + exp_minus_1(-a * (1 - u))) / a; });
     return {[g = std::move(g)](auto x) {
-                return std::exp(
+                return exponential(
                     -g.sum(x, [](double a, double u, double t) { return a * std::abs(t - u); }));
             },
             exact};
 }
 
+/// exp(x) - 1
+double grown(double x) {
+    return x > 709 ? std::numeric_limits<double>::infinity() : exp_minus_1(x);
+}
+
 Integrand discontinuous(Draw g) {
     const std::size_t cut = std::min<std::size_t>(2, g.dimension());
     for (std::size_t i = cut; i < g.dimension(); ++i) g.u[i] = 1;
-    const double exact = g.product([](double a, double u) { return std::expm1(a * u) / a; });
+    const double exact = g.product([](double a, double u) { return grown(a * u) / a; });
     return {[g = std::move(g), cut](auto x) {
                 for (std::size_t i = 0; i < cut; ++i)
                     if (x[i] > g.u[i]) return 0.0;
-                return std::exp(g.sum(x, along));
+                return 1 + grown(g.sum(x, along));
             },
             exact};
 }

@@ -20,6 +20,7 @@
 #include <numbers>
 
 #include "math/combinatorics/draws.hpp"
+#include "math/functions/trigonometry.hpp"
 #include "math/geometry/planar_area.hpp"
 #include "math/geometry/vector3.hpp"
 
@@ -36,8 +37,8 @@ DrawStream draws(const Values& values, std::uint64_t what) {
 
 /// A direction in the plane.
 PlanePair direction(DrawStream& numbers) {
-    const double angle = 2 * std::numbers::pi * numbers.next();
-    return {std::cos(angle), std::sin(angle)};
+    const auto [cos, sin] = cos_sin_turns(numbers.next());
+    return {cos, sin};
 }
 
 Integrand disk(std::size_t, const Values& values) {

@@ -31,6 +31,11 @@
 
 #include "core/error.hpp"
 #include "math/densities/quadrature.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
+#include "math/functions/normal_distribution.hpp"
+#include "math/functions/powers.hpp"
+#include "math/functions/radians.hpp"
 
 namespace stipple {
 namespace {
@@ -46,13 +51,13 @@ constexpr Param<double> width{.name = "width",
 Integrand smooth_gaussian(std::size_t dimension, const Values& values) {
     const double factor = -0.5 / (values[width] * values[width]);
     const double reach = 0.5 / (std::numbers::sqrt2 * values[width]);
-    const double axis = std::erf(reach) / (std::numbers::inv_sqrtpi * 2 * reach);
+    const double axis = error_function(reach) / (std::numbers::inv_sqrtpi * 2 * reach);
     return {[factor](auto point) {
                 double sum = 0;
                 for (const double x : point) sum += (x - 0.5) * (x - 0.5);
-                return std::exp(factor * sum);
+                return exponential(factor * sum);
             },
-            std::pow(axis, static_cast<double>(dimension))};
+            whole_power(axis, dimension)};
 }
 
 // ---------------------------------------------------------------- zone plate
@@ -74,8 +79,9 @@ std::complex<double> fresnel(double k) {
                                  static_cast<double>(j + 1) / pieces)
                 .value;
         };
-        sum += std::complex<double>(piece([k](double x) { return std::cos(k * x * x); }),
-                                    piece([k](double x) { return std::sin(k * x * x); }));
+        sum +=
+            std::complex<double>(piece([k](double x) { return cos_sin_radians(k * x * x).cos; }),
+                                 piece([k](double x) { return cos_sin_radians(k * x * x).sin; }));
     }
     return sum;
 }
@@ -83,7 +89,7 @@ std::complex<double> fresnel(double k) {
 Integrand zone_plate(std::size_t, const Values& values) {
     const double k = values[phase];
     const std::complex<double> one = fresnel(k);
-    return {[k](auto x) { return (1 + std::cos(k * (x[0] * x[0] + x[1] * x[1]))) / 2; },
+    return {[k](auto x) { return (1 + cos_sin_radians(k * (x[0] * x[0] + x[1] * x[1])).cos) / 2; },
             (1 + (one * one).real()) / 2};
 }
 
@@ -101,7 +107,7 @@ Integrand owen(std::size_t dimension, const Values& values) {
     double sets = 1;
     for (std::size_t j = 0; j < k; ++j)
         sets *= static_cast<double>(dimension - j) / static_cast<double>(j + 1);
-    return {[k, scale = std::pow(12.0, static_cast<double>(k) / 2) / std::sqrt(sets)](auto x) {
+    return {[k, scale = real_power(12, static_cast<double>(k) / 2) / std::sqrt(sets)](auto x) {
                 std::array<double, 11> symmetric{1};  // elementary symmetric polynomials
                 for (const double t : x)
                     for (std::size_t j = k; j > 0; --j)

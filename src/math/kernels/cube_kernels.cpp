@@ -25,18 +25,13 @@
 #include "core/machine/wide.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/normal_distribution.hpp"
+#include "math/functions/powers.hpp"
 #include "math/kernels/kernel.hpp"
 
 namespace stipple::kernels {
 namespace {
 
 constexpr double unit_round = 0x1p-53;
-
-double power(double x, std::size_t n) {
-    double product = 1;
-    for (std::size_t k = 0; k < n; ++k) product *= x;
-    return product;
-}
 
 // ---------------------------------------------------------------- periodic
 
@@ -60,10 +55,10 @@ class Periodic final : public Kernel {
         for (std::size_t k = 0; k < dimension_; ++k)
             multiply_periodic(x.axis(k) + first, y[k], count, values);
     }
-    double diagonal(const double*) const override { return power(crest, dimension_); }
+    double diagonal(const double*) const override { return whole_power(crest, dimension_); }
     double mean(const double*) const override { return 1; }
     double total() const override { return 1; }
-    double mean_diagonal() const override { return power(crest, dimension_); }
+    double mean_diagonal() const override { return whole_power(crest, dimension_); }
     double rounding() const override { return 8 * unit_round * static_cast<double>(dimension_); }
 
   private:
@@ -104,7 +99,7 @@ class Gaussian final : public Kernel {
     double total() const override {
         const double scale = std::numbers::sqrt2 / 2 / h_;
         const double root = error_function(scale) / (scale * std::numbers::inv_sqrtpi);
-        return power(root + exp_minus_1(-scale * scale) / (scale * scale), dimension_);
+        return whole_power(root + exp_minus_1(-scale * scale) / (scale * scale), dimension_);
     }
     double mean_diagonal() const override { return 1; }
     double rounding() const override {
@@ -170,10 +165,10 @@ class Matern final : public Kernel {
         return product;
     }
     double total() const override {
-        if (c_ <= 1) return power(series(), dimension_);
+        if (c_ <= 1) return whole_power(series(), dimension_);
         const Parabola f = with_derivatives(g_);
         const double inner = (f[0] - value_at(f, c_) * exponential(-c_)) / c_;
-        return power(2 / c_ * (g_[0] - inner), dimension_);
+        return whole_power(2 / c_ * (g_[0] - inner), dimension_);
     }
     double mean_diagonal() const override { return 1; }
     double rounding() const override {
@@ -262,12 +257,14 @@ class OfL2 final : public Kernel {
                                         number(of_.mean[3]) * std::abs(x[k] - 0.5));
         return product;
     }
-    double total() const override { return power(one_ + times_ * number(of_.total), dimension_); }
+    double total() const override {
+        return whole_power(one_ + times_ * number(of_.total), dimension_);
+    }
     double mean_diagonal() const override {
         // int k(x, x) dx = s00 + s01 + 2/3 s02 + 1/2 s03 + 1/3 s11
         const double axis = number(of_.s00) + number(of_.s01) + number(of_.s02) * 2 / 3 +
                             number(of_.s03) / 2 + number(of_.s11) / 3;
-        return power(one_ + times_ * axis, dimension_);
+        return whole_power(one_ + times_ * axis, dimension_);
     }
     double rounding() const override { return 16 * unit_round * static_cast<double>(dimension_); }
 

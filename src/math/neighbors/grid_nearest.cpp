@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "core/parallel.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
 #include "math/neighbors/point_grid.hpp"
 
 namespace stipple {
@@ -25,9 +27,9 @@ double side_of_cells(const Box& box, double cells) {
     std::ranges::sort(sides);
     double side = 0;
     for (std::size_t flat = 0; flat < sides.size(); ++flat) {
-        double logarithm = -std::log(cells);
-        for (std::size_t k = flat; k < sides.size(); ++k) logarithm += std::log(sides[k]);
-        side = std::exp(logarithm / static_cast<double>(sides.size() - flat));
+        double logarithm = -stipple::logarithm(cells);
+        for (std::size_t k = flat; k < sides.size(); ++k) logarithm += stipple::logarithm(sides[k]);
+        side = exponential(logarithm / static_cast<double>(sides.size() - flat));
         if (side > 0 && side <= sides[flat]) break;
     }
     return side;

@@ -69,7 +69,7 @@ void PlanarCells::cut_by_neighbors(std::size_t i, VoronoiCell& cell) const {
     constexpr std::array<Vec2, 4> outward = {Vec2{0, -1}, Vec2{1, 0}, Vec2{0, 1}, Vec2{-1, 0}};
     const double least = 1e-18 * (sites_.sides.x + sites_.sides.y);
     for (std::size_t k = 0; k < planes.size(); ++k)
-        if (std::hypot(planes[k].neighbor.x, planes[k].neighbor.y) < least)
+        if (std::max(std::abs(planes[k].neighbor.x), std::abs(planes[k].neighbor.y)) < least)
             planes[k].neighbor = {least * outward[k].x, least * outward[k].y};
     const std::size_t count = sites_.count();
     // Rounding moves copies: a neighbour may have a copy of the site for one, and not the site itself.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "math/functions/radians.hpp"
 #include "math/functions/trigonometry.hpp"
 
 namespace stipple::warps {
@@ -78,7 +79,7 @@ std::array<double, 3> SphericalDomain::axial(const Vector3& w) const {
         const Vector3& to = corners_[(i + 1) % corners_.size()];
         const double sine = length(cross(from, to));
         const double cosine = dot(from, to);
-        const double angle = std::atan2(sine, cosine);
+        const double angle = signed_angle(sine, cosine);
         // The edge is a cos(s) + b sin(s) along w, for s from 0 to the angle.
         const double a = dot(w, from);
         const double b = (dot(w, to) - cosine * a) / sine;
@@ -108,7 +109,7 @@ std::optional<Moments> SphericalDomain::moments() const {
         m.mean[k] = mean;
         m.covariance[4 * k] = squares[k] - mean * mean;
         m.skewness[k] = (third / area_ - 3 * mean * squares[k] + 2 * mean * mean * mean) /
-                        std::pow(m.covariance[4 * k], 1.5);
+                        (m.covariance[4 * k] * std::sqrt(m.covariance[4 * k]));
     }
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < i; ++j) {

@@ -8,6 +8,7 @@
 #include "core/text.hpp"
 #include "math/densities/line_table.hpp"
 #include "math/densities/quadrature.hpp"
+#include "math/functions/powers.hpp"
 
 namespace stipple::warps {
 namespace {
@@ -85,7 +86,7 @@ std::optional<Moments> FormulaBox::moments() const {
         };
         const Estimate found = integrate_box(
             [&](std::span<const double> x) {
-                return f_.at(x) * std::pow(off(x, i), p) * std::pow(off(x, j), q);
+                return f_.at(x) * whole_power(off(x, i), p) * whole_power(off(x, j), q);
             },
             box_, effort_for_moments(d));
         fine = fine && found.error <= 1e-6 * whole.value;
@@ -102,7 +103,7 @@ std::optional<Moments> FormulaBox::moments() const {
             expect(k, 3, k, 0) - 3 * mean[k] * square + 2 * mean[k] * mean[k] * mean[k];
         m.mean[k] = box_.low[k] + half * (1 + mean[k]);
         m.covariance[k * d + k] = half * half * variance;
-        m.skewness[k] = third / std::pow(variance, 1.5);
+        m.skewness[k] = third / (variance * std::sqrt(variance));
     }
     if (d == 2)
         m.covariance[1] = m.covariance[2] =

@@ -29,6 +29,7 @@
 #include "core/domain.hpp"
 #include "core/error.hpp"
 #include "math/densities/strip_table.hpp"
+#include "math/functions/powers.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "media/density_map.hpp"
 #include "warps/named_domain.hpp"
@@ -204,7 +205,7 @@ class BilinearDomain final : public SquareDomain {
                 double all = 0;
                 for (std::size_t c = 0; c < 4; ++c)
                     all += corners[c] * along(i, c % 2 == 1) * along(j, c / 2 == 1);
-                return 4 * all / sum * std::pow(width, i) * std::pow(height, j);
+                return 4 * all / sum * whole_power(width, i) * whole_power(height, j);
             };
             const PlaneMoments raw{.mean = {mean(1, 0), mean(0, 1)},
                                    .xx = mean(2, 0),

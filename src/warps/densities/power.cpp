@@ -34,6 +34,7 @@
 #include "math/densities/quadrature.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
+#include "math/functions/powers.hpp"
 #include "math/functions/roots.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "warps/common_options.hpp"
@@ -114,7 +115,7 @@ LineMoments PowerLaw::narrow_moments() const {
     const double middle = 0.5 * (a + b);
     const auto sum = [&](int n, double about) {
         const auto integrand = [&](double x) {
-            return std::pow(x - about, n) * real_power(std::abs(x / middle), p - 1);
+            return whole_power(x - about, n) * real_power(std::abs(x / middle), p - 1);
         };
         return gauss_kronrod(integrand, a, b).value;
     };
@@ -255,14 +256,14 @@ std::unique_ptr<Mapping> mapping_of(const Interval& interval, const WarpRequest&
 /// part of it below the smallest. @throws Error(usage)
 void require_numbers_near_0(double k, double size) {
     constexpr double smallest = std::numeric_limits<double>::min();
-    const double depth = std::log(smallest / size);
-    const double least = std::log(1e-14) / depth - 1;
+    const double depth = logarithm(smallest / size);
+    const double least = logarithm(1e-14) / depth - 1;
     if (k >= least) return;
     fail_with_hint(
         ErrorKind::usage, fmt::format("or a range that begins above 0, as at {:.0g}", 1e-150),
         "--exponent: x^{} on a range that ends at 0 has {:.3g} of its mass below {:.2g}, "
         "where numbers end; at least {:.4f} is needed",
-        k, std::exp((k + 1) * depth), smallest, least + 5e-5);
+        k, stipple::exponential((k + 1) * depth), smallest, least + 5e-5);
 }
 
 Interval interval_of(const Values& options) {

@@ -65,7 +65,9 @@ double distance(PlanePoint p, PlanePoint a, PlanePoint b) {
     const double ey = dy / longest;
     const double along = ((p.x - a.x) * ex + (p.y - a.y) * ey) / (ex * ex + ey * ey);
     const double t = std::clamp(along / longest, 0.0, 1.0);
-    return std::hypot(p.x - (a.x + t * dx), p.y - (a.y + t * dy));
+    const double x = (p.x - a.x) / longest - t * ex;
+    const double y = (p.y - a.y) / longest - t * ey;
+    return longest * std::sqrt(x * x + y * y);
 }
 
 }  // namespace

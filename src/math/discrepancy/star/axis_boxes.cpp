@@ -17,6 +17,7 @@
 // Cost    O(n d).
 
 #include "math/discrepancy/star/search.hpp"
+#include "math/functions/logarithm.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -104,8 +105,8 @@ double axis_bound(const BoxGrid& grid, double times) {
     }
     constexpr double rounding = 0x1p-46;
     if (d == 1) return most + rounding;
-    const double full = (1 - 1 / d) * std::pow(d, -1 / (d - 1)) + most;
-    const double empty = std::pow(1 - 1 / d, d) + all;
+    const double full = (1 - 1 / d) * real_power(d, -1 / (d - 1)) + most;
+    const double empty = real_power(1 - 1 / d, d) + all;
     return std::min(1.0, std::max(full, empty) * (1 + rounding) + rounding);
 }
 
