@@ -154,7 +154,7 @@ TEST(Spec, BracketsNest) {
     Values values = of_parts.defaults();
     values.put("parts", std::string("a:b=[c]"));
     EXPECT_EQ(format_spec("unit", values, of_parts), "unit:parts=[a:b=[c]]");
-    EXPECT_EQ(parse_spec("unit:parts=[a:b=[c]]").values(schema), values);
+    EXPECT_EQ(parse_spec("unit:parts=[a:b=[c]]").values(of_parts), values);
 }
 
 }  // namespace stipple::testing::options_test

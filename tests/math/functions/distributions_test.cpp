@@ -41,4 +41,19 @@ TEST(Distributions, NoncentralityHasThePower) {
     }
 }
 
+TEST(Distributions, FactorialsByTheirFactors) {
+    double sum = 0;
+    EXPECT_EQ(log_factorial(0), 0);
+    for (int n = 1; n < 1000; ++n) {
+        sum += std::log(n);
+        EXPECT_NEAR(log_factorial(n), sum, 1e-14 + 1e-13 * sum) << n;
+    }
+}
+
+TEST(Distributions, StudentIsSymmetric) {
+    EXPECT_EQ(student_quantile(0.75, 9), -student_quantile(0.25, 9));
+    EXPECT_NEAR(student_quantile(0.025, 10), 2.228138852, 5e-10);  // in every table of it
+    EXPECT_NEAR(student_quantile(0.5, 3), 0, 1e-15);
+}
+
 }  // namespace stipple::testing::distributions_test

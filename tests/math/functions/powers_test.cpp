@@ -49,4 +49,10 @@ TEST(Powers, RoundedRootByHand) {
     EXPECT_EQ(rounded_root(std::uint64_t{1} << 53), 94906266U);  // sqrt = 94906265.62
 }
 
+TEST(Powers, OfRealNumbersByProducts) {
+    EXPECT_EQ(whole_power(-1.5, 3), -3.375);
+    EXPECT_EQ(whole_power(0, 0), 1);
+    EXPECT_EQ(whole_power(2, 1000), 0x1p1000);
+}
+
 }  // namespace stipple::testing::powers_test
