@@ -79,7 +79,8 @@ STIPPLE_WIDE [[gnu::flatten]] void map_rows(const Method method, std::span<const
 
 /// The way back of a point of the domain: the method's, or else the domain's.
 template <class Known, class Method, std::size_t m>
-auto row_back(const Known& domain, const Method& method, const std::array<double, m>& point) {
+[[gnu::flatten]] auto row_back(const Known& domain, const Method& method,
+                               const std::array<double, m>& point) {
     std::array<double, ArityOf<Method>::cube> xi{};
     if constexpr (requires { &Method::inverse; })
         put_clamped(method.inverse(point), xi);

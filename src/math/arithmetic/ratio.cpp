@@ -2,9 +2,11 @@
 #include "math/arithmetic/ratio.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
+#include "core/machine/wide.hpp"
 #include "core/rng.hpp"
 
 namespace stipple {
@@ -14,6 +16,21 @@ int bit_width(Wide x) {
     const auto high = static_cast<std::uint64_t>(x >> 64);
     return high != 0 ? 64 + static_cast<int>(std::bit_width(high))
                      : static_cast<int>(std::bit_width(static_cast<std::uint64_t>(x)));
+}
+
+/// Numbers that are divided side by side before they go to their places: stores at a stride keep
+/// compilers from doing that.
+constexpr std::size_t some = 128;
+
+STIPPLE_WIDE void divide(const double* numbers, double factor, double term, double whole,
+                         std::size_t count, double* quotients) {
+    for (std::size_t j = 0; j < count; ++j) quotients[j] = (numbers[j] * factor + term) / whole;
+}
+
+constexpr std::array<double, some> from_0() {
+    std::array<double, some> numbers{};
+    for (std::size_t j = 1; j < some; ++j) numbers[j] = numbers[j - 1] + 1;
+    return numbers;
 }
 
 }  // namespace
@@ -30,18 +47,28 @@ double detail::wide_ratio(Wide numerator, Wide denominator) {
     return std::min(rounded, one_minus_ulp);
 }
 
-void fill_ratios(std::uint64_t first, std::uint64_t step, std::uint64_t whole, std::size_t count,
-                 double* x, std::size_t stride) {
+void fill_quotients(std::span<const double> numbers, double factor, double term, double whole,
+                    double* x, std::size_t stride) {
+    std::array<double, some> quotients;
+    for (std::size_t at = 0; at < numbers.size(); at += some) {
+        const auto part = numbers.subspan(at, std::min(some, numbers.size() - at));
+        divide(part.data(), factor, term, whole, part.size(), quotients.data());
+        for (std::size_t j = 0; j < part.size(); ++j, x += stride) *x = quotients[j];
+    }
+}
+
+void fill_ratios(Wide first, Wide step, Wide whole, std::size_t count, double* x,
+                 std::size_t stride) {
     if (whole > exact_limit) {
         for (std::size_t j = 0; j < count; ++j) x[j * stride] = ratio(first + step * j, whole);
         return;
     }
     // Every number here is whole and at most 2^53: only the division rounds.
-    const auto begin = static_cast<double>(first);
-    const auto ahead = static_cast<double>(step);
-    const auto parts = static_cast<double>(whole);
-    for (std::size_t j = 0; j < count; ++j)
-        x[j * stride] = (begin + ahead * static_cast<double>(static_cast<std::int64_t>(j))) / parts;
+    const auto number = [](Wide y) { return static_cast<double>(static_cast<std::uint64_t>(y)); };
+    static constexpr auto counted = from_0();
+    for (std::size_t at = 0; at < count; at += some)
+        fill_quotients(std::span(counted).first(std::min(some, count - at)), number(step),
+                       number(first + step * at), number(whole), x + at * stride, stride);
 }
 
 }  // namespace stipple

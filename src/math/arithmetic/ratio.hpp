@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/machine/int128.hpp"
 
@@ -28,7 +29,11 @@ inline double ratio(Wide numerator, Wide denominator) {
 }
 
 /// x[j * stride] = ratio(first + j step, whole) for j < count; all are below 1.
-void fill_ratios(std::uint64_t first, std::uint64_t step, std::uint64_t whole, std::size_t count,
-                 double* x, std::size_t stride);
+void fill_ratios(Wide first, Wide step, Wide whole, std::size_t count, double* x,
+                 std::size_t stride);
+
+/// x[j * stride] = (numbers[j] factor + term) / whole, in doubles.
+void fill_quotients(std::span<const double> numbers, double factor, double term, double whole,
+                    double* x, std::size_t stride);
 
 }  // namespace stipple

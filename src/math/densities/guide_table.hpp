@@ -39,7 +39,8 @@ class Buckets {
     }
 
     [[nodiscard]] std::size_t of(double w) const {
-        return std::min(static_cast<std::size_t>(w * scale_), last_);
+        // To signed numbers is one instruction, to unsigned ones several.
+        return std::min(static_cast<std::size_t>(static_cast<std::int64_t>(w * scale_)), last_);
     }
 
   private:

@@ -279,7 +279,7 @@ double LineTable::density(double x) const {
 }
 
 LineMoments LineTable::moments_of(const std::function<double(double)>& f, double mass) const {
-    const auto expect = [&](double about, int power) {
+    const auto expect = [&](double about, std::size_t power) {
         const auto integrand = [&](double x) { return f(x) * whole_power(x - about, power); };
         double sum = 0;
         for (const LinePiece& piece : pieces_)

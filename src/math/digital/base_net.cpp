@@ -72,15 +72,18 @@ struct Walk {
     double whole;
 };
 
-template <class F>
+// Loops over so few words as are active have to be unrolled, hence their number as an argument.
+template <std::size_t active, class F>
 void walk(const F& fields, const Walk& w, BaseNet::Words state, std::size_t count, double* out,
           std::size_t stride) {
+    if constexpr (active < BaseNet::most_words)
+        if (w.active > active) return walk<active + 1>(fields, w, state, count, out, stride);
     for (std::size_t j = 0; j < count; ++j) {
         std::uint64_t number = w.rest;
-        for (std::size_t a = 0; a < w.active; ++a) number += fields.number(state[a]) * w.scales[a];
+        for (std::size_t a = 0; a < active; ++a) number += fields.number(state[a]) * w.scales[a];
         out[j * stride] = static_cast<double>(static_cast<std::int64_t>(number)) / w.whole;
         const BaseNet::Words& step = w.steps[w.ruler[j]];
-        for (std::size_t a = 0; a < w.active; ++a) state[a] = fields.sum(state[a], step[a]);
+        for (std::size_t a = 0; a < active; ++a) state[a] = fields.sum(state[a], step[a]);
     }
 }
 
@@ -163,10 +166,10 @@ void BaseNet::stretch(const Coordinate& coordinate, std::uint64_t first, std::si
         std::uint64_t rest = 0;
         for (std::size_t word = coordinate.active; word < words_; ++word)
             rest += fields.number(state[word]) * scales_[word];
-        walk(fields,
-             {coordinate.steps.data(), ruler_.data() + first % block_, scales_, coordinate.active,
-              rest, whole_},
-             state, count, out, stride);
+        walk<0>(fields,
+                {coordinate.steps.data(), ruler_.data() + first % block_, scales_,
+                 coordinate.active, rest, whole_},
+                state, count, out, stride);
     });
 }
 

@@ -89,8 +89,7 @@ void PermutedInverse::fill(std::uint64_t first, std::size_t count, double* out,
         const std::uint64_t start = first % block_;
         const auto run = std::min<std::size_t>(count, block_ - start);
         const double rest = behind(first / block_);
-        const double* low = low_.data() + start;
-        for (std::size_t j = 0; j < run; ++j) out[j * stride] = (low[j] + rest) / block;
+        fill_quotients(std::span(low_).subspan(start, run), 1, rest, block, out, stride);
         first += run;
         count -= run;
         out += run * stride;

@@ -8,10 +8,6 @@ constexpr std::uint64_t mask48 = (std::uint64_t{1} << 48) - 1;
 constexpr std::uint64_t drand48_factor = 0x5'DEEC'E66D;
 constexpr std::uint64_t drand48_term = 0xB;
 
-constexpr std::uint32_t mask24 = (std::uint32_t{1} << 24) - 1;
-constexpr std::uint32_t ranmar_step = 7654321;
-constexpr std::uint32_t ranmar_modulus = 16777213;
-
 }  // namespace
 
 double Drand48::next() {
@@ -44,14 +40,6 @@ AdditiveFeedback::AdditiveFeedback(std::uint64_t seed) {
     for (int i = 0; i < 310; ++i) next();
 }
 
-double AdditiveFeedback::next() {
-    state_[front_] += state_[rear_];
-    const std::uint32_t sum = state_[front_];
-    if (++front_ == state_.size()) front_ = 0;
-    if (++rear_ == state_.size()) rear_ = 0;
-    return (sum >> 1) * 0x1p-31;
-}
-
 Ranmar::Ranmar(std::uint32_t ij, std::uint32_t kl) {
     std::uint32_t i = ij / 177 % 177 + 2;
     std::uint32_t j = ij % 177 + 2;
@@ -66,17 +54,6 @@ Ranmar::Ranmar(std::uint32_t ij, std::uint32_t kl) {
             l = (53 * l + 1) % 169;
             word = word << 1 | (l * product % 64 >= 32 ? 1 : 0);
         }
-}
-
-double Ranmar::next() {
-    std::uint32_t difference = (state_[front_] - state_[rear_]) & mask24;
-    state_[front_] = difference;
-    front_ = front_ == 0 ? state_.size() - 1 : front_ - 1;
-    rear_ = rear_ == 0 ? state_.size() - 1 : rear_ - 1;
-    arithmetic_ = arithmetic_ < ranmar_step ? arithmetic_ + ranmar_modulus - ranmar_step
-                                            : arithmetic_ - ranmar_step;
-    difference = (difference - arithmetic_) & mask24;
-    return difference * 0x1p-24;
 }
 
 }  // namespace stipple

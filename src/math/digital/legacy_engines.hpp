@@ -39,7 +39,13 @@ class AdditiveFeedback {
     static constexpr std::uint64_t max_seed = 0xffff'ffff;
 
     explicit AdditiveFeedback(std::uint64_t seed);
-    double next();
+    double next() {
+        state_[front_] += state_[rear_];
+        const std::uint32_t sum = state_[front_];
+        if (++front_ == state_.size()) front_ = 0;
+        if (++rear_ == state_.size()) rear_ = 0;
+        return (sum >> 1) * 0x1p-31;
+    }
 
   private:
     std::array<std::uint32_t, 31> state_{};
@@ -63,9 +69,21 @@ class Ranmar {
 
     /// ij in [0, 31328], kl in [0, 30081].
     Ranmar(std::uint32_t ij, std::uint32_t kl);
-    double next();
+    double next() {
+        std::uint32_t difference = (state_[front_] - state_[rear_]) & mask24;
+        state_[front_] = difference;
+        front_ = front_ == 0 ? state_.size() - 1 : front_ - 1;
+        rear_ = rear_ == 0 ? state_.size() - 1 : rear_ - 1;
+        arithmetic_ = arithmetic_ < step ? arithmetic_ + modulus - step : arithmetic_ - step;
+        difference = (difference - arithmetic_) & mask24;
+        return difference * 0x1p-24;
+    }
 
   private:
+    static constexpr std::uint32_t mask24 = (std::uint32_t{1} << 24) - 1;
+    static constexpr std::uint32_t step = 7654321;
+    static constexpr std::uint32_t modulus = 16777213;
+
     std::array<std::uint32_t, 97> state_{};
     std::size_t front_ = 96;
     std::size_t rear_ = 32;

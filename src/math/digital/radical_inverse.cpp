@@ -28,22 +28,19 @@ Reversed reversed(std::uint64_t index, std::uint64_t base,
 }
 
 /// Low digits behind high ones: numbers (low * high.power + high.digits) / (block * high.power).
-template <class Low>
-void join(const Low& low, const Reversed& high, std::uint64_t block, std::size_t count, double* out,
+void join(std::span<const double> low, const Reversed& high, std::uint64_t block, double* out,
           std::size_t stride) {
     const Wide denominator = high.power * block;
     if (denominator > exact_limit) {
-        for (std::size_t j = 0; j < count; ++j) {
-            const Wide turned = static_cast<std::uint64_t>(low(j));
+        for (std::size_t j = 0; j < low.size(); ++j) {
+            const Wide turned = static_cast<std::uint64_t>(low[j]);
             out[j * stride] = ratio(turned * high.power + high.digits, denominator);
         }
         return;
     }
     // Every number here is whole and at most 2^53: only the division rounds.
-    const auto power = static_cast<double>(static_cast<std::uint64_t>(high.power));
-    const auto digits = static_cast<double>(static_cast<std::uint64_t>(high.digits));
-    const auto whole = static_cast<double>(static_cast<std::uint64_t>(denominator));
-    for (std::size_t j = 0; j < count; ++j) out[j * stride] = (low(j) * power + digits) / whole;
+    const auto number = [](Wide x) { return static_cast<double>(static_cast<std::uint64_t>(x)); };
+    fill_quotients(low, number(high.power), number(high.digits), number(denominator), out, stride);
 }
 
 }  // namespace
@@ -72,15 +69,11 @@ void RadicalInverse::fill(std::uint64_t first, std::size_t count, double* out,
         const std::uint64_t start = first % block_;
         const auto run = std::min<std::size_t>(count, block_ - start);
         const Reversed high = reversed(first / block_, base_, permutation_);
-        if (reversed_.empty()) {
-            const auto low = [begin = static_cast<double>(start)](std::size_t j) {
-                return begin + static_cast<double>(static_cast<std::int32_t>(j));
-            };
-            join(low, high, block_, run, out, stride);
-        } else {
-            const auto low = [begin = reversed_.data() + start](std::size_t j) { return begin[j]; };
-            join(low, high, block_, run, out, stride);
-        }
+        if (reversed_.empty())
+            fill_ratios(start * high.power + high.digits, high.power, high.power * block_, run, out,
+                        stride);
+        else
+            join(std::span(reversed_).subspan(start, run), high, block_, out, stride);
         first += run;
         count -= run;
         out += run * stride;

@@ -69,10 +69,10 @@ void place_in_strata(Strata strata, double* x, std::size_t stride) {
 void place_in_middles(const Strata& strata, double* x, std::size_t stride) {
     // Half a stratum is more than all rounding, unless there are very many.
     const bool roomy = strata.parts <= std::uint64_t{1} << 50;
-    const double half = static_cast<double>(strata.width) / 2;
-    for (std::size_t j = 0; j < strata.low.size(); ++j)
-        x[j * stride] = roomy ? (strata.low[j] + half) / static_cast<double>(strata.parts)
-                              : safe_point_of(strata, j);
+    if (roomy)
+        return fill_quotients(strata.low, 1, static_cast<double>(strata.width) / 2,
+                              static_cast<double>(strata.parts), x, stride);
+    for (std::size_t j = 0; j < strata.low.size(); ++j) x[j * stride] = safe_point_of(strata, j);
 }
 
 }  // namespace stipple

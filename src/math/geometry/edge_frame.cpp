@@ -36,10 +36,6 @@ ExactEdge exact_edge(const Vector3& from, const Vector3& to) {
     return edge;
 }
 
-Vector3 space_point(std::span<const double> point) {
-    return {point[0], point[1], point.size() > 2 ? point[2] : 0};
-}
-
 EdgeFrame::EdgeFrame(const Vector3& corner, const ExactEdge& a, const ExactEdge& b, double size)
     : corner_(corner) {
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -59,15 +55,6 @@ EdgeFrame::EdgeFrame(const Vector3& corner, const ExactEdge& a, const ExactEdge&
     normal_ = times(n, 1 / area);
     g_ = times(cross(f, normal_), 1 / (area * unit));
     h_ = times(cross(normal_, e), 1 / (area * unit));
-}
-
-EdgeFrame::Coordinates EdgeFrame::coordinates(const Vector3& point) const {
-    const Vector3 d = minus(point, corner_);
-    return {dot(g_, d), dot(h_, d)};
-}
-
-double EdgeFrame::off_plane(const Vector3& point) const {
-    return std::abs(dot(normal_, minus(point, corner_)));
 }
 
 }  // namespace stipple

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "math/geometry/vector3.hpp"
@@ -17,7 +18,9 @@
 namespace stipple {
 
 /// A point of two or three coordinates in space; the plane is z = 0.
-Vector3 space_point(std::span<const double> point);
+[[gnu::always_inline]] inline Vector3 space_point(std::span<const double> point) {
+    return {point[0], point[1], point.size() > 2 ? point[2] : 0};
+}
 
 /// The vector high + low between two points, exact where they are within 2^53 of another.
 struct ExactEdge {
@@ -41,10 +44,15 @@ class EdgeFrame {
     /// Whether the edges span no area, but for rounding; nothing else may be asked then.
     [[nodiscard]] bool flat() const { return flat_; }
 
-    [[nodiscard]] Coordinates coordinates(const Vector3& point) const;
+    [[nodiscard, gnu::always_inline]] Coordinates coordinates(const Vector3& point) const {
+        const Vector3 d = minus(point, corner_);
+        return {dot(g_, d), dot(h_, d)};
+    }
 
     /// Distance from the plane of the edges.
-    [[nodiscard]] double off_plane(const Vector3& point) const;
+    [[nodiscard, gnu::always_inline]] double off_plane(const Vector3& point) const {
+        return std::abs(dot(normal_, minus(point, corner_)));
+    }
 
     /// Area of the parallelogram of the edges, within 4 epsilon of itself however flat it is.
     [[nodiscard]] double area() const { return area_; }

@@ -159,7 +159,7 @@ class Urena {
 
   private:
     /// Half the solid angle between x = -infinity and x, in turns.
-    double half_up_to(double x) const {
+    [[gnu::always_inline]] double half_up_to(double x) const {
         const double z = seen_.z;
         const double m = z * z + seen_.y0 * seen_.y1;
         const double n = z * (seen_.y1 - seen_.y0);

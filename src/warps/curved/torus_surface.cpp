@@ -77,7 +77,7 @@ struct Torus {
         double tube;    ///< distance from the middle of the tube
     };
 
-    Section section(std::span<const double> point) const {
+    [[gnu::always_inline]] Section section(std::span<const double> point) const {
         // In units of a power of 2, in which no square over- or underflows.
         const double unit = std::ldexp(1.0, -std::ilogb(major));
         const auto [x, y, z] = times(frame.in(minus(vector_of(point), center)), unit);

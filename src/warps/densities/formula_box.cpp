@@ -80,7 +80,7 @@ std::optional<Moments> FormulaBox::moments() const {
     const Estimate whole = integral();
     bool fine = whole.error <= 1e-6 * whole.value;
     // E of a product of coordinates from the middle of the box, in halves of its extents.
-    const auto expect = [&](std::size_t i, int p, std::size_t j, int q) {
+    const auto expect = [&](std::size_t i, std::size_t p, std::size_t j, std::size_t q) {
         const auto off = [&](std::span<const double> x, std::size_t k) {
             return (x[k] - box_.low[k]) / (0.5 * box_.extent(k)) - 1;
         };

@@ -198,9 +198,10 @@ class BilinearDomain final : public SquareDomain {
         /// are products of the integrals of (1 - s) s^i, or of s^(i + 1).
         [[nodiscard]] Moments moments() const {
             const double sum = corners[0] + corners[1] + corners[2] + corners[3];
-            const auto mean = [&](int i, int j) {
-                const auto along = [](int power, bool high) {
-                    return high ? 1.0 / (power + 2) : 1.0 / ((power + 1) * (power + 2));
+            const auto mean = [&](std::size_t i, std::size_t j) {
+                const auto along = [](std::size_t power, bool high) {
+                    const auto p = static_cast<double>(power);
+                    return high ? 1 / (p + 2) : 1 / ((p + 1) * (p + 2));
                 };
                 double all = 0;
                 for (std::size_t c = 0; c < 4; ++c)

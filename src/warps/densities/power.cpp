@@ -58,7 +58,7 @@ enum class Root { none, square, cube, other, logarithm };
 
 /// y^(1/p) for y >= 0 by the cheapest way; of a cube root also for y < 0.
 template <Root root>
-double rooted(double y, double inverse_p) {
+[[gnu::always_inline]] inline double rooted(double y, double inverse_p) {
     if constexpr (root == Root::none) return y;
     if constexpr (root == Root::square) return std::sqrt(y);
     if constexpr (root == Root::cube) return cube_root(y);
@@ -113,7 +113,7 @@ struct PowerLaw : LineDistribution, Interval {
 /// By quadrature, where the ends are so near each other that powers would lose digits.
 LineMoments PowerLaw::narrow_moments() const {
     const double middle = 0.5 * (a + b);
-    const auto sum = [&](int n, double about) {
+    const auto sum = [&](std::size_t n, double about) {
         const auto integrand = [&](double x) {
             return whole_power(x - about, n) * real_power(std::abs(x / middle), p - 1);
         };
