@@ -8,16 +8,15 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "python/worker.hpp"
 #include "stipple/error.hpp"
 #include "stipple/run.hpp"
 
@@ -35,7 +34,7 @@ struct How {
 /// Shows the notes that the work gave, as warnings.
 void show(const std::vector<std::string>& notes);
 
-/// What work(run) gives, on a thread of its own. @throws what it throws; KeyboardInterrupt
+/// What work(run) gives, on another thread. @throws what it throws; KeyboardInterrupt
 template <class Work>
 auto released(const How& how, Work work) {
     using Result = decltype(work(std::declval<const RunContext&>()));
@@ -44,8 +43,6 @@ auto released(const How& how, Work work) {
     std::atomic<double> done = 0;
     std::vector<std::string> notes;
     std::mutex mutex;
-    std::condition_variable ended;
-    bool over = false;
     std::stop_source stop;
 
     RunContext run{.threads = how.threads, .stop = stop.get_token()};
@@ -56,23 +53,20 @@ auto released(const How& how, Work work) {
     };
     if (how.max_memory > 0) run.max_memory = static_cast<std::uint64_t>(how.max_memory);
 
-    std::jthread worker([&] {
+    HiredWorker worker;
+    worker->begin([&] {
         try {
             result.emplace(work(std::as_const(run)));
         } catch (...) {
             error = std::current_exception();
         }
-        const std::lock_guard lock(mutex);
-        over = true;
-        ended.notify_all();
     });
-    const auto wait = [&] {
+    const auto done_soon = [&] {
         const py::gil_scoped_release free;
-        std::unique_lock lock(mutex);
-        return ended.wait_for(lock, std::chrono::milliseconds(50), [&] { return over; });
+        return worker->done_within(std::chrono::milliseconds(50));
     };
     std::exception_ptr problem;  // Ctrl-C, or one of whoever shows progress
-    while (!wait()) {
+    while (!done_soon()) {
         if (problem) continue;
         try {
             if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -81,10 +75,6 @@ auto released(const How& how, Work work) {
             problem = std::current_exception();
             stop.request_stop();
         }
-    }
-    {
-        const py::gil_scoped_release free;
-        worker.join();
     }
     if (problem) std::rethrow_exception(problem);
     if (error) std::rethrow_exception(error);

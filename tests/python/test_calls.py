@@ -2,6 +2,8 @@
 import io
 import os
 import signal
+import subprocess
+import sys
 import threading
 import time
 
@@ -301,6 +303,29 @@ def test_progress_is_shown(capsys):
 
     with pytest.raises(RuntimeError, match="no more"):
         stipple.analyze("star-discrepancy", stipple.generate("random", 400, 7), progress=fail)
+
+
+def test_whoever_shows_progress_may_call():
+    x = stipple.generate("random", 3000, 4)
+    inner = []
+    outer = stipple.analyze("star-discrepancy", x, progress=lambda share: inner.append(
+        stipple.analyze("star-discrepancy", x[:100, :2]).value))
+    assert outer.value == stipple.analyze("star-discrepancy", x).value
+    assert set(inner) == {stipple.analyze("star-discrepancy", x[:100, :2]).value}
+
+
+FORKED = """
+import os, sys, stipple
+here = stipple.generate("random", 5, 2, threads=1)
+child = os.fork()
+if child == 0:
+    sys.exit(0 if (stipple.generate("random", 5, 2, threads=1) == here).all() else 1)
+sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+"""
+
+
+def test_forked_processes_have_a_worker_of_their_own():
+    assert subprocess.run([sys.executable, "-c", FORKED], timeout=120).returncode == 0
 
 
 def test_interrupts_stop_long_work():

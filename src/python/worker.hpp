@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+//
+// A thread that does the calls of one thread of Python, one after the other, so that what the library
+// keeps for a thread, its memory and TBB's place for it, is there for the next call.
+#pragma once
+
+#include <unistd.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace stipple::python {
+
+class Worker {
+  public:
+    Worker() : thread_([this] { serve(); }) {}
+    Worker(const Worker&) = delete;
+    Worker& operator=(const Worker&) = delete;
+    ~Worker() {
+        begin({});
+        thread_.join();
+    }
+
+    /// @param work throws nothing; empty: the last
+    void begin(std::function<void()> work) {
+        const std::lock_guard lock(mutex_);
+        work_ = std::move(work);
+        waits_ = true;
+        changed_.notify_all();
+    }
+
+    /// Whether the work is done after this time.
+    bool done_within(std::chrono::milliseconds time) {
+        std::unique_lock lock(mutex_);
+        return changed_.wait_for(lock, time, [&] { return !waits_; });
+    }
+
+    /// In a child that was forked there is no thread, nor may there be a join.
+    [[nodiscard]] bool alive() const { return process_ == getpid(); }
+
+  private:
+    void serve() {
+        std::unique_lock lock(mutex_);
+        for (;;) {
+            changed_.wait(lock, [&] { return waits_; });
+            if (!work_) return;
+            lock.unlock();
+            work_();
+            lock.lock();
+            waits_ = false;
+            changed_.notify_all();
+        }
+    }
+
+    const pid_t process_ = getpid();
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::function<void()> work_;
+    bool waits_ = false;
+    std::thread thread_;
+};
+
+/// The worker of this thread, or a new one where that is busy: whoever shows progress may call, too.
+class HiredWorker {
+  public:
+    HiredWorker() : worker_(std::move(idle())) {
+        if (!worker_ || !worker_->alive()) worker_ = Owned(new Worker);
+    }
+    HiredWorker(const HiredWorker&) = delete;
+    HiredWorker& operator=(const HiredWorker&) = delete;
+    ~HiredWorker() { idle() = std::move(worker_); }
+
+    Worker* operator->() { return worker_.get(); }
+
+  private:
+    struct Dismiss {
+        void operator()(Worker* worker) const {
+            if (worker->alive()) delete worker;
+        }
+    };
+    using Owned = std::unique_ptr<Worker, Dismiss>;
+
+    static Owned& idle() {
+        thread_local Owned worker;
+        return worker;
+    }
+
+    Owned worker_;
+};
+
+}  // namespace stipple::python
