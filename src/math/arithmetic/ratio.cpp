@@ -49,11 +49,12 @@ double detail::wide_ratio(Wide numerator, Wide denominator) {
 
 void fill_quotients(std::span<const double> numbers, double factor, double term, double whole,
                     double* x, std::size_t stride) {
+    if (stride == 1) return divide(numbers.data(), factor, term, whole, numbers.size(), x);
     std::array<double, some> quotients;
-    for (std::size_t at = 0; at < numbers.size(); at += some) {
+    for (std::size_t at = 0; at < numbers.size(); at += some, x += some * stride) {
         const auto part = numbers.subspan(at, std::min(some, numbers.size() - at));
         divide(part.data(), factor, term, whole, part.size(), quotients.data());
-        for (std::size_t j = 0; j < part.size(); ++j, x += stride) *x = quotients[j];
+        for (std::size_t j = 0; j < part.size(); ++j) x[j * stride] = quotients[j];
     }
 }
 
