@@ -74,7 +74,8 @@ class Ranmar {
         state_[front_] = difference;
         front_ = front_ == 0 ? state_.size() - 1 : front_ - 1;
         rear_ = rear_ == 0 ? state_.size() - 1 : rear_ - 1;
-        arithmetic_ = arithmetic_ < step ? arithmetic_ + modulus - step : arithmetic_ - step;
+        arithmetic_ -= step;
+        arithmetic_ += modulus & (0U - (arithmetic_ >> 31));  // no branch, which none could predict
         difference = (difference - arithmetic_) & mask24;
         return difference * 0x1p-24;
     }
