@@ -18,18 +18,18 @@ int bit_width(Wide x) {
                      : static_cast<int>(std::bit_width(static_cast<std::uint64_t>(x)));
 }
 
-/// Numbers that are divided side by side before they go to their places: stores at a stride keep
-/// compilers from doing that.
-constexpr std::size_t some = 128;
+/// Numbers that are divided in one loop before they go to their places: stores at a stride would keep
+/// compilers from dividing several at once.
+constexpr std::size_t side_by_side = 128;
 
 STIPPLE_WIDE void divide(const double* numbers, double factor, double term, double whole,
                          std::size_t count, double* quotients) {
     for (std::size_t j = 0; j < count; ++j) quotients[j] = (numbers[j] * factor + term) / whole;
 }
 
-constexpr std::array<double, some> from_0() {
-    std::array<double, some> numbers{};
-    for (std::size_t j = 1; j < some; ++j) numbers[j] = numbers[j - 1] + 1;
+constexpr std::array<double, side_by_side> from_0() {
+    std::array<double, side_by_side> numbers{};
+    for (std::size_t j = 1; j < side_by_side; ++j) numbers[j] = numbers[j - 1] + 1;
     return numbers;
 }
 
@@ -50,11 +50,11 @@ double detail::wide_ratio(Wide numerator, Wide denominator) {
 void fill_quotients(std::span<const double> numbers, double factor, double term, double whole,
                     double* x, std::size_t stride) {
     if (stride == 1) return divide(numbers.data(), factor, term, whole, numbers.size(), x);
-    std::array<double, some> quotients;
-    for (std::size_t at = 0; at < numbers.size(); at += some, x += some * stride) {
-        const auto part = numbers.subspan(at, std::min(some, numbers.size() - at));
+    std::array<double, side_by_side> quotients;
+    for (std::size_t at = 0; at < numbers.size(); at += side_by_side) {
+        const auto part = numbers.subspan(at, std::min(side_by_side, numbers.size() - at));
         divide(part.data(), factor, term, whole, part.size(), quotients.data());
-        for (std::size_t j = 0; j < part.size(); ++j) x[j * stride] = quotients[j];
+        for (std::size_t j = 0; j < part.size(); ++j) x[(at + j) * stride] = quotients[j];
     }
 }
 
@@ -67,8 +67,8 @@ void fill_ratios(Wide first, Wide step, Wide whole, std::size_t count, double* x
     // Every number here is whole and at most 2^53: only the division rounds.
     const auto number = [](Wide y) { return static_cast<double>(static_cast<std::uint64_t>(y)); };
     static constexpr auto counted = from_0();
-    for (std::size_t at = 0; at < count; at += some)
-        fill_quotients(std::span(counted).first(std::min(some, count - at)), number(step),
+    for (std::size_t at = 0; at < count; at += side_by_side)
+        fill_quotients(std::span(counted).first(std::min(side_by_side, count - at)), number(step),
                        number(first + step * at), number(whole), x + at * stride, stride);
 }
 
