@@ -18,8 +18,8 @@ int bit_width(Wide x) {
                      : static_cast<int>(std::bit_width(static_cast<std::uint64_t>(x)));
 }
 
-/// Numbers that are divided in one loop before they go to their places: stores at a stride would keep
-/// compilers from dividing several at once.
+/// Numbers that are divided in one loop before they go to their places: stores at a stride would
+/// keep compilers from dividing several at once.
 constexpr std::size_t side_by_side = 128;
 
 STIPPLE_WIDE void divide(const double* numbers, double factor, double term, double whole,
