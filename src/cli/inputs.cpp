@@ -41,8 +41,10 @@ Reading reading_of(const std::string& path, const Arguments& arguments) {
     std::string from = arguments.get("from").value_or("");
     options.single = from == "f32";
     const auto analyzers = analyzers_of(arguments);
-    options.densities = std::ranges::any_of(
-        analyzers, [](const Analyzer* analyzer) { return analyzer->traits.densities; });
+    options.densities = (arguments.verb == Verb::warp && !arguments.has("density-at")) ||
+                        std::ranges::any_of(analyzers, [](const Analyzer* analyzer) {
+                            return analyzer->traits.densities;
+                        });
     options.gaps = !analyzers.empty() &&
                    std::ranges::all_of(
                        analyzers, [](const Analyzer* analyzer) { return analyzer->traits.table; });

@@ -209,7 +209,9 @@ int warp(const Arguments& arguments, Session& session) {
     if (at_points)
         arguments.refuse({"inverse", "with-pdf", "with-weight"},
                          "--density-at leaves the points where they are");
-    const bool whole = !inverse && !at_points && takes_whole_sets(spec, stream->dimension(), run);
+    const bool densities = !stream->provenance().density_column.empty();
+    const bool whole =
+        densities || (!inverse && !at_points && takes_whole_sets(spec, stream->dimension(), run));
     if (whole || !can_stream(*stream, target)) {
         auto sets = read_all(*stream, arguments, run);
         if (at_points)

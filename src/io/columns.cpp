@@ -17,16 +17,15 @@ bool is_name(const std::string& name) {
     return is_word(name) && name != "set" && !measures_points(name);
 }
 
-/// Puts pdf or, where there is none, weight behind the coordinates.
+/// Puts pdf or, where there is none, weight behind the coordinates, and notes which are there.
 void add_density(Columns& columns, const std::vector<std::string>& names) {
     for (const char* name : {"pdf", "weight"}) {
         const auto it = std::ranges::find(names, name);
         if (it == names.end()) continue;
         std::size_t& role = columns.role[static_cast<std::size_t>(it - names.begin())];
         if (role != Columns::checked) continue;
-        role = columns.dimension++;
-        columns.density = name;
-        return;
+        if (columns.density.empty()) role = columns.dimension++;
+        columns.density += (columns.density.empty() ? "" : ",") + std::string(name);
     }
 }
 
@@ -137,7 +136,7 @@ void take_densities(PointSet& set) {
     for (std::size_t i = 0; i < set.count(); ++i) {
         std::ranges::copy(set[i].first(d), points[i].begin());
         const double number = set[i][d];
-        const bool pdf = column == "pdf";
+        const bool pdf = column.starts_with("pdf");
         if (!(pdf ? number > 0 : number >= 0))
             fail(ErrorKind::input, "point {}: its {} is {}; expected a number {} 0", i, column,
                  number, pdf ? "above" : "not below");

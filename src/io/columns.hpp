@@ -26,7 +26,9 @@ struct Columns {
         {};  ///< of the coordinates, in their order, where there are any
     /// Of coordinates whose numbers 0, 1, ... stand for words: the words; of others none.
     std::vector<std::vector<std::string>> words = {};
-    std::string density = {};  ///< name of the column behind the coordinates, where it tells it
+    /// Name of the column behind the coordinates that tells the density; "pdf,weight" where there
+    /// are both, of which the first is read.
+    std::string density = {};
 
     [[nodiscard]] std::size_t width() const { return role.size(); }
     /// Whether all columns are coordinates, in order.
