@@ -134,6 +134,10 @@ struct Generator {
     /// and may be the best of one that was stopped; empty: never.
     std::function<bool(const Values&)> whole = {};
 
+    /// Of a generator of digits in other bases than 2: that of each coordinate, which scrambles take
+    /// unless told another.
+    std::function<std::vector<std::uint32_t>(const Plan&, const Values&)> bases = {};
+
     /// Largest seed, where an engine's own seeding takes fewer than 64 bits.
     std::function<std::uint64_t(const Values&)> max_seed = {};
 };

@@ -190,7 +190,11 @@ std::shared_ptr<const WarpChain> GeneratedSets::chain_for(std::uint64_t set,
 
 std::shared_ptr<const WarpChain> GeneratedSets::make_chain(const ChainSet& set,
                                                            const RunContext& run) const {
-    auto chain = std::make_shared<WarpChain>(asked_.warps, plan_.dimension, set, run);
+    ChainSet in_bases = set;
+    const bool scrambled = std::ranges::any_of(
+        asked_.warps, [](const Spec& spec) { return scramble_named(spec.name) != nullptr; });
+    if (generator_.bases && scrambled) in_bases.bases = generator_.bases(plan_, asked_.options);
+    auto chain = std::make_shared<WarpChain>(asked_.warps, plan_.dimension, in_bases, run);
     const auto& bounds = asked_.request.bounds;
     if (!bounds || chain->empty()) return chain;
     std::vector<Factor> factors;
