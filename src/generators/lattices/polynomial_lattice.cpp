@@ -178,6 +178,7 @@ Generator unit() {
             .options = Schema(rule, modulus_option, vector_option, vector_file, product_weights,
                               weight_decay, vector_output, vector_format, binary_scramble),
             .writes = {std::string(vector_output.name)},
+            .stream_version = 2,
             .plan = plan,
             .sequence = make,
             .settle =
