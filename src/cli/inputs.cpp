@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "core/text.hpp"
@@ -45,9 +46,12 @@ Reading reading_of(const std::string& path, const Arguments& arguments) {
                         std::ranges::any_of(analyzers, [](const Analyzer* analyzer) {
                             return analyzer->traits.densities;
                         });
-    options.gaps = !analyzers.empty() &&
-                   std::ranges::all_of(
-                       analyzers, [](const Analyzer* analyzer) { return analyzer->traits.table; });
+    // Plots and reports leave out rows with gaps.
+    options.gaps =
+        arguments.verb == Verb::plot || arguments.verb == Verb::report ||
+        (!analyzers.empty() && std::ranges::all_of(analyzers, [](const Analyzer* analyzer) {
+            return analyzer->traits.table;
+        }));
     auto type = arguments.get("input-dtype");
     if (!type && arguments.verb != Verb::convert) type = arguments.get("dtype");
     if (type) options.single = *type == "f32";
@@ -145,6 +149,32 @@ Error named_error(const Error& e, const std::string& input, const std::string& h
 void take_domain(PointSet& set, const Arguments& arguments) {
     if (const auto domain = arguments.get("domain"))
         set.domain = parse_domain(*domain, set.dimension());
+}
+
+std::size_t leave_out_gaps(PointSet& set, const std::string& input, const RunContext& run) {
+    const std::size_t d = set.dimension();
+    const std::size_t all = set.count();
+    std::vector<double> rows;
+    std::vector<double> densities;
+    for (std::size_t i = 0; i < all; ++i) {
+        if (std::ranges::any_of(set[i], [](double x) { return std::isnan(x); })) continue;
+        rows.insert(rows.end(), set[i].begin(), set[i].end());
+        if (!set.densities.empty()) densities.push_back(set.densities[i]);
+    }
+    const std::size_t left_out = all - rows.size() / d;
+    if (left_out == 0) return 0;
+    if (rows.empty())
+        fail(ErrorKind::input, "{}: each of its {} rows has a missing number",
+             io::source_name(input), all);
+    run.notify(fmt::format("{}: {} of {} rows are left out; numbers are missing in them",
+                           io::source_name(input), left_out, all));
+    PointSet kept(std::move(rows), d);
+    kept.domain = std::move(set.domain);
+    kept.densities = std::move(densities);
+    kept.provenance = std::move(set.provenance);
+    kept.provenance.count = kept.count();
+    set = std::move(kept);
+    return left_out;
 }
 
 std::vector<PointSet> read_input(const std::string& path, const Arguments& arguments,

@@ -390,6 +390,9 @@ Provenance GeneratedSets::provenance(std::uint64_t set, std::uint64_t count) con
                     .shard = {},
                     .command = {},
                     .independent = generator_.traits.independent};
+    std::erase_if(meta.options, [this](const auto& option) {  // what only writes side files
+        return std::ranges::find(generator_.writes, option.first) != generator_.writes.end();
+    });
     meta.columns = chain_->names({}, false);
     meta.levels = chain_->levels();
     if (asked_.request.bounds) meta.bounds = format_box(*asked_.request.bounds);

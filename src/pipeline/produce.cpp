@@ -421,7 +421,9 @@ class Producer {
         const std::uint64_t seed = sets_.plan().seed;
         for (const std::string& option : generator_.writes) {
             const auto& item = job_.options.find(option);
-            if (!item.given) continue;
+            const auto& known = generator_.options.options();
+            const bool file = std::ranges::find(known, option, &Option::name)->type == "file";
+            if (!item.given || !file) continue;
             const auto& path = std::get<std::string>(item.value);
             // All sets of a sequence have one such file.
             if (job_.sets > 1 && !generator_.traits.sequence && !file_per_set(path))

@@ -268,7 +268,7 @@ Generator unit() {
             .options = Schema(rule, multiplier, effort, vector, vector_file, product_weights,
                               weight_decay, vector_output, vector_format),
             .aliases = {"lattice", "rank-1-lattice"},
-            .writes = {std::string(vector_output.name)},
+            .writes = {std::string(vector_output.name), std::string(vector_format.name)},
             .stream_version = 2,
             .plan = plan,
             .sequence = make,
