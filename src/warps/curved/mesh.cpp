@@ -332,6 +332,7 @@ Warp unit() {
                 "each from its first corner to the opposite edge; xi2 runs along that edge; "
                 "both as they are",
             .options = Schema(mesh_file, attributes),
+            .stream_version = 2,
             .mapping = make};
 }
 

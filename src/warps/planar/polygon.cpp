@@ -187,6 +187,7 @@ Warp unit() {
                 "xi1 is the share of the area below, xi2 the place along the row, both as "
                 "they are; strata become pieces of horizontal bands",
             .options = Schema(vertices, file),
+            .stream_version = 2,
             .mapping = make};
 }
 
