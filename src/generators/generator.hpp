@@ -27,6 +27,7 @@ struct Destination {
     std::function<bool(std::uint64_t i, std::span<const double> row)> has_image = {};
     bool drops = false;                  ///< some have none
     std::vector<OutcomeAxis> axes = {};  ///< of each coordinate
+    PointSet given = {};  ///< what a search goes on from, where its file holds their images
 };
 
 /// A request with everything decided.

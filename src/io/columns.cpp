@@ -79,12 +79,17 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
     const auto is_there = [&](const std::string& name) {
         return std::ranges::find(names, name) != names.end();
     };
-    if (options.columns.empty() && !options.expected.empty() &&
-        std::ranges::all_of(options.expected, is_there)) {
+    const auto missing = std::ranges::find_if_not(options.expected, is_there);
+    if (options.columns.empty() && !options.expected.empty() && missing == options.expected.end()) {
         ReadOptions picked = options;
         picked.columns = options.expected;
         return choose_columns(std::move(names), width, picked, place);
     }
+    // Usual names say nothing: then the columns are taken in order.
+    if (options.columns.empty() && missing != options.expected.end() && !kept_names(names).empty())
+        fail_with_hint(ErrorKind::input, suggest(*missing, names),
+                       "{}: there is no column '{}'; its columns are {}", place, *missing,
+                       join(names, ", "));
     Columns columns{.role = std::vector<std::size_t>(width, Columns::skipped)};
     const bool named = !names.empty();
     if (!named) names = coordinate_names(width);

@@ -453,6 +453,7 @@ class Producer {
         const std::uint64_t count = last - first;
         const RunContext run = run_.rising();
         sets_.prepare(run);
+        if (job_.shard.index == 0) sets_.tell_absent_levels(run);
         io::Outputs outputs;
         write_files(
             {.sets = job_.sets,

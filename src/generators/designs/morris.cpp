@@ -91,9 +91,9 @@ class Trajectory {
         up_[k] = !up_[k];
     }
 
-    void write(std::span<double> row, bool ends) const {
+    void write(std::span<double> row, bool ends, const LevelPlaces& places) const {
         for (std::size_t k = 0; k < row.size(); ++k)
-            row[k] = level_place(low_[k] + (up_[k] ? levels_ / 2 : 0), levels_, ends);
+            row[k] = places(k, level_place(low_[k] + (up_[k] ? levels_ / 2 : 0), levels_, ends));
     }
 
   private:
@@ -104,8 +104,8 @@ class Trajectory {
     std::size_t moved_ = 0;
 };
 
-void fill(const Plan& plan, std::uint64_t p, bool ends, std::uint64_t first,
-          std::span<double> rows) {
+void fill(const Plan& plan, const LevelPlaces& places, std::uint64_t p, bool ends,
+          std::uint64_t first, std::span<double> rows) {
     const std::size_t d = plan.dimension;
     const Rng keys(plan.seed, 0);
     while (!rows.empty()) {
@@ -113,7 +113,7 @@ void fill(const Plan& plan, std::uint64_t p, bool ends, std::uint64_t first,
         for (std::size_t j = 0; j <= d && !rows.empty(); ++j) {
             if (j > 0) trajectory.step();
             if (j < first % (d + 1)) continue;  // only of the first one
-            trajectory.write(rows.first(d), ends);
+            trajectory.write(rows.first(d), ends, places);
             rows = rows.subspan(d);
             if (j == d) first += d + 1 - first % (d + 1);
         }
@@ -129,9 +129,10 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
             });
     const auto p = static_cast<std::uint64_t>(options[levels]);
     const bool ends = options[ends_option];
-    return sequence_of([plan, p, ends](std::uint64_t first, std::span<double> rows) {
-        fill(plan, p, ends, first, rows);
-    });
+    return sequence_of(
+        [plan, places = LevelPlaces(plan), p, ends](std::uint64_t first, std::span<double> rows) {
+            fill(plan, places, p, ends, first, rows);
+        });
 }
 
 }  // namespace
