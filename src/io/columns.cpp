@@ -13,8 +13,8 @@ namespace {
 bool measures_points(const std::string& name) { return name == "pdf" || name == "weight"; }
 
 /// Whether a header's field with this name reads back as such.
-bool is_name(const std::string& name) {
-    return is_word(name) && name != "set" && !measures_points(name);
+bool is_name(const std::string& name, bool table) {
+    return is_word(name) && name != "set" && (table || !measures_points(name));
 }
 
 /// Puts pdf or, where there is none, weight behind the coordinates, and notes which are there.
@@ -102,7 +102,8 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
     } else {
         const std::size_t first = has_row_names(names, options) ? 1 : 0;
         for (std::size_t c = first; c < width; ++c)
-            if (c == strength || (measures_points(names[c]) && !options.all_columns))
+            if (c == strength ||
+                (measures_points(names[c]) && !options.all_columns && !options.gaps))
                 columns.role[c] = Columns::checked;
             else if (columns.role[c] != Columns::set_number)
                 columns.role[c] = columns.dimension++;
@@ -127,8 +128,9 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
     return columns;
 }
 
-std::vector<std::string> kept_names(std::vector<std::string> names) {
-    if (names == coordinate_names(names.size()) || !std::ranges::all_of(names, is_name)) return {};
+std::vector<std::string> kept_names(std::vector<std::string> names, bool table) {
+    const auto kept = [table](const std::string& name) { return is_name(name, table); };
+    if (names == coordinate_names(names.size()) || !std::ranges::all_of(names, kept)) return {};
     return names;
 }
 

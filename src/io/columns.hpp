@@ -37,8 +37,8 @@ struct Columns {
 };
 
 /// Names of coordinates as a provenance keeps them: none where they are x, y, ..., or where a header
-/// with them would not be read as one.
-std::vector<std::string> kept_names(std::vector<std::string> names);
+/// with them would not be read as one. Columns of a `table` may be called pdf and weight.
+std::vector<std::string> kept_names(std::vector<std::string> names, bool table = false);
 
 /// Whether a text may be a word of a column: the same when it was written and read back, and no
 /// number.
@@ -50,8 +50,8 @@ std::size_t find_column(const std::string& wanted, const std::vector<std::string
                         const std::string& place, const char* option = "column");
 
 /// Decides what the columns are. Without names they are called x, y, ... (see coordinate_names).
-/// Columns called pdf or weight are coordinates only when picked, or all are; so is a first one
-/// whose name is empty, which holds row names. A first column `set` tells the set. `place` begins
+/// Columns called pdf or weight are coordinates only when picked, in tables (gaps), or where all are; so
+/// is, but for tables, a first one whose name is empty, which holds row names. A first column `set` tells the set. `place` begins
 /// the messages ("p.csv:3").
 /// @throws Error(usage) for a column that is not there; Error(input) for a wrong dimension.
 Columns choose_columns(std::vector<std::string> names, std::size_t width,

@@ -639,7 +639,7 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
     head.columns = choose_columns(names, fields.size(), options,
                                   fmt::format("{}:{}", text.source(), head.dialect.model_line));
     head.top.provenance.density_column = head.columns.density;
-    head.top.provenance.columns = kept_names(head.columns.names);
+    head.top.provenance.columns = kept_names(head.columns.names, options.gaps);
     head.body = head.names ? head.top.next : head.top.first;
     head.dialect.comma = has_decimal_comma(text, head.body, head.dialect.separator);
     if (head.names) take_words(head, text);
