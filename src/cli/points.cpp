@@ -111,8 +111,8 @@ std::vector<std::size_t> coordinates_by_name(const Spec& spec,
     }
     if (names.empty() || (at.empty() && !back)) return {};
     if (!missing.empty())
-        fail_with_hint(ErrorKind::input, suggest(missing, columns),
-                       "there is no column '{}'; its columns are {}", missing, join(columns, ", "));
+        fail_with_hint(ErrorKind::input, suggest(missing, columns), "there is no column '{}'",
+                       missing);
     for (std::size_t k = 0; k < columns.size() && back; ++k)
         if (std::ranges::find(at, k) == at.end())
             fail_with_hint(ErrorKind::input, "--column picks columns by name",

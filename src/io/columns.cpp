@@ -87,9 +87,8 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
     }
     // Usual names say nothing: then the columns are taken in order.
     if (options.columns.empty() && missing != options.expected.end() && !kept_names(names).empty())
-        fail_with_hint(ErrorKind::input, suggest(*missing, names),
-                       "{}: there is no column '{}'; its columns are {}", place, *missing,
-                       join(names, ", "));
+        fail_with_hint(ErrorKind::input, suggest(*missing, names), "{}: there is no column '{}'",
+                       place, *missing);
     Columns columns{.role = std::vector<std::size_t>(width, Columns::skipped)};
     const bool named = !names.empty();
     if (!named) names = coordinate_names(width);

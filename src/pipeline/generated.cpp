@@ -428,7 +428,9 @@ GeneratedSets::Images GeneratedSets::images_of_more(std::uint64_t set, const Poi
         request.count = count = static_cast<std::uint64_t>(next);
         request.seed = plan_.seed + set;
         const Plan plan = plan_for(generator_, request, asked_.options);
-        kept = chain->mapped(raw_points(set, plan, run).flat(), false, request.start, quiet);
+        RunContext again = run;
+        again.warn = {};  // it was said of the first
+        kept = chain->mapped(raw_points(set, plan, again).flat(), false, request.start, quiet);
     }
     if (best.rows.empty())
         fail(ErrorKind::input, "the constraints hold for {} of {} points",

@@ -1,4 +1,5 @@
 """Correlations of parameters, by SciPy's distributions and integrals of NumPy."""
+import itertools
 import json
 import pathlib
 import re
@@ -114,8 +115,8 @@ def correlation(a, b, r):
 
 def end_of(a, b, sign):
     """Of one normal score z, and sign z: the mean over z between all steps."""
-    cuts = [x for x in (a, b) if isinstance(x, Steps)]
-    ends = [np.arange(-37, 37.01, 0.25)] + [a.at] * (a in cuts) + [sign * b.at] * (b in cuts)
+    ends = [np.arange(-37, 37.01, 0.25)]
+    ends += [side * x.at for x, side in ((a, 1), (b, sign)) if isinstance(x, Steps)]
     ends = np.unique(np.concatenate(ends))
     low, high = ends[:-1, None], ends[1:, None]
     z = (low + high) / 2 + (high - low) / 2 * NODES
@@ -132,41 +133,40 @@ def parameters(folder, a, b, kind, r, more=None):
     return path
 
 
-def check_points(cases, kind, ranks):
+def compare_points(cases, kind, ranks):
     made = families(ranks)
     cube = np.array(cases.points("generate", "random", "-n", 400, "-d", 2))
     z, y = norm.ppf(cube).T
     names = list(made)
     with tempfile.TemporaryDirectory() as folder:
-        for i, first in enumerate(names):
-            for second in names[i:]:
-                a, b = made[first], made[second]
-                if ranks and isinstance(a, Smooth) and isinstance(b, Smooth):
+        for first, second in itertools.combinations_with_replacement(names, 2):
+            a, b = made[first], made[second]
+            if ranks and isinstance(a, Smooth) and isinstance(b, Smooth):
+                continue
+            low, high = end_of(a, b, -1), end_of(a, b, 1)
+            for share in (0.05, 0.6, 0.98):
+                r = float(low + share * (high - low))
+                if abs(r) < 1e-3:
                     continue
-                low, high = end_of(a, b, -1), end_of(a, b, 1)
-                for share in (0.05, 0.5, 0.8, 0.98):
-                    r = float(low + share * (high - low))
-                    if abs(r) < 1e-3:
-                        continue
-                    score = optimize.brentq(lambda x: correlation(a, b, x) - r, -0.99999, 0.99999, xtol=1e-12)
-                    file = parameters(folder, a, b, kind, r)
-                    ours = np.array(cases.points("generate", "random", "-n", 400, "--parameters", file))
-                    of_b = score * z + np.sqrt(1 - score * score) * y
-                    right = b.of_score(of_b)
-                    wrong = np.abs(ours[:, 1] - right) > 2e-5 * (1 + np.abs(right)) * (1 + np.abs(of_b))
-                    wrong &= ~b.near_step(of_b)
-                    cases.expect(f"{kind} {r:.6f} of {first} and {second}, scores {score:.9f}", not wrong.any(),
-                                 f"{wrong.sum()} of 400 points differ")
+                score = optimize.brentq(lambda x: correlation(a, b, x) - r, -0.99999, 0.99999, xtol=1e-12)
+                file = parameters(folder, a, b, kind, r)
+                ours = np.array(cases.points("generate", "random", "-n", 400, "--parameters", file))
+                of_b = score * z + np.sqrt(1 - score * score) * y
+                right = b.of_score(of_b)
+                wrong = np.abs(ours[:, 1] - right) > 2e-5 * (1 + np.abs(right)) * (1 + np.abs(of_b))
+                wrong &= ~b.near_step(of_b)
+                cases.expect(f"{kind} {r:.6f} of {first} and {second}, scores {score:.9f}", not wrong.any(),
+                             f"{wrong.sum()} of 400 points differ")
 
 
 def check_linear(cases):
     """Points with a linear correlation are those of the scores that have it"""
-    check_points(cases, "pearson", False)
+    compare_points(cases, "pearson", False)
 
 
 def check_spearman(cases):
     """Points with a rank correlation of mean ranks are those of the scores that have it"""
-    check_points(cases, "spearman", True)
+    compare_points(cases, "spearman", True)
 
 
 def check_ends(cases):
@@ -174,20 +174,19 @@ def check_ends(cases):
     for kind, ranks in (("pearson", False), ("spearman", True)):
         made = families(ranks)
         with tempfile.TemporaryDirectory() as folder:
-            for first, a in made.items():
-                for second, b in made.items():
-                    low, high = end_of(a, b, -1), end_of(a, b, 1)
-                    asked = high + (1 - high) / 2 if high < 0.9999 else low - (1 + low) / 2
-                    if abs(asked) > 0.9999 or (ranks and isinstance(a, Smooth) and isinstance(b, Smooth)):
-                        continue
-                    file = parameters(folder, a, b, kind, asked)
-                    done = subprocess.run([cases.program, "generate", "sobol", "-n", "4", "--parameters", file],
-                                          capture_output=True, text=True)
-                    said = re.search(r"correlations in \[(\S+), (\S+)\]", done.stderr)
-                    cases.expect(f"{kind} of {first}, {second} refused", said is not None, done.stderr)
-                    if said:
-                        cases.compare(f"{kind}, low end of {first}, {second}", said[1], low, 0, 2e-6)
-                        cases.compare(f"{kind}, high end of {first}, {second}", said[2], high, 0, 2e-6)
+            for (first, a), (second, b) in itertools.combinations_with_replacement(made.items(), 2):
+                low, high = end_of(a, b, -1), end_of(a, b, 1)
+                asked = high + (1 - high) / 2 if high < 0.9999 else low - (1 + low) / 2
+                if abs(asked) > 0.9999 or (ranks and isinstance(a, Smooth) and isinstance(b, Smooth)):
+                    continue
+                file = parameters(folder, a, b, kind, asked)
+                done = subprocess.run([cases.program, "generate", "sobol", "-n", "4", "--parameters", file],
+                                      capture_output=True, text=True)
+                said = re.search(r"correlations in \[(\S+), (\S+)\]", done.stderr)
+                cases.expect(f"{kind} of {first}, {second} refused", said is not None, done.stderr)
+                if said:
+                    cases.compare(f"{kind}, low end of {first}, {second}", said[1], low, 0, 2e-6)
+                    cases.compare(f"{kind}, high end of {first}, {second}", said[2], high, 0, 2e-6)
 
 
 def check_reordering(cases):
@@ -195,21 +194,20 @@ def check_reordering(cases):
     made = families(True)
     more = {"reordering": "iman-conover"}
     with tempfile.TemporaryDirectory() as folder:
-        for first, a in made.items():
-            for second, b in made.items():
-                for n, share in ((20, 0.7), (200, 0.1), (2000, 0.95)):
-                    low, high = end_of(a, b, -1), end_of(a, b, 1)
-                    r = float(low + share * (high - low))
-                    file = parameters(folder, a, b, "spearman", r, more)
-                    done = subprocess.run([cases.program, "generate", "latin-hypercube", "-n", str(n), "-f", "txt",
-                                           "--parameters", file], capture_output=True, text=True)
-                    rows = np.array([[float(x) for x in line.split()] for line in done.stdout.splitlines()
-                                     if not line.startswith("#")])
-                    reached = stats.spearmanr(rows[:, 0], rows[:, 1]).statistic
-                    said = re.search(r"points is (\S+);", done.stderr)
-                    what = f"{first} and {second}, {r:.4f} in {n} points"
-                    if said:
-                        cases.compare(f"{what}: the number that is told", said[1], reached, 0, 1e-4)
-                        cases.expect(f"{what}: near for many points", n < 200 or abs(reached - r) < 0.03, reached)
-                    else:
-                        cases.compare(what, reached, r, 0, 0.0101)
+        for (first, a), (second, b) in itertools.combinations_with_replacement(made.items(), 2):
+            for n, share in ((20, 0.7), (200, 0.1), (2000, 0.95)):
+                low, high = end_of(a, b, -1), end_of(a, b, 1)
+                r = float(low + share * (high - low))
+                file = parameters(folder, a, b, "spearman", r, more)
+                done = subprocess.run([cases.program, "generate", "latin-hypercube", "-n", str(n), "-f", "txt",
+                                       "--parameters", file], capture_output=True, text=True)
+                rows = np.array([[float(x) for x in line.split()] for line in done.stdout.splitlines()
+                                 if not line.startswith("#")])
+                reached = stats.spearmanr(rows[:, 0], rows[:, 1]).statistic
+                said = re.search(r"points is (\S+);", done.stderr)
+                what = f"{first} and {second}, {r:.4f} in {n} points"
+                if said:
+                    cases.compare(f"{what}: the number that is told", said[1], reached, 0, 1e-4)
+                    cases.expect(f"{what}: near for many points", n < 200 or abs(reached - r) < 0.03, reached)
+                else:
+                    cases.compare(what, reached, r, 0, 0.0101)

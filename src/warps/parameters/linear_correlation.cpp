@@ -185,6 +185,8 @@ double angle_of(double cosine) {
 Scored::Scored(MarginalPtr law, Of of) : law_(std::move(law)), ranks_(of == Of::ranks) {
     constexpr double most = 1 << 17;
     const MarginalMoments moments = law_->moments();
+    if (ranks_ && law_->outcomes() == 1)
+        fail(ErrorKind::usage, "a parameter with one outcome has no rank correlation");
     if (law_->outcomes() == 1 ||
         (!ranks_ && !(std::isfinite(moments.variance) && moments.variance > 0)))
         fail(ErrorKind::usage,
