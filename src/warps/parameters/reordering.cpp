@@ -169,7 +169,7 @@ class ScoredSet {
     std::vector<std::uint8_t> tied_;
 };
 
-/// Which correlations of scores have given too little and too much.
+/// What correlations of scores are asked for, so that ranks have those that they shall have.
 class Corrections {
   public:
     Corrections(const std::vector<double>& spearman, std::vector<double> scores,
@@ -178,8 +178,8 @@ class Corrections {
           set_(set),
           d_(static_cast<std::size_t>(std::lround(std::sqrt(spearman.size())))),
           asked_(std::move(scores)),
-          low_(spearman.size(), -1),
-          high_(spearman.size(), 1) {}
+          step_(spearman.size(), 1),
+          before_(spearman.size(), 0) {}
 
     [[nodiscard]] const std::vector<double>& asked() const { return asked_; }
 
@@ -200,19 +200,21 @@ class Corrections {
     double next(std::size_t j, std::size_t k, double lacks) {
         const double now = asked_[j * d_ + k];
         if (!set_.tied(j) && !set_.tied(k)) return now + lacks;
-        double& low = low_[j * d_ + k];
-        double& high = high_[j * d_ + k];
-        (lacks > 0 ? low : high) = now;
-        const double then = now + lacks;
-        return then > low && then < high ? then : (low + high) / 2;
+        double& step = step_[j * d_ + k];  // ranks of what is equal follow scores more, or less
+        double& before = before_[j * d_ + k];
+        if (std::abs(lacks) > std::abs(before) / 2 && before != 0)
+            step = lacks * before < 0 ? step / 2 : std::min(1.5 * step, 8.0);
+        before = lacks;
+        const double then = now + step * lacks;
+        return std::abs(then) < 1 ? then : (now + std::copysign(1, then)) / 2;
     }
 
     const std::vector<double>& spearman_;
     const ScoredSet& set_;
     std::size_t d_;
     std::vector<double> asked_;  ///< of the scores
-    std::vector<double> low_;
-    std::vector<double> high_;
+    std::vector<double> step_;
+    std::vector<double> before_;  ///< what ranks lacked
 };
 
 /// Q. @throws Error(input) where there is none

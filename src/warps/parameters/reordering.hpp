@@ -9,8 +9,7 @@
 // where E are the correlations of the scores and C those that they shall have, 2 sin(pi r / 6) for a
 // rank correlation r. Point i then has the number of coordinate k whose rank is that of T_ik. What
 // ranks still lack is added to C and the scores are transformed again, as long as that helps; of
-// parameters that are equal in several points, ranks are their means, and C is between what was too
-// little and too much.
+// parameters that are equal in several points, whose ranks are their means, more or less of it.
 //
 // The paper has random scores. Here they are those of the points, so that their own order is what
 // the reordering starts from, and nothing is random.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "math/distributions/laws.hpp"
 #include "pipeline/chain.hpp"
 #include "support/units.hpp"
 #include "warps/parameters/copula.hpp"
@@ -144,6 +145,38 @@ TEST(Reordering, GivesTheRankCorrelationsThatAreAskedFor) {
         }
         EXPECT_LT(4 * by_order, by_copula) << n;
     }
+}
+
+// Equal parameters have the mean of their ranks: half of those below and half of those not above.
+TEST(Reordering, ReachesTheRankCorrelationsOfWhatIsEqual) {
+    constexpr std::size_t n = 1000;
+    const std::vector<MarginalPtr> laws = {integers_law(1, 8), empirical_law({0, 0, 0, 1, 1, 2}),
+                                           empirical_law({0, 1})};
+    std::vector<double> rows = numbers_of(make("latin-hypercube", points(n, 3)));
+    std::vector<double> scores;
+    for (const double r : asked) scores.push_back(r == 1 ? 1 : score_correlation(r));
+    std::string notes;
+    RunContext run;
+    run.warn = [&](const std::string& note) { notes += note; };
+    Reordering(asked, scores, {"a", "b", "c"}, laws).apply(rows, run);
+    EXPECT_EQ(notes, "");
+    std::vector<std::vector<double>> ranks(3, std::vector<double>(n));
+    for (std::size_t k = 0; k < 3; ++k) {
+        std::vector<double> x = column(rows, k, 3);
+        for (double& u : x) u = laws[k]->quantile(u);
+        for (std::size_t i = 0; i < n; ++i)
+            for (const double other : x) ranks[k][i] += (other < x[i]) / 2.0 - (other > x[i]) / 2.0;
+    }
+    for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t k = 0; k < 3; ++k) {
+            double sum = 0, of_j = 0, of_k = 0;
+            for (std::size_t i = 0; i < n; ++i) {
+                sum += ranks[j][i] * ranks[k][i];
+                of_j += ranks[j][i] * ranks[j][i];
+                of_k += ranks[k][i] * ranks[k][i];
+            }
+            EXPECT_NEAR(sum / std::sqrt(of_j * of_k), asked[3 * j + k], 3e-3) << j << k;
+        }
 }
 
 // Equal numbers count as rising with the points.
