@@ -7,7 +7,7 @@
 //
 // and V the product of the corner's coordinates: plane by plane along the first axis, with the
 // counts of a plane in memory. With weights w_j >= 0 a box counts with the product of those of the
-// axes on which it does not end at 1.
+// axes on which it does not end at 1; where w_j > 1 one that ends just below 1 counts in its place.
 #include <algorithm>
 #include <vector>
 
@@ -123,6 +123,11 @@ class AnchoredObjective final : public Objective {
 
     static constexpr double reach = 7;  ///< boxes whose weights are below e^-reach do not count
 
+    /// Of a box that ends at the given place on an axis.
+    [[nodiscard]] float weight(std::size_t axis, std::size_t place) const {
+        return place < n_ ? weights_[axis] : std::max(1.0F, weights_[axis]);
+    }
+
     void sort_axes(std::span<const double> rows) {
         for (std::size_t axis = 3 - d_; axis < 3; ++axis) {
             const std::size_t j = axis + d_ - 3;
@@ -174,12 +179,12 @@ class AnchoredObjective final : public Objective {
 
     /// Closed boxes have the counts of the next places, which behind the last are the same.
     void look_in(std::size_t a, bool open, float least, Part& part) const {
-        const float weight = (a < n_ ? weights_[0] : 1) * (open ? 1 : -1);
+        const float outer = weight(0, a) * (open ? 1 : -1);
         const float width = d_ == 3 ? values_[0][a] : 1;
         part.reaches.resize(n_ + 1);
         part.shares.resize(n_ + 1);
         for (std::size_t b = 0; b <= n_; ++b) {
-            const float times = weight * (b < n_ ? weights_[1] : 1);
+            const float times = outer * weight(1, b);
             part.reaches[b] = width * values_[1][b] * times;
             part.shares[b] = times / static_cast<float>(n_);
         }
@@ -198,9 +203,9 @@ class AnchoredObjective final : public Objective {
                      values_[2][c] * part.reaches[b] - from[b * stride_ + c] * part.shares[b],
                      open});
         };
-        const bool even = weights_[2] == 1;
-        take(even ? 0 : n_, even ? width_ : n_ + 1, 1);
-        if (!even) take(0, n_, weights_[2]);
+        const bool even = weights_[2] >= 1;
+        if (!even) take(n_, n_ + 1, 1);
+        take(0, even ? width_ : n_, weights_[2]);
     }
 
     void put_gradient(double most, double sharpness, std::span<double> gradient) const {
@@ -216,12 +221,12 @@ class AnchoredObjective final : public Objective {
         for (double& slope : gradient) slope /= total;
     }
 
-    void add_slopes(const Hit& hit, double weight, std::span<double> gradient) const {
+    void add_slopes(const Hit& hit, double times, std::span<double> gradient) const {
         for (std::size_t axis = 3 - d_; axis < 3; ++axis)
-            if (hit.at[axis] < n_) weight *= static_cast<double>(weights_[axis]);
+            times *= static_cast<double>(weight(axis, hit.at[axis]));
         for (std::size_t axis = 3 - d_; axis < 3; ++axis) {
             if (hit.at[axis] == n_) continue;
-            double slope = weight;
+            double slope = times;
             for (std::size_t other = 3 - d_; other < 3; ++other)
                 if (other != axis) slope *= static_cast<double>(values_[other][hit.at[other]]);
             gradient[order_[axis][hit.at[axis]] * d_ + axis + d_ - 3] += slope;

@@ -187,10 +187,13 @@ class BoxObjective final : public Objective {
         for (std::size_t j = 0; j < d_; ++j) product *= length(box, j);
         return product;
     }
+    /// Of an axis: a box that ends at 1 stands for those that end just below if these count more.
+    [[nodiscard]] double weight(std::size_t j, bool at_rim) const {
+        return at_rim ? std::max(1.0, weights_[j]) : weights_[j];
+    }
     [[nodiscard]] double weight(const PoolBox& box) const {
         double product = 1;
-        for (std::size_t j = 0; j < d_; ++j)
-            if (box.axes[j].upper != rim_) product *= weights_[j];
+        for (std::size_t j = 0; j < d_; ++j) product *= weight(j, box.axes[j].upper == rim_);
         return product;
     }
 
@@ -243,7 +246,7 @@ class BoxObjective final : public Objective {
     void end_worst(PoolBox& box, std::size_t axis, double across) {
         double others = 1;
         for (std::size_t j = 0; j < d_; ++j)
-            if (j != axis && box.axes[j].upper != rim_) others *= weights_[j];
+            if (j != axis) others *= weight(j, box.axes[j].upper == rim_);
         const double share = 1 / static_cast<double>(n_);
         const auto& x = columns_[axis];
         for (std::size_t k = 0; k <= line_.size(); ++k) {
@@ -251,7 +254,7 @@ class BoxObjective final : public Objective {
             const double to = at_rim ? 1 : x[line_[k]];
             const double points = static_cast<double>(k + (box.open || at_rim ? 0 : 1)) * share;
             const double excess = box.open ? across * to - points : points - across * to;
-            const double value = others * (at_rim ? 1 : weights_[axis]) * excess;
+            const double value = others * weight(axis, at_rim) * excess;
             if (value <= box.value) continue;
             box.value = value;
             box.axes[axis].upper = at_rim ? rim_ : line_[k];

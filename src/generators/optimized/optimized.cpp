@@ -20,17 +20,16 @@
 // Cost    a budget of steps, never the clock: some 20 s of one core by default, and more where one
 //         step of the search takes longer.
 // Promise the value in the provenance is what the analyzers say, exact; with bounds where the worst
-//         box of many points in many dimensions takes too long to find. With --weights of boxes it
-//         is that of the search: to six digits in the plane and in space, beyond of the worst box
-//         that was found. In the plane the star discrepancy is
-//         the least of the points' order, to 1e-12 relatively; up to 20 points the default effort
-//         finds the optimum that is proven. A function of the request and the options, for any number
-//         of threads.
+//         box of many points in many dimensions takes too long to find. In the plane the star
+//         discrepancy is the least of the points' order, to 1e-12 relatively; up to 20 points the
+//         default effort finds the optimum that is proven. A function of the request and the options,
+//         for any number of threads.
 // Beware  no prefix of the points is good by itself, but with --order; projections are as even as
 //         the measure asks for.
 // Source  F. Clement, C. Doerr, K. Klamroth, L. Paquete, arXiv:2311.17463 (optimal sets);
 //         T. K. Rusch, N. Kirk, M. M. Bronstein, C. Lemieux, D. Rus, arXiv:2405.15059.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -281,8 +280,44 @@ CoordinateSearch search_for(const Plan& plan, const Values& options, const RunCo
     return search;
 }
 
-/// What the analyzers say of the points; that of the search where there are weights on boxes.
-Bounds judged(const PointSet& points, const Values& options, double found, const RunContext& run) {
+/// The coordinates of a set of axes.
+PointSet projection(const PointSet& points, std::uint64_t axes) {
+    std::vector<double> rows;
+    for (std::size_t i = 0; i < points.count(); ++i)
+        for (std::size_t j = 0; j < points.dimension(); ++j)
+            if ((axes >> j & 1) != 0) rows.push_back(points[i][j]);
+    return {std::move(rows), static_cast<std::size_t>(std::popcount(axes))};
+}
+
+/// The largest product of the weights of some axes and the star discrepancy of the points' projection
+/// on them, which is no more than that of a projection on more axes.
+Bounds weighted_star(const PointSet& points, const std::vector<double>& weights,
+                     const RunContext& run) {
+    const std::size_t d = weights.size();
+    const std::uint64_t all = (std::uint64_t{1} << d) - 1;
+    const auto product = [&](std::uint64_t axes) {
+        double times = 1;
+        for (std::size_t j = 0; j < d; ++j)
+            if ((axes >> j & 1) != 0) times *= weights[j];
+        return times;
+    };
+    std::vector<double> upper(all + 1, 1);  // of a projection's discrepancy
+    Bounds worst{0, 0};
+    for (std::uint64_t axes = all; axes > 0; --axes) {
+        for (std::size_t j = 0; j < d; ++j)
+            upper[axes] = std::min(upper[axes], upper[axes | std::uint64_t{1} << j]);
+        if (product(axes) * upper[axes] <= worst.lower) continue;
+        const Bounds of = bounds_of(axes == all ? points : projection(points, axes),
+                                    discrepancy::Family::anchored, false, run);
+        upper[axes] = of.upper;
+        worst.lower = std::max(worst.lower, product(axes) * of.lower);
+        worst.upper = std::max(worst.upper, product(axes) * of.upper);
+    }
+    return worst;
+}
+
+/// What the analyzers say of the points.
+Bounds judged(const PointSet& points, const Values& options, const RunContext& run) {
     const std::string what = options[objective];
     const std::size_t d = points.dimension();
     const std::vector<double> weights = weights_of(options);
@@ -294,7 +329,7 @@ Bounds judged(const PointSet& points, const Values& options, double found, const
         const double value = std::sqrt(std::max(square, 0.0));
         return {value, value};
     }
-    if (!weights.empty()) return {found, found};
+    if (!weights.empty()) return weighted_star(points, weights, run);
     return bounds_of(points, family_of(options), what == "dispersion", run);
 }
 
@@ -389,7 +424,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
         found.rows = in_even_order(found.rows, plan.dimension, kept(options), order_kind(options),
                                    weights_of(options), last);
     PointSet points(std::move(found.rows), plan.dimension);
-    record(points, plan, options, judged(points, options, found.value, last));
+    record(points, plan, options, judged(points, options, last));
     if (found.stopped) points.provenance.found.emplace_back(interrupted);
     return points;
 }
@@ -414,6 +449,7 @@ Generator unit() {
                         "minimal", "design-augmentation"},
             .traits = {.max_dimension = 100, .sequence = false, .prefix = false},
             .options = Schema(objective, effort, initial, from, keep, axis_weights, lattice, order),
+            .stream_version = 2,
             .plan = plan,
             .set = make,
             .notes = notes,

@@ -67,6 +67,22 @@ TEST(AnchoredObjective, IsTheStarDiscrepancyAndItsGradient) {
         }
 }
 
+// With weights of at least 1 the box that ends just below 1 on an axis counts with its weight, too: all
+// boxes do with all of them.
+TEST(AnchoredObjective, CountsBoxesThatEndJustBelowOneWithTheirWeight) {
+    for (const std::size_t d : {2, 3}) {
+        const PointSet set = random_set(20, d, d);
+        const std::vector<double> weights(d, 2);
+        std::vector<double> gradient(20 * d);
+        const double value = std::pow(2, d) * measure("star-discrepancy", "value", set);
+        EXPECT_NEAR(anchored_objective(weights, 20, d)->value(set.flat(), 100, gradient, {}), value,
+                    1e-5);
+        const auto boxes = box_objective(Family::anchored, false, weights, 20, d);
+        const double known = boxes->value(set.flat(), 1000, gradient, {});
+        EXPECT_NEAR(boxes->certain_value(set.flat(), known, {}), value, 1e-12);
+    }
+}
+
 TEST(AnchoredObjective, OfOnePointAndOfPointsAtOnePlaceIsRight) {
     for (const PointSet& set :
          {points_of({{0, 0}}), points_of({{1, 1}}), points_of({{1, 2}, {1, 2}, {1, 2}})}) {

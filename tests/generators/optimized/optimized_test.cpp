@@ -7,6 +7,7 @@
 #include <map>
 #include <stop_token>
 
+#include "support/designs.hpp"
 #include "support/temporary_file.hpp"
 #include "support/units.hpp"
 
@@ -220,6 +221,47 @@ TEST(Optimized, WeightsMakeACoordinateMoreEven) {
         EXPECT_LT(first_axis(make("optimized", points(30, 2), first)),
                   0.98 * first_axis(make("optimized", points(30, 2), even)))
             << objective;
+    }
+}
+
+/// By all boxes that end at coordinates, just below 1 with the axis' weight, or at 1 without it.
+double weighted_star(const PointSet& set, const std::vector<double>& weights) {
+    const auto n = static_cast<double>(set.count());
+    const auto worst_from = [&](auto self, std::size_t axis, std::vector<double> corner,
+                                double weight) -> double {
+        if (axis == weights.size()) {
+            double volume = 1;
+            double inside = 0;
+            double within = 0;
+            for (const double end : corner) volume *= end;
+            for (std::size_t i = 0; i < set.count(); ++i) {
+                inside += std::ranges::equal(set[i], corner, std::less());
+                within += std::ranges::equal(set[i], corner, std::less_equal());
+            }
+            return weight * std::max(volume - inside / n, within / n - volume);
+        }
+        corner.push_back(1);
+        double worst = self(self, axis + 1, corner, weight);
+        worst = std::max(worst, self(self, axis + 1, corner, weight * weights[axis]));
+        for (std::size_t i = 0; i < set.count(); ++i) {
+            corner.back() = set[i][axis];
+            worst = std::max(worst, self(self, axis + 1, corner, weight * weights[axis]));
+        }
+        return worst;
+    };
+    return worst_from(worst_from, 0, {}, 1);
+}
+
+TEST(Optimized, ReportsTheWeightedDiscrepancyToTheLastDigits) {
+    const std::vector<std::vector<double>> all = {{2},         {0.25},    {1, 0.3},
+                                                  {1.5, 0.3},  {3, 7},    {0.1, 0.2},
+                                                  {2, 1, 0.5}, {4, 2, 3}, {2, 1, .5, .3}};
+    for (const std::vector<double>& weights : all) {
+        const PointSet set =
+            make("optimized", points(7, weights.size()),
+                 {{"effort", "0.00001"}, {"weights", format_value(Value(weights))}});
+        EXPECT_DOUBLE_EQ(std::stod(found_in(set, "star_discrepancy")), weighted_star(set, weights))
+            << format_value(Value(weights));
     }
 }
 
