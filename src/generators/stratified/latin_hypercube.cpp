@@ -18,7 +18,8 @@
 //         of one core by default, fewer for few points, and up to 64 n^2 bytes: 256 MB at n = 2000.
 // Promise each stratum holds one point in exact arithmetic, and floor(x n) says so too
 //         (math/digital/stratum.hpp). A search's result is a function of the request and options,
-//         for any number of threads; its value in the provenance is that of the middles.
+//         for any number of threads, and never worse with more effort; its value in the provenance
+//         is that of the middles, with a certificate where all designs were tried.
 // Source  M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239-245,
 //         doi:10.1080/00401706.1979.10489755; B. Tang, J. Amer. Stat. Assoc. 88 (1993) 1392-1397,
 //         doi:10.1080/01621459.1993.10476423.
@@ -67,7 +68,8 @@ constexpr Param<double> effort{.name = "effort",
                                .high = 1e6,
                                .help =
                                    "Trials of --optimize: this times those of some 20 seconds "
-                                   "of one core (fewer where points are few)"};
+                                   "of one core (fewer where points are few); rounded down to a "
+                                   "power of 2, so that more is never worse"};
 constexpr Param<std::int64_t> sliced{
     .name = "sliced",
     .low = 1,
@@ -340,6 +342,7 @@ std::unique_ptr<Sequence> make_design(const Plan& plan, const Values& options,
     auto found = search::described(task.objective, result.design, task.rules,
                                    result.stopped ? unstopped(run) : run);
     if (result.stopped) found.emplace_back(interrupted);
+    if (result.optimal) found.emplace_back("certificate", "optimal");
     auto points = points_of(places, result.design, given);
     points->set_found([found] { return found; });
     return points;
@@ -374,6 +377,7 @@ Generator unit() {
             .options = Schema(centered_option, strength, optimize, power, effort, sliced, nested,
                               extend, add, levels),
             .aliases = {"lhs", "n-rooks", "nrooks"},
+            .stream_version = 2,
             .plan = plan,
             .sequence = make,
             .whole = is_whole};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
@@ -120,14 +121,42 @@ void Exchanges::shuffle(SplitMix64& draws, std::size_t times) {
         if (draw(draws, one) && infeasible(one) == 0) make(one);
 }
 
+void Trail::made(const Exchange& exchange) {
+    if (left_) return;
+    steps_.push_back(exchange);
+    if (steps_.size() <= best_.levels.size()) return;
+    go_to_mark();
+}
+
+void Trail::mark(const Design& now) {
+    mark_ = steps_.size();
+    if (left_) best_ = now;
+    left_ = false;
+}
+
+void Trail::go_to_mark() {
+    for (const auto& [k, a, b] : std::span(steps_).first(mark_))
+        std::swap(best_.along(k)[a], best_.along(k)[b]);
+    left_ = left_ || mark_ < steps_.size();
+    steps_.clear();
+    mark_ = 0;
+}
+
+const Design& Trail::best() {
+    go_to_mark();
+    return best_;
+}
+
 Annealing::Annealing(const Objective& objective, const Design& start, const Rules& rules,
                      const Schedule& schedule, SplitMix64 draws)
-    : schedule_(schedule),
+    : objective_(objective),
+      rules_(rules),
+      schedule_(schedule),
       draws_(draws),
       exchanges_(start, rules),
+      trail_(start),
       criterion_(make_criterion(objective, start, rules)),
       share_(schedule.first_share),
-      best_(start),
       score_(criterion_->score()) {
     const double pieces = std::max(1.0, schedule.trials / piece);
     cooling_ = exponential(logarithm(schedule.last_share / schedule.first_share) / pieces);
@@ -143,7 +172,8 @@ Annealing::Annealing(const Objective& objective, const Design& start, const Rule
 
 /// Trials that going through all pairs stands for; of few points it does not matter.
 double Annealing::pass() const {
-    return best_.points > 1000 ? static_cast<double>(best_.points / 4) : 0;
+    const std::size_t points = exchanges_.design().points;
+    return points > 1000 ? static_cast<double>(points / 4) : 0;
 }
 
 void Annealing::aim_next() {
@@ -156,7 +186,7 @@ void Annealing::note() {
     const Score score = criterion_->score();
     if (!(score < score_)) return;
     score_ = score;
-    best_ = exchanges_.design();
+    trail_.mark(exchanges_.design());
 }
 
 bool Annealing::accepts(double change) {
@@ -175,8 +205,13 @@ void Annealing::trial() {
     if (!accepts(change) || exchanges_.infeasible(one) > 0) return;
     criterion_->exchange(one.coordinate, one.a, one.b, change);
     exchanges_.make(one);
+    trail_.made(one);
+    if (const Score now = criterion_->score_below(score_); now < score_) {
+        score_ = now;
+        trail_.mark(exchanges_.design());
+    }
     if (!criterion_->reached()) return;
-    note();
+    done_ += pass();
     aim_next();
 }
 
@@ -198,6 +233,12 @@ void Annealing::advance(double trials, const RunContext& run, const RunContext& 
                                std::max(1.0, (1 - polish_from) * schedule_.trials / piece));
     }
     note();
+}
+
+void Annealing::settle() {
+    criterion_.reset();  // before the next one takes its memory
+    criterion_ = make_criterion(objective_, trail_.best(), rules_);
+    score_ = criterion_->score();
 }
 
 }  // namespace stipple::latin_hypercube_search

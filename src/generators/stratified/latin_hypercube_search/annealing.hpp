@@ -68,9 +68,30 @@ class Exchanges {
     std::vector<Level> row_;  ///< that is tried
 };
 
+/// The best of the designs that exchanges lead to, by the way to it: no copy for each better one.
+class Trail {
+  public:
+    explicit Trail(Design start) : best_(std::move(start)) {}
+
+    void made(const Exchange& exchange);
+
+    /// The design that all exchanges made is the best.
+    void mark(const Design& now);
+
+    const Design& best();
+
+  private:
+    void go_to_mark();
+
+    Design best_;                  ///< before the steps
+    std::vector<Exchange> steps_;  ///< from it
+    std::size_t mark_ = 0;         ///< those that lead to the best
+    bool left_ = false;            ///< steps were too many: the next mark is a copy
+};
+
 class Annealing {
   public:
-    /// @param rules must stay
+    /// @param objective, rules must stay
     Annealing(const Objective& objective, const Design& start, const Rules& rules,
               const Schedule& schedule, SplitMix64 draws);
 
@@ -78,9 +99,12 @@ class Annealing {
     /// wants the best so far.
     void advance(double trials, const RunContext& run, const RunContext& whole);
 
-    /// The best design so far that it took note of, and its score.
-    [[nodiscard]] const Design& best() const { return best_; }
+    /// The best design so far, of maximin among those that reached a target, and its score.
+    [[nodiscard]] const Design& best() { return trail_.best(); }
     [[nodiscard]] const Score& score() const { return score_; }
+
+    /// The end: the score is that of the best design by itself, without the rounding of exchanges.
+    void settle();
 
   private:
     void trial();
@@ -89,9 +113,12 @@ class Annealing {
     void aim_next();
     [[nodiscard]] double pass() const;
 
+    const Objective& objective_;
+    const Rules& rules_;
     Schedule schedule_;
     SplitMix64 draws_;
     Exchanges exchanges_;
+    Trail trail_;
     std::unique_ptr<Criterion> criterion_;
     double done_ = 0;
     double next_ = 0;  ///< the trial at which the share changes next
@@ -100,7 +127,6 @@ class Annealing {
     bool polishing_ = false;
     bool over_ = false;
     double temperature_ = 0;
-    Design best_;
     Score score_;
 };
 

@@ -69,6 +69,8 @@ class CorrelationCriterion final : public Criterion {
         return {largest, energy()};
     }
 
+    Score score_below(const Score&) override { return score(); }
+
   private:
     [[nodiscard]] std::int64_t twice_from_middle(Level level, std::size_t k,
                                                  const Rules& rules) const {

@@ -73,6 +73,9 @@ class Criterion {
     virtual bool aim(double /*target*/) { return false; }
 
     [[nodiscard]] virtual Score score() const = 0;
+
+    /// The score where it may be below another one, else that one: without a look at all pairs.
+    virtual Score score_below(const Score& other) = 0;
 };
 
 /// The criterion of a design, which it follows by exchange() alone. Pairs of fixed rows do not count.

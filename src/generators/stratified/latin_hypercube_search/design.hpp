@@ -72,6 +72,10 @@ struct Rules {
     /// many threads.
     std::function<bool(std::size_t row, std::span<const Level> levels)> feasible = {};
 
+    /// Whether any exchange is allowed, and levels count as they are.
+    [[nodiscard]] bool are_none() const {
+        return fixed == 0 && groups.empty() && axes.empty() && !feasible;
+    }
     [[nodiscard]] const Axis& axis(std::size_t coordinate) const {
         static const Axis continuous;
         return axes.empty() ? continuous : axes[coordinate];

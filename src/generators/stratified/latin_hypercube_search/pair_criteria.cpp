@@ -336,6 +336,7 @@ class PairCriterion final : public Criterion {
         if (b < points_) move(k, b, a, to, from);
         std::swap(places(k)[a], places(k)[b]);
         energy_ += change;
+        largest_ = std::max(largest_, std::abs(energy_));
         constexpr std::uint64_t often = 1 << 14;  // rounding stays small
         if (++exchanges_ % often == 0) rebuild();
     }
@@ -362,6 +363,14 @@ class PairCriterion final : public Criterion {
         double count = 0;
         for_pairs([&](Value value) { count += static_cast<double>(value) == least; });
         return {-least, count};
+    }
+
+    Score score_below(const Score& other) override {
+        if constexpr (std::is_same_v<Measure, Shortfall>) return reached() ? score() : other;
+        constexpr double rounding = 1e-12;  // of a sum, by the largest that it has been
+        if (energy_ - rounding * largest_ < other.value && largest_ > 1e3 * std::abs(other.value))
+            rebuild();
+        return {std::min(energy_, other.value), 0};
     }
 
   private:
@@ -423,6 +432,7 @@ class PairCriterion final : public Criterion {
             }
         }
         energy_ = sum();
+        largest_ = std::abs(energy_);
     }
 
     Measure measure_;
@@ -436,6 +446,7 @@ class PairCriterion final : public Criterion {
     std::vector<Value> pairs_;
     std::conditional_t<std::is_same_v<Measure, Centered>, Singles, NoSingles> singles_;
     double energy_ = 0;
+    double largest_ = 0;  ///< absolute energy since it was summed up
     std::uint64_t exchanges_ = 0;
 };
 

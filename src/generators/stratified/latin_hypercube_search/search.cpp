@@ -11,6 +11,7 @@
 #include "core/rng.hpp"
 #include "generators/search_run.hpp"
 #include "generators/stratified/latin_hypercube_search/annealing.hpp"
+#include "generators/stratified/latin_hypercube_search/enumeration.hpp"
 #include "generators/stratified/latin_hypercube_search/lattice_start.hpp"
 
 namespace stipple::latin_hypercube_search {
@@ -19,7 +20,7 @@ namespace {
 /// Annealings of the same length, up to eight side by side.
 struct Round {
     std::size_t annealings;
-    double share;    ///< of the budget, of each of them
+    double share;    ///< of the stage's trials, of each of them
     bool from_best;  ///< every other one starts from one of the best so far
 };
 
@@ -32,6 +33,25 @@ struct Candidate {
     Score score;
 };
 
+/// Whether a score is lower by more than what rounding makes of equal ones.
+bool is_better(const Score& one, const Score& other) {
+    const double room = 1e-12 * std::abs(other.value);
+    if (std::abs(one.value - other.value) > room) return one.value < other.value;
+    return one.second < other.second - 1e-12 * std::abs(other.second);
+}
+
+/// Trials of the stages of a search: a few, then twice as many from stage to stage. Those of fewer
+/// trials are the first ones of more.
+std::vector<double> stages_of(double trials, double usual, std::size_t points) {
+    constexpr double few = 96;
+    std::vector<double> stages{few};
+    const double least = std::min(usual / 8, 64 * static_cast<double>(points));
+    double sum = usual;  // of all stages up to one of half of it
+    while (sum / 2 >= least) sum /= 2;
+    for (; sum <= trials; sum *= 2) stages.push_back(sum / 2);
+    return stages;
+}
+
 class Rounds {
   public:
     Rounds(const Search& search, const std::string& words, const RunContext& run)
@@ -42,13 +62,12 @@ class Rounds {
           rng_(search.seed, stream) {}
 
     Result best() {
-        for (const Round& round :
-             from_lattices() ? std::span(rounds_of_lattices) : std::span(rounds)) {
-            const std::size_t together = std::min(round.annealings, most_together());
-            for (std::size_t i = 0; i < round.annealings; i += together)
-                if (i == 0 || !run_.best_is_wanted()) anneal(round, i, together);
+        for (const double trials :
+             stages_of(search_.trials, usual_trials(search_.objective, search_.start), points())) {
+            if (best_.empty() || !run_.best_is_wanted()) go(trials);
+            if (!result_ || is_better(best_.front().score, result_->score)) result_ = best_.front();
         }
-        return {best_.front().design, run_.best_is_wanted()};
+        return {.design = result_->design, .stopped = run_.best_is_wanted()};
     }
 
   private:
@@ -56,26 +75,34 @@ class Rounds {
     static constexpr std::size_t most_kept = 4;
     static constexpr double cold = 1e-3;  // first share of what is good already
 
-    /// Few where their pairs take much memory.
-    [[nodiscard]] std::size_t most_together() const { return search_.start.points > 2000 ? 2 : 8; }
+    [[nodiscard]] std::size_t points() const { return search_.start.points; }
 
-    [[nodiscard]] bool is_free() const {
-        const Rules& rules = search_.rules;
-        return rules.fixed == 0 && rules.groups.empty() && rules.axes.empty() && !rules.feasible;
-    }
+    /// Few where their pairs take much memory.
+    [[nodiscard]] std::size_t most_together() const { return points() > 2000 ? 2 : 8; }
 
     /// Whether lattices are good starts.
     [[nodiscard]] bool from_lattices() const {
         const Design& start = search_.start;
-        return is_free() && search_.objective.kind == Kind::maximin && start.dimension > 1 &&
-               start.dimension <= 3 && start.points > 10;
+        return search_.rules.are_none() && search_.objective.kind == Kind::maximin &&
+               start.dimension > 1 && start.dimension <= 3 && start.points > 10;
+    }
+
+    /// A stage of so many trials.
+    void go(double trials) {
+        trials_ = trials;
+        for (const Round& round :
+             from_lattices() ? std::span(rounds_of_lattices) : std::span(rounds)) {
+            const std::size_t together = std::min(round.annealings, most_together());
+            for (std::size_t i = 0; i < round.annealings; i += together)
+                if (best_.empty() || !run_.best_is_wanted()) anneal(round, i, together);
+        }
     }
 
     /// The i-th annealing of a round.
     Annealing start(const Round& round, std::size_t i) const {
         constexpr double beyond[] = {1, 1.005, 1.01, 1.02};
         SplitMix64 draws(rng_.bits(tasks_ + i));
-        Schedule schedule{.trials = std::ceil(round.share * search_.trials)};
+        Schedule schedule{.trials = std::ceil(round.share * trials_)};
         if (!best_.empty()) schedule.target = 1 - beyond[i / 2 % 4] * best_.front().score.value;
         if (round.from_best && i % 2 == 1) {
             schedule.first_share = cold;
@@ -94,9 +121,9 @@ class Rounds {
     }
 
     void anneal(const Round& round, std::size_t first, std::size_t count) {
-        const double of_one = round.share * search_.trials;
+        const double of_one = round.share * trials_;
         const double slices =
-            std::floor(std::clamp(of_one / static_cast<double>(search_.start.points), 1.0, 20.0));
+            std::floor(std::clamp(of_one / static_cast<double>(points()), 1.0, 20.0));
         std::vector<std::optional<Annealing>> all(count);
         const double trials = std::ceil(of_one / slices);
         for (int slice = 0; slice < slices && !(slice > 0 && run_.best_is_wanted()); ++slice) {
@@ -109,7 +136,8 @@ class Rounds {
             report(all);
         }
         tasks_ += round.annealings;
-        for (const auto& one : all) best_.push_back({one->best(), one->score()});
+        for_each_block(inner_, count, 1, [&](const Block& block) { all[block.index]->settle(); });
+        for (auto& one : all) best_.push_back({one->best(), one->score()});
         std::ranges::stable_sort(best_, {}, &Candidate::score);
         if (best_.size() > most_kept) best_.erase(best_.begin() + most_kept, best_.end());
     }
@@ -133,13 +161,17 @@ class Rounds {
     RunContext inner_;
     Rng rng_;
     std::uint64_t tasks_ = 0;
+    double trials_ = 0;  ///< of the stage
     double spent_ = 0;
     std::vector<Candidate> best_;
+    std::optional<Candidate> result_;
 };
 
 }  // namespace
 
 Result best_design(const Search& search, const std::string& words, const RunContext& run) {
+    if (search.rules.are_none() && designs_to_try(search.start) <= search.trials)
+        return best_of_all(search.objective, search.start, run);
     const double together = search.start.points > 2000 ? 2 : 8;
     run.need_memory(together * criterion_memory(search.objective, search.start),
                     "the search for a Latin hypercube");

@@ -46,6 +46,43 @@ TEST(LatinSearch, FindsTheBestOfAllPermutations) {
         }
 }
 
+// Three coordinates: all pairs of permutations.
+TEST(LatinSearch, TriesAllDesignsOfFewPoints) {
+    for (const Kind kind : all_kinds)
+        for (const std::size_t n : {1, 2, 3, 4}) {
+            std::vector<Level> y(n);
+            std::iota(y.begin(), y.end(), Level{0});
+            double least = 1e300;
+            do {
+                std::vector<Level> z(n);
+                std::iota(z.begin(), z.end(), Level{0});
+                do least = std::min(least, value_of(kind, design_of({y, z})));
+                while (std::ranges::next_permutation(z).found);
+            } while (std::ranges::next_permutation(y).found);
+            const auto result =
+                best_design({{.kind = kind}, {}, random_design(n, 3, n), 1, 1000}, "", {});
+            EXPECT_TRUE(result.optimal);
+            if (n == 1) continue;  // no pair
+            EXPECT_NEAR(value_of(kind, result.design), least, 1e-12 * std::abs(least))
+                << static_cast<int>(kind) << " " << n;
+        }
+    EXPECT_FALSE(best_design({{}, {}, random_design(5, 3, 1), 1, 1000}, "", {}).optimal);
+}
+
+TEST(LatinSearch, IsNeverWorseWithMoreTrials) {
+    for (const Kind kind : all_kinds)
+        for (const std::uint64_t seed : {1, 2}) {
+            double least = 1e300;
+            for (const double trials : {10., 2'000., 4'000., 9'000., 20'000.}) {
+                const double value =
+                    value_of(kind, found(kind, random_design(9, 3, seed), trials, {}, seed));
+                EXPECT_LE(value, least * (least < 0 ? 1 - 1e-12 : 1 + 1e-12))
+                    << static_cast<int>(kind) << " " << trials;
+                least = std::min(least, value);
+            }
+        }
+}
+
 /// The largest least squared distance of n points of the plane: row by row, through all designs.
 int largest_by_exhaustion(int n) {
     std::vector<int> y;
