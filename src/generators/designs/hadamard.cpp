@@ -25,15 +25,6 @@ std::uint64_t lower_twin(std::uint64_t q) {
     return a >= 3 && a * (a + 2) == q && is_prime(a) && is_prime(a + 2) ? a : 0;
 }
 
-/// Order of what has to be doubled to that one, or it itself; 0: none.
-std::uint64_t base_order(std::uint64_t order) {
-    for (; order >= 4 && order % 4 == 0; order /= 2)
-        if (prime_of_power(order - 1) != 0 || lower_twin(order - 1) != 0 ||
-            (order % 8 == 4 && prime_of_power(order / 2 - 1) != 0))
-            return order;
-    return 0;
-}
-
 /// x - y in the field whose elements are numbered by their digits to the base p.
 std::uint64_t difference(std::uint64_t x, std::uint64_t y, std::uint64_t p) {
     std::uint64_t out = 0;
@@ -84,6 +75,27 @@ std::vector<bool> twin_sequence(std::uint64_t a) {
     return positive;
 }
 
+/// Whether Miyamoto's construction gives that order.
+bool is_of_miyamoto(std::uint64_t order) {
+    const std::uint64_t q = order / 4;
+    return order % 16 == 4 && prime_of_power(q) != 0 && has_hadamard(q - 1);
+}
+
+/// Order of what has to be doubled to that one, or it itself; 0: none.
+std::uint64_t base_order(std::uint64_t order) {
+    for (; order >= 4 && order % 4 == 0; order /= 2)
+        if (prime_of_power(order - 1) != 0 || lower_twin(order - 1) != 0 ||
+            (order % 8 == 4 && prime_of_power(order / 2 - 1) != 0) ||
+            GoethalsSeidel::is_there(order / 4) || is_of_miyamoto(order))
+            return order;
+    return 0;
+}
+
+std::vector<bool> squares_of(std::uint64_t q) {
+    const std::uint64_t p = prime_of_power(q);
+    return p == q ? squares_of_prime(q) : squares_of_field(q, p);
+}
+
 }  // namespace
 
 bool has_hadamard(std::uint64_t order) { return order <= most_hadamard && base_order(order) != 0; }
@@ -91,6 +103,7 @@ bool has_hadamard(std::uint64_t order) { return order <= most_hadamard && base_o
 Hadamard::Hadamard(std::uint64_t order) : base_(base_order(order)) {
     const std::uint64_t q = base_ - 1;
     const std::uint64_t half = base_ / 2 - 1;
+    const std::uint64_t fourth = base_ / 4;
     if (prime_of_power(q) == q) {
         square_ = squares_of_prime(q);
         construction_ = fmt::format("Paley I, q = {}", q);
@@ -100,13 +113,26 @@ Hadamard::Hadamard(std::uint64_t order) : base_(base_order(order)) {
     } else if (prime_of_power(q) != 0) {
         kind_ = Kind::field;
         prime_ = prime_of_power(q);
-        square_ = squares_of_field(q, prime_);
+        square_ = squares_of(q);
         construction_ = fmt::format("Paley I, q = {}", q);
-    } else {
+    } else if (base_ % 8 == 4 && prime_of_power(half) != 0) {
         kind_ = Kind::conference;
         prime_ = prime_of_power(half);
-        square_ = prime_ == half ? squares_of_prime(half) : squares_of_field(half, prime_);
+        square_ = squares_of(half);
         construction_ = fmt::format("Paley II, q = {}", half);
+    } else if (GoethalsSeidel::is_there(fourth)) {
+        kind_ = Kind::four_functions;
+        four_ = std::make_shared<const GoethalsSeidel>(fourth);
+        construction_ = fmt::format("Goethals-Seidel, v = {}", fourth);
+    } else {
+        kind_ = Kind::miyamoto;
+        prime_ = prime_of_power(fourth);
+        square_ = squares_of(fourth);
+        smaller_ = std::make_shared<const Hadamard>(fourth - 1);
+        for (const bool wanted : {true, false})
+            for (std::uint64_t x = 1; x < fourth; ++x)
+                if (square_[x] == wanted) elements_.push_back(x);
+        construction_ = fmt::format("Miyamoto, q = {}", fourth);
     }
     for (std::uint64_t n = base_; n < order; n *= 2) construction_ += ", doubled";
 }
@@ -118,20 +144,62 @@ bool Hadamard::positive(std::uint64_t row, std::uint64_t column) const {
 
 bool Hadamard::core(std::uint64_t row, std::uint64_t column) const {
     if (column == 0) return true;
-    if (kind_ == Kind::conference) {
-        // C (x) (1 1 / 1 -1) + I (x) (1 -1 / -1 -1), row 1 times -1 for the first column of 1.
-        const std::uint64_t i = row / 2;
-        const std::uint64_t k = column / 2;
-        const bool low = row % 2 != 0 && column % 2 != 0;
-        const bool turned = row == 1;
-        if (i == k) return (row % 2 == 0 && column % 2 == 0) != turned;
-        const bool character = i == 0 || k == 0 || square_[difference(k - 1, i - 1, prime_)];
-        return (character != low) != turned;
-    }
+    if (kind_ == Kind::four_functions)  // rows times what makes the first column 1
+        return four_->positive(row, column) == four_->positive(row, 0);
+    if (kind_ == Kind::miyamoto) return miyamoto(row, column) == miyamoto(row, 0);
+    if (kind_ == Kind::conference) return paley_two(row, column);
     const std::uint64_t q = base_ - 1;
     if (row == q) return false;
     const std::uint64_t k = column - 1;
     return square_[kind_ == Kind::field ? difference(k, row, prime_) : (k + q - row) % q];
+}
+
+/// C (x) (1 1 / 1 -1) + I (x) (1 -1 / -1 -1), row 1 times -1 for the first column of 1.
+bool Hadamard::paley_two(std::uint64_t row, std::uint64_t column) const {
+    const std::uint64_t i = row / 2;
+    const std::uint64_t k = column / 2;
+    const bool low = row % 2 != 0 && column % 2 != 0;
+    const bool turned = row == 1;
+    if (i == k) return (row % 2 == 0 && column % 2 == 0) != turned;
+    const bool character = i == 0 || k == 0 || square_[difference(k - 1, i - 1, prime_)];
+    return (character != low) != turned;
+}
+
+/// Four strips of q rows and columns, of which the first is a border of 1 and -1 and the others are two
+/// times m. With the characters of differences between squares C1, from squares to others C2 and between
+/// others C4, and the quarters K1, ..., K4 of the smaller matrix, strips s and t meet in
+///
+///     U + V  U - V        U  -C1 C2  0   0        V  I   0    K1  K2
+///     U - V  U + V            C2'C4  0   0           0   I   -K3  K4
+///                             0   0 -C1  C2          K1' -K3' I   0
+///                             0   0  C2' C4          K2'  K4' 0   I
+///
+/// times signs, by which the strips are orthogonal.
+bool Hadamard::miyamoto(std::uint64_t row, std::uint64_t column) const {
+    constexpr bool minus[4][4] = {{false, false, false, false},
+                                  {true, false, false, true},
+                                  {true, true, false, false},
+                                  {true, false, true, false}};
+    const std::uint64_t q = base_ / 4;
+    const std::uint64_t m = (q - 1) / 2;
+    const std::uint64_t s = row / q;
+    const std::uint64_t t = column / q;
+    const bool border_row = row % q == 0;
+    const bool border_column = column % q == 0;
+    if (border_row || border_column)
+        return border_row == border_column || s != t ? !minus[s][t] : false;
+    const std::uint64_t i = (row % q - 1) % m + s % 2 * m;
+    const std::uint64_t k = (column % q - 1) % m + t % 2 * m;
+    const bool plus = ((row % q - 1) < m) == ((column % q - 1) < m);
+    if (s / 2 == t / 2) {
+        if (i == k) return plus != minus[s][t];
+        const bool character = square_[difference(elements_[k], elements_[i], prime_)];
+        return (character != (i < m && k < m)) != minus[s][t];
+    }
+    const std::uint64_t of_row = s < 2 ? i : k;
+    const std::uint64_t of_column = s < 2 ? k : i;
+    const bool turned = of_row >= m && of_column < m;
+    return (smaller_->positive(of_row, of_column) != turned) == (plus != minus[s][t]);
 }
 
 }  // namespace stipple::generators

@@ -7,21 +7,28 @@
 //                                row is the one before, moved on by one, and the last one all -1
 //     n = p (p + 2) + 1          the same from the product of the characters of two twin primes
 //     n = 2 (q + 1), q = 1 mod 4 Paley II, from the symmetric conference matrix of order q + 1
+//     n = 4 v                    four circulant matrices of a table (goethals_seidel.hpp)
+//     n = 4 q, q = 1 mod 4       Miyamoto, from the conference matrix of order q + 1 and a Hadamard
+//                                matrix of order q - 1
 //     n = 2 m                    H_m H_m / H_m -H_m (Sylvester)
 //
-// tried in this order; the second and later ones too where q is a power of a prime.
+// tried in this order; those with characters too where q is a power of a prime.
 //
-// Shape   multiples of 4 up to 2^20; of those up to 200 all but 92, 116, 156, 172, 184 and 188.
+// Shape   multiples of 4 up to 2^20; all of those up to 664, and most beyond.
 // Cost    O(q) memory; O(log n) an entry.
 // Source  R. E. A. C. Paley, J. Math. Phys. 12 (1933) 311-320, doi:10.1002/sapm1933121311;
 //         R. G. Stanton, D. A. Sprott, Canad. J. Math. 10 (1958) 73-77, doi:10.4153/CJM-1958-008-5
-//         (twin primes).
+//         (twin primes); M. Miyamoto, J. Combin. Theory A 57 (1991) 86-108,
+//         doi:10.1016/0097-3165(91)90008-5.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
+
+#include "generators/designs/goethals_seidel.hpp"
 
 namespace stipple::generators {
 
@@ -43,13 +50,18 @@ class Hadamard {
 
   private:
     [[nodiscard]] bool core(std::uint64_t row, std::uint64_t column) const;
+    [[nodiscard]] bool paley_two(std::uint64_t row, std::uint64_t column) const;
+    [[nodiscard]] bool miyamoto(std::uint64_t row, std::uint64_t column) const;
 
-    enum class Kind { cyclic, field, conference };
+    enum class Kind { cyclic, field, conference, four_functions, miyamoto };
 
     Kind kind_ = Kind::cyclic;
     std::uint64_t base_ = 0;    ///< order before it is doubled
     std::uint64_t prime_ = 0;   ///< q is a power of it
     std::vector<bool> square_;  ///< whether the character is 1, or its argument 0
+    std::shared_ptr<const GoethalsSeidel> four_;
+    std::shared_ptr<const Hadamard> smaller_;  ///< of order q - 1
+    std::vector<std::uint64_t> elements_;      ///< squares other than 0, then those that are none
     std::string construction_;
 };
 
