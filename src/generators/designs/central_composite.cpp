@@ -55,10 +55,10 @@ constexpr Param<bool> fraction{
         "Only the smallest fraction of resolution V or more of the corners, for 5 factors and "
         "more"};
 
-RegularFraction corners_for(std::size_t factors, const Values& options, const RunContext& run) {
+RegularFraction corners_for(std::size_t factors, const Values& options) {
     if (!options[fraction]) return full_fraction(factors);
-    const auto found = fewest_runs(factors, 5, run).design;
-    return found ? *found : full_fraction(factors);
+    const auto found = fewest_runs(factors, 5);
+    return found ? found->design : full_fraction(factors);
 }
 
 /// @throws Error(usage)
@@ -83,7 +83,7 @@ Plan plan(const Request& request, const Values& options) {
     if (k < 2 || k > 20)
         fail(ErrorKind::usage,
              "--dimension: {} is outside [2, 20], what central-composite can make", k);
-    const std::uint64_t corners = corners_for(k, options, {}).runs();
+    const std::uint64_t corners = corners_for(k, options).runs();
     const Plan plan =
         plan_with_center(request, options, corners + 2 * k, k,
                          fmt::format("the central composite design of {} corners and {} axial runs",
@@ -103,8 +103,8 @@ std::vector<double> places_of(double a, bool ends) {
     return places;
 }
 
-std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext& run) {
-    const RegularFraction corners = corners_for(plan.dimension, options, run);
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
+    const RegularFraction corners = corners_for(plan.dimension, options);
     const double a =
         alpha_of(options, static_cast<double>(corners.runs()), static_cast<double>(plan.count));
     const bool ends = options[ends_option];
@@ -134,6 +134,7 @@ Generator unit() {
             .traits = {.min_dimension = 2, .max_dimension = 20, .prefix = false, .seeded = false},
             .options = Schema(type, alpha, fraction, center_option, ends_option),
             .aliases = {"ccd"},
+            .stream_version = 2,
             .plan = plan,
             .sequence = make};
 }

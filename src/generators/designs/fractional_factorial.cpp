@@ -3,18 +3,19 @@
 // Regular fractional factorial design 2^(k-p): k factors of two levels in n = 2^(k-p) runs, a part
 // of the full factorial (regular_fraction.hpp). The factors are A, B, ..., H, J, ..., Z, a, ...,
 // without I, which stands for the mean. The fraction is given by --generators (D=ABC,E=-AB), or is
-// the one of least aberration for a count, or with the fewest runs for a resolution:
+// one of a table (fraction_table.hpp): of the highest resolution that is known for a count, or with the
+// fewest runs for a resolution, and of the least aberration that is known.
 //
 //     III   main effects are aliased with interactions of two factors, but not with each other
 //     IV    with those of three; interactions of two factors with each other
 //     V     neither with those of two
 //
-// Shape   n x k, 2 <= k <= 50; n is a power of two, at most 2^16 where a fraction is looked for.
+// Shape   n x k, 2 <= k <= 50; n is a power of two, at most 2^16 for fractions of the table.
 //         Runs in standard order of the factors that are not generated, the first fastest.
 // Promise the provenance has the resolution and the number of words of each length, for p <= 6 the
-//         words and the shortest aliases of main effects, too; and whether the search left nothing
-//         out (complete), as with up to 16 runs, or gave up after a fixed number of steps with the
-//         best that it had (limited).
+//         words and the shortest aliases of main effects, too; and whether no fraction of so many runs
+//         can have a higher resolution or less aberration (complete) or not all of them have been
+//         searched (limited), which a note says, too.
 // Source  G. E. P. Box, J. S. Hunter, Technometrics 3 (1961) 311-351,
 //         doi:10.1080/00401706.1961.10489951; A. Fries, W. G. Hunter, Technometrics 22 (1980)
 //         601-608, doi:10.1080/00401706.1980.10486210 (aberration).
@@ -43,16 +44,15 @@ constexpr Param<std::int64_t> resolution{
     .high = 8,
     .optional = true,
     .help =
-        "The fewest runs with it or a higher one, and of these the least aberration; default: "
-        "3, or the highest that the count allows"};
+        "The fewest runs with it or a higher one that are known, and of these the least known "
+        "aberration; default: 3, or the highest that is known for the count"};
 
 std::size_t asked_resolution(const Values& options) {
     return options.given(resolution) ? static_cast<std::size_t>(options[resolution]) : 3;
 }
 
 /// @throws Error(usage) for counts that are not the runs of a fraction
-FoundFraction for_count(std::uint64_t count, std::size_t factors, const Values& options,
-                        const RunContext& run) {
+KnownFraction for_count(std::uint64_t count, std::size_t factors, const Values& options) {
     const std::uint64_t all = std::uint64_t{1} << factors;
     if (!std::has_single_bit(count) || count > all) {
         const std::uint64_t below = std::min(std::bit_floor(count), all);
@@ -64,29 +64,35 @@ FoundFraction for_count(std::uint64_t count, std::size_t factors, const Values& 
     const auto basic = static_cast<std::size_t>(std::countr_zero(count));
     if (basic < factors && basic > most_basic_factors)
         fail(ErrorKind::usage,
-             "--count: {} runs are more than 2^{}, up to which a fraction is looked for; "
-             "--generators gives larger ones",
+             "--count: {} runs are more than 2^{}, up to which there are fractions; --generators "
+             "gives larger ones",
              count, most_basic_factors);
-    FoundFraction found = least_aberration(factors, basic, asked_resolution(options), run);
-    if (found.design) return found;
-    const auto fewest = fewest_runs(factors, asked_resolution(options), run);
+    const std::size_t asked = asked_resolution(options);
+    const auto known = known_fraction(factors, basic);
+    if (known && known->has(asked)) return *known;
+    const auto fewest = fewest_runs(factors, asked);
+    const std::string others = fewest ? fmt::format("; {} do", fewest->design.runs()) : "";
+    if (known && known->bound >= asked)
+        fail(ErrorKind::usage,
+             "--count: {} runs are not known to do for {} factors at resolution {}{}", count,
+             factors, roman_numeral(asked), others);
     fail(ErrorKind::usage, "--count: {} runs are too few for {} factors at resolution {}{}", count,
-         factors, roman_numeral(asked_resolution(options)),
-         fewest.design ? fmt::format("; {} do", fewest.design->runs()) : "");
+         factors, roman_numeral(asked), others);
 }
 
-FoundFraction decide(std::optional<std::uint64_t> count, std::size_t factors, const Values& options,
-                     const RunContext& run) {
+/// The fraction of the options. @throws Error(usage)
+KnownFraction decide(std::optional<std::uint64_t> count, std::size_t factors,
+                     const Values& options) {
     if (options.given(equations))
-        return {fraction_of(parse_equations(options[equations]), factors)};
-    if (count) return for_count(*count, factors, options, run);
-    FoundFraction found = fewest_runs(factors, asked_resolution(options), run);
-    if (!found.design)
+        return {.design = fraction_of(parse_equations(options[equations]), factors)};
+    if (count) return for_count(*count, factors, options);
+    const auto known = fewest_runs(factors, asked_resolution(options));
+    if (!known)
         fail(ErrorKind::usage,
-             "--resolution: {} factors at resolution {} take more than 2^{} runs, up to which a "
-             "fraction is looked for; --generators gives larger ones",
-             factors, roman_numeral(asked_resolution(options)), most_basic_factors);
-    return found;
+             "--resolution: no fraction of up to 2^{} runs is known for {} factors at resolution "
+             "{}; --generators gives larger ones",
+             most_basic_factors, factors, roman_numeral(asked_resolution(options)));
+    return *known;
 }
 
 /// As many factors as the equations name. @throws Error(usage)
@@ -106,13 +112,13 @@ Plan plan(const Request& request, const Values& options) {
     if (options.given(equations) && options.given(resolution))
         fail(ErrorKind::usage, "--generators and --resolution are two ways to choose; give one");
     const std::size_t k = factors_of(request, options);
-    const RegularFraction design = *decide(request.count, k, options, {}).design;
+    const RegularFraction design = decide(request.count, k, options).design;
     return plan_of_runs(request, design.runs(), k,
                         fmt::format("the fraction 2^({}-{})", k, k - design.basic.size()));
 }
 
-Findings findings_of(const FoundFraction& found, bool searched, bool ends) {
-    const RegularFraction& design = *found.design;
+Findings findings_of(const KnownFraction& known, bool by_equations, bool ends) {
+    const RegularFraction& design = known.design;
     Findings findings{{"coded_bounds", coded_range(2, ends)}};
     const WordLengths lengths = word_lengths(design);
     const std::size_t least = resolution_of(lengths);
@@ -125,17 +131,52 @@ Findings findings_of(const FoundFraction& found, bool searched, bool ends) {
         findings.emplace_back("defining_relation", relation_of(design, words));
         findings.emplace_back("aliases", aliases_of(design, words));
     }
-    if (searched) findings.emplace_back("search", found.complete ? "complete" : "limited");
+    const bool complete = known.least && known.bound == known.resolution;
+    if (!by_equations) findings.emplace_back("search", complete ? "complete" : "limited");
     return findings;
 }
 
-std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext& run) {
-    const FoundFraction found = decide(plan.count, plan.dimension, options, run);
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
+    const KnownFraction known = decide(plan.count, plan.dimension, options);
     const bool ends = options[ends_option];
     return level_sequence(
         plan, level_places(2, ends),
-        [design = *found.design](std::uint64_t i, std::size_t k) { return design.level(i, k); },
-        findings_of(found, !options.given(equations), ends));
+        [design = known.design](std::uint64_t i, std::size_t k) { return design.level(i, k); },
+        findings_of(known, options.given(equations), ends));
+}
+
+/// Whether fewer runs may have that resolution, as far as is known; how many.
+std::uint64_t fewer_in_doubt(std::size_t factors, const KnownFraction& known, std::size_t asked) {
+    for (std::size_t basic = 1; basic < known.design.basic.size(); ++basic)
+        if (const auto smaller = known_fraction(factors, basic); smaller && smaller->bound >= asked)
+            return smaller->design.runs();
+    return 0;
+}
+
+std::vector<std::string> notes(const Request& request, const Plan& plan, const Values& options) {
+    if (options.given(equations)) return {};
+    const std::size_t k = plan.dimension;
+    const KnownFraction known = decide(plan.count, k, options);
+    const std::string reached = roman_numeral(known.resolution);
+    std::vector<std::string> notes;
+    if (request.count && known.bound > known.resolution)
+        notes.push_back(
+            fmt::format("fractional-factorial: resolution {} is the highest that is known for {} "
+                        "factors in {} runs; it is open whether {} can be reached",
+                        reached, k, plan.count, roman_numeral(known.resolution + 1)));
+    const std::size_t asked = asked_resolution(options);
+    if (const std::uint64_t fewer = request.count ? 0 : fewer_in_doubt(k, known, asked); fewer > 0)
+        notes.push_back(
+            fmt::format("fractional-factorial: {} runs are the fewest that are known for {} "
+                        "factors at resolution {}; it is open whether {} do",
+                        plan.count, k, roman_numeral(asked), fewer));
+    if (!known.least)
+        notes.push_back(
+            fmt::format("fractional-factorial: not all fractions of {} factors in {} runs have "
+                        "been searched; one of resolution {} with fewer words of {} letters than "
+                        "this one may exist",
+                        k, plan.count, reached, known.resolution));
+    return notes;
 }
 
 }  // namespace
@@ -154,8 +195,10 @@ Generator unit() {
                        .seeded = false},
             .options = Schema(equations, resolution, ends_option),
             .aliases = {"fracfact"},
+            .stream_version = 2,
             .plan = plan,
-            .sequence = make};
+            .sequence = make,
+            .notes = notes};
 }
 
 }  // namespace stipple::generators::fractional_factorial

@@ -2,10 +2,10 @@
 #include "generators/designs/regular_fraction.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "core/machine/int128.hpp"
-#include "math/combinatorics/combinations.hpp"
+#include "generators/designs/fraction_table.hpp"
+#include "generators/designs/hex_digits.hpp"
 
 namespace stipple::generators {
 namespace {
@@ -53,127 +53,24 @@ WordLengths from_rows(const std::vector<std::uint64_t>& sums, std::size_t basic)
     return lengths;
 }
 
-/// Words of up to most + 1 factors are counted as columns come and go.
-class WordCounts {
-  public:
-    WordCounts(std::size_t basic, std::size_t most)
-        : sums_(most + 1, std::vector<std::uint32_t>(bit(basic))), words_(most + 2) {
-        sums_[0][0] = 1;
-        for (std::size_t j = 0; j < basic; ++j) add(bit(j));
-    }
+/// The row of the table with a fraction.
+const FractionRow* row_of(std::size_t factors, std::size_t basic) {
+    const auto found = std::ranges::find_if(fraction_rows, [&](const FractionRow& row) {
+        return row.basic == basic && row.least <= factors && factors <= row.most;
+    });
+    return found == std::end(fraction_rows) ? nullptr : found;
+}
 
-    void add(std::uint64_t column) {
-        for (std::size_t t = 1; t < sums_.size(); ++t) words_[t + 1] += sums_[t][column];
-        for (std::size_t t = sums_.size(); --t > 0;)
-            for (std::size_t x = 0; x < sums_[t].size(); ++x)
-                sums_[t][x] += sums_[t - 1][x ^ column];
-    }
+std::size_t bound_of(std::size_t factors, std::size_t basic, std::size_t resolution) {
+    for (const OpenResolution& open : open_resolutions)
+        if (open.basic == basic && open.first <= factors && factors <= open.last) return open.bound;
+    return resolution;
+}
 
-    void remove(std::uint64_t column) {
-        for (std::size_t t = 1; t < sums_.size(); ++t)
-            for (std::size_t x = 0; x < sums_[t].size(); ++x)
-                sums_[t][x] -= sums_[t - 1][x ^ column];
-        for (std::size_t t = 1; t < sums_.size(); ++t) words_[t + 1] -= sums_[t][column];
-    }
-
-    /// A_0 (not counted), A_1, ...
-    [[nodiscard]] const WordLengths& words() const { return words_; }
-
-    /// Steps of adding or taking away a column.
-    [[nodiscard]] double steps() const {
-        return static_cast<double>((sums_.size() - 1) * sums_[0].size());
-    }
-
-  private:
-    std::vector<std::vector<std::uint32_t>> sums_;  ///< choices of t columns with that sum
-    WordLengths words_;
-};
-
-class AberrationSearch {
-  public:
-    AberrationSearch(std::size_t factors, std::size_t basic, std::size_t resolution,
-                     const RunContext& run)
-        : factors_(factors),
-          resolution_(resolution),
-          run_(run),
-          counts_(basic, std::max<std::size_t>(3, resolution - 2)) {
-        for (std::uint64_t column = bit(basic); --column > 0;)
-            if (static_cast<std::size_t>(std::popcount(column)) + 1 >= resolution &&
-                std::popcount(column) > 1)
-                candidates_.push_back(column);
-        // Odd sets have no words of three; what is left out last are small subspaces.
-        std::stable_partition(candidates_.begin(), candidates_.end(),
-                              [](auto column) { return std::popcount(column) % 2 != 0; });
-        for (std::size_t j = 0; j < basic; ++j) {
-            design_.basic.push_back(j);
-            design_.columns.push_back(bit(j));
-        }
-    }
-
-    FoundFraction find() {
-        descend(0);
-        if (best_)
-            std::sort(best_->columns.begin() + static_cast<std::ptrdiff_t>(best_->basic.size()),
-                      best_->columns.end());
-        return {best_, steps_ < budget};
-    }
-
-  private:
-    static constexpr double budget = 3e8;
-
-    /// Whether what is chosen may become better than the best.
-    [[nodiscard]] bool is_open() const {
-        const WordLengths& words = counts_.words();
-        for (std::size_t t = 1; t < words.size(); ++t) {
-            if (t < resolution_ && words[t] > 0) return false;
-            if (best_ && t <= factors_ && words[t] != least_[t]) return words[t] < least_[t];
-        }
-        return true;
-    }
-
-    void keep() {
-        WordLengths lengths = word_lengths(design_);
-        steps_ += 64.0 * static_cast<double>(factors_);
-        if (best_ && !std::ranges::lexicographical_compare(lengths, least_)) return;
-        best_ = design_;
-        least_ = std::move(lengths);
-    }
-
-    void descend(std::size_t first) {
-        if (design_.columns.size() == factors_) return keep();
-        const std::size_t missing = factors_ - design_.columns.size();
-        for (std::size_t i = first; i + missing <= candidates_.size(); ++i) {
-            if (steps_ >= budget) return;
-            steps_ += 2 * counts_.steps();
-            if (++visits_ % 1024 == 0) run_.check_stop();
-            counts_.add(candidates_[i]);
-            design_.columns.push_back(candidates_[i]);
-            if (is_open()) descend(i + 1);
-            design_.columns.pop_back();
-            counts_.remove(candidates_[i]);
-        }
-    }
-
-    std::size_t factors_;
-    std::size_t resolution_;
-    const RunContext& run_;
-    WordCounts counts_;
-    std::vector<std::uint64_t> candidates_;
-    RegularFraction design_;
-    std::optional<RegularFraction> best_;
-    WordLengths least_;
-    double steps_ = 0;
-    std::uint64_t visits_ = 0;
-};
-
-/// Whether so many runs are enough by the bound of Rao for the resolution.
-bool may_exist(std::size_t factors, std::size_t basic, std::size_t resolution) {
-    if (basic < 2) return false;
-    const bool even = resolution % 2 == 0;
-    const std::size_t k = factors - (even ? 1 : 0);
-    std::uint64_t least = 0;
-    for (std::size_t t = 0; t <= (resolution - 1) / 2; ++t) least += binomial(k, t);
-    return least <= bit(basic - (even ? 1 : 0));
+/// By the complete catalogues of up to 32 runs, and of 64 runs at resolution IV (Chen, Sun, Wu 1993),
+/// and the theorems on up to four generators (J. Chen, C. F. J. Wu, Ann. Stat. 19 (1991) 1028-1041).
+bool is_least(std::size_t factors, std::size_t basic) {
+    return basic <= 5 || (basic == 6 && factors <= 32) || factors - basic <= 4;
 }
 
 }  // namespace
@@ -225,21 +122,25 @@ std::vector<std::uint64_t> defining_words(const RegularFraction& design) {
     return words;
 }
 
-FoundFraction least_aberration(std::size_t factors, std::size_t basic, std::size_t resolution,
-                               const RunContext& run) {
-    if (basic >= factors) return {full_fraction(factors)};
-    if (!may_exist(factors, basic, resolution)) return {};
-    return AberrationSearch(factors, basic, resolution, run).find();
+std::optional<KnownFraction> known_fraction(std::size_t factors, std::size_t basic) {
+    if (basic >= factors) return KnownFraction{.design = full_fraction(factors)};
+    const FractionRow* row = row_of(factors, basic);
+    if (row == nullptr) return {};
+    KnownFraction known{.design = full_fraction(basic), .least = is_least(factors, basic)};
+    auto& columns = known.design.columns;
+    const std::size_t digits = (basic + 3) / 4;
+    for (std::size_t i = 0; i < factors - basic; ++i)
+        columns.push_back(hex_number(row->columns.substr(i * digits, digits)));
+    std::sort(columns.begin() + static_cast<std::ptrdiff_t>(basic), columns.end());
+    known.resolution = resolution_of(word_lengths(known.design));
+    known.bound = bound_of(factors, basic, known.resolution);
+    return known;
 }
 
-FoundFraction fewest_runs(std::size_t factors, std::size_t resolution, const RunContext& run) {
-    bool complete = true;
-    for (std::size_t basic = 1; basic <= std::min(factors, most_basic_factors); ++basic) {
-        FoundFraction found = least_aberration(factors, basic, resolution, run);
-        found.complete &= complete;
-        if (found.design) return found;
-        complete = found.complete;
-    }
+std::optional<KnownFraction> fewest_runs(std::size_t factors, std::size_t resolution) {
+    for (std::size_t basic = 1; basic <= std::min(factors, most_basic_factors); ++basic)
+        if (auto known = known_fraction(factors, basic); known && known->has(resolution))
+            return known;
     return {};
 }
 

@@ -17,8 +17,6 @@
 #include <optional>
 #include <vector>
 
-#include "stipple/run.hpp"
-
 namespace stipple::generators {
 
 struct RegularFraction {
@@ -50,21 +48,25 @@ std::size_t resolution_of(const WordLengths& lengths);
 /// Words of the defining relation as sets of factors, less the empty one: 2^p - 1.
 std::vector<std::uint64_t> defining_words(const RegularFraction& design);
 
-/// What a depth-first search over sets of columns found, if anything. It gives up after some steps.
-struct FoundFraction {
-    std::optional<RegularFraction> design;
-    bool complete =
-        true;  ///< nothing was left out: there is none with less aberration, or fewer runs
+/// A fraction of the table (fraction_table.hpp), or all combinations.
+struct KnownFraction {
+    RegularFraction design;
+    std::size_t resolution = 0;  ///< 0 of a full factorial, which has no word
+    std::size_t bound = 0;       ///< no fraction of so many runs has a higher resolution
+    bool least = true;           ///< none has less aberration, as has been proven
+
+    [[nodiscard]] bool has(std::size_t asked) const {
+        return resolution == 0 || resolution >= asked;
+    }
 };
 
-/// The fraction of 2^basic runs of least aberration among those of a resolution or more.
-FoundFraction least_aberration(std::size_t factors, std::size_t basic, std::size_t resolution,
-                               const RunContext& run);
-
-/// Basic factors up to which a fraction is looked for.
+/// Basic factors up to which there are fractions.
 inline constexpr std::size_t most_basic_factors = 16;
 
-/// The same with the fewest runs, if they are 2^most_basic_factors at most.
-FoundFraction fewest_runs(std::size_t factors, std::size_t resolution, const RunContext& run);
+/// The fraction of 2^basic runs; nullopt if there is none, as main effects would be aliased.
+std::optional<KnownFraction> known_fraction(std::size_t factors, std::size_t basic);
+
+/// The one with the fewest runs for a resolution, if they are 2^most_basic_factors at most.
+std::optional<KnownFraction> fewest_runs(std::size_t factors, std::size_t resolution);
 
 }  // namespace stipple::generators

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "generators/designs/regular_fraction.hpp"
 #include "support/designs.hpp"
 #include "support/sequences.hpp"
 
@@ -85,6 +86,80 @@ TEST(FractionalFactorial, FewestRunsForAResolution) {
     }
 }
 
+// The largest least distances of binary linear codes with r check digits (Brouwer and Verhoeff's table as
+// of 2006): from each number of factors on, up to the next or 50, the resolution in 2^r runs.
+TEST(FractionalFactorial, HasTheResolutionOfTheBestCodes) {
+    using From = std::pair<std::size_t, std::size_t>;
+    const std::map<std::size_t, std::vector<From>> resolutions = {
+        {2, {{3, 3}}},
+        {3, {{4, 4}, {5, 3}}},
+        {4, {{5, 5}, {6, 4}, {9, 3}}},
+        {5, {{6, 6}, {7, 4}, {17, 3}}},
+        {6, {{7, 7}, {8, 5}, {9, 4}, {33, 3}}},
+        {7, {{8, 8}, {9, 6}, {10, 5}, {12, 4}}},
+        {8, {{9, 9}, {10, 6}, {13, 5}, {18, 4}}},
+        {9, {{10, 10}, {11, 7}, {12, 6}, {19, 5}, {24, 4}}},
+        {10, {{11, 11}, {12, 8}, {13, 7}, {16, 6}, {25, 5}, {34, 4}}},
+        {11, {{12, 12}, {13, 8}, {17, 7}, {24, 6}, {35, 5}, {48, 4}}},
+        {12, {{13, 13}, {14, 9}, {15, 8}, {25, 6}, {49, 5}}},
+        {13, {{14, 14}, {15, 10}, {16, 8}, {26, 7}, {28, 6}}},
+        {14, {{15, 15}, {16, 10}, {17, 9}, {18, 8}, {29, 7}, {32, 6}}},
+        {15, {{16, 16}, {17, 11}, {18, 10}, {19, 9}, {21, 8}, {33, 7}, {38, 6}}},
+        {16, {{17, 17}, {18, 12}, {19, 10}, {22, 9}, {24, 8}, {39, 7}, {48, 6}}}};
+    for (const auto& [basic, froms] : resolutions)
+        for (std::size_t k = basic + 1, i = 0; k <= std::min<std::size_t>(50, (1U << basic) - 1);
+             ++k) {
+            if (i + 1 < froms.size() && k == froms[i + 1].first) ++i;
+            const auto known = generators::known_fraction(k, basic);
+            ASSERT_TRUE(known) << k << " " << basic;
+            EXPECT_EQ(known->resolution, froms[i].second) << k << " factors, 2^" << basic;
+            EXPECT_EQ(known->design.factors(), k);
+            EXPECT_GE(known->bound, known->resolution);
+        }
+}
+
+// What catalogues have: Xu (Technometrics 51 (2009) 266-277) and Chen, Sun, Wu.
+TEST(FractionalFactorial, HasFewShortWords) {
+    const auto words = [](std::size_t k, std::size_t basic, std::size_t length) {
+        return generators::word_lengths(generators::known_fraction(k, basic)->design)[length];
+    };
+    EXPECT_EQ(words(13, 7, 4), 2U);
+    EXPECT_EQ(words(14, 7, 4), 3U);
+    EXPECT_EQ(words(16, 7, 4), 10U);
+    EXPECT_EQ(words(24, 7, 4), 102U);
+    EXPECT_EQ(words(17, 8, 5), 34U);
+    EXPECT_EQ(words(20, 8, 4), 5U);
+    EXPECT_EQ(words(23, 9, 5), 84U);
+    EXPECT_EQ(words(15, 10, 7), 15U);
+    EXPECT_EQ(words(24, 12, 8), 759U);  // Golay's code
+}
+
+TEST(FractionalFactorial, SaysWhatIsOpen) {
+    const Generator& generator = find_generator(unit);
+    const auto notes = [&](const Request& request, const Settings& settings) {
+        Values values = generator.options.defaults();
+        for (const auto& [name, value] : settings) generator.options.set(values, name, value);
+        std::string text;
+        for (const std::string& note :
+             generator.notes(request, plan_for(generator, request, values), values))
+            text += note + "\n";
+        return text;
+    };
+    EXPECT_EQ(notes(points(32, 20), {}), "");
+    EXPECT_EQ(notes(points(128, 13), {}),
+              "fractional-factorial: not all fractions of 13 factors in 128 runs have been "
+              "searched; one of resolution IV with fewer words of 4 letters than this one may "
+              "exist\n");
+    EXPECT_TRUE(notes(points(2048, 48), {})
+                    .starts_with("fractional-factorial: resolution IV is the highest that is known "
+                                 "for 48 factors in 2048 runs; it is open whether V can be "
+                                 "reached"));
+    EXPECT_TRUE(
+        notes({.dimension = 48}, {{"resolution", "5"}})
+            .starts_with("fractional-factorial: 4096 runs are the fewest that are known for "
+                         "48 factors at resolution V; it is open whether 2048 do"));
+}
+
 // Word lengths of designs of least aberration, as tables of Chen, Sun and Wu (Int. Stat. Rev. 61
 // (1993) 131-145) have them for 16 and 32 runs.
 TEST(FractionalFactorial, HasTheLeastAberration) {
@@ -131,6 +206,12 @@ TEST(FractionalFactorial, RefusesWhatIsNoFraction) {
               "factors needs; 32 is the nearest");
     EXPECT_EQ(error(points(8, 5), {{"resolution", "4"}}),
               "usage: --count: 8 runs are too few for 5 factors at resolution IV; 16 do");
+    EXPECT_EQ(error(points(2048, 48), {{"resolution", "5"}}),
+              "usage: --count: 2048 runs are not known to do for 48 factors at resolution V; 4096 "
+              "do");
+    EXPECT_EQ(error({.dimension = 50}, {{"resolution", "8"}}),
+              "usage: --resolution: no fraction of up to 2^16 runs is known for 50 factors at "
+              "resolution VIII; --generators gives larger ones");
     EXPECT_EQ(
         error(points(16, 4), {{"generators", "D=ABC"}}),
         "usage: --count: 16 contradicts the fraction 2^(4-1), which has 8 runs; leave --count "
