@@ -60,8 +60,11 @@ unsigned limited_by_system(unsigned wanted) {
 
 unsigned RunContext::thread_count() const {
     static const unsigned cores =
-        std::max(1U, std::thread::hardware_concurrency());  // reads a file
-    return limited_by_system(threads != 0 ? threads : cores);
+        std::max(1U, std::thread::hardware_concurrency());   // reads a file
+    constexpr std::uint64_t bytes = std::uint64_t{1} << 20;  // a thread's, with what it allocates
+    const auto fit = std::clamp<std::uint64_t>(max_memory / bytes, 1, ~0U);
+    return limited_by_system(
+        static_cast<unsigned>(std::min<std::uint64_t>(threads != 0 ? threads : cores, fit)));
 }
 
 void RunContext::check_stop() const {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "stipple/run.hpp"
 
@@ -17,6 +18,19 @@ namespace stipple {
 /// The run, which goes on when a stop is requested if it keeps the best: searches look for that.
 inline RunContext until_best_is_wanted(const RunContext& run) {
     return run.keeps_best ? unstopped(run) : run;
+}
+
+/// Does the work; false if a stop cut it short and the best so far will do.
+/// @throws what the work throws, also when it is cut short and the best will not do
+template <class Work>
+bool unless_best_is_wanted(const RunContext& run, const Work& work) {
+    try {
+        work();
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::cancelled || !run.best_is_wanted()) throw;
+        return false;
+    }
+    return true;
 }
 
 /// Reports that so much of the budget is used up, the value just found, and the best so far.

@@ -79,11 +79,16 @@ bool in_batches(const NextRows& next, std::size_t batch, std::size_t width, cons
 
 namespace {
 
+void need_memory_of(const Plan& plan, const RunContext& run) {
+    run.need_memory(8 * static_cast<double>(plan.count) * static_cast<double>(plan.dimension),
+                    "the point set");
+}
+
 /// All points of a plan.
 PointSet points_of(Sequence& sequence, const Plan& plan, std::uint64_t start,
                    const RunContext& run) {
     const std::size_t d = plan.dimension;
-    run.need_memory(8 * static_cast<double>(plan.count) * static_cast<double>(d), "the point set");
+    need_memory_of(plan, run);
     PointSet points(Rows::unwritten(plan.count * d), d);
     const RunContext rest = run.best_is_wanted() ? unstopped(run) : run;
     walk_to(sequence, start, d, rest);
@@ -91,12 +96,19 @@ PointSet points_of(Sequence& sequence, const Plan& plan, std::uint64_t start,
     return points;
 }
 
+/// The points of a generator that makes them together.
+PointSet set_of(const Generator& generator, const Plan& plan, const Values& options,
+                const RunContext& run) {
+    need_memory_of(plan, run);
+    return generator.set(plan, options, run);
+}
+
 }  // namespace
 
 PointSet make_points(const Generator& generator, const Request& request, const Values& options,
                      const RunContext& run) {
     const Plan plan = plan_for(generator, request, options);
-    if (!generator.traits.sequence) return generator.set(plan, options, run);
+    if (!generator.traits.sequence) return set_of(generator, plan, options, run);
     const RunContext steady = run.rising();
     return points_of(*generator.sequence(plan, options, steady), plan, request.start, steady);
 }
@@ -260,7 +272,7 @@ NextRows GeneratedSets::stream(std::uint64_t set, const RunContext& run, std::ui
 
 PointSet GeneratedSets::raw_points(std::uint64_t set, const Plan& plan,
                                    const RunContext& run) const {
-    if (!generator_.traits.sequence) return generator_.set(plan, asked_.options, run);
+    if (!generator_.traits.sequence) return set_of(generator_, plan, asked_.options, run);
     const RunContext steady = run.rising();
     const auto points = plan.count == plan_.count
                             ? sequence(set, steady)

@@ -48,7 +48,13 @@ bool write_rows(const NextRows& next, const SetsToWrite& job, const Layout& layo
         if (count > 0) run.tick(written, count);
         return true;
     };
-    const std::uint64_t batch = 8 * block * run.thread_count();
+    // Two batches of rows and the text of one are in memory; no more threads than that leaves room for.
+    constexpr double blocks = 8;
+    constexpr double bytes = 48;  // a number
+    const double share = blocks * bytes * static_cast<double>(block * d);
+    const double threads = std::clamp(static_cast<double>(run.memory_left()) / (4 * share), 1.0,
+                                      static_cast<double>(run.thread_count()));
+    const auto batch = static_cast<std::uint64_t>(blocks * std::floor(threads)) * block;
     const std::uint64_t all = count > 0 ? count : job.expected;
     const auto at_once = static_cast<std::size_t>(all > 0 ? std::min(batch, all) : batch);
     return in_batches(next, at_once, d, run, write);

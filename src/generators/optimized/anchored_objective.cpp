@@ -157,10 +157,14 @@ class AnchoredObjective final : public Objective {
             part.counts.assign((n_ + 2) * stride_, 0);
             part.hits.clear();
             const std::size_t shift = n_ + 1 - planes;
-            for (std::uint32_t i = 0; i < n_; ++i)
+            for (std::uint32_t i = 0; i < n_; ++i) {
+                run.check_stop();
                 if (d_ == 2 || ranks_[0][i] < block.first) add(i, part.counts);
-            for (std::uint64_t a = block.first; a < block.last; ++a)
-                look_at(a + shift, least, part);
+            }
+            for (std::uint64_t a = block.first; a < block.last; ++a) {
+                run.check_stop();
+                look_at(a + shift, least, part, run);
+            }
         });
     }
 
@@ -171,14 +175,14 @@ class AnchoredObjective final : public Objective {
     }
 
     /// The boxes that end in a plane; adds its point to the counts.
-    void look_at(std::size_t a, float least, Part& part) const {
-        look_in(a, true, least, part);
+    void look_at(std::size_t a, float least, Part& part, const RunContext& run) const {
+        look_in(a, true, least, part, run);
         if (a < n_) add(order_[0][a], part.counts);
-        look_in(a, false, least, part);
+        look_in(a, false, least, part, run);
     }
 
     /// Closed boxes have the counts of the next places, which behind the last are the same.
-    void look_in(std::size_t a, bool open, float least, Part& part) const {
+    void look_in(std::size_t a, bool open, float least, Part& part, const RunContext& run) const {
         const float outer = weight(0, a) * (open ? 1 : -1);
         const float width = d_ == 3 ? values_[0][a] : 1;
         part.reaches.resize(n_ + 1);
@@ -194,14 +198,21 @@ class AnchoredObjective final : public Objective {
                 part.reaches[b] *= times;
                 part.shares[b] *= times;
             }
-            part.places.clear();
-            find_above({from, stride_, part.reaches.data(), part.shares.data(), n_ + 1},
-                       values_[2].data(), least, first, last, part.places);
-            for (const auto& [b, c] : part.places)
-                part.hits.push_back(
-                    {{static_cast<std::uint32_t>(a), b, c},
-                     values_[2][c] * part.reaches[b] - from[b * stride_ + c] * part.shares[b],
-                     open});
+            constexpr std::size_t few = 1024;  // rows between two looks at the run
+            for (std::size_t row = 0; row <= n_; row += few) {
+                run.check_stop();
+                part.places.clear();
+                find_above({from + row * stride_, stride_, &part.reaches[row], &part.shares[row],
+                            std::min(few, n_ + 1 - row)},
+                           values_[2].data(), least, first, last, part.places);
+                for (const auto& [k, c] : part.places) {
+                    const std::size_t b = row + k;
+                    part.hits.push_back(
+                        {{static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b), c},
+                         values_[2][c] * part.reaches[b] - from[b * stride_ + c] * part.shares[b],
+                         open});
+                }
+            }
         };
         const bool even = weights_[2] >= 1;
         if (!even) take(n_, n_ + 1, 1);

@@ -85,10 +85,13 @@ class BoxObjective final : public Objective {
           inside_(count) {}
 
     double value(std::span<const double> rows, double sharpness, std::span<double> gradient,
-                 const RunContext& /*run*/) override {
+                 const RunContext& run) override {
         put_columns(rows);
-        for (PoolBox& box : pool_) box.value = value_of(box);
-        ascend(sharpness);
+        for (PoolBox& box : pool_) {
+            run.check_stop();
+            box.value = value_of(box);
+        }
+        ascend(sharpness, run);
         const double most = pool_.front().value;
         put_gradient(most, sharpness / most, gradient);
         return most;
@@ -97,7 +100,7 @@ class BoxObjective final : public Objective {
     double certain_value(std::span<const double> rows, double /*known*/,
                          const RunContext& run) override {
         if (std::ranges::any_of(weights_, [](double w) { return w != 1; })) {
-            for (int k = 0; k < 20; ++k) ascend(1e6);
+            for (int k = 0; k < 20; ++k) ascend(1e6, run);
             return pool_.front().value;
         }
         const PointSet points(std::vector<double>(rows.begin(), rows.end()), d_);
@@ -107,6 +110,7 @@ class BoxObjective final : public Objective {
         for (std::size_t k = 0; k < std::min<std::size_t>(pool_.size(), 8); ++k)
             if (!grid.torus() || ends_at_points(pool_[k])) known.offer(grid_box(pool_[k], grid));
         const SearchResult found = worst_of_all(grid, known, SearchLimits::short_work, run);
+        run.check_stop();  // which ends the search with what it has
         pool_.push_back(pool_box(found.worst));
         return found.worst.value();
     }
@@ -316,9 +320,12 @@ class BoxObjective final : public Objective {
     }
 
     /// Adds what ascents reach and leaves out what is far from the worst.
-    void ascend(double sharpness) {
+    void ascend(double sharpness, const RunContext& run) {
         const std::size_t some = pool_.empty() ? 20 * ascents : ascents;
-        for (std::size_t k = 0; k < some; ++k) pool_.push_back(climbed(start()));
+        for (std::size_t k = 0; k < some; ++k) {
+            run.check_stop();
+            pool_.push_back(climbed(start()));
+        }
         std::ranges::sort(pool_, [](const PoolBox& a, const PoolBox& b) {
             if (a.value != b.value) return a.value > b.value;
             return a.open != b.open ? a.open : a.axes < b.axes;
@@ -364,8 +371,8 @@ class BoxObjective final : public Objective {
 
 }  // namespace
 
-Bounds bounds_of(const PointSet& points, Family family, bool empty, const RunContext& run) {
-    constexpr std::uint64_t work = std::uint64_t{1} << 37;
+Bounds bounds_of(const PointSet& points, Family family, bool empty, const RunContext& run,
+                 std::uint64_t work) {
     const BoxGrid grid =
         box_grid(points, family, run, empty ? Measure::emptiness : Measure::discrepancy);
     const SearchResult found = family == Family::anchored && grid.dimension() > 2

@@ -64,13 +64,14 @@ class Adam {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Where a descent ends; at once when the best so far is wanted. No rows, and a value that may be too
-/// small, if it is above `enough`: to be certain of it can take longer than the descent.
+/// Where a descent ends, or the least of what it passed if it is cut short and the best will do. No
+/// rows, and a value that may be too small, if it is above `enough`: to be certain of it can take
+/// longer than the descent.
 OptimizedRows descend(std::vector<double> rows, const CoordinateSearch& search,
-                      const Schedule& schedule, double enough, const RunContext& run,
-                      const RunContext& whole) {
+                      const Schedule& schedule, double enough, const RunContext& run) {
     const std::unique_ptr<Objective> objective = search.objective();
     OptimizedRows best{{}, infinity};
+    OptimizedRows passed{{}, infinity, true, false};
     std::vector<double> gradient(rows.size());
     Geometric rate(schedule.first_rate, schedule.last_rate, schedule.steps);
     Geometric sharpness(schedule.first_sharpness, schedule.last_sharpness, schedule.steps);
@@ -78,9 +79,13 @@ OptimizedRows descend(std::vector<double> rows, const CoordinateSearch& search,
     constexpr double near = 1.001;
     // True if there was no box worse than those it went by.
     const auto go = [&](std::size_t steps, auto next_rate, auto next_sharpness) {
-        for (std::size_t step = 0; step < steps && !whole.best_is_wanted(); ++step) {
+        for (std::size_t step = 0; step < steps; ++step) {
             run.check_stop();
-            objective->value(rows, next_sharpness(), gradient, run);
+            const double here = objective->value(rows, next_sharpness(), gradient, run);
+            if (run.keeps_best && here < passed.value) {
+                passed.rows = rows;
+                passed.value = here;
+            }
             adam.step(rows, gradient, next_rate(), search.kept * search.dimension);
         }
         const double known = objective->value(rows, 1e6, gradient, run);
@@ -92,15 +97,19 @@ OptimizedRows descend(std::vector<double> rows, const CoordinateSearch& search,
         if (value < best.value) best = {rows, value};
         return value <= near * known;
     };
-    bool over = go(
-        schedule.steps, [&] { return rate.next(); }, [&] { return sharpness.next(); });
-    for (int round = 0; round < 6 && !over && !whole.best_is_wanted(); ++round)
-        over = go(
-            10, [&] { return schedule.last_rate; }, [&] { return schedule.last_sharpness; });
-    return best;
+    const bool ended = unless_best_is_wanted(run, [&] {
+        bool over = go(
+            schedule.steps, [&] { return rate.next(); }, [&] { return sharpness.next(); });
+        for (int round = 0; round < 6 && !over; ++round)
+            over = go(
+                10, [&] { return schedule.last_rate; }, [&] { return schedule.last_sharpness; });
+    });
+    return ended || !best.rows.empty() ? best : passed;
 }
 
-bool better(const OptimizedRows& a, const OptimizedRows& b) { return a.value < b.value; }
+bool better(const OptimizedRows& a, const OptimizedRows& b) {
+    return a.certain != b.certain ? a.certain : a.value < b.value;
+}
 
 class Population {
   public:
@@ -111,25 +120,45 @@ class Population {
           objective_(search.objective()),
           run_(run),
           most_sets_(sets_for(search.budget / objective_->steps())),
-          inner_(until_best_is_wanted(silent(run))) {}
+          inner_(silent(run)) {
+        need_memory();
+    }
 
+    /// @throws Error(cancelled) also where a stop comes before there is a best
     OptimizedRows best() {
-        const double hop_cost = cost(search_.from_hop);
-        make_starts();
-        while (!run_.best_is_wanted() && spent_ + hop_cost * static_cast<double>(all_.size()) <=
-                                             (1 - polish_share) * search_.budget) {
-            const double done = spent_ / search_.budget;
-            const std::size_t part = done < 0.5 ? 1 : done < 0.75 ? 2 : done < 0.9 ? 4 : most_sets_;
-            keep_best(std::max<std::size_t>(most_sets_ / part, 1));
-            hop();
-        }
+        unless_best_is_wanted(run_, [&] { search(); });
         keep_best(1);
-        if (!run_.best_is_wanted()) polish();
+        if (all_.empty() || all_.front().rows.empty()) run_.check_stop();
         all_.front().stopped = run_.best_is_wanted();
         return all_.front();
     }
 
   private:
+    void search() {
+        const double hop_cost = cost(search_.from_hop);
+        make_starts();
+        while (spent_ + hop_cost * static_cast<double>(all_.size()) <=
+               (1 - polish_share) * search_.budget) {
+            const double done = spent_ / search_.budget;
+            const std::size_t part = done < 0.5 ? 1 : done < 0.75 ? 2 : done < 0.9 ? 4 : most_sets_;
+            keep_best(std::max<std::size_t>(most_sets_ / part, 1));
+            hop();
+            run_.check_stop();
+        }
+        keep_best(1);
+        polish();
+    }
+
+    /// For the sets that are kept, those that come of them, and what descents hold besides.
+    void need_memory() const {
+        const auto sets = static_cast<double>(most_sets_);
+        const double at_once = std::min(sets, static_cast<double>(run_.thread_count()));
+        constexpr double a_descent = 9;  // numbers for each coordinate
+        run_.need_memory(8 * static_cast<double>(search_.count * search_.dimension) *
+                             (2 * sets + a_descent * at_once),
+                         "the search for coordinates");
+    }
+
     static constexpr double starts_share = 0.4;
     static constexpr double polish_share = 0.05;
 
@@ -182,8 +211,7 @@ class Population {
     }
 
     void add_starts(std::size_t count, const Schedule& schedule) {
-        for (std::size_t first = 0; first < count && (first == 0 || !run_.best_is_wanted());
-             first += most_sets_) {
+        for (std::size_t first = 0; first < count; first += most_sets_) {
             std::vector<std::vector<double>> rows(std::min(most_sets_, count - first));
             std::vector<SplitMix64> streams;
             while (streams.size() < rows.size()) streams.push_back(draws());
@@ -194,6 +222,7 @@ class Population {
             auto found = descended(std::move(rows), schedule, [&](std::size_t) { return enough; });
             std::ranges::move(found, std::back_inserter(all_));
             keep_best(most_sets_);
+            run_.check_stop();
         }
     }
 
@@ -236,10 +265,11 @@ class Population {
     std::vector<OptimizedRows> descended(std::vector<std::vector<double>> rows,
                                          const Schedule& schedule, auto enough) {
         std::vector<OptimizedRows> found(rows.size());
-        for_each_block(inner_, rows.size(), 1, [&](const Block& block) {
+        for_each_block(until_best_is_wanted(inner_), rows.size(), 1, [&](const Block& block) {
             found[block.index] = descend(std::move(rows[block.index]), search_, schedule,
-                                         enough(block.index), inner_, run_);
+                                         enough(block.index), inner_);
         });
+        if (run_.best_is_wanted()) return found;
         spent_ += cost(schedule) * static_cast<double>(rows.size());
         const double value = std::ranges::min_element(found, better)->value;
         least_ = std::min(least_, value);

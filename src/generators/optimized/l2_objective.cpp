@@ -76,8 +76,10 @@ class L2Objective final : public Objective {
                                    std::vector<double>(d_ * lanes),
                                    std::vector<double>(d_ * lanes),
                                    {}};
-                           for (std::size_t i = block.first; i < block.last; ++i)
+                           for (std::size_t i = block.first; i < block.last; ++i) {
+                               run.check_stop();
                                parts[block.index] += add_point(i, row, gradient);
+                           }
                        });
         double sum = total_;
         for (const double part : parts) sum += part;

@@ -22,12 +22,11 @@ OptimizedRows least_lattice(std::size_t count, std::size_t dimension,
                             const std::function<std::unique_ptr<Objective>()>& objective,
                             const std::string& words, const RunContext& run) {
     constexpr std::size_t together = 16;
-    const RunContext inner = until_best_is_wanted(silent(run));
+    const RunContext inner = silent(run);
     const std::size_t last = count / 2 + 1;
     OptimizedRows best{{}, std::numeric_limits<double>::infinity()};
     const auto named = objective();
-    for (std::size_t first = 1; first <= last && (first == 1 || !run.best_is_wanted());
-         first += together) {
+    const auto look_at_some = [&](std::size_t first) {
         std::vector<OptimizedRows> found(std::min(together, last + 1 - first));
         for_each_block(inner, found.size(), 1, [&](const Block& block) {
             OptimizedRows& one = found[block.index];
@@ -44,7 +43,14 @@ OptimizedRows least_lattice(std::size_t count, std::size_t dimension,
         report_search(run,
                       static_cast<double>(first + found.size()) / static_cast<double>(last + 1),
                       words, named->reported(value), named->reported(best.value));
-    }
+    };
+    unless_best_is_wanted(run, [&] {
+        for (std::size_t first = 1; first <= last; first += together) {
+            run.check_stop();
+            look_at_some(first);
+        }
+    });
+    if (best.rows.empty()) run.check_stop();
     best.stopped = run.best_is_wanted();
     return best;
 }

@@ -56,9 +56,9 @@ struct Bounds {
 };
 
 /// Of points in the unit cube: the largest discrepancy of a family of boxes, or the volume of the
-/// largest without a point; both bounds the same unless that takes more than some minutes.
+/// largest without a point; both bounds the same unless that takes more than so many comparisons.
 Bounds bounds_of(const PointSet& points, discrepancy::Family family, bool empty,
-                 const RunContext& run);
+                 const RunContext& run, std::uint64_t work = std::uint64_t{1} << 37);
 
 /// A discrepancy or, of empty boxes, the dispersion, by the boxes of a family that are near the worst.
 std::unique_ptr<Objective> box_objective(discrepancy::Family family, bool empty,

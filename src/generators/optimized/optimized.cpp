@@ -220,18 +220,20 @@ Start start_from(const PointSet& points, const Plan& plan, std::size_t fixed) {
     };
 }
 
-Start start_without_file(const Plan& plan, const Values& options) {
+Start start_without_file(const Plan& plan, const Values& options, const RunContext& run) {
     const std::size_t n = plan.count;
     const std::size_t d = plan.dimension;
     if (options.given(initial))
-        return [=, spec = options[initial], seed = plan.seed](std::uint64_t i, SplitMix64&) {
-            const PointSet points = generate(spec, {.count = n, .dimension = d, .seed = seed + i});
+        return [=, spec = options[initial], seed = plan.seed, quiet = silent(run)](std::uint64_t i,
+                                                                                   SplitMix64&) {
+            const PointSet points =
+                generate(spec, {.count = n, .dimension = d, .seed = seed + i}, {}, quiet);
             return std::vector<double>(points.flat().begin(), points.flat().end());
         };
     // By turns, since it depends on the count which ends lower; but in the plane's torus.
     const bool lattices = d > 2 || (d == 2 && options[objective] != "periodic");
-    return [=](std::uint64_t i, SplitMix64& draws) {
-        if (lattices && i % 2 == 0) return lattice_rows(n, d, draws);
+    return [=, quiet = silent(run)](std::uint64_t i, SplitMix64& draws) {
+        if (lattices && i % 2 == 0) return lattice_rows(n, d, draws, quiet);
         return d > 2 ? net_rows(n, d, draws) : golden_rows(n, d, draws);
     };
 }
@@ -271,7 +273,7 @@ CoordinateSearch search_for(const Plan& plan, const Values& options, const RunCo
         search.sets_a_start = 1;
     }
     if (!options.given(from)) {
-        search.start = start_without_file(plan, options);
+        search.start = start_without_file(plan, options, run);
         return search;
     }
     const PointSet points = given_points(options, run);
@@ -291,7 +293,7 @@ PointSet projection(const PointSet& points, std::uint64_t axes) {
 
 /// The largest product of the weights of some axes and the star discrepancy of the points' projection
 /// on them, which is no more than that of a projection on more axes.
-Bounds weighted_star(const PointSet& points, const std::vector<double>& weights,
+Bounds weighted_star(const PointSet& points, const std::vector<double>& weights, std::uint64_t work,
                      const RunContext& run) {
     const std::size_t d = weights.size();
     const std::uint64_t all = (std::uint64_t{1} << d) - 1;
@@ -308,7 +310,7 @@ Bounds weighted_star(const PointSet& points, const std::vector<double>& weights,
             upper[axes] = std::min(upper[axes], upper[axes | std::uint64_t{1} << j]);
         if (product(axes) * upper[axes] <= worst.lower) continue;
         const Bounds of = bounds_of(axes == all ? points : projection(points, axes),
-                                    discrepancy::Family::anchored, false, run);
+                                    discrepancy::Family::anchored, false, run, work);
         upper[axes] = of.upper;
         worst.lower = std::max(worst.lower, product(axes) * of.lower);
         worst.upper = std::max(worst.upper, product(axes) * of.upper);
@@ -317,7 +319,9 @@ Bounds weighted_star(const PointSet& points, const std::vector<double>& weights,
 }
 
 /// What the analyzers say of the points.
-Bounds judged(const PointSet& points, const Values& options, const RunContext& run) {
+/// @param work comparisons that a search for the worst box may take
+Bounds judged(const PointSet& points, const Values& options, std::uint64_t work,
+              const RunContext& run) {
     const std::string what = options[objective];
     const std::size_t d = points.dimension();
     const std::vector<double> weights = weights_of(options);
@@ -329,8 +333,8 @@ Bounds judged(const PointSet& points, const Values& options, const RunContext& r
         const double value = std::sqrt(std::max(square, 0.0));
         return {value, value};
     }
-    if (!weights.empty()) return weighted_star(points, weights, run);
-    return bounds_of(points, family_of(options), what == "dispersion", run);
+    if (!weights.empty()) return weighted_star(points, weights, work, run);
+    return bounds_of(points, family_of(options), what == "dispersion", run, work);
 }
 
 void record(PointSet& points, const Plan& plan, const Values& options, const Bounds& value) {
@@ -359,11 +363,15 @@ void record(PointSet& points, const Plan& plan, const Values& options, const Bou
 }
 
 /// The best set of the line.
-std::vector<double> on_the_line(std::size_t n, bool empty) {
+std::vector<double> on_the_line(std::size_t n, bool empty, const RunContext& run) {
+    constexpr std::size_t often = 1U << 20;
     std::vector<double> rows;
-    for (std::size_t i = 0; i < n; ++i)
+    rows.reserve(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        if (i % often == 0) run.check_stop();
         rows.push_back(empty ? static_cast<double>(i + 1) / static_cast<double>(n + 1)
                              : (static_cast<double>(i) + 0.5) / static_cast<double>(n));
+    }
     return rows;
 }
 
@@ -380,23 +388,63 @@ double coordinate_for_star(std::size_t dimension) {
     return low;
 }
 
-std::vector<double> known_rows(const Plan& plan, const Values& options) {
+std::vector<double> known_rows(const Plan& plan, const Values& options, const RunContext& run) {
     const std::string what = options[objective];
-    if (plan.dimension == 1) return on_the_line(plan.count, what == "dispersion");
+    if (plan.dimension == 1) return on_the_line(plan.count, what == "dispersion", run);
     const double x = what == "star" ? coordinate_for_star(plan.dimension) : 0.5;
     return std::vector<double>(plan.dimension, x);
 }
 
-/// Every step of a search over coordinates takes n^2 pairs, or planes of n^2 boxes in memory.
-void check_size(const Plan& plan, const Values& options, const RunContext& run) {
+/// The run with as many threads as there is memory for: in every step of a search by all boxes of
+/// the plane or of space, each thread has a plane of n^2 of them, for each set that is searched.
+RunContext fitting(const Plan& plan, const Values& options, const RunContext& run) {
     constexpr std::uint64_t most = std::uint64_t{1} << 16;
-    const auto n = static_cast<double>(plan.count);
-    const double planes = is_l2(options) ? 0 : 4 * n * n * run.thread_count();
-    run.need_memory(planes + 200 * n * static_cast<double>(plan.dimension),
-                    "the search for coordinates");
     if (plan.count > most)
         fail(ErrorKind::limit, "optimized: {} points; a search over coordinates takes up to {}",
              plan.count, most);
+    if (options[objective] != "star" || plan.dimension > 3) return run;
+    const auto n = static_cast<double>(plan.count + 32);
+    const double plane = 4 * n * n;
+    run.need_memory(plane, "the search for coordinates");
+    const double planes = static_cast<double>(run.memory_left()) / plane;
+    RunContext fit = run;
+    fit.threads = static_cast<unsigned>(std::min(plan.dimension == 3 ? std::sqrt(planes) : planes,
+                                                 static_cast<double>(run.thread_count())));
+    return fit;
+}
+
+/// Whether all pairs of points are gone through in no time, as is wanted after a stop.
+bool has_few_pairs(const Plan& plan) {
+    const auto n = static_cast<double>(plan.count);
+    return n * n * static_cast<double>(plan.dimension) <= 5e7;
+}
+
+/// The same of finding out what the points are worth.
+bool is_soon_judged(const Plan& plan, const Values& options) {
+    const bool swept = is_l2(options) || options[objective] == "star";
+    return has_few_pairs(plan) || (plan.dimension <= 2 && swept);
+}
+
+/// Puts the points into order, and notes what they are worth; of a search that was stopped both only
+/// where that is soon done.
+PointSet finished(OptimizedRows found, const Plan& plan, const Values& options,
+                  const RunContext& run) {
+    const RunContext last = found.stopped ? unstopped(run) : run;
+    const bool ordered = options[order] && (!found.stopped || has_few_pairs(plan));
+    const bool valued = !found.stopped || is_soon_judged(plan, options);
+    if (found.stopped)
+        run.notify(fmt::format(
+            "interrupted: these are the best points so far, as their provenance says{}{}",
+            valued ? "" : ", without their value",
+            options[order] && !ordered ? ", in no order" : ""));
+    if (ordered)
+        found.rows = in_even_order(found.rows, plan.dimension, kept(options), order_kind(options),
+                                   weights_of(options), last);
+    PointSet points(std::move(found.rows), plan.dimension);
+    const std::uint64_t work = std::uint64_t{1} << (found.stopped ? 24U : 37U);
+    if (valued) record(points, plan, options, judged(points, options, work, last));
+    if (found.stopped) points.provenance.found.emplace_back(interrupted);
+    return points;
 }
 
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
@@ -404,29 +452,19 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     const auto n = static_cast<double>(plan.count);
     OptimizedRows found;
     if (is_known(plan, options)) {
-        found.rows = known_rows(plan, options);
+        found.rows = known_rows(plan, options, run);
     } else if (by_orders(plan, options)) {
         const double budget = options[effort] * std::min(0x1p20 * n * n, 0x1p35);
         found = least_star_discrepancy(plan.count, plan.seed, budget, run);
     } else if (options[lattice]) {
-        check_size(plan, options, run);
         found = least_lattice(
             plan.count, plan.dimension, [&] { return make_objective(plan, options); },
-            options[objective], run);
+            options[objective], fitting(plan, options, run));
     } else {
-        check_size(plan, options, run);
-        found = search_coordinates(search_for(plan, options, run), options[objective], run);
+        found = search_coordinates(search_for(plan, options, run), options[objective],
+                                   fitting(plan, options, run));
     }
-    const RunContext last = found.stopped ? unstopped(run) : run;
-    if (found.stopped)
-        run.notify("interrupted: these are the best points so far, as their provenance says");
-    if (options[order])
-        found.rows = in_even_order(found.rows, plan.dimension, kept(options), order_kind(options),
-                                   weights_of(options), last);
-    PointSet points(std::move(found.rows), plan.dimension);
-    record(points, plan, options, judged(points, options, last));
-    if (found.stopped) points.provenance.found.emplace_back(interrupted);
-    return points;
+    return finished(std::move(found), plan, options, run);
 }
 
 std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,

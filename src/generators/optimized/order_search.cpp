@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/parallel.hpp"
@@ -27,9 +28,16 @@ constexpr double solution = 30;         ///< steps for one, over n^2
 /// An order, where a descent from it has got to.
 struct Descent {
     Ranks ranks;
-    double level = 0;
-    bool over = false;  ///< nothing was gained for long
+    double level = std::numeric_limits<double>::infinity();
+    bool over = false;              ///< nothing was gained for long
+    std::vector<double> rows = {};  ///< points that have the level, where the best so far may do
 };
+
+/// Where an order has got to.
+Descent reached(const PlanarOrder& order, bool over, const RunContext& run) {
+    return {order.ranks(), order.level(), over,
+            run.keeps_best ? order.points() : std::vector<double>()};
+}
 
 bool better(const Descent& a, const Descent& b) { return a.level < b.level; }
 
@@ -94,11 +102,13 @@ Ranks lattice_cut(std::size_t n, SplitMix64& draws) {
     return x.size() == n ? order_of(x, y) : Ranks();
 }
 
-Ranks start(std::size_t n, SplitMix64& draws) {
+Ranks start(std::size_t n, SplitMix64& draws, const RunContext& run) {
     constexpr int tries = 100;
     const bool cut = draws.below(2) == 0;
-    for (int i = 0; cut && i < tries; ++i)
+    for (int i = 0; cut && i < tries; ++i) {
+        run.check_stop();
         if (Ranks ranks = lattice_cut(n, draws); !ranks.empty()) return ranks;
+    }
     return rotation(n, draws);
 }
 
@@ -119,9 +129,8 @@ void kick(PlanarOrder& order, std::size_t n, SplitMix64& draws) {
 }
 
 /// Goes on with a descent, after a kick where it is over, for so many steps at most.
-/// Returns the steps that it took.
-double go_on(Descent& descent, SplitMix64 draws, double steps, const RunContext& run,
-             const RunContext& whole) {
+/// Returns the steps that it took. @throws Error(cancelled)
+double go_on(Descent& descent, SplitMix64 draws, double steps, const RunContext& run) {
     constexpr double equal = 1 + 1e-12;
     const std::size_t n = descent.ranks.size();
     PlanarOrder order(descent.ranks, run);
@@ -129,8 +138,9 @@ double go_on(Descent& descent, SplitMix64 draws, double steps, const RunContext&
     const auto most = static_cast<std::uint64_t>(patience * static_cast<double>(n));
     double lowest = order.level();
     std::uint64_t in_vain = 0;
-    while (in_vain < most && static_cast<double>(order.steps()) < steps &&
-           !whole.best_is_wanted()) {
+    const bool kicked = descent.over;
+    while (in_vain < most && static_cast<double>(order.steps()) < steps) {
+        run.check_stop();
         ++in_vain;
         const bool critical = unit(draws) < on_cycle;
         const auto swap = critical ? order.critical_swap(draws) : any_swap(n, draws);
@@ -138,23 +148,20 @@ double go_on(Descent& descent, SplitMix64 draws, double steps, const RunContext&
         if (order.level() * equal >= lowest) continue;
         lowest = order.level();
         in_vain = 0;
+        if (run.keeps_best && lowest < descent.level) descent = reached(order, kicked, run);
     }
-    const bool kicked = descent.over;
     if (!kicked || order.level() <= descent.level * equal)
-        descent = {order.ranks(), order.level(), in_vain >= most};
+        descent = reached(order, in_vain >= most, run);
     return static_cast<double>(order.steps());
 }
 
 class OrderSearch {
   public:
     OrderSearch(std::size_t n, std::uint64_t seed, double budget, const RunContext& run)
-        : n_(n),
-          rng_(seed),
-          budget_(budget),
-          run_(run),
-          inner_(until_best_is_wanted(silent(run))) {}
+        : n_(n), rng_(seed), budget_(budget), run_(run), inner_(silent(run)) {}
 
-    Ranks best() {
+    /// @throws Error(cancelled) also where a stop comes before there is a best
+    Descent best() {
         make_starts();
         std::vector<Descent> all;
         for (std::size_t i = 0; spent_ < 0.4 * budget_ && !run_.best_is_wanted();) {
@@ -172,7 +179,8 @@ class OrderSearch {
                                                      : 4);
             advance(all, 0.05);
         }
-        return std::ranges::min_element(all, better)->ranks;
+        if (all.empty()) run_.check_stop();
+        return *std::ranges::min_element(all, better);
     }
 
   private:
@@ -203,12 +211,13 @@ class OrderSearch {
         std::vector<double> steps(all.size());
         for_each_block(until_best_is_wanted(run_.stage(0, 0.1)), all.size(), 1,
                        [&](const Block& block) {
-                           if (block.index > 0 && run_.best_is_wanted()) return;
-                           SplitMix64 own = streams[block.index];
-                           const Ranks ranks = start(n_, own);
-                           const PlanarOrder order(ranks, inner_);
-                           all[block.index] = {ranks, order.level()};
-                           steps[block.index] = static_cast<double>(order.steps());
+                           unless_best_is_wanted(run_, [&] {
+                               inner_.check_stop();
+                               SplitMix64 own = streams[block.index];
+                               const PlanarOrder order(start(n_, own, inner_), inner_);
+                               all[block.index] = reached(order, false, run_);
+                               steps[block.index] = static_cast<double>(order.steps());
+                           });
                        });
         spent_ += std::accumulate(steps.begin(), steps.end(), 0.0);
         std::erase_if(all, [](const Descent& one) { return one.ranks.empty(); });
@@ -230,10 +239,14 @@ class OrderSearch {
         std::vector<SplitMix64> streams;
         for (std::size_t i = 0; i < all.size(); ++i) streams.push_back(draws());
         std::vector<double> steps(all.size());
-        for_each_block(inner_, all.size(), 1, [&](const Block& block) {
+        for_each_block(until_best_is_wanted(inner_), all.size(), 1, [&](const Block& block) {
             const std::size_t i = block.index;
-            steps[i] = go_on(all[i], streams[i], share * budget_, inner_, run_);
+            unless_best_is_wanted(run_, [&] {
+                inner_.check_stop();
+                steps[i] = go_on(all[i], streams[i], share * budget_, inner_);
+            });
         });
+        if (run_.best_is_wanted()) return;
         spent_ += std::accumulate(steps.begin(), steps.end(), 0.0);
         const double level = std::ranges::min_element(all, better)->level;
         least_ = least_ > 0 ? std::min(least_, level) : level;
@@ -262,8 +275,10 @@ optimized::OptimizedRows least_star_discrepancy(std::size_t n, std::uint64_t see
     RunContext own = run;  // as many threads as there is memory for
     own.threads = static_cast<unsigned>(std::min(static_cast<double>(run.memory_left()) / bytes,
                                                  static_cast<double>(run.thread_count())));
-    const Ranks ranks = n > 1 ? OrderSearch(n, seed, budget, own).best() : Ranks{0};
-    PlanarOrder order(ranks, until_best_is_wanted(run));
+    Descent best = n > 1 ? OrderSearch(n, seed, budget, own).best() : Descent{{0}};
+    if (run.best_is_wanted() && !best.rows.empty())
+        return {std::move(best.rows), best.level / size, true};
+    const PlanarOrder order(best.ranks, run);
     return {order.points(), order.level() / size, run.best_is_wanted()};
 }
 

@@ -44,8 +44,6 @@ PlanarOrder::PlanarOrder(const Ranks& ranks, const RunContext& run)
       stride_(n_ + 2),
       rank_(n_ + 1),
       place_(n_ + 1),
-      counts_((n_ + 1) * stride_),
-      transposed_((n_ + 1) * stride_),
       x_(n_ + 2, 1),
       y_(n_ + 2, 1),
       from_(2 * n_ + 1),
@@ -59,13 +57,20 @@ PlanarOrder::PlanarOrder(const Ranks& ranks, const RunContext& run)
         place_[rank_[i]] = i;
         x_[i] = y_[i] = (static_cast<double>(i) - 0.5) / static_cast<double>(n_);
     }
-    for (std::size_t i = 1; i <= n_; ++i)
-        for (std::size_t j = 1; j <= n_ + 1; ++j)
+    for (std::vector<float>* counts : {&counts_, &transposed_}) {
+        counts->reserve((n_ + 1) * stride_);
+        counts->resize(stride_);
+    }
+    for (std::size_t i = 1; i <= n_; ++i) {
+        run_.check_stop();  // of many points the first touch of so much memory takes seconds
+        counts_.resize((i + 1) * stride_);
+        transposed_.resize((i + 1) * stride_);
+        for (std::size_t j = 1; j <= n_ + 1; ++j) {
             counts_[i * stride_ + j] = count(i - 1, j) + (rank_[i] <= j ? 1.0F : 0.0F);
-    for (std::size_t j = 1; j <= n_; ++j)
-        for (std::size_t i = 1; i <= n_ + 1; ++i)
-            transposed_[j * stride_ + i] =
-                transposed_[(j - 1) * stride_ + i] + (place_[j] <= i ? 1.0F : 0.0F);
+            transposed_[i * stride_ + j] =
+                transposed_[(i - 1) * stride_ + j] + (place_[i] <= j ? 1.0F : 0.0F);
+        }
+    }
     level_ = 0.3;  // below what any points have: n D* is above 1/2
     begin();
     push_all();
@@ -78,11 +83,11 @@ PlanarOrder::Ranks PlanarOrder::ranks() const {
     return ranks;
 }
 
-std::vector<double> PlanarOrder::points() {
-    normalise();
+std::vector<double> PlanarOrder::points() const {
+    const double one = x_[n_ + 1];  // as normalise() has it
     std::vector<double> rows;
     for (std::size_t i = 1; i <= n_; ++i)
-        for (const double value : {x_[i], y_[rank_[i]]})
+        for (const double value : {x_[i] / one, y_[rank_[i]] * one})
             rows.push_back(std::clamp(value, 0.0, one_minus_ulp));
     return rows;
 }
@@ -220,7 +225,7 @@ bool PlanarOrder::relax_y(std::size_t j, Node node) {
 
 /// Moves coordinates until all bounds hold.
 PlanarOrder::Outcome PlanarOrder::relax() {
-    constexpr std::uint64_t turns_at_a_time = 1024;
+    constexpr std::uint64_t turns_at_a_time = 64;
     while (first_ != last_) {
         if (++turns_ % turns_at_a_time == 0) run_.check_stop();
         const Node node = pop();

@@ -51,7 +51,7 @@ class PlanarOrder {
     [[nodiscard]] double level() const { return level_; }
 
     /// Points that have it, as rows in the order of x; in [0, 1).
-    [[nodiscard]] std::vector<double> points();
+    [[nodiscard]] std::vector<double> points() const;
 
     /// A swap that changes the count of a box on the critical cycle; nothing at the rim.
     std::optional<Swap> critical_swap(SplitMix64& draws) const;

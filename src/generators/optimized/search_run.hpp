@@ -13,6 +13,7 @@ struct OptimizedRows {
     std::vector<double> rows;
     double value = 0;
     bool stopped = false;  ///< before the budget was used up, since the run keeps the best
+    bool certain = true;   ///< the value; one of a descent that was cut short may be too small
 };
 
 }  // namespace stipple::optimized

@@ -60,11 +60,13 @@ std::vector<double> rank1_rows(std::size_t count, std::span<const std::size_t> v
     return rows;
 }
 
-std::vector<double> lattice_rows(std::size_t count, std::size_t dimension, SplitMix64& draws) {
+std::vector<double> lattice_rows(std::size_t count, std::size_t dimension, SplitMix64& draws,
+                                 const RunContext& run) {
     std::vector<std::size_t> best;
     double least = std::numeric_limits<double>::infinity();
     std::vector<std::size_t> vector(dimension, 1);
     for (std::size_t k = vectors_to_draw(count, dimension); k > 0; --k) {
+        run.check_stop();
         for (std::size_t j = 1; j < dimension; ++j) vector[j] = draws.below(count);
         const double sum = wraparound_sum(count, vector);
         if (sum >= least) continue;

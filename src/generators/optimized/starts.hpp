@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "math/combinatorics/splitmix64.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::optimized {
 
@@ -21,7 +22,8 @@ std::vector<double> rank1_rows(std::size_t count, std::span<const std::size_t> v
 
 /// Rows of a lattice of rank 1, shifted at random: of some vectors that are drawn, the one with the
 /// least wraparound L2 discrepancy.
-std::vector<double> lattice_rows(std::size_t count, std::size_t dimension, SplitMix64& draws);
+std::vector<double> lattice_rows(std::size_t count, std::size_t dimension, SplitMix64& draws,
+                                 const RunContext& run);
 
 /// Rows of i / n, shifted at random, before the first points of Sobol's sequence, scrambled as Owen
 /// does: of powers of two a net. Two or more coordinates.

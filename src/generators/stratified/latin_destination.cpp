@@ -87,11 +87,11 @@ void count_outcomes(const Destination& destination, LatinPlaces& places, search:
 }
 
 /// How many points of the start do not satisfy the constraints, after exchanges that make them.
-std::size_t unsatisfied(const Plan& plan, search::Search& task) {
+std::size_t unsatisfied(const Plan& plan, search::Search& task, const RunContext& run) {
     constexpr std::uint64_t stream = 8;  // none of other parts
     search::Exchanges exchanges(task.start, task.rules);
     SplitMix64 draws(stratified_numbers(plan, stream).bits(0));
-    const std::size_t wrong = exchanges.make_feasible(draws);
+    const std::size_t wrong = exchanges.make_feasible(draws, run);
     task.start = exchanges.design();
     return wrong;
 }
@@ -111,11 +111,11 @@ void aim_at_destination(const Plan& plan, const std::shared_ptr<LatinPlaces>& pl
         for (std::size_t k = 0; k < point.size(); ++k) point[k] = places->at(k, row, levels[k]);
         return destination->has_image(row, point);
     };
-    if (unsatisfied(plan, task) == 0) return;
+    if (unsatisfied(plan, task, run) == 0) return;
     if (task.rules.fixed == 0) {
         places->put_between(strata_of_images(plan, run));
         count_outcomes(*destination, *places, task);
-        if (unsatisfied(plan, task) == 0)
+        if (unsatisfied(plan, task, run) == 0)
             return run.notify(
                 fmt::format("latin-hypercube: no Latin hypercube of {} points was found that "
                             "satisfies the constraints; each axis has strata that hold equal "

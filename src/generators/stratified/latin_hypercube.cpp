@@ -337,10 +337,17 @@ std::unique_ptr<Sequence> make_design(const Plan& plan, const Values& options,
     task.objective = objective_of(options);
     task.trials = options[effort] * search::usual_trials(task.objective, task.start);
     const search::Result result = search::best_design(task, options[optimize], run);
+    // Of many points that takes a second, which none has after a stop.
+    constexpr double few = 2e7;
+    const bool soon = static_cast<double>(plan.count * plan.count * plan.dimension) <= few;
     if (result.stopped)
-        run.notify("interrupted: this is the best design so far, as its provenance says");
-    auto found = search::described(task.objective, result.design, task.rules,
-                                   result.stopped ? unstopped(run) : run);
+        run.notify(
+            fmt::format("interrupted: this is the best design so far, as its provenance says{}",
+                        soon ? "" : ", without its value"));
+    std::vector<std::pair<std::string, std::string>> found;
+    if (!result.stopped || soon)
+        found = search::described(task.objective, result.design, task.rules,
+                                  result.stopped ? unstopped(run) : run);
     if (result.stopped) found.emplace_back(interrupted);
     if (result.optimal) found.emplace_back("certificate", "optimal");
     auto points = points_of(places, result.design, given);

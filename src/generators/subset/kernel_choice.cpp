@@ -245,7 +245,11 @@ class Herding {
     }
 
     void shuffle() {
-        for (std::size_t k = n_; k > 1; --k) std::swap(now_.members[k - 1], now_.members[draw(k)]);
+        constexpr std::size_t often = 65536;
+        for (std::size_t k = n_; k > 1; --k) {
+            if (k % often == 0) run_.check_stop();
+            std::swap(now_.members[k - 1], now_.members[draw(k)]);
+        }
     }
 
     /// n^2 (squared - total)

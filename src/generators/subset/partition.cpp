@@ -32,6 +32,7 @@ class Trade {
           others_(2 * n_),
           row_(points.width()) {
         for (std::size_t x = 0; x < 2 * n_; ++x) {
+            run_.check_stop();
             fill(x, values_);
             diagonals_[x] = kernel_.diagonal(row_.data());
             largest_ = std::max(largest_, diagonals_[x]);
@@ -117,12 +118,16 @@ class Trade {
 };
 
 /// All rows, dealt out at random.
-std::vector<Rows> dealt(std::size_t count, std::size_t sets, std::uint64_t seed) {
+std::vector<Rows> dealt(std::size_t count, std::size_t sets, std::uint64_t seed,
+                        const RunContext& run) {
+    constexpr std::size_t often = 65536;
     const Rng rng(seed, 4);
     Rows rows(count);
     std::iota(rows.begin(), rows.end(), std::size_t{0});
-    for (std::size_t k = count; k > 1; --k)
+    for (std::size_t k = count; k > 1; --k) {
+        if (k % often == 0) run.check_stop();
         std::swap(rows[k - 1], rows[static_cast<std::size_t>(rng.below(k, k))]);
+    }
     std::vector<Rows> all(sets);
     for (std::size_t i = 0; i < count; ++i) all[i % sets].push_back(rows[i]);
     return all;
@@ -143,7 +148,7 @@ std::vector<std::array<std::size_t, 2>> pairs_of(std::size_t round, std::size_t 
 
 std::vector<Rows> part_by_kernel(const Kernel& kernel, const Columns& points, std::size_t sets,
                                  double values, std::uint64_t seed, const RunContext& run) {
-    std::vector<Rows> all = dealt(points.count(), sets, seed);
+    std::vector<Rows> all = dealt(points.count(), sets, seed, run);
     const std::size_t tournament = sets % 2 == 0 ? sets - 1 : sets;
     const std::size_t least_rounds = std::bit_width(sets) + 1;
     const double n = static_cast<double>(points.count() / sets);

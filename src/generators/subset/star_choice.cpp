@@ -71,8 +71,11 @@ Measured measure(const PointSet& set, double enough, const RunContext& run) {
 /// Boxes that were the worst of some set, and how full they are of the present one.
 class BadBoxes {
   public:
-    explicit BadBoxes(const PointSet& points, std::size_t n)
-        : points_(points), n_(static_cast<double>(n)), words_((points.count() + 63) / 64) {}
+    BadBoxes(const PointSet& points, std::size_t n, const RunContext& run)
+        : points_(points),
+          n_(static_cast<double>(n)),
+          words_((points.count() + 63) / 64),
+          run_(run) {}
 
     void add(const Measured& found, const Bits& set) {
         constexpr std::size_t most = 4096;
@@ -107,6 +110,7 @@ class BadBoxes {
         if (points_.count() % 64 != 0)
             points.back() &= (std::uint64_t{1} << (points_.count() % 64)) - 1;
         for (const std::size_t b : critical_) {
+            run_.check_stop();
             const Box& box = boxes_[b];
             const bool closed = box.side == Side::closed;
             const double change = has(box.members, i) ? (closed ? -1 : 1) : 0;
@@ -141,6 +145,7 @@ class BadBoxes {
     };
 
     void count(Box& box, const Bits& set) const {
+        run_.check_stop();
         int inside = 0;
         for (std::size_t w = 0; w < words_; ++w) inside += std::popcount(box.members[w] & set[w]);
         const double excess = inside - n_ * box.volume;
@@ -156,6 +161,7 @@ class BadBoxes {
     const PointSet& points_;
     double n_;
     std::size_t words_;
+    const RunContext& run_;
     std::vector<Box> boxes_;
     std::vector<std::size_t> critical_;
     std::uint64_t clock_ = 0;
@@ -182,7 +188,7 @@ class StarExchanges {
           measures_(measures),
           rng_(seed, 2),
           run_(run),
-          boxes_(points, n_),
+          boxes_(points, n_, run),
           now_{std::move(start)} {}
 
     Rows search() {

@@ -335,6 +335,28 @@ TEST(Optimized, KeepsTheBestWhenItIsStopped) {
         }
 }
 
+// On the line the points are known, and as many as memory holds.
+TEST(Optimized, AsksForTheMemoryOfItsPoints) {
+    EXPECT_TRUE(error_of([&] {
+                    make("optimized", points(std::uint64_t{1} << 31, 1), {},
+                         {.max_memory = 300'000'000});
+                }).starts_with("limit: the point set needs 16 GiB"));
+}
+
+// A stop that comes before anything is known leaves nothing to keep.
+TEST(Optimized, IsCancelledWhereAStopComesBeforeTheFirstSet) {
+    std::stop_source source;
+    source.request_stop();
+    const RunContext run{.threads = 2, .stop = source.get_token(), .keeps_best = true};
+    for (const Judged& one : objectives)
+        EXPECT_EQ(
+            error_of([&] {
+                make("optimized", points(24, one.dimension), {{"objective", one.objective}}, run);
+            }),
+            "cancelled: interrupted")
+            << one.objective;
+}
+
 TEST(Optimized, RefusesWhatItCannotMake) {
     const TemporaryFile file(text_of(make("random", points(10, 2))), ".csv");
     const TemporaryFile wide("0,2\n0,0\n", ".csv");

@@ -2,10 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <functional>
 #include <map>
 #include <set>
+#include <stop_token>
+#include <thread>
 
 #include "core/rng.hpp"
 #include "core/text.hpp"
@@ -314,6 +318,22 @@ TEST(Subset, RefusesWhatCannotBeChosenAndSaysWhy) {
     EXPECT_TRUE(refusal({}, {{"from", empty.path()}}).starts_with("input: "));
     EXPECT_TRUE(refusal({}, {{"from", "nowhere.csv"}}).starts_with("io: "));
     EXPECT_TRUE(refusal({.bounds = Box{{0, 0}, {2, 2}}}, {}).starts_with("usage: --bounds: "));
+}
+
+// A first round of trades takes n^2 values of the kernel, here a second or more.
+TEST(Subset, StopsAtOnceInARoundOfTrades) {
+    std::stop_source source;
+    const RunContext run{.threads = 1, .stop = source.get_token()};
+    std::jthread later([&] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        source.request_stop();
+    });
+    const std::clock_t begin = std::clock();
+    EXPECT_EQ(error_of([&] {
+                  make(unit, points(60'000, 6), {{"split", "2"}}, run);
+              }),
+              "cancelled: interrupted");
+    EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 0.5);
 }
 
 // Searches that would go on for hours; --split by a kernel is done after a few rounds.

@@ -94,13 +94,14 @@ void Exchanges::make_fit(SplitMix64& draws, std::size_t row) {
     }
 }
 
-std::size_t Exchanges::make_feasible(SplitMix64& draws) {
+std::size_t Exchanges::make_feasible(SplitMix64& draws, const RunContext& run) {
     if (!rules_.feasible) return 0;
     constexpr int rounds = 300;
     std::size_t wrong = 1;
     for (int i = 0; i < rounds && wrong > 0; ++i) {
         wrong = 0;
         for (std::size_t row = rules_.fixed; row < design_.points; ++row) {
+            run.check_stop();
             if (fits(row)) continue;
             ++wrong;
             make_fit(draws, row);
@@ -109,16 +110,19 @@ std::size_t Exchanges::make_feasible(SplitMix64& draws) {
     return wrong;
 }
 
-void Exchanges::shuffle(SplitMix64& draws, std::size_t times) {
+void Exchanges::shuffle(SplitMix64& draws, std::size_t times, const RunContext& run) {
     const std::size_t all = times * design_.points * design_.dimension;
-    if (const std::size_t wrong = make_feasible(draws); wrong > 0)
+    if (const std::size_t wrong = make_feasible(draws, run); wrong > 0)
         fail(ErrorKind::limit,
              "latin-hypercube: no design found that is feasible; {} of {} points "
              "are not",
              wrong, design_.points);
     Exchange one{};
-    for (std::size_t i = 0; i < all; ++i)
+    constexpr std::size_t often = 4096;
+    for (std::size_t i = 0; i < all; ++i) {
+        if (i % often == 0) run.check_stop();
         if (draw(draws, one) && infeasible(one) == 0) make(one);
+    }
 }
 
 void Trail::made(const Exchange& exchange) {
@@ -148,20 +152,22 @@ const Design& Trail::best() {
 }
 
 Annealing::Annealing(const Objective& objective, const Design& start, const Rules& rules,
-                     const Schedule& schedule, SplitMix64 draws)
+                     const Schedule& schedule, SplitMix64 draws, const RunContext& run)
     : objective_(objective),
       rules_(rules),
       schedule_(schedule),
       draws_(draws),
       exchanges_(start, rules),
       trail_(start),
-      criterion_(make_criterion(objective, start, rules)),
+      criterion_(make_criterion(objective, start, rules, run)),
       share_(schedule.first_share),
       score_(criterion_->score()) {
+    run.check_stop();
     const double pieces = std::max(1.0, schedule.trials / piece);
     cooling_ = exponential(logarithm(schedule.last_share / schedule.first_share) / pieces);
     if (!criterion_->aim(schedule.target)) polishing_ = true;
     over_ = polishing_ && criterion_->reached();
+    run.check_stop();
     constexpr int some = 64;
     Exchange one{};
     for (int i = 0; i < some; ++i)
@@ -215,14 +221,18 @@ void Annealing::trial() {
     aim_next();
 }
 
-void Annealing::advance(double trials, const RunContext& run, const RunContext& whole) {
+void Annealing::advance(double trials, const RunContext& run) {
     const double last = std::min(schedule_.trials, done_ + trials);
+    constexpr std::uint64_t often = 64;
+    std::uint64_t made = 0;
     for (; done_ < last && !over_; ++done_) {
+        if (made++ % often == 0 && run.stop.stop_requested()) {
+            if (run.keeps_best) note();
+            run.check_stop();
+        }
         trial();
         if (done_ < next_) continue;
         next_ = done_ + piece;
-        run.check_stop();
-        if (whole.best_is_wanted()) break;
         share_ *= cooling_;
         if (polishing_ || done_ < polish_from * schedule_.trials) continue;
         polishing_ = true;
@@ -235,9 +245,9 @@ void Annealing::advance(double trials, const RunContext& run, const RunContext& 
     note();
 }
 
-void Annealing::settle() {
+void Annealing::settle(const RunContext& run) {
     criterion_.reset();  // before the next one takes its memory
-    criterion_ = make_criterion(objective_, trail_.best(), rules_);
+    criterion_ = make_criterion(objective_, trail_.best(), rules_, run);
     score_ = criterion_->score();
 }
 

@@ -47,11 +47,11 @@ class Exchanges {
     [[nodiscard]] const Design& design() const { return design_; }
 
     /// Exchanges levels until all points are feasible: how many are not, in the end.
-    std::size_t make_feasible(SplitMix64& draws);
+    std::size_t make_feasible(SplitMix64& draws, const RunContext& run);
 
     /// Makes random exchanges, as many for each level as `times`, and before them those that make all
     /// points feasible. @throws Error(limit) where it finds none
-    void shuffle(SplitMix64& draws, std::size_t times);
+    void shuffle(SplitMix64& draws, std::size_t times, const RunContext& run = {});
 
   private:
     [[nodiscard]] std::size_t partner(SplitMix64& draws, std::size_t k, std::size_t a) const;
@@ -93,18 +93,19 @@ class Annealing {
   public:
     /// @param objective, rules must stay
     Annealing(const Objective& objective, const Design& start, const Rules& rules,
-              const Schedule& schedule, SplitMix64 draws);
+              const Schedule& schedule, SplitMix64 draws, const RunContext& run);
 
-    /// Makes so many more of the trials; fewer where there is no more to gain, or once the whole run
-    /// wants the best so far.
-    void advance(double trials, const RunContext& run, const RunContext& whole);
+    /// Makes so many more of the trials; fewer where there is no more to gain.
+    /// @throws Error(cancelled): of the best so far it has then taken note
+    void advance(double trials, const RunContext& run);
 
     /// The best design so far, of maximin among those that reached a target, and its score.
     [[nodiscard]] const Design& best() { return trail_.best(); }
     [[nodiscard]] const Score& score() const { return score_; }
 
     /// The end: the score is that of the best design by itself, without the rounding of exchanges.
-    void settle();
+    /// @throws Error(cancelled): the score is then as it was
+    void settle(const RunContext& run);
 
   private:
     void trial();

@@ -141,9 +141,9 @@ double usual_square(std::size_t points, std::size_t dimension) {
 }
 
 std::unique_ptr<Criterion> make_criterion(const Objective& objective, const Design& design,
-                                          const Rules& rules) {
+                                          const Rules& rules, const RunContext& run) {
     return objective.kind == Kind::correlation ? correlation_criterion(design, rules)
-                                               : pair_criterion(objective, design, rules);
+                                               : pair_criterion(objective, design, rules, run);
 }
 
 double criterion_memory(const Objective& objective, const Design& design) {

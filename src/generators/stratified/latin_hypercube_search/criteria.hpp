@@ -79,10 +79,11 @@ class Criterion {
 };
 
 /// The criterion of a design, which it follows by exchange() alone. Pairs of fixed rows do not count.
+/// What takes long ends when the run is told to stop. @throws Error(cancelled)
 std::unique_ptr<Criterion> make_criterion(const Objective& objective, const Design& design,
-                                          const Rules& rules);
+                                          const Rules& rules, const RunContext& run = {});
 std::unique_ptr<Criterion> pair_criterion(const Objective& objective, const Design& design,
-                                          const Rules& rules);
+                                          const Rules& rules, const RunContext& run);
 std::unique_ptr<Criterion> correlation_criterion(const Design& design, const Rules& rules);
 
 /// Bytes that a criterion needs.

@@ -301,20 +301,25 @@ class NoSingles {
 template <class Measure>
 class PairCriterion final : public Criterion {
   public:
-    PairCriterion(Measure measure, const Design& design, const Rules& rules)
+    PairCriterion(Measure measure, const Design& design, const Rules& rules, RunContext run)
         : measure_(std::move(measure)),
           rules_(rules),
+          run_(std::move(run)),
           points_(design.points),
           fixed_(rules.fixed),
           stride_(padded(design.rows)),
           width_(padded(design.points)),
           dimension_(design.dimension),
           places_(stride_ * dimension_),
-          pairs_(points_ * width_, Measure::neutral),
           singles_(measure_, points_) {
         for (std::size_t k = 0; k < dimension_; ++k)
             for (std::size_t i = 0; i < design.rows; ++i)
                 places_[k * stride_ + i] = rules.axis(k).place(design.along(k)[i]);
+        pairs_.reserve(points_ * width_);
+        for (std::size_t i = 0; i < points_; ++i) {
+            run_.check_stop();  // of many points the first touch of so much memory takes a second
+            pairs_.resize((i + 1) * width_, Measure::neutral);
+        }
         rebuild();
     }
 
@@ -423,6 +428,7 @@ class PairCriterion final : public Criterion {
     void rebuild() {
         singles_ = {measure_, points_};
         for (std::size_t i = 0; i < points_; ++i) {
+            run_.check_stop();
             for (std::size_t k = 0; k < dimension_; ++k) singles_.with(i, places(k)[i]);
             for (std::size_t j = 0; i >= fixed_ && j < i; ++j) {
                 Value value = Measure::start;
@@ -437,6 +443,7 @@ class PairCriterion final : public Criterion {
 
     Measure measure_;
     Rules rules_;
+    RunContext run_;
     std::size_t points_;
     std::size_t fixed_;
     std::size_t stride_;  ///< of places
@@ -451,27 +458,29 @@ class PairCriterion final : public Criterion {
 };
 
 template <class Measure>
-std::unique_ptr<Criterion> criterion_by(Measure measure, const Design& design, const Rules& rules) {
-    return std::make_unique<PairCriterion<Measure>>(std::move(measure), design, rules);
+std::unique_ptr<Criterion> criterion_by(Measure measure, const Design& design, const Rules& rules,
+                                        const RunContext& run) {
+    return std::make_unique<PairCriterion<Measure>>(std::move(measure), design, rules, run);
 }
 
 }  // namespace
 
 std::unique_ptr<Criterion> pair_criterion(const Objective& objective, const Design& design,
-                                          const Rules& rules) {
+                                          const Rules& rules, const RunContext& run) {
     const auto n = static_cast<double>(design.points);
     switch (objective.kind) {
         case Kind::maximin:
-            return criterion_by(Shortfall(), design, rules);
+            return criterion_by(Shortfall(), design, rules, run);
         case Kind::centered_l2:
-            return criterion_by(Centered{{n}}, design, rules);
+            return criterion_by(Centered{{n}}, design, rules, run);
         case Kind::maxpro:
-            return criterion_by(Projections{{usual_difference(design.points), n}}, design, rules);
+            return criterion_by(Projections{{usual_difference(design.points), n}}, design, rules,
+                                run);
         default: {
             Powers measure;
             measure.power = objective.kind == Kind::phi_p ? objective.power : 2;
             measure.scale = usual_square(design.points, design.dimension);
-            return criterion_by(measure, design, rules);
+            return criterion_by(measure, design, rules, run);
         }
     }
 }

@@ -58,13 +58,14 @@ class Rounds {
         : search_(search),
           words_(words),
           run_(run),
-          inner_(until_best_is_wanted(silent(run))),
+          inner_(silent(run)),
           rng_(search.seed, stream) {}
 
     Result best() {
         for (const double trials :
              stages_of(search_.trials, usual_trials(search_.objective, search_.start), points())) {
-            if (best_.empty() || !run_.best_is_wanted()) go(trials);
+            if (!run_.best_is_wanted()) go(trials);
+            if (best_.empty()) run_.check_stop();
             if (!result_ || is_better(best_.front().score, result_->score)) result_ = best_.front();
         }
         return {.design = result_->design, .stopped = run_.best_is_wanted()};
@@ -94,7 +95,7 @@ class Rounds {
              from_lattices() ? std::span(rounds_of_lattices) : std::span(rounds)) {
             const std::size_t together = std::min(round.annealings, most_together());
             for (std::size_t i = 0; i < round.annealings; i += together)
-                if (best_.empty() || !run_.best_is_wanted()) anneal(round, i, together);
+                if (!run_.best_is_wanted()) anneal(round, i, together);
         }
     }
 
@@ -106,18 +107,26 @@ class Rounds {
         if (!best_.empty()) schedule.target = 1 - beyond[i / 2 % 4] * best_.front().score.value;
         if (round.from_best && i % 2 == 1) {
             schedule.first_share = cold;
-            return {search_.objective, best_[i / 2 % best_.size()].design, search_.rules, schedule,
-                    draws};
+            return {search_.objective,
+                    best_[i / 2 % best_.size()].design,
+                    search_.rules,
+                    schedule,
+                    draws,
+                    inner_};
         }
         const Design& given = search_.start;
         if (i % 4 != 2 && from_lattices()) {
             schedule.first_share = cold;
-            return {search_.objective, lattice_start(given.points, given.dimension, draws),
-                    search_.rules, schedule, draws};
+            return {search_.objective,
+                    lattice_start(given.points, given.dimension, draws),
+                    search_.rules,
+                    schedule,
+                    draws,
+                    inner_};
         }
         Exchanges exchanges(given, search_.rules);
-        exchanges.shuffle(draws, 3);
-        return {search_.objective, exchanges.design(), search_.rules, schedule, draws};
+        exchanges.shuffle(draws, 3, inner_);
+        return {search_.objective, exchanges.design(), search_.rules, schedule, draws, inner_};
     }
 
     void anneal(const Round& round, std::size_t first, std::size_t count) {
@@ -126,18 +135,26 @@ class Rounds {
             std::floor(std::clamp(of_one / static_cast<double>(points()), 1.0, 20.0));
         std::vector<std::optional<Annealing>> all(count);
         const double trials = std::ceil(of_one / slices);
-        for (int slice = 0; slice < slices && !(slice > 0 && run_.best_is_wanted()); ++slice) {
-            for_each_block(inner_, count, 1, [&](const Block& block) {
+        for (int slice = 0; slice < slices && !run_.best_is_wanted(); ++slice) {
+            for_each_block(until_best_is_wanted(inner_), count, 1, [&](const Block& block) {
                 auto& one = all[block.index];
-                if (!one) one.emplace(start(round, first + block.index));
-                one->advance(trials, inner_, run_);
+                unless_best_is_wanted(run_, [&] {
+                    inner_.check_stop();
+                    if (!one) one.emplace(start(round, first + block.index));
+                    one->advance(trials, inner_);
+                });
             });
+            if (run_.best_is_wanted()) break;
             spent_ += trials * static_cast<double>(count);
             report(all);
         }
         tasks_ += round.annealings;
-        for_each_block(inner_, count, 1, [&](const Block& block) { all[block.index]->settle(); });
-        for (auto& one : all) best_.push_back({one->best(), one->score()});
+        for_each_block(until_best_is_wanted(inner_), count, 1, [&](const Block& block) {
+            if (auto& one = all[block.index])
+                unless_best_is_wanted(run_, [&] { one->settle(inner_); });
+        });
+        for (auto& one : all)
+            if (one) best_.push_back({one->best(), one->score()});
         std::ranges::stable_sort(best_, {}, &Candidate::score);
         if (best_.size() > most_kept) best_.erase(best_.begin() + most_kept, best_.end());
     }
