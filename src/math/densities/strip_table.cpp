@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 
 #include "core/error.hpp"
@@ -16,6 +17,8 @@ constexpr std::size_t most_in_strip = 8192;
 constexpr std::size_t first_strips = 13;
 constexpr std::size_t first_patches = 7;
 constexpr std::size_t probes_a_side = 512;  // along each axis
+constexpr std::size_t places_a_look = std::size_t{1} << 17;
+constexpr int most_looks = 8;
 
 /// A patch with f on the lines x_low, the middle and x_high, at 0, 1/4, 1/2, 3/4 and 1 of it.
 struct SampledPatch {
@@ -33,7 +36,7 @@ struct SampledPatch {
 
     /// Largest difference from a line along y.
     [[nodiscard]] double bend() const {
-        double worst = hidden;
+        double worst = 0;
         for (const auto& line : f) worst = std::max(worst, largest_bend(line));
         return worst;
     }
@@ -58,6 +61,12 @@ struct SampledPatch {
         return gap ? top() : 0;
     }
 
+    /// What may differ from the table by so much, the samples lead to expect.
+    [[nodiscard]] double expected() const {
+        constexpr double rounding = 1e-12;
+        return 2 * (bend() + slope()) + rounding * top();
+    }
+
     [[nodiscard]] double mean() const { return 0.25 * (f[0][0] + f[0][4] + f[2][0] + f[2][4]); }
 };
 
@@ -69,6 +78,16 @@ struct SampledStrip {
     double mass = 0;
 
     [[nodiscard]] double width() const { return high - low; }
+    [[nodiscard]] double area(const SampledPatch& patch) const {
+        return (patch.high - patch.low) * width();
+    }
+};
+
+/// A place where f is not what the table led to expect.
+struct Surprise {
+    std::array<double, 2> at;
+    double f;
+    double difference;
 };
 
 /// x, below the upper end of what it lies in.
@@ -85,7 +104,7 @@ class StripTabulator {
     std::vector<Strip> tabulate() {
         probe_density();
         for (std::size_t i = 0; i < first_strips; ++i) insert(made(cut(i), cut(i + 1)), i);
-        while (error_ > tolerance_ * mass_) split_worst();
+        refine_until_nothing_surprises();
         std::ranges::sort(strips_, {}, &SampledStrip::low);
         std::vector<Strip> out;
         double mass = 0;
@@ -114,7 +133,7 @@ class StripTabulator {
     }
 
     /// f at the points in points_, checked.
-    void look() {
+    void look_at_points() {
         values_.resize(points_.size() / 2);
         f_(points_, values_);
         for (std::size_t i = 0; i < values_.size(); ++i)
@@ -132,7 +151,7 @@ class StripTabulator {
                                               : strip.low + 0.5 * strip.width());
                 points_.push_back(k == 4 ? patch.high : patch.at(0.25 * static_cast<double>(k)));
             }
-        look();
+        look_at_points();
         std::size_t i = 0;
         for (auto& line : patch.f)
             for (const std::size_t k : which) line[k] = values_[i++];
@@ -160,18 +179,117 @@ class StripTabulator {
                 points_.push_back(probe_at(0, i));
                 points_.push_back(probe_at(1, j));
             }
-            look();
+            look_at_points();
             seen_.insert(seen_.end(), values_.begin(), values_.end());
         }
+    }
+
+    void refine_as_asked() {
+        while (error_ > tolerance_ * mass_) split_worst();
+    }
+
+    /// Looks at f at other places until the mass that these show the table to lack is little.
+    void refine_until_nothing_surprises() {
+        refine_as_asked();
+        for (int look = 0;; ++look) {
+            const std::vector<Surprise> met = surprises(look);
+            double missed = 0;
+            for (const Surprise& one : met) missed += one.difference;
+            missed *= box_.extent(0) * box_.extent(1) / double{places_a_look};
+            const bool little = missed <= 0.25 * tolerance_ * mass_;
+            note(met);
+            refine_as_asked();
+            if (little) return;
+            if (look == most_looks)
+                fail(ErrorKind::limit,
+                     "{} has features too narrow for a table: it is {:.4g} at {}, and nothing "
+                     "beside that place led to expect it",
+                     what_, met[0].f, place_text(met[0].at));
+        }
+    }
+
+    /// Places of the next stretch of a sequence that fills the box ever more densely, where f is not
+    /// what the table leads to expect; they are no probes.
+    std::vector<Surprise> surprises(int look) {
+        constexpr std::array<double, 2> step{0.7548776662466927, 0.5698402909980532};
+        constexpr std::size_t at_once = 4096;
+        sort_strips();
+        std::vector<Surprise> met;
+        for (std::size_t first = 0; first < places_a_look; first += at_once) {
+            run_.check_stop();
+            points_.clear();
+            for (std::size_t i = first; i < first + at_once; ++i)
+                for (std::size_t axis = 0; axis < 2; ++axis) {
+                    const auto index =
+                        static_cast<double>(places_a_look * static_cast<std::size_t>(look) + i);
+                    const double turns = 0.5 + step[axis] * index;
+                    points_.push_back(box_.low[axis] +
+                                      (turns - std::floor(turns)) * box_.extent(axis));
+                }
+            look_at_points();
+            for (std::size_t i = 0; i < at_once; ++i) {
+                Surprise here{{points_[2 * i], points_[2 * i + 1]}, values_[i], 0};
+                const auto [strip, patch] = patch_of(here.at);
+                here.difference = difference(*strip, *patch, here);
+                if (here.difference > patch->expected()) met.push_back(here);
+            }
+        }
+        return met;
+    }
+
+    /// The strips in order, and the queue of their errors.
+    void sort_strips() {
+        std::ranges::sort(strips_, {}, &SampledStrip::low);
+        worst_ = {};
+        for (std::size_t i = 0; i < strips_.size(); ++i) worst_.emplace(strips_[i].error, i);
+    }
+
+    /// Where a place is, of strips that are in order.
+    std::pair<SampledStrip*, SampledPatch*> patch_of(const std::array<double, 2>& at) {
+        const auto strip = std::ranges::upper_bound(strips_, at[0], {}, &SampledStrip::low) - 1;
+        const auto patch =
+            std::ranges::upper_bound(strip->patches, at[1], {}, &SampledPatch::low) - 1;
+        return {&*strip, &*patch};
+    }
+
+    /// What f differs by from the table there.
+    static double difference(const SampledStrip& strip, const SampledPatch& patch,
+                             const Surprise& place) {
+        return std::abs(place.f -
+                        patch.bilinear((place.at[0] - strip.low) / strip.width(),
+                                       (place.at[1] - patch.low) / (patch.high - patch.low)));
+    }
+
+    /// Keeps what was met for all strips to come, and in the errors of those that there are.
+    void note(const std::vector<Surprise>& met) {
+        for (const Surprise& one : met) {
+            SampledPatch* const patch = patch_of(one.at).second;
+            patch->hidden = std::max(patch->hidden, one.difference);
+        }
+        met_.insert(met_.end(), met.begin(), met.end());
+        std::ranges::sort(met_, {}, &Surprise::at);
+        for (SampledStrip& strip : strips_) put_error(strip);
+        sort_strips();
+        sum_anew();
     }
 
     /// Notes the largest error of a patch at places besides its own samples, if these do not lead
     /// to expect it.
     void note_hidden_error(const SampledStrip& strip, SampledPatch& patch) const {
-        const double worst = std::max(probe_error(strip, patch), parent_error(strip, patch));
-        constexpr double rounding = 1e-12;
-        const double expected = 2 * (patch.bend() + patch.slope()) + rounding * patch.top();
-        if (worst > expected) patch.hidden = worst;
+        const double worst = std::max(
+            {probe_error(strip, patch), parent_error(strip, patch), met_error(strip, patch)});
+        if (worst > patch.expected()) patch.hidden = worst;
+    }
+
+    /// The same for places that surprised.
+    [[nodiscard]] double met_error(const SampledStrip& strip, const SampledPatch& patch) const {
+        double worst = 0;
+        const std::array<double, 2> low{strip.low, -std::numeric_limits<double>::infinity()};
+        for (auto p = std::ranges::lower_bound(met_, low, {}, &Surprise::at);
+             p != met_.end() && p->at[0] < strip.high; ++p)
+            if (p->at[1] >= patch.low && p->at[1] < patch.high)
+                worst = std::max(worst, difference(strip, patch, *p));
+        return worst;
     }
 
     /// Largest difference between the patch's table and what the probes saw.
@@ -245,11 +363,11 @@ class StripTabulator {
         double mass = 0;
         const auto account = [&](std::size_t j, double sign) {
             const SampledPatch& patch = strip.patches[j];
-            const double area = (patch.high - patch.low) * strip.width();
-            bend += sign * area * patch.bend();
+            const double area = strip.area(patch);
+            bend += sign * area * bend_of(strip, patch);
             slope += sign * area * patch.slope();
             mass += sign * area * patch.mean();
-            if (sign > 0) worst.emplace(area * patch.bend(), j);
+            if (sign > 0) worst.emplace(area * bend_of(strip, patch), j);
         };
         for (std::size_t j = 0; j < strip.patches.size(); ++j) account(j, 1);
         const double share = strip.width() / box_.extent(0);
@@ -260,11 +378,24 @@ class StripTabulator {
             worst.pop();
             if (error <= 0 || !halve(strip, j, account)) break;
         }
-        strip.error = std::max(bend, 0.0) + std::max(slope, 0.0);
-        for (const SampledPatch& patch : strip.patches)
-            strip.error += (patch.high - patch.low) * strip.width() * patch.loss();
+        put_error(strip);
         strip.mass = std::max(mass, 0.0);
         std::ranges::sort(strip.patches, {}, &SampledPatch::low);
+    }
+
+    /// What halving along y is for: what is hidden only as long as the patch is tall for its width,
+    /// since a flat one may go by it, and see nothing of it any more.
+    [[nodiscard]] double bend_of(const SampledStrip& strip, const SampledPatch& patch) const {
+        const bool tall =
+            (patch.high - patch.low) * box_.extent(0) > strip.width() * box_.extent(1);
+        return tall ? std::max(patch.bend(), patch.hidden) : patch.bend();
+    }
+
+    void put_error(SampledStrip& strip) const {
+        strip.error = 0;
+        for (const SampledPatch& patch : strip.patches)
+            strip.error +=
+                strip.area(patch) * (bend_of(strip, patch) + patch.slope() + patch.loss());
     }
 
     template <class Account>
@@ -341,7 +472,7 @@ class StripTabulator {
                 points_.push_back(strip.low + s * strip.width());
                 points_.push_back(patch.at(t));
             }
-        look();
+        look_at_points();
         return std::ranges::min(values_) == 0;
     }
 
@@ -355,6 +486,7 @@ class StripTabulator {
     std::vector<double> points_;
     std::vector<double> values_;
     std::vector<double> seen_;              ///< by the probes
+    std::vector<Surprise> met_;             ///< from left to right
     const SampledStrip* parent_ = nullptr;  ///< the strip whose half is made
     std::size_t count_ = 0;
     std::size_t planned_ = 0;  ///< patches for which there is memory

@@ -14,8 +14,9 @@
 // Cost    1 / sqrt(tolerance) strips and patches of each for a smooth f; 1 / tolerance strips of
 //         some 20 patches where f jumps along a slanting line. 56 bytes a patch. O(1) plus the
 //         logarithm of a strip's patches for a point.
-// Beware  f is looked at on a grid of 512 x 512 places at least: what is narrower than that may not
-//         be seen.
+// Beware  f is looked at on a grid of 512 x 512 places, and when that has been refined to the
+//         tolerance, in 2^17 others, until these show no mass that the table lacks. What holds a disk
+//         of 1/256 of the box's extents is seen; what is smaller, if a place is on it.
 // Promise a patch in which f was seen to be 0 inside holds no mass, so that no point lands beyond a
 //         jump to 0 that the patch was seen to hold. x rises in xi0; y in xi1 for a given x.
 #pragma once
@@ -53,7 +54,8 @@ struct Strip {
 };
 
 /// Strips for f, whose points stand one after the other. `what` names it.
-/// @throws Error(usage): negative, not finite, 0 everywhere; Error(limit): tolerance out of reach
+/// @throws Error(usage): negative, not finite, 0 everywhere; Error(limit): tolerance out of reach, or
+/// looks at other places go on to show mass that the table lacks
 std::vector<Strip> tabulate_strips(const std::string& what, const BlockFunction& f, const Box& box,
                                    double tolerance, const RunContext& run);
 

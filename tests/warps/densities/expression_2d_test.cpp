@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "pipeline/chain.hpp"
 #include "support/warping.hpp"
@@ -100,6 +101,56 @@ TEST(Expression2d, GoesThereAndBack) {
             ASSERT_NEAR(back[i][0], cube[i][0], 1e-13) << spec << " " << i;
             ASSERT_NEAR(back[i][1], cube[i][1], 1e-13) << spec << " " << i;
         }
+    }
+}
+
+/// The share of points in a disk, by 2^17 points of a net.
+double share_in_disk(const Mapping& map, double x, double y, double r) {
+    const PointSet image = warped(map, make("sobol", points(1U << 17, 2)));
+    std::size_t inside = 0;
+    for (std::size_t i = 0; i < image.count(); ++i)
+        inside += std::hypot(image[i][0] - x, image[i][1] - y) < r ? 1U : 0U;
+    return static_cast<double>(inside) / static_cast<double>(image.count());
+}
+
+// Of f = h inside a disk of area a and 1 outside, the disk has h a / (h a + 1 - a). One of these is
+// between the lines of a first strip, whose patches may get flatter than the places in it; the others
+// are as small as is promised.
+TEST(Expression2d, FindsDisksOf1Over256) {
+    const double least = 0.5 / 256;
+    for (const auto& [x, y, r] :
+         {std::array{0.4425, 0.5, 0.018}, std::array{0.4425, 0.5, least},
+          std::array{0.1234, 0.8765, least}, std::array{0.0501, 0.9507, least},
+          std::array{0.71, 0.29, least}, std::array{0.5, 0.5, least}}) {
+        const double area = std::numbers::pi * r * r;
+        const double height = 1 / area;
+        const auto map = mapping(
+            fmt::format("expression-2d:density=[(x-{})^2+(y-{})^2<{}^2?{}:1],tolerance=0.002", x, y,
+                        r, height));
+        EXPECT_NEAR(share_in_disk(*map, x, y, r), 1 / (2 - area), 0.004)
+            << x << " " << y << " " << r;
+    }
+}
+
+// Thinner than what the grid of places resolves, and still on many of those looked at afterwards.
+TEST(Expression2d, FindsAThinLine) {
+    const auto map =
+        mapping("expression-2d:density=[abs(x-0.30171)<0.0001?5000:1],tolerance=0.002");
+    const PointSet image = warped(*map, make("sobol", points(1U << 15, 2)));
+    std::size_t inside = 0;
+    for (std::size_t i = 0; i < image.count(); ++i)
+        inside += std::abs(image[i][0] - 0.30171) < 0.0001 ? 1U : 0U;
+    EXPECT_NEAR(static_cast<double>(inside) / 32768, 1 / (2 - 0.0002), 0.004);
+}
+
+// The integral of its domain is right, too, or is refused.
+TEST(Expression2d, DomainKnowsWhatIsNarrow) {
+    const double r = 0.5 / 256;
+    const double area = std::numbers::pi * r * r;
+    for (const double x : {0.4425, 0.1234, 0.71}) {
+        const auto map = mapping(fmt::format(
+            "expression-2d:density=[(x-{})^2+(y-0.5)^2<{}^2?{}:1],tolerance=0.01", x, r, 1 / area));
+        EXPECT_NEAR(map->domain()->density(std::vector{0.9, 0.9}), 1 / (2 - area), 2e-3) << x;
     }
 }
 
