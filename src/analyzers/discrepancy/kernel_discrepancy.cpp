@@ -13,15 +13,19 @@
 //     stein      the kernel Stein discrepancy, of the Langevin Stein kernel over the base kernel
 //                (1 + |x - y|^2 / h^2)^(-1/2) (math/kernels/stein.cpp); E K(x, y) = 0
 //
-// The target is the uniform distribution on the unit cube, with the expectations in closed form
-// (points of another domain are taken to the cube first); or, with --target, the points of a file;
-// or, for stein, the density whose scores grad log p stand behind the coordinates in each row.
+// The target is the uniform distribution on the unit cube, with the expectations in closed form; or
+// that of the points' own domain, where its coordinates are independent, by integrals over their
+// distribution functions (math/kernels/domain_kernel.hpp), and for the periodic kernel a box, whose
+// torus is that of the cube; or, with --target, the points of a file; or, for stein, the density
+// whose scores grad log p follow the coordinates in each row.
 //
 // Shape   points n x d in [0, 1], in any domain, or with --target and stein anywhere; for stein n x
 //         2d, first d coordinates, then d scores.
 // Units   h is a length. By default sqrt(d / 6), the root mean square distance of two uniform
-//         points; with --target the median distance of all points; for stein 1.
-// Cost    n^2 / 2 values of K, with m points of a target (n + m)^2 / 2; each takes 0.5 to 2 ns in
+//         points of the cube; with --target the median distance of all points, by all pairs or, if
+//         these are more than 2^22, by so many drawn at random; for stein 1.
+// Cost    on a domain other than a cube some 100 us a point besides;
+//         n^2 / 2 values of K, with m points of a target (n + m)^2 / 2; each takes 0.5 to 2 ns in
 //         few dimensions on one core. The periodic kernel on a line or in the plane: O(n log n) for
 //         n > 4096 (math/l2). O(n) memory.
 // Promise the same for any number of threads. Values of K are added as whole numbers; `value` is
@@ -40,6 +44,7 @@
 #include "core/text.hpp"
 #include "io/files.hpp"
 #include "math/kernels/bandwidth.hpp"
+#include "math/kernels/domain_kernel.hpp"
 #include "math/kernels/pair_sums.hpp"
 #include "math/l2/squares.hpp"
 
@@ -57,7 +62,8 @@ constexpr Param<Choice> kernel{
 constexpr Param<Path> target{
     {.name = "target",
      .unit = "file",
-     .help = "Points to compare with; default: the uniform distribution on the unit cube"}};
+     .help = "Points to compare with; default: the distribution of the points' own domain, if its "
+             "coordinates are independent"}};
 
 constexpr Param<double> bandwidth{
     .name = "bandwidth",
@@ -67,8 +73,8 @@ constexpr Param<double> bandwidth{
     .unit = "length",
     .help =
         "Length scale h of gaussian, matern and stein; default: sqrt(d/6), the root mean square "
-        "distance of two uniform points; with --target the median distance of all points; for "
-        "stein 1"};
+        "distance of two uniform points of the unit cube; with --target the median distance of all "
+        "points; for stein 1"};
 
 constexpr Param<Choice> smoothness{.name = "smoothness",
                                    .fallback = "2.5",
@@ -83,7 +89,8 @@ struct Setting {
     kernels::Columns points;
     std::size_t dimension;
     std::optional<double> h = {};
-    const char* rule = "";  ///< where h is from
+    const char* rule = "";    ///< where h is from
+    std::uint64_t pairs = 0;  ///< of points, whose median distance it is
     const char* method = "all-pairs";
 };
 
@@ -111,31 +118,53 @@ void require_finite(const PointSet& points, const std::string& file) {
          *bad);
 }
 
-/// The points on the unit cube, where those that follow the domain's density are uniform.
-/// @throws Error(input)
-PointSet on_cube(const PointSet& points) {
+/// @throws Error(input) where points are outside their domain
+void require_inside(const PointSet& points) {
     const Domain& domain = *points.domain;
-    if (!domain.even())
-        fail_with_hint(ErrorKind::input, "--target takes points to compare with",
-                       "kernel-discrepancy compares with the uniform distribution on the unit "
-                       "cube; no map takes {} to it evenly",
-                       domain.title());
     Outside outside;
-    const std::size_t d = domain.cube_dimension();
-    std::vector<double> rows(points.count() * d);
-    for (std::size_t i = 0; i < points.count(); ++i) {
-        if (!domain.contains(points[i])) {
-            outside.add(i, points[i]);
-            continue;
-        }
-        const auto row = std::span(rows).subspan(i * d, d);
-        domain.to_cube(points[i], row);
-        for (double& x : row) x = std::clamp(x, 0.0, 1.0);
-    }
+    for (std::size_t i = 0; i < points.count(); ++i)
+        if (!domain.contains(points[i])) outside.add(i, points[i]);
     if (outside.count > 0)
         refuse(outside, points.count(), domain,
                outside_hint(domain) + "; --target takes points anywhere");
-    return {std::move(rows), d};
+}
+
+bool is_unit_cube(const Domain& domain) { return domain.spec() == unit_cube(1)->spec(); }
+
+/// @throws Error(input) where coordinates of the domain depend on each other
+void require_independent_axes(const PointSet& points) {
+    const Domain& domain = *points.domain;
+    if (!kernels::has_independent_axes(domain, points.flat()))
+        fail_with_hint(ErrorKind::input, "--target takes points to compare with",
+                       "kernel-discrepancy knows no mean of its kernels over {}: it takes domains "
+                       "whose coordinates are independent and continuous",
+                       domain.title());
+}
+
+/// Points of a box on the unit cube. @throws Error(input) for points of other domains
+PointSet on_cube(const PointSet& points) {
+    const Domain& domain = *points.domain;
+    PointSet cube = points;
+    if (is_unit_cube(domain)) return cube;
+    const std::size_t d = points.dimension();
+    const Box box = domain.bounding_box();
+    bool straight = domain.even() && domain.cube_dimension() == d &&
+                    std::abs(volume_of(box) - domain.measure()) <= 1e-12 * domain.measure();
+    for (std::size_t i = 0; straight && i < points.count(); ++i) {
+        domain.to_cube(points[i], cube[i]);
+        for (std::size_t k = 0; k < d; ++k) {
+            const double place = (points[i][k] - box.low[k]) / box.extent(k);
+            straight = straight && std::abs(cube[i][k] - place) <= 1e-9;
+            cube[i][k] = std::clamp(cube[i][k], 0.0, 1.0);
+        }
+    }
+    if (!straight)
+        fail_with_hint(ErrorKind::input,
+                       "--kernel gaussian and matern take domains of independent coordinates; "
+                       "warp --inverse takes points back to the cube",
+                       "--kernel periodic is of the unit cube and of boxes, not of {}",
+                       domain.title());
+    return cube;
 }
 
 /// h as it is given, or `fallback` by a rule.
@@ -145,13 +174,17 @@ void set_bandwidth(Setting& setting, const Values& options, double fallback, con
     setting.rule = given ? "given" : rule;
 }
 
+unsigned order_of(const Values& options) {
+    const std::string nu = options[smoothness];
+    return nu == "0.5" ? 0 : nu == "1.5" ? 1 : 2;
+}
+
 kernels::KernelPtr kernel_of(const Setting& setting, const Values& options) {
     const std::string name = options[kernel];
     if (name == "periodic") return kernels::periodic(setting.dimension);
     if (name == "gaussian") return kernels::gaussian(setting.dimension, *setting.h);
     if (name == "stein") return kernels::stein(setting.dimension, *setting.h);
-    const std::string nu = options[smoothness];
-    return kernels::matern(setting.dimension, *setting.h, nu == "0.5" ? 0 : nu == "1.5" ? 1 : 2);
+    return kernels::matern(setting.dimension, *setting.h, order_of(options));
 }
 
 /// The most that the root of a square is off which is off by `error`.
@@ -173,6 +206,7 @@ Report report_of(const Setting& setting, const kernels::SquaredDiscrepancy& foun
         report.add("bandwidth", *setting.h);
         report.add("bandwidth_rule", setting.rule);
     }
+    if (setting.pairs > 0) report.add("bandwidth_pairs", setting.pairs);
     report.add("target", compared);
     report.add("method", setting.method);
     return report;
@@ -192,21 +226,32 @@ std::optional<kernels::SquaredDiscrepancy> by_exact_sums(const PointSet& cube,
                                        one_point / static_cast<double>(cube.count())};
 }
 
-Report against_uniform(const PointSet& points, const Values& options, const RunContext& run) {
-    const PointSet cube = on_cube(points);
-    const std::size_t d = cube.dimension();
-    Setting setting{.points = {cube.flat(), d}, .dimension = d};
-    if (options[kernel] != "periodic")
-        set_bandwidth(setting, options, kernels::uniform_distance(d), "uniform");
-    const bool same = points.domain->spec() == "unit-cube";
-    const char* compared = same ? "uniform" : "domain";
-    if (const auto found = by_exact_sums(cube, options, run)) {
+/// The kernel with its means over the points' own domain.
+kernels::KernelPtr kernel_over_domain(const PointSet& points, const Setting& setting,
+                                      const Values& options, const RunContext& run) {
+    if (options[kernel] == "periodic" || is_unit_cube(*points.domain))
+        return kernel_of(setting, options);
+    require_independent_axes(points);
+    const auto order =
+        options[kernel] == "matern" ? std::optional(order_of(options)) : std::nullopt;
+    return kernels::of_domain(points.domain, *setting.h, order, run);
+}
+
+Report against_domain(const PointSet& points, const Values& options, const RunContext& run) {
+    require_inside(points);
+    const bool periodic = options[kernel] == "periodic";
+    const PointSet on = periodic ? on_cube(points) : points;
+    const std::size_t d = on.dimension();
+    Setting setting{.points = {on.flat(), d}, .dimension = d};
+    if (!periodic) set_bandwidth(setting, options, kernels::uniform_distance(d), "uniform");
+    const char* compared = is_unit_cube(*points.domain) ? "uniform" : "domain";
+    if (const auto found = by_exact_sums(on, options, run)) {
         setting.method = "exact-sums";
         return report_of(setting, *found, compared, options);
     }
-    const auto found =
-        kernels::squared_from_mean(*kernel_of(setting, options), setting.points, run);
-    return report_of(setting, found, compared, options);
+    const auto known = kernel_over_domain(points, setting, options, run);
+    return report_of(setting, kernels::squared_from_mean(*known, setting.points, run), compared,
+                     options);
 }
 
 /// @throws Error(input) for points that the periodic kernel does not take
@@ -239,8 +284,10 @@ Report against_file(const PointSet& points, const Values& options, const RunCont
     Setting setting{.points = {points.flat(), d}, .dimension = d};
     const kernels::Columns columns(others.flat(), d);
     if (options[kernel] != "periodic" && !options.given(bandwidth)) {
-        setting.h = kernels::median_distance(setting.points, columns, d);
-        setting.rule = "median";
+        const auto median = kernels::median_distance(setting.points, columns, d, run);
+        setting.h = median.value;
+        setting.pairs = median.pairs;
+        setting.rule = median.of_all ? "median" : "median-of-sample";
         if (!(*setting.h >= bandwidth.low && *setting.h <= bandwidth.high))
             fail_with_hint(ErrorKind::input, "--bandwidth says a length scale",
                            "the median distance of the points and those of {} is {}, which is no "
@@ -278,7 +325,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     run.need_memory(16 * numbers, "the columns of kernel-discrepancy");
     if (options[kernel] == "stein") return against_scores(points, options, run);
     return options.given(target) ? against_file(points, options, run)
-                                 : against_uniform(points, options, run);
+                                 : against_domain(points, options, run);
 }
 
 }  // namespace
@@ -305,10 +352,12 @@ Analyzer unit() {
               "periodic|gaussian|matern|stein"},
              {"bandwidth", "the length scale h, not of the kernel periodic", false},
              {"bandwidth_rule",
-              "given; or uniform: sqrt(d/6); median: the median distance of all points; unit: 1",
-              false, "given|uniform|median|unit"},
+              "given; or uniform: sqrt(d/6); median: the median distance of all pairs of points, "
+              "median-of-sample: of some drawn at random; unit: 1",
+              false, "given|uniform|median|median-of-sample|unit"},
+             {"bandwidth_pairs", "pairs of points whose median distance it is", false},
              {"target",
-              "uniform: on the unit cube; domain: the density of the points' own domain; file: the "
+              "uniform: on the unit cube; domain: that of the points' own domain; file: the "
               "points of --target; scores: the density that has them",
               true, "uniform|domain|file|scores"},
              {"method",

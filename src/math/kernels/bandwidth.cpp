@@ -4,34 +4,59 @@
 #include <algorithm>
 #include <cmath>
 
-namespace stipple::kernels {
+#include "core/rng.hpp"
 
-double median_distance(const Columns& points, const Columns& others, std::size_t dimension) {
-    constexpr std::size_t most = 1000;
-    const std::size_t all = points.count() + others.count();
-    const std::size_t some = std::min(all, most);
-    std::vector<double> rows;
-    for (std::size_t s = 0; s < some; ++s) {
-        const std::size_t i = s * all / some;
-        const bool mine = i < points.count();
-        const Columns& from = mine ? points : others;
-        for (std::size_t k = 0; k < dimension; ++k)
-            rows.push_back(from.axis(k)[mine ? i : i - points.count()]);
-    }
-    std::vector<double> squares;
-    for (std::size_t i = 0; i < some; ++i)
-        for (std::size_t j = 0; j < i; ++j) {
-            double square = 0;
-            for (std::size_t k = 0; k < dimension; ++k) {
-                const double u = rows[i * dimension + k] - rows[j * dimension + k];
-                square += u * u;
-            }
-            squares.push_back(square);
+namespace stipple::kernels {
+namespace {
+
+/// The middle one of some numbers, or the mean of both in the middle.
+double median_of(std::vector<double>& numbers) {
+    if (numbers.empty()) return 0;
+    const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
+    std::ranges::nth_element(numbers, middle);
+    if (numbers.size() % 2 != 0) return *middle;
+    const double below = *std::max_element(numbers.begin(), middle);
+    return below + (*middle - below) / 2;
+}
+
+}  // namespace
+
+MedianDistance median_distance(const Columns& points, const Columns& others, std::size_t dimension,
+                               const RunContext& run) {
+    constexpr std::uint64_t most = std::uint64_t{1} << 22;
+    constexpr std::size_t often = 65536;
+    const std::uint64_t all = points.count() + others.count();
+    MedianDistance median{.pairs = all * (all - 1) / 2};
+    median.of_all = median.pairs <= most;
+    if (!median.of_all) median.pairs = most;
+    run.need_memory(8 * static_cast<double>(median.pairs), "the distances of pairs");
+    std::vector<double> distances;
+    distances.reserve(median.pairs);
+    const auto add = [&](std::uint64_t i, std::uint64_t j) {
+        if (distances.size() % often == 0) run.check_stop();
+        double square = 0;
+        for (std::size_t k = 0; k < dimension; ++k) {
+            const auto at = [&](std::uint64_t row) {
+                return row < points.count() ? points.axis(k)[row]
+                                            : others.axis(k)[row - points.count()];
+            };
+            square += (at(i) - at(j)) * (at(i) - at(j));
         }
-    if (squares.empty()) return 0;
-    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-    std::ranges::nth_element(squares, middle);
-    return std::sqrt(*middle);
+        distances.push_back(std::sqrt(square));
+    };
+    if (median.of_all) {
+        for (std::uint64_t i = 0; i < all; ++i)
+            for (std::uint64_t j = 0; j < i; ++j) add(i, j);
+    } else {
+        const Rng rng(1);
+        for (std::uint64_t p = 0; p < most; ++p) {
+            const std::uint64_t i = rng.below(2 * p, all);
+            const std::uint64_t j = rng.below(2 * p + 1, all - 1);
+            add(i, j + (j >= i ? 1 : 0));
+        }
+    }
+    median.value = median_of(distances);
+    return median;
 }
 
 double uniform_distance(std::size_t dimension) {

@@ -117,6 +117,21 @@ Integer pair_sum(const Kernel& kernel, const Columns& rows, const Columns& colum
     return sum.value();
 }
 
+/// The sum of the kernel's means.
+Integer mean_sum(const Kernel& kernel, const Columns& points, int exponent, const RunContext& run) {
+    std::vector<FixedSum> parts(block_count(points.count(), rows_at_once), FixedSum(exponent));
+    for_each_block(silent(run), points.count(), rows_at_once, [&](const Block& block) {
+        std::vector<double> row(points.width());
+        for (std::size_t i = block.first; i < block.last; ++i) {
+            points.row(i, row.data());
+            parts[block.index].add(kernel.mean(row.data()));
+        }
+    });
+    FixedSum sum(exponent);
+    for (const FixedSum& part : parts) sum.add(part);
+    return sum.value();
+}
+
 /// What is known of the values K(x, x) of some points; no K(x, y) is larger than the largest.
 struct Diagonal {
     double largest = 0;
@@ -157,15 +172,10 @@ SquaredDiscrepancy squared_from_mean(const Kernel& kernel, const Columns& points
     const int exponent = exponent_above(std::max(diagonal.largest, kernel.total()));
     FixedSum total(exponent);
     total.add(kernel.total());
-    FixedSum means(exponent);
-    std::vector<double> row(points.width());
-    for (std::size_t i = 0; i < points.count(); ++i) {
-        points.row(i, row.data());
-        means.add(kernel.mean(row.data()));
-    }
     const Integer n = points.count();
+    const Integer means = mean_sum(kernel, points, exponent, run);
     const Integer pairs = pair_sum(kernel, points, points, exponent, run);
-    const Integer numerator = n * n * total.value() - 2 * n * means.value() + pairs;
+    const Integer numerator = n * n * total.value() - 2 * n * means + pairs;
     const double known = kernel.mean_diagonal();
     return {quotient(numerator, n * n, exponent),
             4 * kernel.rounding() * std::max(diagonal.largest, kernel.total()),

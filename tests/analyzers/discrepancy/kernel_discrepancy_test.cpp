@@ -6,6 +6,7 @@
 
 #include "core/domain.hpp"
 #include "core/rng.hpp"
+#include "core/spec.hpp"
 #include "core/text.hpp"
 #include "math/functions/normal_distribution.hpp"
 #include "pipeline/chain.hpp"
@@ -206,6 +207,88 @@ TEST(KernelDiscrepancy, TakesOtherDomainsToTheCube) {
     set.domain = box_domain(box);
     EXPECT_NEAR(squared(set), plain, 1e-13);
     EXPECT_EQ(analyze(unit, set, {}).text("target"), "domain");
+}
+
+/// Points with the domain of a warp.
+PointSet with_domain(PointSet set, const std::string& spec) {
+    const std::vector<Spec> specs{parse_spec(spec)};
+    const WarpChain chain(specs, set.dimension());
+    set.domain = chain.domain();
+    return set;
+}
+
+// With Y standard normal, E exp(-(x - Y)^2 / (2 h^2)) = h / sqrt(h^2 + 1) exp(-x^2 / (2 (h^2 + 1))), and
+// of x = Y' the same with 2 in place of 1 and x = 0.
+TEST(KernelDiscrepancy, OfTheNormalDistributionInClosedForm) {
+    for (const std::size_t d : {1, 2}) {
+        const PointSet set = with_domain(d == 1 ? points_of({{-0.8}, {0.1}, {2.5}})
+                                                : points_of({{-0.8, 0.3}, {0.1, -1}, {2.5, 0}}),
+                                         "normal");
+        for (const double h : {0.3, 1.0, 4.0}) {
+            double means = 0;
+            double pairs = 0;
+            for (std::size_t i = 0; i < 3; ++i) {
+                double mean = 1;
+                for (const double x : set[i])
+                    mean *= h / std::sqrt(h * h + 1) * std::exp(-x * x / (2 * (h * h + 1)));
+                means += mean;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    double square = 0;
+                    for (std::size_t j = 0; j < d; ++j)
+                        square += std::pow(set[i][j] - set[k][j], 2);
+                    pairs += std::exp(-square / (2 * h * h));
+                }
+            }
+            const double total = std::pow(h / std::sqrt(h * h + 2), static_cast<double>(d));
+            const Report report =
+                analyze(unit, set, {{"kernel", "gaussian"}, {"bandwidth", format_number(h)}});
+            EXPECT_NEAR(report.number("squared"), total - 2 * means / 3 + pairs / 9, 1e-10) << h;
+            EXPECT_EQ(report.text("target"), "domain");
+        }
+    }
+}
+
+// On a box, which is a uniform domain, too, the lengths scale: exp(-|x - y|) on [0, 2] is exp(-2 |x - y|)
+// on [0, 1]; and the exponential distribution has E exp(-|x - Y|) = (x + 1/2) e^-x, 1/2 on average.
+TEST(KernelDiscrepancy, OfBoxesAndTheExponentialDistribution) {
+    PointSet set = make("random", points(40, 1));
+    const Settings half = {{"kernel", "matern"}, {"smoothness", "0.5"}, {"bandwidth", "0.5"}};
+    const Settings one = {{"kernel", "matern"}, {"smoothness", "0.5"}, {"bandwidth", "1"}};
+    const double plain = squared(set, half);
+    const Box box{{0}, {2}};
+    scale_into(box, set.flat());
+    set.domain = box_domain(box);
+    EXPECT_NEAR(squared(set, one), plain, 1e-10);
+    const double x = 0.75;
+    EXPECT_NEAR(squared(with_domain(points_of({{x}}), "exponential"), one),
+                0.5 - 2 * (1 + 2 * x) * std::exp(-x) / 2 + 1, 1e-9);
+}
+
+TEST(KernelDiscrepancy, RefusesDomainsWhoseMeansItDoesNotKnow) {
+    const PointSet disk = with_domain(points_of({{0.1, 0.2}, {-0.3, 0.4}}), "disk");
+    for (const char* kernel : {"periodic", "gaussian", "matern"})
+        EXPECT_TRUE(refusal(disk, {{"kernel", kernel}}).starts_with("input: ")) << kernel;
+    EXPECT_TRUE(refusal(with_domain(points_of({{0.5}}), "normal"), {})
+                    .starts_with("input: --kernel periodic is of the unit cube and of boxes"));
+}
+
+// Distances of 0, 1, 3 and 7: 1, 2, 3, 4, 6, 7. Without the last, 1, 2, 3.
+TEST(KernelDiscrepancy, MedianIsThatOfAllPairs) {
+    const TemporaryFile two("3\n7\n");
+    const Settings settings = {{"kernel", "gaussian"}, {"target", two.path()}};
+    const Report report = analyze(unit, points_of({{0}, {1}}), settings);
+    EXPECT_EQ(report.number("bandwidth"), 3.5);
+    EXPECT_EQ(report.number("bandwidth_pairs"), 6);
+    const TemporaryFile one("3\n");
+    EXPECT_EQ(analyze(unit, points_of({{0}, {1}}), {{"kernel", "gaussian"}, {"target", one.path()}})
+                  .number("bandwidth"),
+              2);
+    const TemporaryFile many(text_of(make("random", points(3000, 2), {}, {.seed = 7})));
+    const Report sampled = analyze(unit, make("random", points(2000, 2)),
+                                   {{"kernel", "gaussian"}, {"target", many.path()}});
+    EXPECT_EQ(sampled.text("bandwidth_rule"), "median-of-sample");
+    EXPECT_EQ(sampled.number("bandwidth_pairs"), 1 << 22);
+    EXPECT_NEAR(sampled.number("bandwidth"), 0.5120, 0.005);  // of two uniform points of the square
 }
 
 TEST(KernelDiscrepancy, IsTheSameForAnyThreadsWithEveryKernel) {

@@ -257,12 +257,12 @@ TEST(Bandwidth, IsTheMedianDistanceOfAllPoints) {
     const PointSet line = points_of({{0}, {1}, {3}});  // distances 1, 2, 3
     const PointSet one = points_of({{3}});             // and with it 0, 1, 2, 2, 3, 3
     const kernels::Columns none(std::span<const double>(), 1);
-    EXPECT_EQ(kernels::median_distance({line.flat(), 1}, none, 1), 2);
-    EXPECT_EQ(kernels::median_distance({line.flat(), 1}, {one.flat(), 1}, 1), 2);
+    EXPECT_EQ(kernels::median_distance({line.flat(), 1}, none, 1).value, 2);
+    EXPECT_EQ(kernels::median_distance({line.flat(), 1}, {one.flat(), 1}, 1).value, 2);
     EXPECT_DOUBLE_EQ(kernels::uniform_distance(6), 1);
     // The median distance in the unit square is 0.5120.
     const PointSet many = make("random", points(30'000, 2));
-    EXPECT_LE(off(kernels::median_distance({many.flat(), 2}, none, 2), 0.512), 0.01);
+    EXPECT_LE(off(kernels::median_distance({many.flat(), 2}, none, 2).value, 0.512), 0.01);
 }
 
 }  // namespace stipple::testing::kernels_test
