@@ -89,6 +89,23 @@ void generator(const char* spec, std::string_view bytes) {
         });
 }
 
+/// A table of runs and what came of them, for each method that takes any.
+void sensitivity(std::string_view bytes) {
+    const PointSet table = read(as_file(bytes), {}, small_run());
+    for (const char* spec : {"sensitivity", "sensitivity:method=ranks", "moments"})
+        accepted([&] {
+            const std::string text = to_text(analyze(spec, table, {}, small_run()));
+            require(text.find(" nan") == text.npos && text.find(" inf") == text.npos,
+                    "a result that is no number");
+        });
+}
+
+/// Points that may be compressed.
+void compressed(std::string_view bytes) {
+    for (const PointSet& set : read_sets(as_file(bytes), {}, small_run()))
+        require(set.count() > 0 && set.dimension() > 0, "a set without points");
+}
+
 void reports(std::string_view bytes) {
     looks_like_reports(bytes);
     const std::vector<Measurement> found = read_reports(bytes, "p");
@@ -180,6 +197,11 @@ std::vector<Target> file_targets() {
         {"polynomial", [](Bytes b) { generator("polynomial-lattice:vector-file=", b); }},
         {"matrices", [](Bytes b) { generator("digital-net:matrices=", b); }},
         {"directions", [](Bytes b) { generator("sobol:directions=", b); }},
+        {"subset", [](Bytes b) { generator("subset:effort=1e-5,from=", b); }},
+        {"optimized", [](Bytes b) { generator("optimized:effort=1e-6,from=", b); }},
+        {"extended", [](Bytes b) { generator("latin-hypercube:extend=", b); }},
+        {"sensitivity", sensitivity},
+        {"compressed", compressed},
         {"warp", [](Bytes b) { warp(std::string(b), 2); }},
         {"reports", reports},
         {"study-config", study_config},

@@ -405,3 +405,38 @@ def test_other_threads_run_meanwhile():
     over.set()
     thread.join()
     assert len([t for t in counted if began < t < ended]) > 3 or ended - began < 0.01
+
+
+WRONG = [
+    lambda: stipple.generate("halton", -1), lambda: stipple.generate("nothing", 5), lambda: stipple.generate("halton", 1e300),
+    lambda: stipple.generate("optimized", 5, 2, objective="nothing"), lambda: stipple.generate("subset", 5, 2, by=[1]),
+    lambda: stipple.generate("halton", 5, 2, warps=["disk:radius=-1"]), lambda: stipple.generate("halton", 5, 0),
+    lambda: stipple.analyze("moments", [[float("nan"), 1]]), lambda: stipple.analyze("moments", [[]]),
+    lambda: stipple.analyze("moments", "nowhere.csv"), lambda: stipple.analyze("sensitivity", [[1, 2]]),
+    lambda: stipple.analyze("star-discrepancy", np.zeros((2, 2, 2))), lambda: stipple.analyze("moments", object()),
+    lambda: stipple.analyze("moments", [[0.5, "x"]]), lambda: stipple.analyze("kernel-discrepancy", [[0.5]], bandwidth=1),
+]  # fmt: skip
+
+
+def test_wrong_calls_from_eight_threads_are_refused_in_each():
+    here = stipple.generate("random", 50, 2, seed=3, threads=1)
+    wrong = []
+
+    def call(first):
+        for i in range(3 * len(WRONG)):
+            try:
+                WRONG[(first + i) % len(WRONG)]()
+                wrong.append(f"{(first + i) % len(WRONG)} was taken")
+            except (stipple.Error, ValueError, TypeError, OSError, OverflowError, MemoryError):
+                pass
+            except BaseException as error:
+                wrong.append(repr(error))
+            if (stipple.generate("random", 50, 2, seed=3, threads=1) != here).any():
+                wrong.append("other points")
+
+    threads = [threading.Thread(target=call, args=(2 * k,)) for k in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong
