@@ -22,6 +22,7 @@
 #include "io/files.hpp"
 #include "io/provenance.hpp"
 #include "io/source_text.hpp"
+#include "page/experiment.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/generated.hpp"
 #include "pipeline/pipeline.hpp"
@@ -91,7 +92,8 @@ std::string title_of_points(const Provenance& from, const std::string& source) {
     if (from.generator.empty())
         return source == "-" || source.empty() ? "points" : source.substr(source.rfind('/') + 1);
     std::string title = from.generator;
-    for (const std::string& warp : from.warps) title += ", " + warp;
+    for (const std::string& warp : from.warps)
+        title += ", " + (page::is_experiment(warp) ? "parameters" : warp);
     return title;
 }
 

@@ -165,7 +165,7 @@ namespace {
 
 constexpr const char* experiment =
     R"({"parameters":[{"name":"width","unit":"mm","range":[2,3]},)"
-    R"({"name":"load","unit":"kN","distribution":"normal","mean":50,"standard-deviation":5},)"
+    R"({"name":"load","unit":"kN","distribution":"normal","mean":50,"deviation":5},)"
     R"({"name":"material","levels":["steel","brass"]}],"constraints":["width*load < 200"]})";
 
 }  // namespace
@@ -201,13 +201,13 @@ TEST(Report, OfAnExperimentIsReadable) {
     good(
         box.shell("stipple generate sobol -n 64 --parameters p.json -o e.json && "
                   "stipple generate sobol -n 64 --parameters p.json -o e.csv && "
-                  "stipple report e.json -o a.html && "
-                  "stipple report e.csv --parameters p.json -o b.html"));
+                  "stipple report e.json --quiet -o a.html && "
+                  "stipple report e.csv --parameters p.json --quiet -o b.html"));
     for (const char* file : {"a.html", "b.html"}) {
         const std::string page = box.read(file);
         for (const char* words :
              {"<h3>Parameters</h3>", "width</th><td>mm</td><td>range 2 to 3</td>",
-              "<td>normal; mean 50, standard-deviation 5</td>", "<td>levels steel, brass</td>",
+              "<td>normal; mean 50, deviation 5</td>", "<td>levels steel, brass</td>",
               "width*load &lt; 200", ">steel</text>", ">brass</text>", "named parameters",
               "would mix the units"})
             EXPECT_THAT(page, HasSubstr(words)) << file;

@@ -407,10 +407,11 @@ TEST(Reproduce, OpensNoFileThatItsProvenanceNames) {
         const bool only_writes = meta.find("output") != std::string::npos ||
                                  meta.find("mask-image") != std::string::npos;
         EXPECT_EQ(outcome.code, only_writes ? 1 : 3) << meta << outcome.out << outcome.err;
-        if (!only_writes)
+        if (!only_writes) {
             EXPECT_THAT(outcome.err,
                         ::testing::AnyOf(HasSubstr("'canary'"), HasSubstr("contradicts --count")))
                 << meta;
+        }
         EXPECT_EQ(box.read("canary"), "precious");
         auto files = box.files();
         std::erase(files, "again.csv");

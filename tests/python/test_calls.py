@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 import io
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -293,6 +294,28 @@ def test_studies_are_tables(run):
     mean = [m for m in study.means() if m.key == "value"][0]
     assert mean.sets == 3 and mean.low <= mean.mean <= mean.high
     assert "<table>" in study._repr_html_()
+
+
+# Whatever two doubles coordinates are, there is a picture without a number that is none, or a refusal.
+def test_pictures_of_all_kinds_of_pairs():
+    random = np.random.default_rng(3)
+    pairs = list(random.integers(0, 2**64, (300, 2), dtype=np.uint64).view(np.float64))
+    pairs += [(x, np.nextafter(x, np.inf)) for x in (0.0, 1.0, 1e15, 1e300, -1e-300, 5e-324)]
+    pairs += [(x, x) for x in (0.0, 1e-320, -1e307)] + [(-1e307, 1e307), (1e-300, 1e300), (-1e308, 1e308)]
+    refused = 0
+    for pair in pairs:
+        if not np.isfinite(pair).all():
+            continue
+        for d in (1, 2, 3, 4):
+            x = np.array([[pair[(i + k) % 2] for k in range(d)] for i in range(2)])
+            try:
+                svg = stipple.plot(x).svg
+            except stipple.Error as error:
+                assert "an axis reaches from" in str(error) and abs(x).max() > 1e307
+                refused += 1
+                continue
+            assert len(svg) < 100_000 and not re.search(r"[ \"(ML,](-?nan|-?inf)[ \")<,]", svg), pair
+    assert 0 < refused < 400
 
 
 def test_pictures_and_pages(tmp_path):
