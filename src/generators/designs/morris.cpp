@@ -15,7 +15,8 @@
 // Shape   n = r (k + 1).
 // Cost    O(n k).
 // Promise trajectory t is the same for any number of them: more reuse all there were.
-// Beware  a factor whose effects have the period delta looks inert, with --middles any period 1/2.
+// Beware  what has the period delta in a factor looks as if it did not depend on it; with --middles that
+//         is the period 1/2, for every p.
 // Source  M. D. Morris, Technometrics 33 (1991) 161-174, doi:10.1080/00401706.1991.10484804;
 //         F. Campolongo, A. Saltelli, J. Cariboni, Comput. Phys. Commun. 182 (2011) 978-988,
 //         doi:10.1016/j.cpc.2010.12.039 (radial).
