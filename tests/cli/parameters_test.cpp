@@ -164,15 +164,15 @@ TEST_F(Parameters, DesignsHaveTheirLevels) {
 TEST_F(Parameters, FixedDesignsKeepWhatHolds) {
     box.write("c.json", R"({"parameters": [{"name": "a", "range": [0, 1]}, {"name": "b",
         "range": [0, 1]}, {"name": "c", "integers": [1, 3]}], "constraints": ["a*b < 0.5"]})");
-    for (const std::string design : {"box-behnken", "central-composite", "factorial -n 27",
-                                     "plackett-burman", "fast", "grid -n 27", "jittered -n 27"}) {
+    for (const std::string design : {"box-behnken", "factorial -n 27", "plackett-burman", "fast",
+                                     "grid -n 27", "jittered -n 27"}) {
         const Outcome made =
             box.shell("stipple generate " + design + " --parameters c.json -o o.csv");
         EXPECT_EQ(made.code, 0) << design << made.err;
         EXPECT_THAT(made.err, HasSubstr("satisfy the constraints")) << design;
         EXPECT_EQ(text("awk -F, 'NR > 1 && $1 * $2 >= 0.5' o.csv"), "") << design;
     }
-    EXPECT_EQ(text("stipple generate factorial -n 27 --parameters c.json | wc -l"), "25\n");
+    EXPECT_EQ(text("stipple generate factorial -n 27 --parameters c.json --quiet | wc -l"), "25\n");
 }
 
 // Rows of one sequence: those that hold, in order.
