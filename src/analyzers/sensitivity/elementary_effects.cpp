@@ -74,6 +74,7 @@ Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Res
              trajectories.size());
     const UnitInputs unit = unit_inputs(inputs, false);
     const TermTable table = effect_table(layout, inputs.values, unit.u, response.y, trajectories);
+    constexpr double caution = 20;
     const auto found = bootstrapped(
         table, 3 * k,
         [&](std::span<const double> means, std::span<double> values) {
@@ -83,12 +84,14 @@ Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Res
                 values[2 * k + i] = std::sqrt(std::max(square, 0.0) * r / (r - 1));
             }
         },
-        setting, run);
-    Effects effects{.used = trajectories.size() * layout.group,
-                    .samples = trajectories.size(),
-                    .kinds = {{"mu", part_of(found, 0, k)},
-                              {"mu_star", part_of(found, k, k)},
-                              {"sigma", part_of(found, 2 * k, k)}}};
+        caution, setting, run);
+    Effects effects{
+        .used = trajectories.size() * layout.group,
+        .samples = trajectories.size(),
+        .kinds = {{"mu", part_of(found, 0, k)},
+                  {"mu_star", part_of(found, k, k)},
+                  {"sigma", part_of(found, 2 * k, k)}},
+        .no_intervals = too_few_for_intervals(trajectories.size(), least_rows, "trajectories")};
     effects.details.add("scale", unit.scale);
     return effects;
 }
