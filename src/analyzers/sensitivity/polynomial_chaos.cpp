@@ -87,19 +87,27 @@ void improve(Fold& fold, const Table& table, const Basis& basis, std::span<const
                                     table.values[i * columns + fit.chosen[t]]);
 }
 
+/// The largest degree at which the candidates are not too many, at least 1.
+std::size_t bearable_degree(std::size_t k, std::size_t n) {
+    const double most = std::min(600.0, 1e7 / static_cast<double>(n));
+    std::size_t degree = 1;
+    while (degree < max_degree && term_count(k, degree + 1) <= most) ++degree;
+    return degree;
+}
+
 /// Folds with their best polynomials of all degrees that are bearable and may help, or of the given one.
 std::vector<Fold> fitted_folds(const Basis& basis, std::span<const double> z,
                                const std::optional<std::size_t>& degree, const RunContext& run) {
     std::vector<Fold> folds = folds_of(z.size());
     const std::size_t k = basis.inputs.size();
     const auto rows = static_cast<double>(z.size());
-    const double most = std::min(600.0, 1e7 / rows);
-    for (std::size_t p = degree.value_or(1); p <= degree.value_or(max_degree); ++p) {
+    const std::size_t last = degree.value_or(bearable_degree(k, z.size()));
+    for (std::size_t p = degree.value_or(1); p <= last; ++p) {
         run.tick(p - 1, max_degree);
-        if (!degree && p > 1 && term_count(k, p) > most) break;
         if (std::ranges::all_of(folds, [p](const Fold& fold) { return fold.is_settled(p); })) break;
-        run.need_memory(8 * rows * (term_count(k, p) + most_terms * fold_count),
-                        "polynomial chaos");
+        const double terms = term_count(k, p);
+        const double picked = std::min(terms, static_cast<double>(most_terms));
+        run.need_memory(8 * rows * (terms + picked * fold_count), "polynomial chaos");
         Table table{.degree = p, .terms = basis_terms(basis.inputs, p), .values = {}};
         table.values = basis_values(basis.inputs, z.size(), table.terms, run);
         for_each_block(silent(run), folds.size(), 1, [&](const Block& block) {
@@ -322,10 +330,11 @@ std::optional<Effects> polynomial_chaos(const Inputs& inputs, const Response& re
         fail(ErrorKind::input, "the output {} has {} runs; polynomial chaos needs {}",
              response.name, runs.size(), least);
     const Centred f = centred(picked(response.y, runs));
-    run.need_memory(16.0 * static_cast<double>(runs.size() * inputs.size() * max_degree),
+    const std::size_t degree = setting.degree.value_or(bearable_degree(inputs.size(), runs.size()));
+    run.need_memory(16.0 * static_cast<double>(runs.size() * inputs.size() * (degree + 1)),
                     "polynomial chaos");
     std::vector<Fold> folds;
-    const auto bases = bases_of(inputs, runs, setting.degree.value_or(max_degree));
+    const auto bases = bases_of(inputs, runs, degree);
     for (std::size_t b = 0; b < bases.size(); ++b) {
         const auto share = 0.9 / static_cast<double>(bases.size());
         auto next = fitted_folds(
