@@ -278,7 +278,7 @@ Measurement Analysis::measured(const Waiting& set, const RunContext& run) const 
                          set.points.count()};
         });
     };
-    return timed(set.origin, set.points.domain, options, [&]() -> Found {
+    Measurement m = timed(set.origin, set.points.domain, options, [&]() -> Found {
         if (!one_of_several_) return found();
         try {
             return found();
@@ -288,6 +288,8 @@ Measurement Analysis::measured(const Waiting& set, const RunContext& run) const 
             throw Error(e.kind(), fmt::format("{}: {}", analyzer_.name, what), e.hint());
         }
     });
+    if (analyzer_.traits.table) m.domain = set.points.provenance.domain;  // of some of its columns
+    return m;
 }
 
 /// The run, its warnings with the set in front where there are others.

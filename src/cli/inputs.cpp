@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "core/text.hpp"
@@ -36,16 +37,25 @@ std::vector<const Analyzer*> analyzers_of(const Arguments& arguments) {
     return named;
 }
 
+/// Whether it is rows of tables that are read, for all analyzers.
+bool reads_tables(const Arguments& arguments) {
+    const auto analyzers = analyzers_of(arguments);
+    return !analyzers.empty() &&
+           std::ranges::all_of(analyzers, [](const Analyzer* a) { return a->traits.table; });
+}
+
 Reading reading_of(const std::string& path, const Arguments& arguments) {
     ReadOptions options{.source = path};
     std::string from = arguments.get("from").value_or("");
     options.single = from == "f32";
     const auto analyzers = analyzers_of(arguments);
-    options.densities = std::ranges::any_of(
-        analyzers, [](const Analyzer* analyzer) { return analyzer->traits.densities; });
-    options.gaps = !analyzers.empty() &&
-                   std::ranges::all_of(
-                       analyzers, [](const Analyzer* analyzer) { return analyzer->traits.table; });
+    options.densities = (arguments.verb == Verb::warp && !arguments.has("density-at")) ||
+                        std::ranges::any_of(analyzers, [](const Analyzer* analyzer) {
+                            return analyzer->traits.densities;
+                        });
+    // Plots and reports leave out rows with gaps.
+    options.gaps =
+        arguments.verb == Verb::plot || arguments.verb == Verb::report || reads_tables(arguments);
     auto type = arguments.get("input-dtype");
     if (!type && arguments.verb != Verb::convert) type = arguments.get("dtype");
     if (type) options.single = *type == "f32";
@@ -56,7 +66,8 @@ Reading reading_of(const std::string& path, const Arguments& arguments) {
     if (const auto file = arguments.get("parameters")) {
         const auto named = parameters::read_parameters(*file);
         options.levels = named.levels;
-        if (arguments.verb != Verb::warp) options.expected = named.names;
+        if (arguments.verb != Verb::warp && !reads_tables(arguments))
+            options.expected = named.names;
     }
     return {std::move(options), from.empty() ? nullptr : &io::format_named(from)};
 }
@@ -77,10 +88,39 @@ std::unique_ptr<io::PointStream> open_file(const std::string& path, const Argume
     return io::open_points(path, options, run, format);
 }
 
+/// What some columns of a table are on, as options tell or its own provenance does: for its analyzer, who
+/// knows which columns.
+void take_told(PointSet& table, const Arguments& arguments, const RunContext& run) {
+    if (arguments.has("rescale"))
+        fail(ErrorKind::usage, "--rescale: these are rows of a table, not points");
+    if (arguments.has("parameters") + arguments.has("bounds") + arguments.has("domain") > 1)
+        fail(ErrorKind::usage, "--parameters, --bounds and --domain: give one of them");
+    Provenance& told = table.provenance;
+    const auto tell = [&told](std::string domain, std::size_t dimension) {
+        told.domain = std::move(domain);
+        if (dimension > 0 || told.generator.empty()) told.dimension = dimension;
+    };
+    if (const auto file = arguments.get("parameters")) {
+        const auto named = parameters::read_parameters(*file, run);
+        tell(named.domain, named.names.size());
+        told.levels = named.levels;
+    }
+    if (const auto bounds = arguments.get("bounds")) {
+        const auto ranges = static_cast<std::size_t>(std::ranges::count(*bounds, ',')) + 1;
+        tell("box:bounds=[" + *bounds + "]", ranges > 1 ? ranges : 0);
+    }
+    if (const auto domain = arguments.get("domain")) tell(*domain, 0);
+    table.domain = unit_cube(table.dimension());
+}
+
 /// Domain and provenance as the program knows them.
 std::vector<PointSet> named(std::vector<PointSet> sets, const Arguments& arguments,
                             const RunContext& run) {
     for (PointSet& set : sets) {
+        if (reads_tables(arguments)) {
+            take_told(set, arguments, run);
+            continue;
+        }
         io::take_densities(set);
         set.domain = input_domain(set.provenance, set.dimension(), arguments, run);
         set.provenance.domain = set.domain->spec();
@@ -143,6 +183,32 @@ Error named_error(const Error& e, const std::string& input, const std::string& h
 void take_domain(PointSet& set, const Arguments& arguments) {
     if (const auto domain = arguments.get("domain"))
         set.domain = parse_domain(*domain, set.dimension());
+}
+
+std::size_t leave_out_gaps(PointSet& set, const std::string& input, const RunContext& run) {
+    const std::size_t d = set.dimension();
+    const std::size_t all = set.count();
+    std::vector<double> rows;
+    std::vector<double> densities;
+    for (std::size_t i = 0; i < all; ++i) {
+        if (std::ranges::any_of(set[i], [](double x) { return std::isnan(x); })) continue;
+        rows.insert(rows.end(), set[i].begin(), set[i].end());
+        if (!set.densities.empty()) densities.push_back(set.densities[i]);
+    }
+    const std::size_t left_out = all - rows.size() / d;
+    if (left_out == 0) return 0;
+    if (rows.empty())
+        fail(ErrorKind::input, "{}: each of its {} rows has a missing number",
+             io::source_name(input), all);
+    run.notify(fmt::format("{}: {} of {} rows are left out; numbers are missing in them",
+                           io::source_name(input), left_out, all));
+    PointSet kept(std::move(rows), d);
+    kept.domain = std::move(set.domain);
+    kept.densities = std::move(densities);
+    kept.provenance = std::move(set.provenance);
+    kept.provenance.count = kept.count();
+    set = std::move(kept);
+    return left_out;
 }
 
 std::vector<PointSet> read_input(const std::string& path, const Arguments& arguments,
@@ -248,6 +314,7 @@ PointSet of_the_cube(PointSet points, const Analyzer& analyzer) {
 }
 
 PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& arguments) {
+    if (analyzer.traits.table && reads_tables(arguments)) return points;
     take_domain(points, arguments);
     if (const auto bounds = arguments.get("bounds")) {
         const Box box = parse_box(*bounds, points.dimension());

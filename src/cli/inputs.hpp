@@ -44,6 +44,10 @@ std::unique_ptr<io::PointStream> open_input(const std::string& path, const Argum
 std::vector<PointSet> read_all(io::PointStream& stream, const Arguments& arguments,
                                const RunContext& run);
 
+/// Leaves out rows with a missing number (NaN), as runs that failed have it; notes and returns how many.
+/// @throws Error(input) where none remains
+std::size_t leave_out_gaps(PointSet& set, const std::string& input, const RunContext& run);
+
 /// What points of a file live on, as the file says.
 DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
                        const Arguments& arguments, const RunContext& run);

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -81,6 +82,7 @@ struct Loaded {
     std::optional<std::size_t> number;  ///< in its file, of several
     bool npy;                           ///< so that it may be a table that --grid saved
     std::string title;                  ///< of the points, by where they come from
+    std::size_t left_out = 0;           ///< rows with missing numbers
 };
 
 /// What a picture of points is called: "halton", "sobol, disk"; the file's name, where no generator is
@@ -138,6 +140,9 @@ std::string subtitle_of(const Loaded& set) {
     const Provenance& from = set.points.provenance;
     const std::size_t n = set.points.count();
     std::string text = fmt::format("{} point{}", n, n == 1 ? "" : "s");
+    if (set.left_out > 0)
+        text += fmt::format(", without {} that {} missing numbers", set.left_out,
+                            set.left_out == 1 ? "has" : "have");
     if (const Generator* generator = generator_named(from.generator)) {
         if (seed_matters(*generator, from)) text += fmt::format(", seed {}", from.seed);
         if (from.start > 0) text += fmt::format(", from index {}", from.start);
@@ -159,7 +164,9 @@ class Plot {
           session_(session),
           path_(output_of(arguments)),
           medium_(medium_of(arguments, path_)),
-          chart_(arguments.get("chart").value_or("")) {
+          chart_(arguments.get("chart").value_or("")),
+          labels_(names_in_list("labels")),
+          axes_(names_in_list("axes")) {
         take_style();
     }
 
@@ -171,6 +178,7 @@ class Plot {
             fail(ErrorKind::input,
                  "of points, reports and studies, one kind is drawn in one picture");
         pick_set();
+        rename_sources();
         const std::string bytes = !means_.empty()    ? picture_of_study()
                                   : reports_.empty() ? picture_of_points()
                                                      : picture_of_reports();
@@ -180,6 +188,14 @@ class Plot {
     }
 
   private:
+    /// The names that an option has between its commas.
+    [[nodiscard]] std::vector<std::string> names_in_list(const char* option) const {
+        std::vector<std::string> names;
+        for (const auto name : split(arguments_.get(option).value_or(""), ','))
+            names.emplace_back(trim(name));
+        return names;
+    }
+
     void take_style() {
         style_.theme = arguments_.get("theme") == "dark" ? &plot::dark_theme : &plot::light_theme;
         style_.title = arguments_.get("title");
@@ -233,11 +249,12 @@ class Plot {
             input, [&] { return read_input(bytes, input, arguments_, run); },
             "plot takes points, the JSON of 'stipple analyze', or the table of a study");
         for (std::size_t i = 0; i < sets.size(); ++i) {
+            const std::size_t left_out = leave_out_gaps(sets[i], input, run);
             sets[i] = placed(std::move(sets[i]), input, arguments_);
             const std::string title = title_of_points(sets[i].provenance, input);
             sets_.push_back({std::move(sets[i]), input,
                              sets.size() > 1 ? std::optional(i) : std::nullopt,
-                             bytes.starts_with(npy_magic), title});
+                             bytes.starts_with(npy_magic), title, left_out});
         }
     }
 
@@ -281,6 +298,87 @@ class Plot {
         reports_.empty() ? pick(sets_) : pick(reports_);
     }
 
+    /// --labels and --axes of what has them before it is drawn: sets of points, generators of studies.
+    void rename_sources() {
+        for (Loaded& set : sets_) rename_columns(set);
+        if (labels_.empty()) return;
+        std::map<std::string, std::string> names;
+        for (MeanRow& row : means_) {
+            if (names.size() < labels_.size() && !names.contains(row.generator))
+                names.emplace(row.generator, labels_[names.size()]);
+            else if (!names.contains(row.generator))
+                refuse_labels("generators are more");
+        }
+        if (!means_.empty() && names.size() < labels_.size())
+            refuse_labels(fmt::format("generators are {}", names.size()));
+        for (MeanRow& row : means_) row.generator = names.at(row.generator);
+        const std::vector<std::size_t> firsts = firsts_of_inputs();
+        const bool all = labels_.size() == sets_.size();
+        if (!all && !sets_.empty() && labels_.size() != firsts.size())
+            refuse_labels(fmt::format("sets of points are {}", sets_.size()));
+        for (std::size_t i = 0, input = 0; i < sets_.size(); ++i) {
+            while (input + 1 < firsts.size() && firsts[input + 1] <= i) ++input;
+            sets_[i].title = labels_[all ? i : input];
+            if (all) sets_[i].number.reset();
+        }
+    }
+
+    void rename_columns(Loaded& set) const {
+        if (axes_.empty()) return;
+        const bool table = chart_ == "spectrum" || chart_ == "differential";
+        const bool curves =
+            chart_ == "radial" || chart_ == "pair-correlation" || chart_ == "distances";
+        if (table || curves) return;
+        Provenance& meta = set.points.provenance;
+        const auto before = coordinate_names(set.points.dimension(), meta);
+        if (axes_.size() != before.size())
+            fail(ErrorKind::usage, "--axes: {} names for points of {} coordinates", axes_.size(),
+                 before.size());
+        for (auto& [column, words] : meta.levels)
+            for (std::size_t k = 0; k < before.size(); ++k)
+                if (column == before[k]) {
+                    column = axes_[k];
+                    break;
+                }
+        meta.columns = axes_;
+    }
+
+    [[noreturn]] void refuse_labels(const std::string& there) const {
+        fail(ErrorKind::usage, "--labels: {} names; the {}", labels_.size(), there);
+    }
+
+    /// --labels and --axes of a chart of reports.
+    void rename(plot::Chart& chart) const {
+        std::vector<std::string> names;
+        const auto each = [&](const auto& work) {
+            for (plot::ChartPanel& panel : chart.panels) {
+                for (plot::Series& series : panel.series) work(series.name);
+                for (plot::Bars& bars : panel.bars) work(bars.name);
+            }
+        };
+        each([&](const std::string& name) {
+            if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+        });
+        if (!labels_.empty() && labels_.size() != names.size())
+            refuse_labels(fmt::format("curves are {}", names.size()));
+        if (!labels_.empty())
+            each([&](std::string& name) {
+                name = labels_[static_cast<std::size_t>(std::ranges::find(names, name) -
+                                                        names.begin())];
+            });
+    }
+
+    void rename_axes(plot::Chart& chart) const {
+        if (axes_.empty()) return;
+        if (axes_.size() != chart.panels.size() + 1)
+            fail(ErrorKind::usage, "--axes: {} names; there is x, and the y of {} panel{}",
+                 axes_.size(), chart.panels.size(), chart.panels.size() == 1 ? "" : "s");
+        for (std::size_t i = 0; i < chart.panels.size(); ++i) {
+            chart.panels[i].x_name = axes_[0];
+            chart.panels[i].y_name = axes_[i + 1];
+        }
+    }
+
     // ---------------------------------------------------------------- pictures
 
     std::string picture_of_study() {
@@ -290,22 +388,30 @@ class Plot {
         if (!found.left_out.empty())
             session_.warn(fmt::format("{} results are drawn; --key picks one: {}",
                                       found.chart.panels.size(), join(found.left_out, "; ")));
-        return drawn(found.chart);
+        plot::Chart chart = found.chart;
+        rename_axes(chart);
+        return drawn(chart);
     }
 
     std::string picture_of_reports() {
         if (!chart_.empty())
             fail(ErrorKind::usage, "--chart: is for points; a report of {} is drawn as what it is",
                  reports_[0].analyzer);
-        return drawn(plot::chart_of(reports_, arguments_.get("key").value_or("")));
+        plot::Chart chart = plot::chart_of(reports_, arguments_.get("key").value_or(""));
+        rename(chart);
+        rename_axes(chart);
+        return drawn(chart);
     }
 
     std::string picture_of_points() {
         if (arguments_.has("key"))
             fail(ErrorKind::usage, "--key: is for reports; these are points");
-        if (chart_ == "radial") return drawn(plot::chart_of(analyzed("periodogram")));
-        if (chart_ == "pair-correlation")
-            return drawn(plot::chart_of(analyzed("pair-correlation")));
+        if (chart_ == "radial" || chart_ == "pair-correlation") {
+            plot::Chart chart =
+                plot::chart_of(analyzed(chart_ == "radial" ? "periodogram" : "pair-correlation"));
+            rename_axes(chart);
+            return drawn(chart);
+        }
         const bool table = chart_ == "spectrum" || chart_ == "differential";
         if (table || chart_.empty())
             if (auto found = saved_table()) {
@@ -483,12 +589,22 @@ class Plot {
     }
 
     /// Of a table of differences, with the side of its pixels where that is known.
-    [[nodiscard]] static plot::TableNames names_of(std::optional<double> pixel) {
-        if (!pixel) return {.x = "Δx (pixels)", .y = "Δy (pixels)", .shade = "density"};
-        return {.x = "Δx / mean distance",
-                .y = "Δy / mean distance",
-                .shade = "density",
-                .cell = *pixel};
+    [[nodiscard]] plot::TableNames names_of(std::optional<double> pixel) const {
+        if (!pixel) return renamed({.x = "Δx (pixels)", .y = "Δy (pixels)", .shade = "density"});
+        return renamed({.x = "Δx / mean distance",
+                        .y = "Δy / mean distance",
+                        .shade = "density",
+                        .cell = *pixel});
+    }
+
+    /// With the names that --axes has.
+    [[nodiscard]] plot::TableNames renamed(plot::TableNames names) const {
+        if (axes_.empty()) return names;
+        if (axes_.size() != 2)
+            fail(ErrorKind::usage, "--axes: {} names; a table has x and y", axes_.size());
+        names.x = axes_[0];
+        names.y = axes_[1];
+        return names;
     }
 
     std::string saved(const plot::SpectralTable& table) {
@@ -497,7 +613,7 @@ class Plot {
         refuse_scales("a table");
         const std::string plane = table.dimension == 3 ? "plane fz = 0" : "";
         return drawn_table(table.values, title, plane,
-                           table.differences ? names_of(std::nullopt) : plot::TableNames());
+                           table.differences ? names_of(std::nullopt) : renamed({}));
     }
 
     std::string spectrum() {
@@ -516,7 +632,7 @@ class Plot {
     }
 
     [[nodiscard]] plot::TableNames names_of(const Measurement& m) const {
-        return chart_ == "differential" ? names_of(m.results.number("pixel")) : plot::TableNames();
+        return chart_ == "differential" ? names_of(m.results.number("pixel")) : renamed({});
     }
 
     /// A frame for each, and a bar for the shades of all at the end of each row.
@@ -606,6 +722,7 @@ class Plot {
         plot::Chart chart = plot::distance_chart(sets, names(), session_.run());
         if (!different_titles()) chart.title += " of " + sets_[0].title;
         if (sets_.size() == 1) chart.subtitle = subtitle_of(sets_[0]) + number_of(sets_[0]);
+        rename_axes(chart);
         return drawn(chart);
     }
 
@@ -704,7 +821,7 @@ class Plot {
     }
 
     [[nodiscard]] std::vector<std::string> names() const {
-        const bool different = different_titles();
+        const bool different = different_titles() || !labels_.empty();
         std::vector<std::string> found;
         for (const Loaded& set : sets_) {
             std::string name = different ? set.title : "";
@@ -736,6 +853,8 @@ class Plot {
     std::string path_;
     Medium medium_;
     std::string chart_;
+    std::vector<std::string> labels_;
+    std::vector<std::string> axes_;
     plot::PictureStyle style_;
     plot::TextRoom room_;
     std::vector<Loaded> sets_;

@@ -93,6 +93,34 @@ std::vector<SideFile> vector_files(const Provenance& meta, const Arguments& argu
     return sets.side_files();
 }
 
+/// The coordinates of a table that a warp takes or, with `back`, has given, by the names that its
+/// domain has, where the table has them in another order or among others.
+/// @throws Error(input) for a table that has some of them, or with `back` any other names
+std::vector<std::size_t> coordinates_by_name(const Spec& spec,
+                                             const std::vector<std::string>& columns, bool back,
+                                             const RunContext& run) {
+    const Warp& warp = find_warp(spec.name);
+    const auto names = warp.make(spec.values(warp.options), columns.size(), run)->domain()->names();
+    std::vector<std::size_t> at;
+    std::string missing;
+    for (const std::string& name : names) {
+        const auto column = std::ranges::find(columns, name);
+        if (column == columns.end() && missing.empty()) missing = name;
+        if (column != columns.end())
+            at.push_back(static_cast<std::size_t>(column - columns.begin()));
+    }
+    if (names.empty() || (at.empty() && !back)) return {};
+    if (!missing.empty())
+        fail_with_hint(ErrorKind::input, suggest(missing, columns),
+                       "there is no column '{}'; its columns are {}", missing, join(columns, ", "));
+    for (std::size_t k = 0; k < columns.size() && back; ++k)
+        if (std::ranges::find(at, k) == at.end())
+            fail_with_hint(ErrorKind::input, "--column picks columns by name",
+                           "the column '{}' is none of {}", columns[k], spec.name);
+    const bool in_order = at.size() == columns.size() && std::ranges::is_sorted(at);
+    return in_order ? std::vector<std::size_t>() : at;
+}
+
 }  // namespace
 
 std::string output_of(const Arguments& arguments) {
@@ -209,7 +237,13 @@ int warp(const Arguments& arguments, Session& session) {
     if (at_points)
         arguments.refuse({"inverse", "with-pdf", "with-weight"},
                          "--density-at leaves the points where they are");
-    const bool whole = !inverse && !at_points && takes_whole_sets(spec, stream->dimension(), run);
+    if (const auto& columns = stream->provenance().columns;
+        spec.coordinates.empty() && !columns.empty())
+        spec.coordinates = naming(
+            path, [&] { return coordinates_by_name(spec, columns, inverse || at_points, run); });
+    const bool densities = !stream->provenance().density_column.empty();
+    const bool whole =
+        densities || (!inverse && !at_points && takes_whole_sets(spec, stream->dimension(), run));
     if (whole || !can_stream(*stream, target)) {
         auto sets = read_all(*stream, arguments, run);
         if (at_points)

@@ -148,12 +148,14 @@ class Reporter {
     void add_file(const std::string& input) {
         auto sets = read_input(input, arguments_, session_.run());
         for (std::size_t i = 0; i < sets.size(); ++i) {
-            sets[i] = placed(std::move(sets[i]), input, arguments_);
             PendingSet next;
+            next.set.left_out = leave_out_gaps(sets[i], input, session_.run());
+            sets[i] = placed(std::move(sets[i]), input, arguments_);
             next.set.source = input;
             next.set.provenance = sets[i].provenance;
             next.set.command = sets[i].provenance.command;
-            next.input.words = words_of_file(input);
+            // No command leaves out rows.
+            if (next.set.left_out == 0) next.input.words = words_of_file(input);
             next.input.bounds = !arguments_.has("domain");
             if (sets.size() > 1) {
                 next.set.number = i;
@@ -167,7 +169,8 @@ class Reporter {
     /// How the file is named to 'stipple analyze'.
     [[nodiscard]] std::string words_of_file(const std::string& input) const {
         std::string words = shell_word(input);
-        for (const char* name : {"from", "dimension", "column", "input-dtype", "dtype", "domain"})
+        for (const char* name :
+             {"from", "dimension", "column", "input-dtype", "dtype", "domain", "parameters"})
             if (const auto text = arguments_.get(name)) words += typed_option(name, *text, false);
         if (arguments_.has("rescale")) words += " --rescale";
         return words;
@@ -190,8 +193,9 @@ class Reporter {
     /// The options that all generated sets share, as they are typed for the first of each.
     [[nodiscard]] std::string of_generated() const {
         std::string words;
-        for (const char* name : {"count", "dimension", "start", "warp"})
+        for (const char* name : {"count", "dimension", "start", "warp", "parameters"})
             for (const auto& text : arguments_.all(name)) words += typed_option(name, text, false);
+        if (arguments_.has("unit-cube")) words += " --unit-cube";
         if (arguments_.has("seed")) words += fmt::format(" --seed {}", seed_);
         return words;
     }

@@ -126,10 +126,10 @@ Recipe recipe_of(const Original& original, Session& session) {
     // As strictly as a command line, though what they say was worked out.
     Values known = generator.options.defaults();
     for (const auto& [name, text] : meta.options) generator.options.set(known, name, text);
-    for (const auto* options : std::array{&meta.options, &std::as_const(recipe.typed.settings)})
-        for (const auto& [name, text] : *options)
-            if (std::ranges::find(generator.writes, name) != generator.writes.end())
-                fail(ErrorKind::usage, "it writes a file by --{}; only --output is written", name);
+    // What only writes side files is no part of it.
+    std::erase_if(recipe.typed.settings, [&](const auto& setting) {
+        return std::ranges::find(generator.writes, setting.first) != generator.writes.end();
+    });
     recipe.job = production_of(recipe.typed, session);
     Production& job = recipe.job;
     if (job.generator->name != generator.name)

@@ -27,6 +27,7 @@ struct Destination {
     std::function<bool(std::uint64_t i, std::span<const double> row)> has_image = {};
     bool drops = false;                  ///< some have none
     std::vector<OutcomeAxis> axes = {};  ///< of each coordinate
+    PointSet given = {};  ///< what a search goes on from, where its file holds their images
 };
 
 /// A request with everything decided.
@@ -133,6 +134,10 @@ struct Generator {
     /// Of a sequence: whether under these options it takes a search, so that sets are made in memory
     /// and may be the best of one that was stopped; empty: never.
     std::function<bool(const Values&)> whole = {};
+
+    /// Of a generator of digits in other bases than 2: that of each coordinate, which scrambles take
+    /// unless told another.
+    std::function<std::vector<std::uint32_t>(const Plan&, const Values&)> bases = {};
 
     /// Largest seed, where an engine's own seeding takes fewer than 64 bits.
     std::function<std::uint64_t(const Values&)> max_seed = {};

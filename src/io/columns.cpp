@@ -13,20 +13,19 @@ namespace {
 bool measures_points(const std::string& name) { return name == "pdf" || name == "weight"; }
 
 /// Whether a header's field with this name reads back as such.
-bool is_name(const std::string& name) {
-    return is_word(name) && name != "set" && !measures_points(name);
+bool is_name(const std::string& name, bool table) {
+    return is_word(name) && name != "set" && (table || !measures_points(name));
 }
 
-/// Puts pdf or, where there is none, weight behind the coordinates.
+/// Puts pdf or, where there is none, weight behind the coordinates, and notes which are there.
 void add_density(Columns& columns, const std::vector<std::string>& names) {
     for (const char* name : {"pdf", "weight"}) {
         const auto it = std::ranges::find(names, name);
         if (it == names.end()) continue;
         std::size_t& role = columns.role[static_cast<std::size_t>(it - names.begin())];
         if (role != Columns::checked) continue;
-        role = columns.dimension++;
-        columns.density = name;
-        return;
+        if (columns.density.empty()) role = columns.dimension++;
+        columns.density += (columns.density.empty() ? "" : ",") + std::string(name);
     }
 }
 
@@ -80,12 +79,17 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
     const auto is_there = [&](const std::string& name) {
         return std::ranges::find(names, name) != names.end();
     };
-    if (options.columns.empty() && !options.expected.empty() &&
-        std::ranges::all_of(options.expected, is_there)) {
+    const auto missing = std::ranges::find_if_not(options.expected, is_there);
+    if (options.columns.empty() && !options.expected.empty() && missing == options.expected.end()) {
         ReadOptions picked = options;
         picked.columns = options.expected;
         return choose_columns(std::move(names), width, picked, place);
     }
+    // Usual names say nothing: then the columns are taken in order.
+    if (options.columns.empty() && missing != options.expected.end() && !kept_names(names).empty())
+        fail_with_hint(ErrorKind::input, suggest(*missing, names),
+                       "{}: there is no column '{}'; its columns are {}", place, *missing,
+                       join(names, ", "));
     Columns columns{.role = std::vector<std::size_t>(width, Columns::skipped)};
     const bool named = !names.empty();
     if (!named) names = coordinate_names(width);
@@ -98,7 +102,8 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
     } else {
         const std::size_t first = has_row_names(names, options) ? 1 : 0;
         for (std::size_t c = first; c < width; ++c)
-            if (c == strength || (measures_points(names[c]) && !options.all_columns))
+            if (c == strength ||
+                (measures_points(names[c]) && !options.all_columns && !options.gaps))
                 columns.role[c] = Columns::checked;
             else if (columns.role[c] != Columns::set_number)
                 columns.role[c] = columns.dimension++;
@@ -123,8 +128,9 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
     return columns;
 }
 
-std::vector<std::string> kept_names(std::vector<std::string> names) {
-    if (names == coordinate_names(names.size()) || !std::ranges::all_of(names, is_name)) return {};
+std::vector<std::string> kept_names(std::vector<std::string> names, bool table) {
+    const auto kept = [table](const std::string& name) { return is_name(name, table); };
+    if (names == coordinate_names(names.size()) || !std::ranges::all_of(names, kept)) return {};
     return names;
 }
 
@@ -137,7 +143,7 @@ void take_densities(PointSet& set) {
     for (std::size_t i = 0; i < set.count(); ++i) {
         std::ranges::copy(set[i].first(d), points[i].begin());
         const double number = set[i][d];
-        const bool pdf = column == "pdf";
+        const bool pdf = column.starts_with("pdf");
         if (!(pdf ? number > 0 : number >= 0))
             fail(ErrorKind::input, "point {}: its {} is {}; expected a number {} 0", i, column,
                  number, pdf ? "above" : "not below");

@@ -26,7 +26,9 @@ struct Columns {
         {};  ///< of the coordinates, in their order, where there are any
     /// Of coordinates whose numbers 0, 1, ... stand for words: the words; of others none.
     std::vector<std::vector<std::string>> words = {};
-    std::string density = {};  ///< name of the column behind the coordinates, where it tells it
+    /// Name of the column behind the coordinates that tells the density; "pdf,weight" where there
+    /// are both, of which the first is read.
+    std::string density = {};
 
     [[nodiscard]] std::size_t width() const { return role.size(); }
     /// Whether all columns are coordinates, in order.
@@ -35,8 +37,8 @@ struct Columns {
 };
 
 /// Names of coordinates as a provenance keeps them: none where they are x, y, ..., or where a header
-/// with them would not be read as one.
-std::vector<std::string> kept_names(std::vector<std::string> names);
+/// with them would not be read as one. Columns of a `table` may be called pdf and weight.
+std::vector<std::string> kept_names(std::vector<std::string> names, bool table = false);
 
 /// Whether a text may be a word of a column: the same when it was written and read back, and no
 /// number.
@@ -48,8 +50,8 @@ std::size_t find_column(const std::string& wanted, const std::vector<std::string
                         const std::string& place, const char* option = "column");
 
 /// Decides what the columns are. Without names they are called x, y, ... (see coordinate_names).
-/// Columns called pdf or weight are coordinates only when picked, or all are; so is a first one
-/// whose name is empty, which holds row names. A first column `set` tells the set. `place` begins
+/// Columns called pdf or weight are coordinates only when picked, in tables (gaps), or where all are; so
+/// is, but for tables, a first one whose name is empty, which holds row names. A first column `set` tells the set. `place` begins
 /// the messages ("p.csv:3").
 /// @throws Error(usage) for a column that is not there; Error(input) for a wrong dimension.
 Columns choose_columns(std::vector<std::string> names, std::size_t width,

@@ -190,13 +190,14 @@ class Assembly {
     Assembly(Body& body, const Header& header, const RunContext& run)
         : body_(body), header_(header), run_(run) {}
 
-    TriangleMesh mesh() {
+    TriangleMesh mesh(const std::string& name) {
         for (const Element& element : header_.elements)
             for (std::uint64_t row = 0; row < element.count && !element.properties.empty(); ++row) {
                 if (row % 65536 == 0) run_.check_stop();
                 read_row(element, row);
             }
         body_.finish();
+        mesh_.triangles = faces_.triangles(mesh_.vertices, name, run_);
         return std::move(mesh_);
     }
 
@@ -233,7 +234,7 @@ class Assembly {
             const double index = body_.next(property.type);
             if (corners) polygon_.push_back(place_of(index));
         }
-        if (corners) mesh_.add_fan(polygon_);
+        if (corners) faces_.add(polygon_);
     }
 
     std::uint32_t place_of(double index) {
@@ -248,6 +249,7 @@ class Assembly {
     const Header& header_;
     const RunContext& run_;
     TriangleMesh mesh_;
+    MeshFaces faces_;
     std::vector<std::uint32_t> polygon_;
 };
 
@@ -291,10 +293,10 @@ TriangleMesh parse_ply(std::string bytes, const std::string& name, const RunCont
         TokenFile file(std::move(bytes), name);
         header_of(file);
         AsciiBody body(file);
-        mesh = Assembly(body, header, run).mesh();
+        mesh = Assembly(body, header, run).mesh(name);
     } else {
         BinaryBody body(bytes, begin, name);
-        mesh = Assembly(body, header, run).mesh();
+        mesh = Assembly(body, header, run).mesh(name);
     }
     if (mesh.triangles.empty()) head.refuse_whole("no faces");
     return mesh;

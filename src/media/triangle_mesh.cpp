@@ -57,14 +57,10 @@ void skip_rest(TokenFile& file) {
 
 }  // namespace
 
-void TriangleMesh::add_fan(const std::vector<std::uint32_t>& polygon) {
-    for (std::size_t k = 2; k < polygon.size(); ++k)
-        triangles.push_back({polygon[0], polygon[k - 1], polygon[k]});
-}
-
 TriangleMesh parse_obj(std::string bytes, const std::string& name, const RunContext& run) {
     TokenFile file(std::move(bytes), name);
     TriangleMesh mesh;
+    MeshFaces faces;
     std::vector<std::uint32_t> polygon;
     Highest highest;
     for (std::size_t row = 0; !file.at_end(); ++row) {
@@ -83,13 +79,14 @@ TriangleMesh parse_obj(std::string bytes, const std::string& name, const RunCont
             if (polygon.size() < 3)
                 file.refuse(word, fmt::format("a face of {} corners; at least 3 are needed",
                                               polygon.size()));
-            mesh.add_fan(polygon);
+            faces.add(polygon);
         }
         skip_rest(file);
     }
     if (highest.place >= static_cast<std::int64_t>(mesh.vertices.size()))
         file.refuse(highest.token, fmt::format("there is no vertex {}; the file has {}",
                                                highest.place + 1, mesh.vertices.size()));
+    mesh.triangles = faces.triangles(mesh.vertices, name, run);
     if (mesh.triangles.empty()) file.refuse_whole("no faces; expected a PLY or OBJ mesh");
     return mesh;
 }

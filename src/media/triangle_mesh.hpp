@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
 //
 // Triangle meshes from files: PLY (ascii or binary little endian) and Wavefront OBJ. Polygons are
-// cut into triangles in a fan from their first corner; what else a file holds is skipped.
+// cut into triangles: in the coordinate plane that is nearest to theirs, in a fan from the first
+// corner if they are convex there; what else a file holds is skipped.
 //
 //     const TriangleMesh mesh = read_mesh("bunny.ply", run);
 //
 // Shape   at least one triangle; finite coordinates in [-1e150, 1e150].
 // Promise every complaint names the file with line and column, or with the byte where it is binary
 //         (all from 1).
-// Beware  the fan of a polygon that is not convex covers what is not the polygon's.
+// Beware  the surface of a polygon that is not flat is that of its triangles; a warning counts them.
 // Source  G. Turk, The PLY polygon file format, Stanford University, 1994; Wavefront Technologies,
 //         The Advanced Visualizer manual, appendix B1 (OBJ).
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,9 +33,21 @@ struct TriangleMesh {
         const auto& [a, b, c] = triangles[triangle];
         return {vertices[a], vertices[b], vertices[c]};
     }
+};
 
-    /// Adds the fan of a polygon, at least 3 corners.
-    void add_fan(const std::vector<std::uint32_t>& polygon);
+/// Polygons of a mesh, to be cut once all vertices are known.
+class MeshFaces {
+  public:
+    /// @param polygon places of its corners, at least 3
+    void add(std::span<const std::uint32_t> polygon);
+
+    /// @throws Error(input) naming the first face, counted from 1, that is not a simple polygon
+    [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles(
+        const std::vector<Vector3>& vertices, const std::string& name, const RunContext& run) const;
+
+  private:
+    std::vector<std::uint32_t> corners_;
+    std::vector<std::size_t> ends_;
 };
 
 /// The largest size of a coordinate.

@@ -24,7 +24,7 @@ struct Measure {
     std::string title;  ///< for people
     std::string analyzer;
     std::vector<std::pair<std::string, std::string>> options = {};  ///< that have a value
-    std::string command = {};                                       ///< that measures it again
+    std::string command = {};  ///< that measures it again; empty: none does
     std::optional<Report> results = {};
     std::string left_out = {};  ///< why there are no results
 };
@@ -35,6 +35,7 @@ struct Set {
     std::string source;
     std::optional<std::size_t> number = {};  ///< in its file, of several
     std::uint64_t count = 0;
+    std::uint64_t left_out = 0;  ///< rows of its file with missing numbers
     std::size_t dimension = 0;
     std::string domain = {};
     std::optional<std::uint64_t> fingerprint = {};  ///< of the coordinates

@@ -109,7 +109,10 @@ constexpr double chart_height = 300;
 /// Numbers as short as eyes need them.
 Json short_numbers(const std::vector<double>& values) {
     Json list = Json::array();
-    for (const double v : values) list.push_back(std::stod(fmt::format("{:.4g}", v)));
+    for (const double v : values) {
+        const auto number = parse_number(fmt::format("{:.4g}", v));  // none: it is not finite
+        list.push_back(number ? Json(*number) : Json());
+    }
     return list;
 }
 

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 
+#include "core/bytes/fingerprint.hpp"
 #include "core/options.hpp"
 #include "core/text.hpp"
+#include "page/experiment.hpp"
 #include "page/figures.hpp"
 #include "page/measures.hpp"
 #include "pipeline/units.hpp"
@@ -44,6 +46,7 @@ std::string plural(std::uint64_t n, const char* one, const char* many) {
 
 /// "the unit cube", "the disk", "the domain disk:center=[1,2]"
 std::string domain_in_words(const std::string& spec) {
+    if (is_experiment(spec)) return "named parameters";
     if (spec.find_first_of(": ") != std::string::npos) return "the domain " + spec;
     std::string words = "the " + spec;
     std::ranges::replace(words, '-', ' ');
@@ -58,6 +61,9 @@ std::string facts_of(const Set& set) {
                     plural(set.dimension, "dimension", "dimensions"), domain_in_words(set.domain));
     if (set.source != set.name) text += fmt::format(" · from {}", source_of(set));
     if (set.number) text += fmt::format(" (set {})", *set.number);
+    if (set.left_out > 0)
+        text += fmt::format(" · without {}, in which numbers are missing",
+                            plural(set.left_out, "row", "rows"));
     if (!set.replications.empty())
         text += fmt::format(" · the first of {} sets, of which the comparison has the means",
                             set.replications.size() + 1);
@@ -66,13 +72,19 @@ std::string facts_of(const Set& set) {
 
 // -------------------------------------------------------------------- comparison
 
+/// What the page's script compares domains by.
+std::string mark_of_domain(const std::string& spec) {
+    return is_experiment(spec) ? "parameters " + format_fingerprint(fingerprint(spec)) : spec;
+}
+
 std::string comparison_head(std::span<const Set> sets) {
     std::string out = "<thead><tr><th scope=\"col\">Measure</th>";
     for (std::size_t i = 0; i < sets.size(); ++i)
         out += fmt::format(
             "<th scope=\"col\" class=\"number\" data-set=\"{}\" data-count=\"{}\" "
             "data-domain=\"{}\">{}{}</th>",
-            i, sets[i].count, html_text(sets[i].domain), swatch(i), name_of(sets[i].name));
+            i, sets[i].count, html_text(mark_of_domain(sets[i].domain)), swatch(i),
+            name_of(sets[i].name));
     return out + "</tr></thead>\n";
 }
 
@@ -212,8 +224,9 @@ std::string measure_of(const Measure& measure, std::size_t dimension) {
                                   html_text(measure.title));
     for (const std::string& key : measure.results->keys())
         out += row_of(measure.analyzer, key, *measure.results, dimension);
-    return out +
-           fmt::format("</tbody></table>\n<pre>{}</pre>\n</div>\n", html_text(measure.command));
+    out += "</tbody></table>\n";
+    if (!measure.command.empty()) out += fmt::format("<pre>{}</pre>\n", html_text(measure.command));
+    return out + "</div>\n";
 }
 
 std::string verdicts_of(const Set& set) {
@@ -252,11 +265,14 @@ std::string provenance_of(const Set& set) {
         for (const auto& [name, value] : from.options) add(name, value);
         add("seed", std::to_string(from.seed));
         if (from.start > 0) add("first index", std::to_string(from.start));
-        add("warps", join(from.warps, ", "));
+        std::vector<std::string> warps;
+        for (const std::string& warp : from.warps)
+            warps.push_back(is_experiment(warp) ? "parameters" : warp);
+        add("warps", join(warps, ", "));
         add("bounds", from.bounds);
         add("made by", from.version.empty() ? "" : "stipple " + from.version);
     }
-    add("domain", set.domain);
+    add("domain", is_experiment(set.domain) ? "named parameters" : set.domain);
     out = fmt::format("<h3>Provenance</h3>\n<dl>\n{}</dl>\n", out);
     if (!set.command.empty())
         out += fmt::format("<pre>{}</pre>\n", html_text(set.command));
@@ -277,7 +293,10 @@ std::string section_of(std::span<const Set> sets, std::size_t i) {
         curve_figures(sets, which) + "</div>\n" + verdicts_of(set) + "<div class=\"measures\">\n";
     for (const Measure& measure : set.measures)
         if (measure.results) out += measure_of(measure, set.dimension);
-    return out + "</div>\n" + left_out_of(set) + provenance_of(set) + "</section>\n";
+    const std::string parameters = parameter_table(set.domain);
+    return out + "</div>\n" + left_out_of(set) +
+           (parameters.empty() ? "" : "<h3>Parameters</h3>\n" + parameters) + provenance_of(set) +
+           "</section>\n";
 }
 
 // -------------------------------------------------------------------- the page

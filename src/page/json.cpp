@@ -18,7 +18,7 @@ Json json_of(const Measure& measure) {
         object["left_out"] = measure.left_out;
         return object;
     }
-    object["command"] = measure.command;
+    if (!measure.command.empty()) object["command"] = measure.command;
     object["results"] = stipple::json_of(*measure.results);
     const std::string words = verdict_in_words(measure);
     if (!words.empty()) object["in_words"] = words;
@@ -30,6 +30,7 @@ Json json_of(const Set& set) {
     if (set.number) object["set"] = *set.number;
     if (!set.replications.empty()) object["sets"] = set.replications.size() + 1;
     object["count"] = set.count;
+    if (set.left_out > 0) object["rows_left_out"] = set.left_out;
     object["dimension"] = set.dimension;
     object["domain"] = set.domain;
     if (!set.command.empty()) object["command"] = set.command;

@@ -10,6 +10,7 @@
 #include "core/bytes/fingerprint.hpp"
 #include "core/error.hpp"
 #include "core/spec.hpp"
+#include "page/experiment.hpp"
 #include "page/figures.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/set_writer.hpp"
@@ -25,6 +26,7 @@ struct Planned {
     bool searches = false;  ///< takes a limit of work
     bool prefixes = false;  ///< measures prefixes
     const char* integrands = "";
+    bool distances = false;  ///< between points
 };
 
 constexpr std::array plans = {
@@ -35,9 +37,10 @@ constexpr std::array plans = {
     Planned{"l2-discrepancy", "L2 discrepancies", "l2-discrepancy"},
     Planned{"dispersion", "Dispersion", "dispersion", "", true},
     Planned{"t-value", "t-value", "t-value"},
-    Planned{"nearest-neighbor", "Nearest neighbours", "nearest-neighbor"},
+    Planned{"nearest-neighbor", "Nearest neighbours", "nearest-neighbor", "", false, false, "",
+            true},
     Planned{"periodogram", "Power spectrum", "periodogram"},
-    Planned{"pair-correlation", "Pair correlation", "pair-correlation"},
+    Planned{"pair-correlation", "Pair correlation", "pair-correlation", "", false, false, "", true},
     Planned{"integration", "Integration", "integration", "", false, false,
             "genz-gaussian,genz-continuous,genz-discontinuous"},
     Planned{"chi-square", "χ² test", "chi-square"},
@@ -131,7 +134,14 @@ Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube,
         measure.command += " --bounds " + cube.bounds;
     }
     measure.command += input.remark;
+    if (input.words.empty()) measure.command.clear();
     const std::string domain = shown->domain->spec();
+    if (plan.distances && points.dimension() > 1 && is_experiment(domain)) {
+        measure.left_out =
+            "its distances would mix the units of the parameters; 'stipple warp parameters "
+            "--inverse' takes the points to the unit cube, where they do not";
+        return measure;
+    }
     if (analyzer.traits.unit_cube && domain != "unit-cube") {
         measure.left_out = fmt::format("it measures points against the unit cube; these live on {}",
                                        shown->domain->title());

@@ -22,7 +22,8 @@ inline constexpr std::int64_t usual_work = 1'000'000'000;
 
 /// How the points of a set are named to `stipple analyze`: what stands behind the analyzer.
 struct Input {
-    std::string words;        ///< "points.csv --domain disk", "--generate halton -n 64"
+    /// "points.csv --domain disk", "--generate halton -n 64"; empty: no command has them
+    std::string words;
     bool bounds = false;      ///< takes --bounds behind them
     std::string remark = {};  ///< " # the third of its results"; else empty
 };

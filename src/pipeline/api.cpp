@@ -137,6 +137,10 @@ PointSet warp_back(std::string_view spec, const PointSet& points, const RunConte
 
 std::string domain_of(const PointSet& points) { return placed(points).domain->spec(); }
 
+DomainPtr domain_named(std::string_view spec, std::size_t dimension, const RunContext& run) {
+    return parse_domain(spec, dimension, run);
+}
+
 double measure_of(const PointSet& points) { return placed(points).domain->measure(); }
 
 std::vector<double> densities(const PointSet& points) {

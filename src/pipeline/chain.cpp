@@ -257,11 +257,29 @@ void WarpChain::remember(const Unit& unit, const Spec& spec, const Values& value
     if (unit.stream_version > 1) stream_versions_.emplace_back(unit.name, unit.stream_version);
 }
 
+/// Gives a scramble of digits the bases of the coordinates, unless it was told others.
+void WarpChain::set_bases(Values& values, const Scramble& scramble,
+                          std::span<const std::size_t> coordinates,
+                          const std::vector<std::uint32_t>& bases) const {
+    const auto& known = scramble.options.options();
+    if (bases.empty() || std::ranges::find(known, "base", &Option::name) == known.end() ||
+        values.find("base").given)
+        return;
+    std::vector<std::uint32_t> own;
+    for (const std::size_t k : coordinates)
+        for (const auto& [from, at] : kept())
+            if (at == k) own.push_back(bases.size() == 1 ? bases[0] : bases.at(from));
+    if (std::ranges::count(own, own.front()) == std::ssize(own)) own.resize(1);
+    if (own != std::vector<std::uint32_t>{2})
+        scramble.options.set(values, "base", fmt::format("{}", fmt::join(own, ",")));
+}
+
 void WarpChain::add_scramble(const Scramble& scramble, const Spec& spec, const ChainSet& set) {
-    const Values values = spec.values(scramble.options);
+    Values values = spec.values(scramble.options);
     Step step{.coordinates = coordinates_of(spec),
               .width_in = dimension_out_,
               .width_out = dimension_out_};
+    set_bases(values, scramble, step.coordinates, set.bases);
     step.at = step.coordinates;
     step.rest = step.others = others(dimension_out_, step.at);
     std::uint64_t seed = set.seed;

@@ -27,6 +27,8 @@ namespace stipple {
 struct ChainSet {
     std::uint64_t seed = 1;
     std::uint64_t count = 1;  ///< points of the whole set
+    /// Of the digits of each coordinate, or of all; empty: 2.
+    std::vector<std::uint32_t> bases = {};
 };
 
 class WarpChain {
@@ -151,6 +153,9 @@ class WarpChain {
     void note_infinite(const Step& step, std::span<const double> cube, std::uint64_t first) const;
 
     [[nodiscard]] DomainPtr domain_of_steps() const;
+    void set_bases(Values& values, const Scramble& scramble,
+                   std::span<const std::size_t> coordinates,
+                   const std::vector<std::uint32_t>& bases) const;
     void add_scramble(const Scramble& scramble, const Spec& spec, const ChainSet& set);
     void add_warp(const Warp& warp, const Spec& spec, const RunContext& run);
     template <class Unit>

@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "pipeline/earlier_runs.hpp"
 #include "pipeline/units.hpp"
 
 namespace stipple {
@@ -146,7 +147,7 @@ SetsToMake with_all_bounds(SetsToMake asked) {
 }  // namespace
 
 GeneratedSets::GeneratedSets(SetsToMake asked, const RunContext& run)
-    : asked_(with_all_bounds(std::move(asked))),
+    : asked_(with_all_bounds(for_parameters(std::move(asked), run))),
       generator_(*asked_.generator),
       plan_(plan_for(generator_, asked_.request, asked_.options)),
       chain_(make_chain({}, run)),
@@ -190,7 +191,11 @@ std::shared_ptr<const WarpChain> GeneratedSets::chain_for(std::uint64_t set,
 
 std::shared_ptr<const WarpChain> GeneratedSets::make_chain(const ChainSet& set,
                                                            const RunContext& run) const {
-    auto chain = std::make_shared<WarpChain>(asked_.warps, plan_.dimension, set, run);
+    ChainSet in_bases = set;
+    const bool scrambled = std::ranges::any_of(
+        asked_.warps, [](const Spec& spec) { return scramble_named(spec.name) != nullptr; });
+    if (generator_.bases && scrambled) in_bases.bases = generator_.bases(plan_, asked_.options);
+    auto chain = std::make_shared<WarpChain>(asked_.warps, plan_.dimension, in_bases, run);
     const auto& bounds = asked_.request.bounds;
     if (!bounds || chain->empty()) return chain;
     std::vector<Factor> factors;
@@ -202,11 +207,11 @@ std::shared_ptr<const WarpChain> GeneratedSets::make_chain(const ChainSet& set,
 
 namespace {
 
-std::shared_ptr<const Destination> destination_of(const std::shared_ptr<const WarpChain>& chain) {
+std::shared_ptr<Destination> destination_of(const std::shared_ptr<const WarpChain>& chain) {
     const auto has_image = [chain](std::uint64_t i, std::span<const double> row) {
         return !chain->forward({row.begin(), row.end()}, i).empty();
     };
-    return std::make_shared<const Destination>(
+    return std::make_shared<Destination>(
         Destination{has_image, chain->refills() && !chain->reorders(), chain->outcome_axes()});
 }
 
@@ -216,9 +221,21 @@ std::shared_ptr<Sequence> GeneratedSets::sequence(std::uint64_t set, const RunCo
     if (sequence_ && !uses_seed(generator_, asked_.options)) return sequence_;
     Plan plan = plan_;
     plan.seed += set;
-    if (generator_.whole && generator_.whole(asked_.options) && !chain_->empty())
-        plan.destination = destination_of(chain_for(set, run));
-    return sequence_ = generator_.sequence(plan, asked_.options, run);
+    return sequence_ = new_sequence(plan, set, run);
+}
+
+std::unique_ptr<Sequence> GeneratedSets::new_sequence(Plan plan, std::uint64_t set,
+                                                      const RunContext& run) const {
+    const bool whole = generator_.whole && generator_.whole(asked_.options);
+    if (!chain_->empty() &&
+        (whole || std::ranges::any_of(chain_->outcome_axes(), &OutcomeAxis::discrete))) {
+        const auto chain = chain_for(set, run);
+        auto destination = destination_of(chain);
+        if (goes_on_from_runs(asked_, *chain))
+            destination->given = earlier_runs(asked_, *chain, run).cube;
+        plan.destination = std::move(destination);
+    }
+    return generator_.sequence(plan, asked_.options, run);
 }
 
 std::uint64_t GeneratedSets::different_sets() const {
@@ -241,13 +258,42 @@ NextRows GeneratedSets::stream(std::uint64_t set, const RunContext& run, std::ui
     };
 }
 
+PointSet GeneratedSets::raw_points(std::uint64_t set, const Plan& plan,
+                                   const RunContext& run) const {
+    if (!generator_.traits.sequence) return generator_.set(plan, asked_.options, run);
+    const RunContext steady = run.rising();
+    const auto points = plan.count == plan_.count
+                            ? sequence(set, steady)
+                            : std::shared_ptr<Sequence>(new_sequence(plan, set, steady));
+    return points_of(*points, plan, asked_.request.start, steady);
+}
+
+bool GeneratedSets::goes_on() const {
+    return chain_->refills() && plan_.count > 0 && generator_.traits.sequence &&
+           generator_.traits.prefix && !chain_->reorders();
+}
+
+void GeneratedSets::keep_runs(PointSet& points, const RunContext& run) const {
+    if (!goes_on_from_runs(asked_, *chain_)) return;
+    const PointSet runs = earlier_runs(asked_, *chain_, run).runs;
+    if (runs.count() <= points.count()) std::ranges::copy(runs.flat(), points.flat().begin());
+}
+
+void GeneratedSets::tell_absent_levels(const RunContext& run) const {
+    constexpr std::uint64_t few = std::uint64_t{1} << 16;
+    if (!streamed() || plan_.count > few || chain_->empty()) return;
+    if (std::ranges::none_of(chain_->outcome_axes(), &OutcomeAxis::discrete)) return;
+    std::vector<double> rows(static_cast<std::size_t>(plan_.count) * dimension());
+    stream(0, silent(run))(rows);
+    stipple::tell_absent_levels(rows, asked_, *chain_, run);
+}
+
 PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
     const RunContext steady = run.rising();
+    const bool next = goes_on();
     Plan plan = plan_;
     plan.seed += set;
-    PointSet points = generator_.traits.sequence
-                          ? points_of(*sequence(set, steady), plan, asked_.request.start, steady)
-                          : generator_.set(plan, asked_.options, run);
+    PointSet points = next ? PointSet() : raw_points(set, plan, run);
     auto worked_out = std::move(points.provenance.options);
     auto found = std::move(points.provenance.found);
     auto side_files =
@@ -255,10 +301,17 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
     double efficiency = 1;
     if (!chain_->empty()) {
         const RunContext rest = run.best_is_wanted() ? unstopped(run) : run;
-        points = chain_->refills() && plan_.count > 0
-                     ? filled_up(set, points, rest)
-                     : chain_for(set, rest)->image(points, rest.stage(1, 1), asked_.request.start);
+        if (chain_->refills() && plan_.count > 0) {
+            auto [rows, made, kept] =
+                next ? next_images(set, rest) : images_of_more(set, points, rest);
+            points = PointSet(std::move(rows), dimension());
+            points.provenance.efficiency = static_cast<double>(kept) / static_cast<double>(made);
+        } else {
+            points = chain_for(set, rest)->image(points, rest.stage(1, 1), asked_.request.start);
+        }
         efficiency = points.provenance.efficiency;
+        keep_runs(points, rest);
+        if (set == 0) stipple::tell_absent_levels(points.flat(), asked_, *chain_, run);
     }
     if (scaling_) scaling_->apply(points.flat(), points.dimension());
     points.domain = domain_;
@@ -286,35 +339,60 @@ void check_share(std::uint64_t kept, std::uint64_t made) {
 
 }  // namespace
 
-GeneratedSets::Images GeneratedSets::next_images(std::uint64_t set, const PointSet& first,
-                                                 const RunContext& run) const {
+GeneratedSets::Images GeneratedSets::next_images(std::uint64_t set, const RunContext& run) const {
     const auto chain = chain_for(set, run);
     const RunContext quiet = silent(run);
     const auto points = sequence(set, quiet);
-    std::vector<double> kept = chain->mapped(first.flat(), false, asked_.request.start, quiet);
-    std::uint64_t made = first.count();
     const std::size_t d = dimension();
-    for (bool told = false; kept.size() / d < plan_.count; told = true) {
-        const std::uint64_t have = kept.size() / d;
-        const double share = std::max(static_cast<double>(have), 1.0) / static_cast<double>(made);
-        const double more = 1.1 * static_cast<double>(plan_.count - have) / share;
-        if (!told && more > 1e7)
+    const std::uint64_t start = asked_.request.start;
+    const std::uint64_t last = start + plan_.count;
+    Images images{{}, 0, 0};
+    for (int pass = 0; images.kept < last; ++pass) {
+        const auto lacking = static_cast<double>(last - images.kept);
+        const double share = pass == 0 ? 1
+                                       : std::max(static_cast<double>(images.kept), 1.0) /
+                                             static_cast<double>(images.made);
+        const double more = pass == 0 ? lacking : std::max(1.1 * lacking / share, 4096.0);
+        if (pass == 1 && more > 1e7)
             run.notify(
                 fmt::format("the constraints hold for a share of {:.2g}{}; some {:.1g} more "
                             "points are needed",
-                            share, have == 0 ? " or less" : "", more));
-        check_share(have, made);
+                            share, images.kept == 0 ? " or less" : "", more));
+        check_share(images.kept, images.made);
+        const std::uint64_t left = generator_.traits.max_index - images.made;
+        if (left == 0)
+            fail(ErrorKind::input, "the constraints hold for {} of the {} points that {} has",
+                 images.kept, images.made, generator_.name);
         Plan plan = plan_;
-        plan.count = static_cast<std::uint64_t>(std::clamp(more, 4096.0, 0x1p20));
-        const std::uint64_t at = asked_.request.start + made;
-        const PointSet next = points_of(*points, plan, at, quiet);
-        const auto images = chain->mapped(next.flat(), false, at, quiet);
-        kept.insert(kept.end(), images.begin(), images.end());
-        made += plan.count;
-        run.tick(std::min<std::uint64_t>(kept.size() / d, plan_.count), plan_.count);
+        plan.count = std::min(left, static_cast<std::uint64_t>(std::min(more, 0x1p20)));
+        const PointSet next = points_of(*points, plan, images.made, quiet);
+        const auto rows = chain->mapped(next.flat(), false, images.made, quiet);
+        const std::uint64_t skipped =
+            std::min<std::uint64_t>(start - std::min(start, images.kept), rows.size() / d);
+        images.rows.insert(images.rows.end(),
+                           rows.begin() + static_cast<std::ptrdiff_t>(skipped * d), rows.end());
+        images.kept += rows.size() / d;
+        images.made += plan.count;
+        run.tick(std::min(images.kept, last), last);
     }
-    return {std::move(kept), made};
+    images.rows.resize(static_cast<std::size_t>(plan_.count) * d);
+    return images;
 }
+
+namespace {
+
+/// Whether a generator makes sets of one more point than these.
+bool takes_any_count(const Generator& generator, Request request, std::uint64_t count,
+                     const Values& options) {
+    try {
+        request.count = count + 1;
+        return plan_for(generator, request, options).count == count + 1;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+}  // namespace
 
 GeneratedSets::Images GeneratedSets::images_of_more(std::uint64_t set, const PointSet& first,
                                                     const RunContext& run) const {
@@ -323,10 +401,22 @@ GeneratedSets::Images GeneratedSets::images_of_more(std::uint64_t set, const Poi
     const std::size_t d = dimension();
     std::vector<double> kept = chain->mapped(first.flat(), false, asked_.request.start, quiet);
     std::uint64_t count = first.count();
-    Images best{{}, count};
+    if (kept.size() / d < plan_.count &&
+        !takes_any_count(generator_, asked_.request, plan_.count, asked_.options)) {
+        if (kept.empty())
+            fail(ErrorKind::input, "the constraints hold for none of the {} points of {}", count,
+                 generator_.name);
+        run.notify(fmt::format(
+            "{} of the {} points of {} satisfy the constraints; the others are left out, since it "
+            "has no set of another size to take them from",
+            kept.size() / d, count, generator_.name));
+        return {std::move(kept), count, kept.size() / d};
+    }
+    Images best{{}, count, 0};
     for (int step = 0; step < 12; ++step) {
         const std::uint64_t have = kept.size() / d;
-        if (have >= plan_.count && (best.rows.empty() || count < best.made)) best = {kept, count};
+        if (have >= plan_.count && (best.rows.empty() || count < best.made))
+            best = {kept, count, have};
         if (!best.rows.empty() && have >= plan_.count && have <= plan_.count + 2 + plan_.count / 50)
             break;
         if (have == 0 && count > 10'000'000) break;
@@ -337,31 +427,19 @@ GeneratedSets::Images GeneratedSets::images_of_more(std::uint64_t set, const Poi
         Request request = asked_.request;
         request.count = count = static_cast<std::uint64_t>(next);
         request.seed = plan_.seed + set;
-        kept = chain->mapped(make_points(generator_, request, asked_.options, run).flat(), false,
-                             request.start, quiet);
+        const Plan plan = plan_for(generator_, request, asked_.options);
+        kept = chain->mapped(raw_points(set, plan, run).flat(), false, request.start, quiet);
     }
     if (best.rows.empty())
         fail(ErrorKind::input, "the constraints hold for {} of {} points",
              kept.empty() ? "none" : std::to_string(kept.size() / d), count);
+    best.rows.resize(static_cast<std::size_t>(plan_.count) * d);
     if (best.made == plan_.count) return best;
     run.notify(fmt::format(
         "{} points were made, of which {} satisfy the constraints; the properties of {} "
         "are those of the larger set",
         best.made, plan_.count, generator_.name));
     return best;
-}
-
-PointSet GeneratedSets::filled_up(std::uint64_t set, const PointSet& first,
-                                  const RunContext& run) const {
-    const bool goes_on =
-        generator_.traits.sequence && generator_.traits.prefix && !chain_->reorders();
-    auto [rows, made] = goes_on ? next_images(set, first, run) : images_of_more(set, first, run);
-    const std::size_t d = dimension();
-    const double share = static_cast<double>(rows.size() / d) / static_cast<double>(made);
-    rows.resize(plan_.count * d);
-    PointSet points(std::move(rows), d);
-    points.provenance.efficiency = share;
-    return points;
 }
 
 void GeneratedSets::prepare(const RunContext& run) const {
@@ -386,6 +464,9 @@ Provenance GeneratedSets::provenance(std::uint64_t set, std::uint64_t count) con
                     .shard = {},
                     .command = {},
                     .independent = generator_.traits.independent};
+    std::erase_if(meta.options, [this](const auto& option) {  // what only writes side files
+        return std::ranges::find(generator_.writes, option.first) != generator_.writes.end();
+    });
     meta.columns = chain_->names({}, false);
     meta.levels = chain_->levels();
     if (asked_.request.bounds) meta.bounds = format_box(*asked_.request.bounds);

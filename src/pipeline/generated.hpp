@@ -89,6 +89,10 @@ class GeneratedSets {
     /// What comes with the sequence that was made last.
     [[nodiscard]] std::vector<SideFile> side_files() const;
 
+    /// Tells the user which words, and which outcomes of a design's levels, no point of a set that
+    /// comes in blocks has, if these are few.
+    void tell_absent_levels(const RunContext& run) const;
+
     /// Where a set of so many points comes from.
     [[nodiscard]] Provenance provenance(std::uint64_t set, std::uint64_t count) const;
 
@@ -98,24 +102,33 @@ class GeneratedSets {
                                                              const RunContext& run) const;
     [[nodiscard]] std::shared_ptr<const WarpChain> make_chain(const ChainSet& set,
                                                               const RunContext& run) const;
-    /// As many images as points are asked for, where warps drop some; `first` are the points before
-    /// warps. @throws Error(input) where next to none has an image
-    [[nodiscard]] PointSet filled_up(std::uint64_t set, const PointSet& first,
-                                     const RunContext& run) const;
+    /// The points of a set before its warps.
+    [[nodiscard]] PointSet raw_points(std::uint64_t set, const Plan& plan,
+                                      const RunContext& run) const;
+    /// Whether warps drop some points of a sequence, and the next ones take their place.
+    [[nodiscard]] bool goes_on() const;
+    /// Makes the images of runs that were made before what these were.
+    void keep_runs(PointSet& points, const RunContext& run) const;
+
     struct Images {
         std::vector<double> rows;
         std::uint64_t made;  ///< points that they are the images of, with those that have none
+        std::uint64_t kept;  ///< of these, all that have one
     };
-    /// By the next points of a sequence, as many as it takes.
-    [[nodiscard]] Images next_images(std::uint64_t set, const PointSet& first,
-                                     const RunContext& run) const;
-    /// By a set of more points, little more than it takes.
+    /// As many images as points are asked for, by the points of a sequence that have one: of these
+    /// number `start`, start + 1, ... @throws Error(input) where next to none has an image
+    [[nodiscard]] Images next_images(std::uint64_t set, const RunContext& run) const;
+    /// By a set of more points, little more than it takes; of a set of fixed size, those that there
+    /// are. `first` are the points before warps.
     [[nodiscard]] Images images_of_more(std::uint64_t set, const PointSet& first,
                                         const RunContext& run) const;
 
     /// The points of a set before its warps; the same object for all sets that are the same.
     [[nodiscard]] std::shared_ptr<Sequence> sequence(std::uint64_t set,
                                                      const RunContext& run) const;
+    /// The same of another plan.
+    [[nodiscard]] std::unique_ptr<Sequence> new_sequence(Plan plan, std::uint64_t set,
+                                                         const RunContext& run) const;
 
     SetsToMake asked_;
     const Generator& generator_;

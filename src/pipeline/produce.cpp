@@ -75,25 +75,44 @@ class WaitingSets {
     Provenance common_;
 };
 
-/// Writes sets as they are, and their side files; `chain` is what gave them, for their density.
+/// The rows of a set, each with the density of its point.
+NextRows rows_with_densities(const PointSet& points) {
+    return [&points, next = std::size_t{0}](std::span<double> rows) mutable {
+        const std::size_t d = points.dimension();
+        const std::size_t some = std::min(points.count() - next, rows.size() / (d + 1));
+        for (std::size_t i = 0; i < some; ++i, ++next) {
+            std::ranges::copy(points[next], rows.subspan(i * (d + 1), d).begin());
+            rows[i * (d + 1) + d] = points.densities[next];
+        }
+        return some;
+    };
+}
+
+/// Writes sets as they are, and their side files; `chain` is what gave them, for their density,
+/// unless they tell it themselves.
 void write_images(const std::vector<PointSet>& images, const WarpChain& chain,
                   std::size_t first_set, std::optional<std::uint64_t> first_seed,
                   const Target& target, io::Outputs& outputs, const RunContext& run) {
     const bool together = !file_per_set(target.path);
+    const bool densities = target.columns.any() && !images.front().densities.empty();
     Provenance common = images.front().provenance;
     SetsToWrite job{
         .sets = images.size(),
         .first_set = first_set,
         .domain = images.front().domain,
         .chain = &chain,
-        .source = [&](std::size_t set, const RunContext&) { return rows_of(images[set]); },
+        .source =
+            [&](std::size_t set, const RunContext&) {
+                return densities ? rows_with_densities(images[set]) : rows_of(images[set]);
+            },
         .provenance = [&](std::size_t set) { return together ? common : images[set].provenance; },
         .first_seed = first_seed,
         .extent =
             [&](std::size_t set) {
                 return bounding_box(images[set].flat(), images[set].domain->bounding_box());
             },
-        .counts = {}};
+        .counts = {},
+        .densities = densities};
     for (const PointSet& set : images) {
         job.counts.push_back(set.count());
         keep_common(common, set.provenance);
@@ -213,8 +232,9 @@ void refuse_second_set(io::PointStream& stream) {
 
 /// A warp, or the way back through it, for points on a domain.
 struct Warping {
+    /// @param densities whether points tell their own
     Warping(const Spec& spec, bool back, const DomainPtr& on, const Target& target,
-            const RunContext& run, const ChainSet& set = {})
+            const RunContext& run, const ChainSet& set = {}, bool densities = false)
         : inverse(back), taken(named_or_all(spec, on->dimension())) {
         const std::size_t d = on->dimension();
         if (inverse && !find_warp(spec.name).traits.invertible)
@@ -222,7 +242,8 @@ struct Warping {
         if (!inverse) before = warped_factors(on, taken, run);
         chain = std::make_shared<WarpChain>(
             std::span(&spec, 1), inverse ? dimension_before(spec, d, run) : d, set, run, before);
-        if (inverse && target.columns.any())
+        if (densities) find_stretch(spec, set, run);
+        if (inverse && target.columns.any() && !densities)
             fail(ErrorKind::usage,
                  "--with-{}: the inverse gives points of the unit cube, density 1",
                  target.columns.names().front());
@@ -239,22 +260,63 @@ struct Warping {
                      fmt::join(gather(row, d, taken), ", "));
     }
 
+    /// The warp alone, without what points are on besides the unit cube.
+    void find_stretch(const Spec& spec, const ChainSet& set, const RunContext& run) {
+        if (!inverse && (chain->drops() || chain->reorders()))
+            fail_with_hint(ErrorKind::input,
+                           "--column picks the coordinates, which are then taken to be uniform",
+                           "the points have a column of densities; how the warp {} changes these "
+                           "is not known, for it {}",
+                           spec.name, chain->drops() ? "leaves points out" : "reorders points");
+        stretch = before.empty() ? chain
+                                 : std::make_shared<WarpChain>(std::span(&spec, 1),
+                                                               chain->dimension_in(), set, run);
+    }
+
+    /// Densities of the images of points that tell their own: p / |J|, on the way back p |J|.
+    [[nodiscard]] std::vector<double> densities(const PointSet& from, const PointSet& to) const {
+        auto factors = stretch->density((inverse ? from : to).flat());
+        for (std::size_t i = 0; i < factors.size(); ++i)
+            factors[i] = inverse ? from.densities[i] / factors[i] : from.densities[i] * factors[i];
+        return factors;
+    }
+
     bool inverse;
     std::vector<std::size_t> taken;  ///< coordinates; no others need be in the unit cube
     std::string cube;                ///< of these, for messages
     std::vector<Factor> before;      ///< what the points are on besides the unit cube
     std::shared_ptr<const WarpChain> chain;
     std::vector<std::pair<std::string, std::string>> inputs = {};
+    std::shared_ptr<const WarpChain> stretch = {};  ///< what densities are divided by
 };
+
+/// Bases of the digits of points that a generator made, and scrambles alone have changed; empty: 2,
+/// or not known.
+std::vector<std::uint32_t> digit_bases(const Provenance& meta) {
+    const Generator* generator = generator_named(meta.generator);
+    if (generator == nullptr || !generator->bases || !meta.bounds.empty()) return {};
+    const auto keeps_digits = [](const std::string& step) {
+        return step == cut_to_single || step.starts_with(cut_to_digits) ||
+               (!step.starts_with("inverse ") && scramble_named(parse_spec(step).name) != nullptr);
+    };
+    if (!std::ranges::all_of(meta.warps, keeps_digits)) return {};
+    Values options = generator->options.defaults();
+    const auto& known = generator->options.options();
+    for (const auto& [name, text] : meta.options)
+        if (std::ranges::find(known, name, &Option::name) != known.end())
+            generator->options.set(options, name, text);
+    return generator->bases({.count = meta.count, .dimension = meta.dimension}, options);
+}
 
 /// The image of a set, as its provenance tells it.
 PointSet warped(const PointSet& set, const Warping& warping, const RunContext& run) {
-    const auto& [inverse, taken, cube, before, chain, inputs] = warping;
+    const auto& [inverse, taken, cube, before, chain, inputs, stretch] = warping;
     if (!inverse) require_in_cube(set, taken, cube);
     const bool said = inverse || others_in_cube(set, taken, before);
     PointSet image = inverse ? chain->preimage(set, run) : chain->image(set, run);
     record_warp(image, *chain, inverse, inputs);
     if (!said) image.provenance.domain.clear();
+    if (!set.densities.empty()) image.densities = warping.densities(set, image);
     return image;
 }
 
@@ -359,7 +421,9 @@ class Producer {
         const std::uint64_t seed = sets_.plan().seed;
         for (const std::string& option : generator_.writes) {
             const auto& item = job_.options.find(option);
-            if (!item.given) continue;
+            const auto& known = generator_.options.options();
+            const bool file = std::ranges::find(known, option, &Option::name)->type == "file";
+            if (!item.given || !file) continue;
             const auto& path = std::get<std::string>(item.value);
             // All sets of a sequence have one such file.
             if (job_.sets > 1 && !generator_.traits.sequence && !file_per_set(path))
@@ -389,6 +453,7 @@ class Producer {
         const std::uint64_t count = last - first;
         const RunContext run = run_.rising();
         sets_.prepare(run);
+        if (job_.shard.index == 0) sets_.tell_absent_levels(run);
         io::Outputs outputs;
         write_files(
             {.sets = job_.sets,
@@ -479,14 +544,22 @@ bool takes_whole_sets(const Spec& warp, std::size_t dimension, const RunContext&
 }
 
 PointSet warped_set(const PointSet& set, const Spec& warp, bool inverse, const RunContext& run) {
-    return warped(set, Warping(warp, inverse, set.domain, {}, run), run);
+    const bool densities = !set.densities.empty();
+    return warped(set, Warping(warp, inverse, set.domain, {}, run, {}, densities), run);
 }
 
 void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, const Target& target,
                   const RunContext& run) {
-    const Warping warping(warp, inverse, sets.front().domain, target, run);
+    const bool densities = !sets.front().densities.empty();
+    const Warping warping(warp, inverse, sets.front().domain, target, run, {}, densities);
+    Target wider = target;
+    if (densities) {
+        const std::string& column = sets.front().provenance.density_column;
+        wider.columns.pdf |= column.find("pdf") != std::string::npos;
+        wider.columns.weight |= column.find("weight") != std::string::npos;
+    }
     for (PointSet& set : sets) set = warped(set, warping, run);
-    write_all(sets, *warping.chain, target, run);
+    write_all(sets, *warping.chain, wider, run);
 }
 
 bool can_stream(const io::PointStream& stream, const Target& target) {
@@ -555,11 +628,17 @@ void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, st
     if (replications * sets.size() - 1 > ~seed)
         fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed", seed,
              replications * sets.size());
+    if (!sets.front().densities.empty())
+        fail_with_hint(ErrorKind::input,
+                       "--column picks the coordinates, which are then taken to be uniform",
+                       "the points have a column of densities; a scramble keeps no density but 1");
     const auto scrambled = [&](std::size_t set) {
         const PointSet& points = sets[set / replications];
         Spec spec = scramble;
         spec.settings.emplace_back(scramble_seed.name, std::to_string(seed + set));
-        const Warping scrambling(spec, false, points.domain, {}, run, {.count = points.count()});
+        const Warping scrambling(
+            spec, false, points.domain, {}, run,
+            {.count = points.count(), .bases = digit_bases(points.provenance)});
         return warped(points, scrambling, run);
     };
     const WarpChain nothing({}, sets.front().dimension());

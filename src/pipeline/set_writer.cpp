@@ -28,7 +28,7 @@ double finite(const char* column, double value, std::span<const double> point, b
 /// the file. False: the pipe was closed.
 bool write_rows(const NextRows& next, const SetsToWrite& job, const Layout& layout,
                 const Target& target, std::size_t set, io::Output& output, const RunContext& run) {
-    const std::size_t d = job.dimension();
+    const std::size_t d = job.width();
     const std::uint64_t block = std::max<std::uint64_t>(1, 16384 / d);
     const std::uint64_t count = layout.counts[set];
     std::uint64_t written = 0;
@@ -164,17 +164,19 @@ bool write_file(const SetsToWrite& job, std::size_t first, std::size_t last,
 std::vector<double> with_columns(std::span<const double> rows, const Columns& columns,
                                  const SetsToWrite& job) {
     const std::size_t d = job.dimension();
-    const auto density = job.chain->density(rows);
+    const auto density = job.densities ? std::vector<double>() : job.chain->density(rows);
     // Without warps, what the points are on is the unit cube, or what it was scaled to.
-    const double volume = job.chain->empty() ? job.domain->measure() : 1;
+    const double volume = job.chain->empty() && !job.densities ? job.domain->measure() : 1;
     std::vector<double> wide;
-    wide.reserve(rows.size() + 2 * density.size());
-    for (std::size_t i = 0; i < density.size(); ++i) {
-        const auto row = rows.subspan(i * d, d);
+    const std::size_t count = rows.size() / job.width();
+    wide.reserve(rows.size() + 2 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto row = rows.subspan(i * job.width(), d);
         wide.insert(wide.end(), row.begin(), row.end());
+        const double told = job.densities ? rows[i * job.width() + d] : density[i];
         const bool off = columns.anywhere && !job.chain->domain()->contains(row);
-        const double pdf = off ? 0 : density[i] / volume;
-        const double weight = volume / density[i];
+        const double pdf = off ? 0 : told / volume;
+        const double weight = volume / told;
         if (columns.pdf)
             wide.push_back(
                 finite(columns.anywhere ? "density-at" : "with-pdf", pdf, row, job.starts));

@@ -59,9 +59,12 @@ struct SetsToWrite {
     Counts counts = {};                               ///< of points; 0: known only in the end
     std::uint64_t expected = 0;  ///< about so many, where that is known only in the end
     bool starts = false;         ///< a set's first point can be left out by --start
+    bool densities = false;      ///< a row of the source ends with the density of its point
 
-    /// Numbers of a row, less the columns.
+    /// Coordinates of a point.
     [[nodiscard]] std::size_t dimension() const { return domain->dimension(); }
+    /// Numbers that the source gives of it.
+    [[nodiscard]] std::size_t width() const { return dimension() + (densities ? 1 : 0); }
 };
 
 /// As the target names it or its path ends; else csv.

@@ -18,12 +18,13 @@ constexpr double legend_row = 19;
 constexpr double legend_size = 12;
 constexpr double swatch = 22;
 constexpr std::size_t most_entries = 12;  ///< of a legend
+constexpr double least_panels = 60;       ///< units that panels share
 
 /// Smallest and largest of what an axis has to show.
 struct Span {
     bool log = false;
     double low = std::numeric_limits<double>::infinity();
-    double high = -low;
+    double high = -std::numeric_limits<double>::infinity();
 
     void take(double value) {
         if (!std::isfinite(value) || (log && value <= 0)) return;
@@ -44,9 +45,9 @@ bool marked(std::span<const ChartPanel> panels) {
 /// Room for what would lie on the ends, a share of the axis at each.
 void widen(Axis& axis, double share, bool keep_low = false) {
     if (axis.log) {
-        const double more = std::pow(axis.high / axis.low, share);
-        axis.low /= more;
-        axis.high *= more;
+        const double more = std::exp(share * (std::log(axis.high) - std::log(axis.low)));
+        axis.low = std::max(axis.low / more, least_shown);
+        axis.high = std::min(axis.high * more, 2 * most_shown);
         return;
     }
     const double more = share * (axis.high - axis.low);
@@ -82,6 +83,7 @@ Axis x_axis(std::span<const ChartPanel> panels, const PictureStyle& style) {
         for (const Bars& bars : panel.bars) span.take(bars.edges);
         span.take(panel.rug);
     }
+    require_shown(span.low, span.high);
     Axis axis{.low = span.low,
               .high = span.high,
               .log = span.log,
@@ -114,6 +116,7 @@ Axis y_axis(const ChartPanel& panel, const PictureStyle& style) {
         span.take(series.high);
     }
     for (const Bars& bars : panel.bars) span.take(bars.heights);
+    require_shown(span.low, span.high);
     // Guides far outside the data are not shown.
     const double reach = span.high - span.low;
     for (const Guide& guide : panel.guides)
@@ -124,10 +127,9 @@ Axis y_axis(const ChartPanel& panel, const PictureStyle& style) {
         }
     if (panel.from_zero && !span.log) span.take(0);
     if (!span.log) span.take(panel.reach_y);
-    // What differs by rounding only is one value.
-    if (span.high - span.low <= 1e-7 * std::abs(span.high)) span.low = span.high;
+    constexpr int digits = 7;  // results that differ less do so by rounding
     Axis axis{.low = span.low, .high = span.high, .log = span.log, .name = panel.y_name};
-    axis.make_valid();
+    axis.make_valid(digits);
     if (axis.log) axis.low = std::max(axis.low, panel.least_y > 0 ? panel.least_y : 0);
     if (style.tight) return axis;
     if (axis.log)
@@ -147,10 +149,17 @@ std::size_t colour_of(const ChartPanel& panel, std::size_t series) {
     return panel.series[series].set.value_or(series);
 }
 
-std::vector<LegendEntry> legend_of(const ChartPanel& panel, bool sets_named, const Theme& theme) {
+std::vector<std::string> names_in(const ChartPanel& panel) {
+    std::vector<std::string> names;
+    for (const Series& series : panel.series) names.push_back(series.name);
+    for (const Bars& bars : panel.bars) names.push_back(bars.name);
+    return names;
+}
+
+std::vector<LegendEntry> legend_of(const Chart& chart, std::size_t number, const Theme& theme) {
+    const ChartPanel& panel = chart.panels[number];
     std::vector<LegendEntry> entries;
-    const std::size_t curves = panel.series.size() + panel.bars.size();
-    const bool named = curves > 1 && !sets_named;
+    const bool named = needs_legend(chart, number);
     for (std::size_t i = 0; named && i < panel.series.size(); ++i)
         entries.push_back(
             {.kind = panel.categories.empty() ? LegendEntry::Kind::line : LegendEntry::Kind::box,
@@ -234,7 +243,8 @@ void draw_guide(Drawing& drawing, const Panel& panel, const Guide& guide, Colour
         line.vertices = {{panel.frame().left, y}, {panel.frame().right(), y}};
     }
     for (std::size_t i = 0; i < guide.x.size(); ++i)
-        line.vertices.push_back(panel.at(guide.x[i], guide.y[i]));
+        if (std::isfinite(guide.x[i]) && !std::isnan(guide.y[i]))
+            line.vertices.push_back(panel.at(guide.x[i], guide.y[i]));
     drawing.add(std::move(line));
 }
 
@@ -354,20 +364,31 @@ void draw_panel(Drawing& drawing, const ChartPanel& content, const Panel& panel,
     panel.draw_axes(drawing, theme, false);
 }
 
-/// Where an entry of a legend stands, left to right in rows.
-std::vector<Position> legend_places(const std::vector<LegendEntry>& entries, double width) {
-    std::vector<Position> places;
+/// An entry of a legend: where it is, left to right in rows, and its name in lines.
+struct LegendPlace {
+    Position at;
+    std::vector<std::string> lines;
+
+    [[nodiscard]] double height() const { return legend_row * static_cast<double>(lines.size()); }
+};
+
+std::vector<LegendPlace> legend_places(const std::vector<LegendEntry>& entries, double width) {
+    constexpr double wider = 1.12;  // letters of the fonts that stand in for Helvetica
+    std::vector<LegendPlace> places;
     double x = 0;
     double y = 0;
     for (const LegendEntry& entry : entries) {
-        constexpr double wider = 1.12;  // letters of the fonts that stand in for Helvetica
-        const double wide =
-            swatch + 6 + std::min(wider * text_width(entry.name, legend_size), width - swatch - 6);
+        auto lines = wrapped(entry.name, legend_size, (width - swatch - 6) / wider);
+        if (lines.empty()) lines.emplace_back();
+        double widest = 0;
+        for (const std::string& line : lines)
+            widest = std::max(widest, wider * text_width(line, legend_size));
+        const double wide = swatch + 6 + widest;
         if (x > 0 && x + wide > width) {
             x = 0;
-            y += legend_row;
+            y += places.back().height();
         }
-        places.push_back({x, y});
+        places.push_back({{x, y}, std::move(lines)});
         x += wide + 18;
     }
     return places;
@@ -380,6 +401,11 @@ std::string words_of(std::string name) {
     std::ranges::replace(name, '-', ' ');
     std::ranges::replace(name, '.', ' ');
     return name;
+}
+
+bool needs_legend(const Chart& chart, std::size_t panel) {
+    const auto names = names_in(chart.panels[panel]);
+    return names.size() > 1 && (panel == 0 || names != names_in(chart.panels[panel - 1]));
 }
 
 std::pair<double, double> bar_edges(const ChartPanel& panel, std::size_t series, double x) {
@@ -408,7 +434,9 @@ std::vector<Guide> falling_guides(const Series& series) {
 }
 
 double legend_height(const std::vector<LegendEntry>& entries, double width) {
-    return entries.empty() ? 0 : legend_places(entries, width).back().y + legend_row + 5;
+    if (entries.empty()) return 0;
+    const LegendPlace last = legend_places(entries, width).back();
+    return last.at.y + last.height() + 5;
 }
 
 void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Position top_left,
@@ -417,8 +445,8 @@ void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Posi
     const auto places = legend_places(entries, width);
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const LegendEntry& entry = entries[i];
-        const double x = top_left.x + places[i].x;
-        const double y = top_left.y + places[i].y + legend_row / 2;
+        const double x = top_left.x + places[i].at.x;
+        const double y = top_left.y + places[i].at.y + legend_row / 2;
         if (entry.kind == Kind::line)
             drawing.add(Line{.vertices = {{x, y}, {x + swatch, y}},
                              .colour = entry.colour,
@@ -429,10 +457,13 @@ void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Posi
                 Disks{.centres = {{x + swatch - 6, y}}, .radius = 4, .colour = entry.colour});
         else
             drawing.rectangle({x, y - 5, swatch, 10}, entry.colour);
-        drawing.add(Label{.text = cut_to(entry.name, legend_size, width - swatch - 6, true),
-                          .at = {x + swatch + 6, y + 0.36 * legend_size},
-                          .size = legend_size,
-                          .colour = theme.text});
+        const double below = places[i].height() - legend_row;
+        add_lines(drawing,
+                  {.text = {},
+                   .at = {x + swatch + 6, y + 0.36 * legend_size + below},
+                   .size = legend_size,
+                   .colour = theme.text},
+                  places[i].lines, legend_row);
     }
 }
 
@@ -442,14 +473,14 @@ SquareDrawing square_drawing(TitledDrawing titled, const std::vector<LegendEntry
     constexpr double above = 14;  // with the name of the bar
     Drawing& drawing = titled.drawing;
     double top = titled.top;
+    const double whole_width = drawing.width - 2 * picture_margin;
     for (const LegendEntry& entry : legend) {
-        draw_legend(drawing, {entry}, {picture_margin, top}, drawing.width - 2 * picture_margin,
-                    *style.theme);
-        top += legend_row;
+        draw_legend(drawing, {entry}, {picture_margin, top}, whole_width, *style.theme);
+        top += legend_height({entry}, whole_width) - 5;
     }
     if (!legend.empty()) top += 5;
     const double left = std::ceil(picture_margin / 2 + Panel::room_left(y, 500));
-    const double below = Panel::room_below(x) + picture_margin;
+    const double below = Panel::room_below(x, 200) + picture_margin;
     const double beside = bar ? colour_bar_room : picture_margin / 2;
     const double wide = std::floor(drawing.width - left - beside - picture_margin);
     require_height(style, top + above + least + below);
@@ -463,24 +494,24 @@ SquareDrawing square_drawing(TitledDrawing titled, const std::vector<LegendEntry
 }
 
 TitledDrawing titled_drawing(const std::string& title, const std::string& subtitle,
-                             const PictureStyle& style, double usual_width, double usual_height) {
+                             const PictureStyle& style, double usual_width) {
     const std::string& first = style.title.value_or(title);
     Drawing drawing{.width = style.width > 0 ? style.width : usual_width,
-                    .height = style.height > 0 ? style.height : usual_height,
+                    .height = style.height,
                     .background = style.theme->background,
                     .title = first.empty() ? "stipple plot" : first};
     double y = picture_margin;
     const double width = drawing.width - 2 * picture_margin;
     const auto put = [&](const std::string& text, double size, bool bold, Colour colour) {
-        if (text.empty()) return;
         // Bold letters are a little wider.
-        const double sized = bold ? 1.08 * size : size;
-        drawing.add(Label{.text = cut_to(text, sized, width, bold),
-                          .at = {picture_margin, y + 0.8 * size},
-                          .size = size,
-                          .colour = colour,
-                          .bold = bold});
-        y += 1.45 * size;
+        for (const std::string& line : wrapped(text, bold ? 1.08 * size : size, width)) {
+            drawing.add(Label{.text = line,
+                              .at = {picture_margin, y + 0.8 * size},
+                              .size = size,
+                              .colour = colour,
+                              .bold = bold});
+            y += 1.45 * size;
+        }
     };
     put(first, 15, true, style.theme->ink);
     const bool untitled = style.title && style.title->empty();
@@ -505,41 +536,74 @@ void require_height(const PictureStyle& style, double needed) {
              std::ceil(needed * style.rows * style.scale));
 }
 
+namespace {
+
+/// Where the panels of a chart are.
+struct Layout {
+    double left = 0;
+    double width = 0;
+    double unit = 0;  ///< height of a panel whose share is 1
+    double gap = 0;   ///< between panels
+    double below = 0;
+    double needed = 0;  ///< height without the panels
+    double height = 0;
+};
+
+/// The layout of a drawing of that width, of whose height `used` is taken. Names take rows beside and
+/// below panels by how long these are, which leaves less for them.
+Layout layout_of(const Chart& chart, const PictureStyle& style, double width, double used) {
+    constexpr double least = 40;  // width of a panel
+    constexpr double first_panel = 305;
+    constexpr double other_panel = 158;
+    double shares = 0;
+    for (const ChartPanel& panel : chart.panels) shares += panel.share;
+    const auto more_panels = static_cast<double>(chart.panels.size() - 1);
+    Layout found{.width = width - 2 * picture_margin};
+    for (int rounds = 0; rounds < 4; ++rounds) {
+        for (std::size_t i = 0; i < chart.panels.size(); ++i)
+            found.below = std::max(
+                found.below, Panel::room_below(chart_axes(chart, i, style).first, found.width));
+        found.gap = panel_gap + (chart.own_x ? found.below : 0);
+        found.needed = used + found.below + picture_margin + found.gap * more_panels;
+        found.height = style.height > 0 ? style.height
+                                        : found.needed + first_panel + other_panel * more_panels;
+        found.unit = std::max(found.height - found.needed, least_panels) / shares;
+        for (const ChartPanel& panel : chart.panels)
+            found.left = std::max(
+                found.left,
+                std::ceil(picture_margin / 2 +
+                          Panel::room_left(y_axis(panel, style), found.unit * panel.share)));
+        found.width = std::max(least, std::floor(width - found.left - picture_margin - 8));
+    }
+    return found;
+}
+
+}  // namespace
+
 Drawing draw_chart(const Chart& chart, const PictureStyle& style, std::vector<Area>* frames) {
     const Theme& theme = *style.theme;
-    const auto more_panels = static_cast<double>(chart.panels.size() - 1);
-    const double below = Panel::room_below(chart_axes(chart, 0, style).first);
-    const double gap = panel_gap + (chart.own_x ? below : 0);
-    auto [drawing, y] =
-        titled_drawing(chart.title, chart.subtitle, style, 720, 420 + (158 + gap) * more_panels);
+    auto [drawing, y] = titled_drawing(chart.title, chart.subtitle, style, 720);
     const double whole_width = drawing.width - 2 * picture_margin;
-    double used = y + below + picture_margin + gap * more_panels;
-    double shares = 0;
+    double used = y;
     std::vector<std::vector<LegendEntry>> legends;
-    for (const ChartPanel& panel : chart.panels) {
-        legends.push_back(legend_of(panel, !legends.empty(), theme));
+    for (std::size_t i = 0; i < chart.panels.size(); ++i) {
+        legends.push_back(legend_of(chart, i, theme));
         used += legend_height(legends.back(), whole_width);
-        shares += panel.share;
     }
-    constexpr double least = 60;  // units that panels share
-    require_height(style, used + least);
-    drawing.height = std::max(drawing.height, std::ceil(used + least));
-    const double unit = (drawing.height - used) / shares;
-    double left = 0;
-    for (const ChartPanel& panel : chart.panels)
-        left = std::max(left, Panel::room_left(y_axis(panel, style), unit * panel.share));
-    left = std::ceil(picture_margin / 2 + left);
-    const double width = std::max(40.0, std::floor(drawing.width - left - picture_margin - 8));
+    const Layout layout = layout_of(chart, style, drawing.width, used);
+    require_height(style, layout.needed + least_panels);
+    drawing.height = std::ceil(layout.height);
+    drawing.width = std::max(drawing.width, layout.left + layout.width + picture_margin + 8);
     for (std::size_t i = 0; i < chart.panels.size(); ++i) {
         const ChartPanel& panel = chart.panels[i];
         draw_legend(drawing, legends[i], {picture_margin, y}, whole_width, theme);
         y = std::ceil(y + legend_height(legends[i], whole_width));
         auto [across, upward] = chart_axes(chart, i, style);
         across.numbers = chart.own_x || i + 1 == chart.panels.size();
-        const Area frame{left, y, width, std::floor(unit * panel.share)};
+        const Area frame{layout.left, y, layout.width, std::floor(layout.unit * panel.share)};
         if (frames != nullptr) frames->push_back(frame);
         draw_panel(drawing, panel, Panel(frame, across, upward), theme);
-        y = frame.bottom() + gap;
+        y = frame.bottom() + layout.gap;
     }
     return std::move(drawing);
 }

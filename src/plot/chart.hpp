@@ -85,6 +85,9 @@ struct Chart {
     bool own_x = false;  ///< each panel has its own x axis
 };
 
+/// Whether the names of a panel's curves are not those of the panel above.
+bool needs_legend(const Chart& chart, std::size_t panel);
+
 /// Where the bar of a series begins and ends along x, in the category at x.
 std::pair<double, double> bar_edges(const ChartPanel& panel, std::size_t series, double x);
 
@@ -105,8 +108,7 @@ struct TitledDrawing {
     double top = 0;  ///< height that they take
 };
 TitledDrawing titled_drawing(const std::string& title, const std::string& subtitle,
-                             const PictureStyle& style, double usual_width,
-                             double usual_height = 0);
+                             const PictureStyle& style, double usual_width);
 
 /// What a legend explains.
 struct LegendEntry {

@@ -62,7 +62,9 @@ Chart distance_chart(std::span<const PointSet* const> sets, const std::vector<st
         all.push_back(nearest_distances(*set, torus, run));
         largest = std::max(largest, *std::ranges::max_element(all.back()));
     }
-    if (!(largest > 0)) fail(ErrorKind::input, "all points are equal: all distances are 0");
+    if (!(largest > least_shown))
+        fail(ErrorKind::input, "all nearest distances are 0, or below {}: there is nothing to draw",
+             least_shown);
     largest *= 1.08;
     ChartPanel panel{.x_name = torus ? "distance to the nearest neighbour (torus)"
                                      : "distance to the nearest neighbour",

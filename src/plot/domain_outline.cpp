@@ -155,7 +155,9 @@ std::vector<std::vector<Position>> outline_of(const Domain& domain) {
     if (domain.dimension() != 2) return {};
     const Box box = domain.bounding_box();
     for (std::size_t k = 0; k < 2; ++k)
-        if (!std::isfinite(box.extent(k)) || !(box.extent(k) > 0)) return {};
+        if (!(box.extent(k) <= most_shown) ||
+            visible_range(box.low[k], box.high[k]) != std::pair(box.low[k], box.high[k]))
+            return {};
     return Tracer(domain).trace();
 }
 

@@ -11,15 +11,20 @@
 #include <tuple>
 
 #include "core/parallel.hpp"
+#include "core/text.hpp"
 #include "io/format.hpp"
 #include "math/neighbors/planar_sites.hpp"
+#include "plot/drawing/letters.hpp"
 
 namespace stipple::plot {
 namespace {
 
-std::vector<std::string> names_of(const PointsPicture& picture) {
-    const PointSet& first = *picture.sets[0];
-    return coordinate_names(first.dimension(), first.provenance);
+/// The words that the numbers 0, 1, ... of a coordinate stand for; nullptr if for none.
+const std::vector<std::string>* words_in(const PointSet& set, std::size_t k) {
+    const std::string name = coordinate_names(set.dimension(), set.provenance)[k];
+    for (const auto& [column, words] : set.provenance.levels)
+        if (column == name) return &words;
+    return nullptr;
 }
 
 std::size_t points_of(const PointsPicture& picture) {
@@ -46,14 +51,24 @@ bool all_inside(const PointSet& set) {
     return true;
 }
 
-/// The same directions a little longer on both sides; what has no extent gets one.
+/// The same directions a little longer on both sides.
 void widen(Box& box, double share) {
     for (std::size_t k = 0; k < box.dimension(); ++k) {
-        double more = share * box.extent(k);
-        if (!(box.extent(k) > 0)) more = box.low[k] == 0 ? 0.5 : 0.5 * std::abs(box.low[k]);
+        const double more = share * box.extent(k);
         box.low[k] -= more;
         box.high[k] += more;
     }
+}
+
+/// The box of domain and points.
+Box whole_box(std::span<const PointSet* const> sets) {
+    const PointSet& first = *sets[0];
+    const std::vector<double> point(first[0].begin(), first[0].end());
+    Box box = without_domain(first) ? Box{point, point} : first.domain->bounding_box();
+    for (std::size_t k = 0; k < box.dimension(); ++k)
+        if (!std::isfinite(box.extent(k))) box.low[k] = box.high[k] = point[k];
+    for (const PointSet* set : sets) box = bounding_box(set->flat(), box);
+    return box;
 }
 
 bool frame_is_outline(const PointsPicture& picture) {
@@ -76,14 +91,6 @@ struct View {
     Area area;
     Place place;
 };
-
-/// The numbers beside a bar of counts from 0 to the largest.
-std::vector<Tick> count_ticks(double largest) {
-    std::vector<Tick> ticks;
-    for (auto& [value, text] : linear_ticks(0, largest, 6, true).numbers)
-        ticks.push_back({value / largest, text});
-    return ticks;
-}
 
 /// Points as marks in an area of a drawing.
 class PointMarks {
@@ -116,7 +123,10 @@ class PointMarks {
             const PointSet& set = *picture_.sets[s];
             Disks marks{.radius = radius, .colour = theme_.series_colour(s)};
             marks.centres.reserve(set.count());
-            for (std::size_t i = 0; i < set.count(); ++i) marks.centres.push_back(place(set[i]));
+            for (std::size_t i = 0; i < set.count(); ++i) {
+                if (i % patience == 0) run_.check_stop();
+                marks.centres.push_back(place(set[i]));
+            }
             if (picture_.sets.size() > 1) marks.opacity = 0.85;
             drawing.add(std::move(marks));
         }
@@ -152,10 +162,16 @@ class PointMarks {
         return dense ? most : 0;
     }
 
+    /// Of counts from 0 to the largest.
     void draw_bar(Drawing& drawing, const Area& frame, double largest) const {
+        Ticks ticks = linear_ticks(0, largest, 6, true);
+        for (Tick& tick : ticks.numbers) tick.value /= largest;
+        const std::string name = ticks.exponent == 0
+                                     ? "points"
+                                     : fmt::format("points (×{})", power_of_ten(ticks.exponent));
         draw_colour_bar(
-            drawing, {frame.right() + 14, frame.top, 14, frame.height}, "points", theme_,
-            [this](double share) { return shade(share); }, count_ticks(largest));
+            drawing, bar_beside(frame), name, theme_, [this](double share) { return shade(share); },
+            ticks.numbers);
     }
 
     /// From the background through the first colour to the ink.
@@ -166,6 +182,8 @@ class PointMarks {
     }
 
   private:
+    static constexpr std::size_t patience = 65536;  ///< points between two looks at a stop
+
     [[nodiscard]] PixelImage empty_raster(const Area& area, double side) const {
         PixelImage raster{.area = area,
                           .columns = static_cast<std::size_t>(std::ceil(area.width / side)),
@@ -177,7 +195,6 @@ class PointMarks {
     template <class Visit>
     void for_each_bin(const PointSet& set, const PixelImage& raster, const Place& place,
                       const Visit& visit) const {
-        constexpr std::size_t patience = 65536;
         const Area& a = raster.area;
         const auto columns = static_cast<double>(raster.columns);
         const auto rows = static_cast<double>(raster.rows);
@@ -359,38 +376,80 @@ void draw_edges(Drawing& drawing, const Scene& scene, const Theme& theme, bool f
         }
 }
 
-/// Names, and the numbers at the ends, of the three edges that are free to the outside.
-void draw_ends(Drawing& drawing, const Scene& scene, const std::vector<std::string>& names,
-               const Theme& theme) {
-    const auto put = [&](Position at, double dx, double dy, const std::string& text, Anchor anchor,
-                         bool name) {
-        drawing.add(Label{.text = text,
-                          .at = {at.x + dx, at.y + dy},
-                          .size = name ? name_size : number_size,
-                          .colour = name ? theme.ink : theme.text,
-                          .anchor = anchor});
-    };
-    const Box& box = scene.box;
-    const auto end = [&](std::size_t k, bool high) {
-        return rounded(high ? box.high[k] : box.low[k], 4);
-    };
-    put(scene.at(0.08, 0, 0), -2, 18, end(0, false), Anchor::end, false);
-    put(scene.at(0.95, 0, 0), -2, 18, end(0, true), Anchor::end, false);
-    put(scene.at(0.5, 0, 0), -8, 24, names[0], Anchor::end, true);
-    put(scene.at(1, 0.08, 0), 10, 16, end(1, false), Anchor::start, false);
-    put(scene.at(1, 0.95, 0), 10, 16, end(1, true), Anchor::start, false);
-    put(scene.at(1, 0.5, 0), 14, 22, names[1], Anchor::start, true);
-    put(scene.at(0, 0, 0.04), -8, 4, end(2, false), Anchor::end, false);
-    put(scene.at(0, 0, 0.98), -8, 4, end(2, true), Anchor::end, false);
-    // Beside the numbers, from below, however long it is.
-    const Position side = scene.at(0, 0, 0.5);
-    drawing.add(Label{.text = names[2],
-                      .at = {side.x - 36, side.y},
-                      .size = name_size,
-                      .colour = theme.ink,
-                      .anchor = Anchor::middle,
-                      .upward = names[2].size() > 1});
-}
+/// The numbers at the ends and the names of the three edges that are free to the outside.
+struct EdgeTexts {
+    std::array<std::pair<std::string, std::string>, 3> ends;
+    std::array<std::vector<std::string>, 3> names;  ///< in lines
+
+    EdgeTexts(const PointsPicture& picture, const Box& box) {
+        const auto all = shown_names(picture);
+        for (std::size_t k = 0; k < 3; ++k) {
+            ends[k] = shown_ends(picture, box, k);
+            names[k] = {all[k]};
+        }
+    }
+
+    /// Width of the longer one of the ends' numbers.
+    [[nodiscard]] double wide(std::size_t k) const {
+        return std::max(text_width(ends[k].first, number_size),
+                        text_width(ends[k].second, number_size));
+    }
+    /// What the rows of a name take after the first one.
+    [[nodiscard]] double more_rows(std::size_t k) const {
+        return name_row * (static_cast<double>(names[k].size()) - 1);
+    }
+    /// From the upright edge to its name, beside the numbers.
+    [[nodiscard]] double aside() const { return std::max(36.0, 22 + wide(2)); }
+
+    /// What is needed on both sides of the box, and below it.
+    [[nodiscard]] double beside() const {
+        return std::max({aside() + more_rows(2) + 10, wide(0), wide(1) + 10});
+    }
+    [[nodiscard]] double below() const { return 30 + std::max(more_rows(0), more_rows(1)); }
+
+    /// Breaks the names where there is no more room for them.
+    void wrap(const Scene& scene, double width) {
+        constexpr double least = 40;
+        const double before = scene.at(0.5, 0, 0).x - 8 - picture_margin;
+        const double behind = width - scene.at(1, 0.5, 0).x - 14 - picture_margin;
+        const double high = scene.at(0, 0, 0).y - scene.at(0, 0, 1).y;
+        const std::array room = {before, behind, high + 20};
+        for (std::size_t k = 0; k < 3; ++k)
+            names[k] = wrapped(join(names[k], " "), name_size, std::max(least, room[k]));
+    }
+
+    void draw(Drawing& drawing, const Scene& scene, const Theme& theme) const {
+        const auto put = [&](Position at, double dx, double dy, const std::string& text,
+                             Anchor anchor) {
+            drawing.add(Label{.text = text,
+                              .at = {at.x + dx, at.y + dy},
+                              .size = number_size,
+                              .colour = theme.text,
+                              .anchor = anchor});
+        };
+        put(scene.at(0.08, 0, 0), -2, 18, ends[0].first, Anchor::end);
+        put(scene.at(0.95, 0, 0), -2, 18, ends[0].second, Anchor::end);
+        put(scene.at(1, 0.08, 0), 10, 16, ends[1].first, Anchor::start);
+        put(scene.at(1, 0.95, 0), 10, 16, ends[1].second, Anchor::start);
+        put(scene.at(0, 0, 0.04), -8, 4, ends[2].first, Anchor::end);
+        put(scene.at(0, 0, 0.98), -8, 4, ends[2].second, Anchor::end);
+        const auto name = [&](std::size_t k, Position at, double dx, double dy, Anchor anchor) {
+            add_lines(drawing,
+                      {.text = {},
+                       .at = {at.x + dx, at.y + dy},
+                       .size = name_size,
+                       .colour = theme.ink,
+                       .anchor = anchor,
+                       .upward = k == 2 && join(names[k], "").size() > 1},
+                      names[k], name_row);
+        };
+        name(0, scene.at(0.5, 0, 0), -8, 24 + more_rows(0), Anchor::end);
+        name(1, scene.at(1, 0.5, 0), 14, 22 + more_rows(1), Anchor::start);
+        name(2, scene.at(0, 0, 0.5), -aside(), 0, Anchor::middle);
+    }
+
+    static constexpr double name_row = name_size + 2;
+};
 
 /// Disks in layers from far to near: paler and smaller behind.
 void draw_layers(Drawing& drawing, const PointsPicture& picture, const Scene& scene,
@@ -424,36 +483,39 @@ Drawing draw_space(const PointsPicture& picture, const PictureStyle& style, cons
     const Theme& theme = *style.theme;
     const PointMarks marks(picture, style, run);
     Page page(picture, style, 640);
-    Box box = shown_box(picture.sets);
-    for (std::size_t k = 0; k < 3; ++k)
-        if (!(box.extent(k) > 0)) box.high[k] = box.low[k] + 1;
+    const Box box = shown_box(picture.sets);
     const auto [low, high] = projected_range(box);
     const double across = high.right - low.right;
     const double upward = high.up - low.up;
-    const double sides = 46 + picture_margin;
-    const double below = 30 + picture_margin;
     constexpr double least = 20;
-    require_height(style, page.top + 8 + least * upward + below);
-    double scale = (page.drawing.width - 2 * sides) / across;
-    if (style.height > 0) scale = std::min(scale, (style.height - page.top - below - 8) / upward);
-    scale = std::max(scale, least);
+    EdgeTexts texts(picture, box);
     Drawing& drawing = page.drawing;
-    drawing.height = std::ceil(page.top + 8 + scale * upward + below);
-    const double wide = scale * across;
-    const double left = (drawing.width - wide) / 2;
-    const Scene scene{box, scale, left - scale * low.right, page.top + 8 + scale * high.up};
+    double scale = 0;
+    const auto scene_of = [&, &low = low, &high = high] {
+        const double below = texts.below() + picture_margin;
+        require_height(style, page.top + 8 + least * upward + below);
+        scale = (drawing.width - 2 * (texts.beside() + picture_margin)) / across;
+        if (style.height > 0)
+            scale = std::min(scale, (style.height - page.top - below - 8) / upward);
+        scale = std::max(scale, least);
+        drawing.height = std::ceil(page.top + 8 + scale * upward + below);
+        const double left = (drawing.width - scale * across) / 2;
+        return Scene{box, scale, left - scale * low.right, page.top + 8 + scale * high.up};
+    };
+    texts.wrap(scene_of(), drawing.width);
+    const Scene scene = scene_of();
     if (marks.as_disks()) {
         draw_edges(drawing, scene, theme, false);
         draw_layers(drawing, picture, scene, theme, scale);
     } else {
         const Place place = [&scene](std::span<const double> p) { return scene.at(p); };
-        const Area area{std::floor(left), std::floor(page.top + 8), std::ceil(wide),
-                        std::ceil(scale * upward)};
+        const Area area{std::floor((drawing.width - scale * across) / 2), std::floor(page.top + 8),
+                        std::ceil(scale * across), std::ceil(scale * upward)};
         marks.raster(drawing, {{area, place}}, marks.as_density(area.width, area.height));
         draw_edges(drawing, scene, theme, false);
     }
     draw_edges(drawing, scene, theme, true);
-    draw_ends(drawing, scene, names_of(picture), theme);
+    texts.draw(drawing, scene, theme);
     return std::move(page.drawing);
 }
 
@@ -471,7 +533,7 @@ class PairSheet {
           marks_(picture, style, run),
           page_(picture, style, plane_ ? 640 : 800),
           box_(shown_box(picture.sets)),
-          names_(names_of(picture)),
+          names_(shown_names(picture)),
           shown_(std::min(box_.dimension(), picture.most_coordinates)) {
         if (!frame_is_outline(picture)) widen(box_, 0.03);
         const double tall = style.height > 0 ? style.height : page_.width;
@@ -505,37 +567,54 @@ class PairSheet {
     static constexpr double gap = 10;
     static constexpr double least = 30;  ///< side of a panel
 
+    /// Names take rows beside and below panels by how long these are, which leaves less for them.
     void place_panels(const PictureStyle& style) {
         const auto columns = static_cast<double>(shown_ - 1);
         const double gaps = (columns - 1) * gap;
-        double room = 0;
-        for (std::size_t j = 1; j < shown_; ++j)
-            room = std::max(room, Panel::room_left(axis(j, true), plane_ ? 500 : 200));
-        left_ = std::ceil(picture_margin / 2 + room);
-        top_ = page_.top + (dense_ ? 14 : 4);
-        const double below = Panel::room_below(axis(1, true)) + picture_margin;
         const double right = picture_margin + (dense_ ? colour_bar_room : plane_ ? 8 : 0);
-        const double wide = (page_.drawing.width - left_ - right - gaps) / columns;
-        require_height(style, top_ + columns * least + gaps + below);
-        const double high =
-            style.height > 0 ? std::floor((style.height - top_ - below - gaps) / columns) : 0;
-        if (plane_) {
-            std::tie(width_, height_) = frame_size(box_, wide, high);
-            left_ += std::max(std::floor((wide - width_) / 2), 0.0);
-        } else {  // coordinates of pairs may measure different things
-            width_ = std::max(std::floor(wide), least);
-            height_ = high > 0 ? high : width_;
+        top_ = page_.top + (dense_ ? 14 : 4);
+        width_ = height_ = plane_ ? 500 : 200;
+        double below = 0;
+        double aside = 0;
+        for (int rounds = 0; rounds < 4; ++rounds) {
+            for (std::size_t k = 0; k < shown_; ++k) {
+                if (k > 0)
+                    left_ = std::max(left_, std::ceil(picture_margin / 2 +
+                                                      Panel::room_left(axis(k, true), height_)));
+                if (k + 1 < shown_)
+                    below =
+                        std::max(below, Panel::room_below(axis(k, true), width_) + picture_margin);
+            }
+            const double wide = (page_.drawing.width - left_ - right - gaps) / columns;
+            const double high =
+                style.height > 0 ? std::floor((style.height - top_ - below - gaps) / columns) : 0;
+            if (plane_) {
+                std::tie(width_, height_) = frame_size(box_, wide, std::max(high, 0.0));
+                aside = std::max(std::floor((wide - width_) / 2), 0.0);
+            } else {  // coordinates of pairs may measure different things
+                width_ = std::max(std::floor(wide), least);
+                height_ = high > 0 ? high : width_;
+            }
         }
+        require_height(style, top_ + columns * least + gaps + below);
+        left_ += aside;
         page_.drawing.height = std::ceil(top_ + columns * height_ + gaps + below);
+        page_.drawing.width =
+            std::max(page_.drawing.width, left_ + columns * width_ + gaps + right);
     }
 
     /// Of a coordinate; numbers and names stand at the sheet's edge only.
     [[nodiscard]] Axis axis(std::size_t k, bool edge) const {
-        return {.low = box_.low[k],
-                .high = box_.high[k],
-                .name = edge ? names_[k] : "",
-                .numbers = edge,
-                .tight = !plane_};
+        Axis axis{.low = box_.low[k],
+                  .high = box_.high[k],
+                  .name = edge ? names_[k] : "",
+                  .numbers = edge,
+                  .tight = !plane_};
+        if (const auto* words = words_in(*picture_.sets[0], k)) {
+            axis.words = *words;
+            axis.first_word = 0;
+        }
+        return axis;
     }
 
     [[nodiscard]] Panel panel(std::size_t i, std::size_t j) const {
@@ -579,8 +658,26 @@ std::size_t bins_of(std::size_t n) {
         static_cast<std::size_t>(std::ceil(2 * std::cbrt(static_cast<double>(n)))), 5, 200);
 }
 
+/// Shares of words, as bars about 1, 2, ...
+ChartPanel words_panel(const PointsPicture& picture, const std::vector<std::string>& words,
+                       std::size_t k) {
+    ChartPanel panel{.x_name = shown_names(picture)[k],
+                     .y_name = "share",
+                     .categories = words,
+                     .from_zero = true};
+    const auto end = static_cast<double>(words.size()) - 0.5;
+    for (std::size_t s = 0; s < picture.sets.size(); ++s) {
+        Bars bars = histogram_of(coordinate(*picture.sets[s], k), -0.5, end, words.size());
+        for (double& edge : bars.edges) ++edge;
+        bars.name = picture.names[s];
+        panel.bars.push_back(std::move(bars));
+    }
+    return panel;
+}
+
 ChartPanel histogram_panel(const PointsPicture& picture, const Box& box, std::size_t k) {
-    ChartPanel panel{.x_name = names_of(picture)[k], .y_name = "density", .from_zero = true};
+    if (const auto* words = words_in(*picture.sets[0], k)) return words_panel(picture, *words, k);
+    ChartPanel panel{.x_name = shown_names(picture)[k], .y_name = "density", .from_zero = true};
     for (std::size_t s = 0; s < picture.sets.size(); ++s) {
         const PointSet& set = *picture.sets[s];
         panel.bars.push_back(
@@ -601,14 +698,32 @@ bool without_domain(const PointSet& set) {
 }
 
 Box shown_box(std::span<const PointSet* const> sets) {
-    const PointSet& first = *sets[0];
-    const std::vector<double> point(first[0].begin(), first[0].end());
-    Box box = without_domain(first) ? Box{point, point} : first.domain->bounding_box();
-    for (std::size_t k = 0; k < box.dimension(); ++k)
-        if (!std::isfinite(box.extent(k))) box.low[k] = box.high[k] = point[k];
-    for (const PointSet* set : sets) box = bounding_box(set->flat(), box);
-    widen(box, 0);
+    Box box = whole_box(sets);
+    for (std::size_t k = 0; k < box.dimension(); ++k) {
+        if (const auto* words = words_in(*sets[0], k)) {
+            box.low[k] = std::min(box.low[k], 0.0) - 0.5;
+            box.high[k] = std::max(box.high[k], static_cast<double>(words->size()) - 1) + 0.5;
+        }
+        require_shown(box.low[k], box.high[k]);
+        std::tie(box.low[k], box.high[k]) = visible_range(box.low[k], box.high[k]);
+    }
     return box;
+}
+
+std::vector<std::string> shown_names(const PointsPicture& picture) {
+    const PointSet& first = *picture.sets[0];
+    auto names = coordinate_names(first.dimension(), first.provenance);
+    const Box box = whole_box(picture.sets);
+    for (std::size_t k = 0; k < names.size(); ++k)
+        if (const std::string flaw = flaw_of_range(box.low[k], box.high[k]); !flaw.empty())
+            names[k] += fmt::format(" ({})", flaw);
+    return names;
+}
+
+std::pair<std::string, std::string> shown_ends(const PointsPicture& picture, const Box& box,
+                                               std::size_t k) {
+    if (const auto* words = words_in(*picture.sets[0], k)) return {words->front(), words->back()};
+    return rounded_ends(box.low[k], box.high[k]);
 }
 
 double picture_ratio(const Box& box, std::size_t i, std::size_t j) {
@@ -656,12 +771,14 @@ Chart histogram_chart(const PointsPicture& picture) {
     const Box box = shown_box(picture.sets);
     Chart chart{.title = picture.title, .subtitle = picture.subtitle};
     const std::size_t panels = std::min(box.dimension(), most_panels);
-    for (std::size_t k = 1; k < panels; ++k)
-        if (box.low[k] != box.low[0] || box.high[k] != box.high[0]) chart.own_x = true;
+    for (std::size_t k = 0; k < panels; ++k)
+        if (box.low[k] != box.low[0] || box.high[k] != box.high[0] ||
+            words_in(*picture.sets[0], k) != nullptr)
+            chart.own_x = true;
     for (std::size_t k = 0; k < panels; ++k) {
         ChartPanel panel = histogram_panel(picture, box, k);
         if (panels > 1 && !chart.own_x) {
-            panel.y_name = fmt::format("density of {}", panel.x_name);
+            panel.y_name = fmt::format("{} of {}", panel.y_name, panel.x_name);
             panel.x_name = "coordinate";
         }
         if (k > 0)

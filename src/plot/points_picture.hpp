@@ -67,7 +67,16 @@ std::vector<std::vector<Position>> outline_of(const Domain& domain);
 
 /// The box that a picture of the sets shows: their domain's and all points. Where points are outside
 /// the unit cube that is their default domain, the box is that of the points.
+/// A coordinate of words has as much room for each; one that is not visible is widened.
+/// @throws Error(input) where it is too wide for an axis
 Box shown_box(std::span<const PointSet* const> sets);
+
+/// The coordinates' names, with what no picture can show of them.
+std::vector<std::string> shown_names(const PointsPicture& picture);
+
+/// Both ends of a coordinate, of words the first and the last.
+std::pair<std::string, std::string> shown_ends(const PointsPicture& picture, const Box& box,
+                                               std::size_t k);
 
 /// The height of a picture of two coordinates over its width: that of the box, unless its sides are so
 /// different that they measure different things.

@@ -574,12 +574,12 @@ Chart number_histogram(Measurements ms, const std::string& key) {
         if (const auto value = number_at(m.results, key); value && std::isfinite(*value))
             values.push_back(*value);
     const auto [low, high] = std::ranges::minmax(values);
-    Axis axis{.low = low, .high = high};
-    axis.make_valid();
+    require_shown(low, high);
+    const auto shown = visible_range(low, high);
     // Bins as wide as Sturges has them, for some ten to some thousand values.
     const auto bins =
         static_cast<std::size_t>(std::ceil(std::log2(static_cast<double>(values.size())))) + 3;
-    Bars bars = histogram_of(values, axis.low, axis.high, bins);
+    Bars bars = histogram_of(values, shown.first, shown.second, bins);
     const double width = bars.edges[1] - bars.edges[0];
     for (double& height : bars.heights)
         height = std::round(height * width * static_cast<double>(values.size()));

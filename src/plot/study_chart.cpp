@@ -124,14 +124,17 @@ std::vector<Topic> topics_of(std::span<const MeanRow> means, const std::string& 
     return topics;
 }
 
+/// Generators have the same colours in all panels.
 ChartPanel panel_of(const Topic& topic, const std::string& name, std::span<const MeanRow> means) {
     const bool errors = is_error(topic, means);
     ChartPanel panel{
         .x_name = "points n", .y_name = (errors ? "RMS of " : "") + name, .log_x = true};
     double low = HUGE_VAL;
     double high = 0;
-    for (const auto& generator : distinct(means, [](const auto& row) { return row.generator; })) {
-        Series series = series_of(generator, topic, errors, means);
+    const auto generators = distinct(means, [](const auto& row) { return row.generator; });
+    for (std::size_t i = 0; i < generators.size(); ++i) {
+        Series series = series_of(generators[i], topic, errors, means);
+        series.set = i;
         for (const double y : series.y) {
             low = std::min(low, y);
             high = std::max(high, y);

@@ -50,13 +50,15 @@ std::string plane_as_text(const PointsPicture& picture, const TextRoom& room, st
                           std::size_t j = 1) {
     const Box box = shown_box(picture.sets);
     const bool plane = box.dimension() == 2;
-    const auto names = coordinate_names(box.dimension(), picture.sets[0]->provenance);
+    const auto names = shown_names(picture);
+    const auto [low_x, high_x] = shown_ends(picture, box, i);
+    const auto [low_y, high_y] = shown_ends(picture, box, j);
     const TextFrame frame{.title = plane ? picture.title : "",
-                          .low_x = rounded(box.low[i]),
-                          .high_x = rounded(box.high[i]),
+                          .low_x = printable(low_x),
+                          .high_x = printable(high_x),
                           .name_x = printable(names[i]),
-                          .low_y = rounded(box.low[j]),
-                          .high_y = rounded(box.high[j]),
+                          .low_y = printable(low_y),
+                          .high_y = printable(high_y),
                           .name_y = printable(names[j]),
                           .coloured = room.coloured};
     const double ratio = plane ? picture_ratio(box, 0, 1) : 1;
@@ -100,7 +102,7 @@ std::string space_as_text(const PointsPicture& picture, const TextRoom& room) {
             dots.set((projected.right - low.right) / across, (projected.up - low.up) / upward);
         }
     }
-    const auto names = coordinate_names(3, picture.sets[0]->provenance);
+    const auto names = shown_names(picture);
     return framed(dots, {.title = picture.title,
                          .name_x = printable(fmt::format("{} and {} to the right, {} upward",
                                                          names[0], names[1], names[2])),
@@ -110,12 +112,15 @@ std::string space_as_text(const PointsPicture& picture, const TextRoom& room) {
 /// @param base where they begin, as a share of the height
 void draw_bars(DotMatrix& dots, const Bars& bars, const Axis& x, const Axis& y, double base = 0) {
     for (std::size_t i = 0; i < bars.heights.size(); ++i) {
-        const double top = y.share(bars.heights[i]);
-        const double left = x.share(bars.edges[i]);
-        const double right = x.share(bars.edges[i + 1]);
-        const double step = 1 / static_cast<double>(dots.width());
+        const double top = std::min(y.share(bars.heights[i]), 1.0);
+        const auto columns = static_cast<double>(dots.width());
+        const double left = std::max(x.share(bars.edges[i]), 0.0);
+        const double right = std::min(x.share(bars.edges[i + 1]), 1.0);
         if (!(bars.heights[i] > 0) && base == 0) continue;
-        for (double at = left + step / 2; at < right; at += step) dots.draw(at, base, at, top);
+        for (double column = 0; left + (column + 0.5) / columns < right; ++column) {
+            const double at = left + (column + 0.5) / columns;
+            dots.draw(at, base, at, top);
+        }
     }
 }
 
@@ -125,12 +130,14 @@ std::string letter_of(std::size_t curve) {
     return std::string(1, letters[curve % letters.size()]);
 }
 
-/// Letters and names of curves, or squares and names of bars, in lines.
-std::string legend_as_text(const ChartPanel& panel, const TextRoom& room) {
+/// Letters and names of curves, or squares and names of bars, in lines, unless the panel above has the
+/// same.
+std::string legend_as_text(const Chart& chart, std::size_t number, const TextRoom& room) {
+    if (!needs_legend(chart, number)) return {};
+    const ChartPanel& panel = chart.panels[number];
     std::vector<std::string> names;
     for (const Bars& bars : panel.bars) names.push_back(bars.name);
     for (const Series& series : panel.series) names.push_back(series.name);
-    if (names.size() < 2) return {};
     std::string text;
     std::size_t used = 0;
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -185,9 +192,11 @@ std::vector<std::string> ends_of(const ChartPanel& panel, const DotMatrix& dots,
     return ends;
 }
 
-/// The number at the upper end of a panel's y axis.
-std::string upper_end(const Chart& chart, std::size_t number, const PictureStyle& style) {
-    return rounded(chart_axes(chart, number, style).second.high, 3);
+/// The numbers at the ends of a panel's y axis.
+std::pair<std::string, std::string> ends_upward(const Chart& chart, std::size_t number,
+                                                const PictureStyle& style) {
+    const Axis y = chart_axes(chart, number, style).second;
+    return rounded_ends(y.low, y.high, 3);
 }
 
 /// One panel in its frame, the numbers along x below the last alone.
@@ -198,13 +207,11 @@ std::string panel_as_text(const Chart& chart, std::size_t number, const PictureS
     const ChartPanel& panel = chart.panels[number];
     const bool last = chart.own_x || number + 1 == chart.panels.size();
     const auto scale = [](const Axis& axis) { return axis.log ? " (logarithmic)" : ""; };
-    TextFrame frame{.low_x = last ? rounded(x.low) : "",
-                    .high_x = last ? rounded(x.high) : "",
-                    .name_x = last ? panel.x_name + scale(x) : "",
-                    .low_y = rounded(y.low, 3),
-                    .high_y = upper_end(chart, number, style),
-                    .name_y = panel.y_name + scale(y),
+    TextFrame frame{.name_x = last ? printable(x.name) + scale(x) : "",
+                    .name_y = printable(y.name) + scale(y),
                     .coloured = room.coloured};
+    std::tie(frame.low_y, frame.high_y) = ends_upward(chart, number, style);
+    if (last) std::tie(frame.low_x, frame.high_x) = rounded_ends(x.low, x.high);
     if (!panel.categories.empty()) {
         frame.low_x = frame.high_x = "";
         frame.name_x = printable(join(panel.categories, ", "));
@@ -237,16 +244,16 @@ std::string chart_as_text(const Chart& chart, PictureStyle style, const TextRoom
     style.tight = true;  // the numbers at the ends are those of the data
     const std::string title = printable(style.title.value_or(chart.title));
     std::string text = title.empty() ? "" : title + "\n";
-    text += legend_as_text(chart.panels[0], room);
     TextRoom part = room;
     part.rows = std::max(room.rows / chart.panels.size(), frame_rows + 2 * least_rows);
     std::size_t side = 0;
     for (std::size_t number = 0; number < chart.panels.size(); ++number)
-        for (const std::string& end : {upper_end(chart, number, style),
-                                       rounded(chart_axes(chart, number, style).second.low, 3)})
+        for (const auto& [low, high] = ends_upward(chart, number, style);
+             const std::string& end : {low, high})
             side = std::max(side, code_points(end).size());
     for (std::size_t number = 0; number < chart.panels.size(); ++number)
-        text += panel_as_text(chart, number, style, side, part);
+        text +=
+            legend_as_text(chart, number, room) + panel_as_text(chart, number, style, side, part);
     return text;
 }
 

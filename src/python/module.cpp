@@ -148,8 +148,9 @@ py::tuple analyze(const std::string& text, const Settings& settings, const Array
         return stipple::analyze(text, points, settings, run);
     });
     found.analyzer = find_analyzer(parse_spec(text).name).name;
+    found.source = "points";
     const Report& report = found.results;
-    return py::make_tuple(dict_of(report), to_text(report), report.unmet(), found);
+    return py::make_tuple(dict_of(report), to_text({&found, 1}), report.unmet(), found);
 }
 
 py::list read(const std::string& path, const std::string& format, std::size_t dimension,
@@ -243,8 +244,8 @@ void report(const std::string& path, const std::vector<std::pair<std::string, Gi
     });
 }
 
-std::string picture(const std::vector<std::pair<std::string, Given>>& given, double width,
-                    double height, const How& how) {
+plot::Drawing picture(const std::vector<std::pair<std::string, Given>>& given, double width,
+                      double height, const How& how) {
     std::vector<PointSet> sets;
     for (const auto& [name, set] : given) sets.push_back(set_of(set));
     plot::PointsPicture picture;
@@ -253,21 +254,26 @@ std::string picture(const std::vector<std::pair<std::string, Given>>& given, dou
         picture.names.push_back(given[i].first);
     }
     return released(how, [&](const RunContext& run) {
-        const plot::Drawing drawing =
-            plot::draw_points(picture, {.width = width, .height = height}, run);
-        return plot::svg_bytes(drawing, 1);
+        return plot::draw_points(picture, {.width = width, .height = height}, run);
     });
 }
 
-std::string report_picture(std::vector<std::pair<std::string, Measurement>> named,
-                           const std::string& key, double width, double height) {
+plot::Drawing report_picture(std::vector<std::pair<std::string, Measurement>> named,
+                             const std::string& key, double width, double height) {
     std::vector<Measurement> reports;
     for (auto& [name, found] : named) {
         found.source = name;
         reports.push_back(std::move(found));
     }
     const plot::PictureStyle style{.width = width, .height = height};
-    return plot::svg_bytes(plot::draw_chart(plot::chart_of(reports, key), style), 1);
+    return plot::draw_chart(plot::chart_of(reports, key), style);
+}
+
+/// A drawing as a file of the format, with the sizes that `stipple plot` gives it.
+py::bytes picture_bytes(const plot::Drawing& drawing, const std::string& format) {
+    if (format == "png") return plot::png_bytes_of(drawing, 2);
+    if (format == "pdf") return plot::pdf_bytes(drawing, 1);
+    return plot::svg_bytes(drawing, 1);
 }
 
 /// A sequence by index.
@@ -341,6 +347,7 @@ PYBIND11_MODULE(_stipple, module) {
     py::register_exception_translator(python::translate);
 
     py::class_<stipple::Measurement>(module, "Measurement");
+    py::class_<stipple::plot::Drawing>(module, "Drawing").def("bytes", python::picture_bytes);
     py::class_<How>(module, "How")
         .def(py::init([](unsigned threads, double max_memory, py::object progress) {
             return How{threads, max_memory, std::move(progress)};

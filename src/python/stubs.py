@@ -45,7 +45,8 @@ class Report(Mapping[str, Any]):
     def __len__(self) -> int: ...
 
 class Picture:
-    svg: str
+    @property
+    def svg(self) -> str: ...
     def save(self, path: str | os.PathLike[str]) -> None: ...
 
 class Page:

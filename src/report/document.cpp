@@ -100,11 +100,16 @@ std::string tables_of(const Report& report) {
     return text;
 }
 
-std::string to_text(const Measurement& m, const TextStyle& style = {}) {
+/// What was measured, and of which points.
+std::string head_of(const Measurement& m) {
     const std::string most = m.largest_count > 0 ? fmt::format(" to {}", m.largest_count) : "";
     const std::string of = m.columns.empty() ? "" : ": " + join(m.columns, ", ");
-    std::string text = fmt::format("{} of {} ({}{} points, dimension {}{}, {})\n", m.analyzer,
-                                   source_of(m), m.count, most, m.dimension, of, m.domain);
+    return fmt::format("{} of {} ({}{} points, dimension {}{}, {})\n", m.analyzer, source_of(m),
+                       m.count, most, m.dimension, of, m.domain);
+}
+
+std::string results_of(const Measurement& m, const TextStyle& style = {}) {
+    std::string text;
     const auto keys = m.results.keys();
     std::size_t width = 0;
     for (const auto& key : keys) width = std::max(width, key.size());
@@ -259,14 +264,14 @@ std::string to_json(std::span<const Measurement> measurements) {
 
 std::string to_text(std::span<const Measurement> measurements, const TextStyle& style) {
     std::string text;
-    for (const Measurement& m : measurements) text += to_text(m, style);
+    for (const Measurement& m : measurements) text += head_of(m) + results_of(m, style);
     return text;
 }
 
 std::string to_text(const Report& report) {
     Measurement measurement;
     measurement.results = report;
-    return to_text(measurement);
+    return results_of(measurement);
 }
 
 bool looks_like_reports(std::string_view bytes) {

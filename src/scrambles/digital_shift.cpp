@@ -17,7 +17,7 @@ namespace {
 constexpr Param<Numbers> base{{.name = "base",
                                .fallback = "2",
                                .help = "Base of the digits: one for all coordinates, or one for "
-                                       "each"}};
+                                       "each; default: the generator's, else 2"}};
 
 class BinaryShift {
   public:
@@ -39,6 +39,7 @@ Scramble unit() {
             .source = "Owen 1995, doi:10.1007/978-1-4612-2552-2_19",
             .related = {"xor", "random-digits"},
             .options = Schema(base, scramble_seed),
+            .stream_version = 2,
             .make = digit_scramble<BinaryShift, BaseShift>(base, false)};
 }
 

@@ -20,7 +20,7 @@ namespace {
 constexpr Param<Numbers> base{{.name = "base",
                                .fallback = "2",
                                .help = "Base of the digits, a prime: one for all coordinates, or "
-                                       "one for each"}};
+                                       "one for each; default: the generator's, else 2"}};
 
 /// The product with a binary matrix, byte by byte from tables.
 class BinaryProduct {
@@ -62,6 +62,7 @@ Scramble unit() {
             .related = {"matousek", "affine"},
             .options = Schema(base, scramble_seed),
             .aliases = {"linear-matrix"},
+            .stream_version = 2,
             .make = digit_scramble<BinaryProduct, BaseMatrix>(base, true)};
 }
 

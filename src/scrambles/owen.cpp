@@ -18,7 +18,7 @@ namespace {
 constexpr Param<Numbers> base{{.name = "base",
                                .fallback = "2",
                                .help = "Base of the digits: one for all coordinates, or one for "
-                                       "each, such as 2,3 for Halton's"}};
+                                       "each, such as 2,3; default: the generator's, else 2"}};
 
 }  // namespace
 
@@ -29,6 +29,7 @@ Scramble unit() {
             .related = {"laine-karras", "hash-based-owen"},
             .options = Schema(base, scramble_seed),
             .aliases = {"nested-uniform"},
+            .stream_version = 2,
             .make = digit_scramble<BinaryOwen, BaseOwen>(base, false)};
 }
 

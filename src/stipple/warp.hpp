@@ -35,6 +35,9 @@ PointSet warp_back(std::string_view spec, const PointSet& points, const RunConte
 /// The domain of a set as a spec: "unit-cube", "disk:radius=2".
 std::string domain_of(const PointSet& points);
 
+/// The domain that such a spec names. @throws Error(usage), Error(input) for another dimension
+DomainPtr domain_named(std::string_view spec, std::size_t dimension, const RunContext& run = {});
+
 /// Length, area, volume, ... of a set's domain; infinite for a whole line or plane.
 double measure_of(const PointSet& points);
 

@@ -802,4 +802,41 @@ TEST(Analyze, SensitivityTakesOutputsBesideADesign) {
                    "an empty field; expected a number");
 }
 
+// One design as a table with its parameters, with provenance lines and a column added, and in two files;
+// bounds are those of the inputs.
+TEST(Analyze, SensitivityKnowsTheInputsFromParametersAndProvenance) {
+    const Sandbox box;
+    box.write("p.json", R"({"parameters":[{"name":"a","range":[1,403.428793492735],"scale":"log"},)"
+                        R"({"name":"b","range":[10,20]}]})");
+    good(
+        box.shell("stipple generate morris --middles -d 2 --parameters p.json --meta -o meta.csv"));
+    good(box.shell("grep -v '^#' meta.csv > plain.csv"));
+    const std::string model =
+        "awk -F, '/^#/ {print; next} !n++ {print $0 \",y\"; next} {print $0 "
+        "\",\" log($1) + 0.3 * $2}' ";
+    good(box.shell(model + "meta.csv > told.csv; " + model + "plain.csv > table.csv"));
+    good(box.shell("cut -d, -f3 table.csv > y.csv"));
+    const std::string analyze = "stipple analyze sensitivity -f json ";
+    for (const std::string way : {"told.csv", "table.csv --parameters p.json",
+                                  "y.csv --design plain.csv --parameters p.json",
+                                  "y.csv --design meta.csv", "told.csv --parameters p.json"}) {
+        const json found = json::parse(good(box.shell(analyze + way)))["results"];
+        ASSERT_EQ(found.size(), 1U) << way;
+        EXPECT_EQ(found["y"]["scale"], "distributions") << way;
+        EXPECT_NEAR(double(found["y"]["a"]["mu_star"]), 6, 1e-4) << way;
+        EXPECT_NEAR(double(found["y"]["b"]["mu_star"]), 3, 1e-4) << way;
+    }
+    const Outcome bounds = box.shell(analyze + "table.csv --bounds 0..500,10..20 --response y");
+    EXPECT_EQ(json::parse(bounds.out)["results"]["y"]["scale"], "box");
+    EXPECT_NEAR(double(json::parse(bounds.out)["results"]["y"]["b"]["mu_star"]), 3, 1e-4);
+    const Outcome plain = box.shell(analyze + "table.csv --response y");
+    EXPECT_EQ(json::parse(plain.out)["results"]["y"]["scale"], "range");
+    EXPECT_THAT(plain.err, HasSubstr("each is scaled by its own extremes"));
+    expect_refusal(box.shell(analyze + "table.csv --bounds 0..1,0..1,0..1"), 2,
+                   "3 coordinates; there are 2 inputs: a, b");
+    expect_refusal(box.shell(analyze + "table.csv --rescale"), 2, "--rescale: these are rows of");
+    expect_refusal(box.shell(analyze + "y.csv --parameters p.json"), 3,
+                   "the table has no column a, b");
+}
+
 }  // namespace stipple::testing::analyze_test

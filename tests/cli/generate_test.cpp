@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 
 #include "places.hpp"
 #include "support/program.hpp"
@@ -293,6 +294,42 @@ TEST(Generate, WeightIsOneOverDensity) {
 }
 
 // Points stay where they are; 0 off the domain, also in coordinates that the warp leaves.
+// A density on the square times that of the sphere: 2 x / (4 pi) where x is the first coordinate.
+TEST(Warp, DensitiesOfPointsGoAlong) {
+    const Sandbox box;
+    box.write("p.csv", "x,y,pdf\n0.5,0.5,1\n0.25,0.5,0.5\n0.75,0.1,1.5\n");
+    box.write("w.csv", "x,y,weight\n0.5,0.5,1\n0.25,0.5,2\n");
+    box.write("both.csv", "x,y,pdf,weight\n0.25,0.5,0.5,2\n");
+    const auto last = [&](const std::string& line) {
+        std::vector<double> numbers;
+        std::istringstream rows(good(box.shell(line + " --no-header")));
+        for (std::string row; std::getline(rows, row);)
+            numbers.push_back(std::stod(row.substr(row.rfind(',') + 1)));
+        return numbers;
+    };
+    const double sphere = 1 / (4 * std::numbers::pi);
+    const auto expect = [&](const std::vector<double>& seen, const std::vector<double>& right) {
+        ASSERT_EQ(seen.size(), right.size());
+        for (std::size_t i = 0; i < seen.size(); ++i)
+            EXPECT_NEAR(seen[i], right[i], 1e-14 * right[i]);
+    };
+    expect(last("stipple warp sphere p.csv"), {sphere, sphere / 2, 1.5 * sphere});
+    expect(last("stipple warp sphere < p.csv"), {sphere, sphere / 2, 1.5 * sphere});
+    expect(last("stipple warp sphere w.csv"), {1 / sphere, 2 / sphere});
+    expect(last("stipple warp sphere both.csv"), {2 / sphere});
+    expect(last("stipple warp sphere p.csv -f json | stipple warp sphere --inverse - -f csv"),
+           {1, 0.5, 1.5});
+    // Other coordinates keep what their density holds already.
+    expect(last("stipple generate random -n 3 -d 3 -w normal@3 --with-pdf -f json -o n.json && "
+                "stipple warp disk n.json --coordinates 1,2 -f json | "
+                "stipple warp disk --coordinates 1,2 --inverse - -f csv"),
+           last("stipple convert n.json --column 4 -f csv"));
+    for (const char* refused : {"rejection p.csv", "owen p.csv"})
+        expect_refusal(box.shell(std::string("stipple warp ") + refused), 3,
+                       "the points have a column of densities");
+    good(box.shell("stipple warp owen p.csv --column x,y -o o.csv"));
+}
+
 TEST(Warp, TellsItsDensityAtGivenPoints) {
     const Sandbox box;
     const auto at = [&](const std::vector<std::string>& warp, const std::string& points) {

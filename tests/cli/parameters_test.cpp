@@ -80,6 +80,145 @@ TEST_F(Parameters, WordsWithoutParametersAreNumberedByTheirLetters) {
                    "oak'");
 }
 
+// Words that look like numbers, or like a number that is missing.
+TEST_F(Parameters, OddWordsSurvive) {
+    for (const std::string words :
+         {R"("nan", "18-25", "5%")", R"("inf", "NA", "-")", R"("a,b", "it's; so", "1/2 x")",
+          R"("null", "-inf", "true", "0x1g", "NaN")"}) {
+        box.write("w.json", R"({"parameters": [{"name": "k", "levels": [)" + words +
+                                R"(]}, {"name": "x", "range": [0, 1]}]})");
+        const std::string make = "stipple generate sobol -n 16 --parameters w.json ";
+        const std::string csv = text(make + "-o a.csv; cat a.csv");
+        for (const std::string format : {"csv", "txt", "json", "jsonl"}) {
+            text(make + "-f " + format + " -o a." + format);
+            EXPECT_EQ(text("stipple convert --parameters w.json -f csv a." + format), csv)
+                << words << format;
+        }
+        EXPECT_EQ(text(make + "--meta | stipple convert"), csv) << words;
+        EXPECT_EQ(text("tr , '\\t' < a.csv | grep -v '\"' | head -1"), "k\tx\n");
+        EXPECT_EQ(text("stipple warp parameters --parameters w.json --inverse a.csv | stipple warp "
+                       "parameters --parameters w.json"),
+                  text(make + "--meta | stipple warp parameters --parameters w.json --inverse | "
+                              "stipple warp parameters --parameters w.json"))
+            << words;
+        text("stipple analyze moments a.csv --parameters w.json");
+    }
+}
+
+TEST_F(Parameters, AreFoundByTheNamesOfColumns) {
+    text("stipple generate sobol -n 64 --parameters beam.json -o a.csv");
+    text("awk -F, '{print $3 \",\" $1 \",\" $2}' a.csv > b.csv");
+    text("sed '1s/layers/leyers/' a.csv > c.csv; awk -F, '{print $1 \",\" $3}' a.csv > d.csv");
+    const std::string back = "stipple warp parameters --parameters beam.json --inverse ";
+    EXPECT_EQ(text(back + "b.csv"), text(back + "a.csv | awk -F, '{print $3 \",\" $1 \",\" $2}'"));
+    EXPECT_EQ(text(back + "b.csv -o u.csv; stipple warp parameters --parameters beam.json u.csv"),
+              text("cat b.csv"));
+    for (const std::string verb : {"warp parameters --inverse", "analyze moments",
+                                   "analyze chi-square", "analyze kolmogorov-smirnov", "convert",
+                                   "plot -f svg", "report", "analyze nearest-neighbor"}) {
+        EXPECT_THAT(box.shell("stipple " + verb + " --parameters beam.json c.csv").err,
+                    HasSubstr("there is no column 'layers'"))
+            << verb;
+        EXPECT_THAT(box.shell("stipple " + verb + " --parameters beam.json d.csv").err,
+                    HasSubstr("there is no column 'layers'"))
+            << verb;
+    }
+    for (const std::string verb : {"analyze moments", "analyze kolmogorov-smirnov"})
+        EXPECT_EQ(text("stipple " + verb + " --parameters beam.json a.csv | grep -v '.csv'"),
+                  text("stipple " + verb + " --parameters beam.json b.csv | grep -v '.csv'"));
+    text("awk -F, '{print $0 \",\" (NR > 1 ? 7 : \"cost\")}' a.csv > e.csv");
+    EXPECT_THAT(box.shell(back + "e.csv").err, HasSubstr("the column 'cost' is none of"));
+}
+
+// Each level as often as others, whatever its probability.
+TEST_F(Parameters, DesignsHaveTheirLevels) {
+    box.write("d.json", R"({"parameters": [{"name": "k", "levels": ["A", "B"],
+        "probabilities": [0.9, 0.1]}, {"name": "m", "levels": ["p", "q", "r"]},
+        {"name": "x", "range": [0, 1]}]})");
+    const auto counts = [&](const std::string& design, int column) {
+        return text("stipple generate " + design +
+                    " --parameters d.json --quiet | tail -n +2 | cut -d, -f" +
+                    std::to_string(column) +
+                    " | sort | uniq -c | awk '{printf \"%s%s \", $1, $2}'");
+    };
+    EXPECT_EQ(counts("factorial", 1), "6A 6B ");
+    EXPECT_EQ(counts("factorial", 2), "4p 4q 4r ");
+    EXPECT_EQ(counts("factorial --levels 2,6,2", 2), "8p 8q 8r ");
+    EXPECT_EQ(counts("factorial --levels 2", 2), "4p 4r ");
+    EXPECT_EQ(counts("plackett-burman -n 8", 1), "4A 4B ");
+    EXPECT_EQ(counts("fractional-factorial -n 4", 1), "2A 2B ");
+    for (const std::string design : {"morris", "box-behnken", "central-composite"})
+        EXPECT_THAT(counts(design, 1), ::testing::AllOf(HasSubstr("A "), HasSubstr("B ")))
+            << design;
+    EXPECT_THAT(box.shell("stipple generate plackett-burman --parameters d.json").err,
+                HasSubstr("note: m: q is in none of the 4 points"));
+    EXPECT_EQ(box.shell("stipple generate factorial --parameters d.json").err, "");
+    expect_refusal(
+        box.run({"generate", "factorial", "--levels", "4", "--parameters", "d.json"}), 2,
+        "--levels: 4 levels of parameter 2 would show some of its 3 outcomes more often");
+}
+
+TEST_F(Parameters, FixedDesignsKeepWhatHolds) {
+    box.write("c.json", R"({"parameters": [{"name": "a", "range": [0, 1]}, {"name": "b",
+        "range": [0, 1]}, {"name": "c", "integers": [1, 3]}], "constraints": ["a*b < 0.5"]})");
+    for (const std::string design : {"box-behnken", "central-composite", "factorial -n 27",
+                                     "plackett-burman", "fast", "grid -n 27", "jittered -n 27"}) {
+        const Outcome made =
+            box.shell("stipple generate " + design + " --parameters c.json -o o.csv");
+        EXPECT_EQ(made.code, 0) << design << made.err;
+        EXPECT_THAT(made.err, HasSubstr("satisfy the constraints")) << design;
+        EXPECT_EQ(text("awk -F, 'NR > 1 && $1 * $2 >= 0.5' o.csv"), "") << design;
+    }
+    EXPECT_EQ(text("stipple generate factorial -n 27 --parameters c.json | wc -l"), "25\n");
+}
+
+// Rows of one sequence: those that hold, in order.
+TEST_F(Parameters, StartCountsWhatHolds) {
+    box.write("c.json", R"({"parameters": [{"name": "a", "range": [0, 1]}, {"name": "b",
+        "range": [0, 1]}], "constraints": ["a*b < 0.3"]})");
+    for (const std::string unit : {"sobol", "halton", "random", "sobol --scramble owen", "r2"}) {
+        const std::string make = "stipple generate " + unit + " --parameters c.json --quiet ";
+        const std::string whole = text(make + "-n 60");
+        EXPECT_EQ(text(make + "-n 20; " + make + "-n 40 --start 20 | tail -n +2"), whole) << unit;
+        EXPECT_EQ(text(make + "-n 20; for i in 0 1 2; do " + make +
+                       "-n 40 --start 20 --shard $i/3 | tail -n +2; done"),
+                  whole)
+            << unit;
+    }
+}
+
+TEST_F(Parameters, EarlierRunsAreExtended) {
+    box.write("c.json", R"({"parameters": [{"name": "a", "range": [1, 100], "scale": "log"},
+        {"name": "n", "integers": [1, 4]}, {"name": "k", "levels": ["u", "v"]},
+        {"name": "z", "distribution": "normal"}]})");
+    const std::string make = "stipple generate latin-hypercube --parameters c.json ";
+    text(make + "-n 20 -o a.csv");
+    // In another order, with the outputs of the runs.
+    text(
+        "awk -F, '{print $4 \",\" $3 \",\" $1 \",\" $2 \",\" (NR > 1 ? NR : \"cost\")}' a.csv > "
+        "b.csv");
+    const std::string all = text(make + "--extend b.csv --add 20");
+    EXPECT_EQ(text(make + "--extend b.csv -n 40"), all);
+    box.write("all.csv", all);
+    EXPECT_EQ(text("head -n 21 all.csv"), box.read("a.csv"));
+    EXPECT_EQ(text("cut -d, -f2 all.csv | tail -n +2 | sort | uniq -c | awk '{print $1, $2}'"),
+              "10 1\n10 2\n10 3\n10 4\n");
+    EXPECT_EQ(text("cut -d, -f3 all.csv | tail -n +2 | sort | uniq -c | awk '{print $1, $2}'"),
+              "20 u\n20 v\n");
+    // One in each fortieth of the log range.
+    EXPECT_EQ(
+        text("awk -F, 'NR > 1 {print int(log($1) / log(100) * 40)}' all.csv | sort -u | wc -l"),
+        "40\n");
+    box.write("bad.csv", "a,n,k,z\n5,9,u,0\n");
+    expect_refusal(box.run({"generate", "latin-hypercube", "--extend", "bad.csv", "--add", "2",
+                            "--parameters", "c.json"}),
+                   3, "bad.csv: the point (5, 9, 0, 0) is outside the domain parameters");
+    box.write("bad.csv", "a,n,k\n5,2,u\n");
+    expect_refusal(box.run({"generate", "latin-hypercube", "--extend", "bad.csv", "--add", "2",
+                            "--parameters", "c.json"}),
+                   3, "there is no column 'z'");
+}
+
 TEST_F(Parameters, TheDesignItselfIsInTheUnitCube) {
     const std::string cube =
         text("stipple generate sobol -n 8 --parameters tight.json --unit-cube");

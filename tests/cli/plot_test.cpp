@@ -6,6 +6,7 @@
 
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "support/program.hpp"
 
@@ -444,27 +445,151 @@ TEST(Plot, WritesPdf) {
     const std::string pdf = box.read("p.pdf");
     ASSERT_TRUE(pdf.starts_with("%PDF-1.4\n"));
     ASSERT_TRUE(pdf.ends_with("%%EOF\n"));
-    const std::string checked =
-        good(box.shell("python3 -c '\n"
-                       "import re, zlib\n"
-                       "b = open(\"p.pdf\", \"rb\").read()\n"
-                       "table = int(re.search(rb\"startxref.(\\d+)\", b, re.S).group(1))\n"
-                       "assert b[table:table + 4] == b\"xref\"\n"
-                       "places = re.findall(rb\"(\\d{10}) 00000 n\", b[table:])\n"
-                       "for i, at in enumerate(places):\n"
-                       "    assert b[int(at):].startswith(b\"%d 0 obj\" % (i + 1))\n"
-                       "part = re.search(rb\"Length (\\d+)>>.stream.\", b, re.S)\n"
-                       "page = zlib.decompress(b[part.end():part.end() + int(part.group(1))])\n"
-                       "assert page.count(b\"BT\") == page.count(b\"ET\") and page.count(b\"q \") "
-                       "== page.count(b\"Q\")\n"
-                       "print(len(re.findall(rb\"([0-9.]+ [0-9.]+) m \\1 l\", page)), "
-                       "page.decode(\"latin-1\"))'"));
-    EXPECT_TRUE(checked.starts_with("37 ")) << checked.substr(0, 20);
-    EXPECT_THAT(checked, HasSubstr("(Gr\\366\\337e \\(10)"));
-    EXPECT_THAT(checked, HasSubstr("(37 points, seed 1)"));
+    const std::string checked = good(
+        box.shell("python3 -c '\n"
+                  "import re, struct, zlib\n"
+                  "b = open(\"p.pdf\", \"rb\").read()\n"
+                  "table = int(re.search(rb\"startxref.(\\d+)\", b, re.S).group(1))\n"
+                  "assert b[table:table + 4] == b\"xref\"\n"
+                  "places = re.findall(rb\"(\\d{10}) 00000 n\", b[table:])\n"
+                  "for i, at in enumerate(places):\n"
+                  "    assert b[int(at):].startswith(b\"%d 0 obj\" % (i + 1))\n"
+                  "streams = [zlib.decompress(b[m.end():m.end() + int(m.group(1))])\n"
+                  "           for m in re.finditer(rb\"Length (\\d+)>>.stream.\", b, re.S)]\n"
+                  "page = streams[0]\n"
+                  "assert page.count(b\"BT\") == page.count(b\"ET\") and page.count(b\"q \") "
+                  "== page.count(b\"Q\")\n"
+                  "fonts = [{k: bytes.fromhex(u.decode()).decode(\"utf-16-be\")\n"
+                  "          for k, u in re.findall(rb\"<(....)><(\\w+)>\\n\", s)}\n"
+                  "         for s in streams if b\"beginbfchar\" in s]\n"
+                  "for s in [s for s in streams if s.startswith(b\"\\0\\1\\0\\0\")]:\n"
+                  "    tables = {s[12 + 16 * i:][:4]: struct.unpack(\">II\", s[20 + 16 * i:][:8])\n"
+                  "              for i in range(struct.unpack(\">H\", s[4:6])[0])}\n"
+                  "    part = lambda name: s[tables[name][0]:sum(tables[name])]\n"
+                  "    count = struct.unpack(\">H\", part(b\"maxp\")[4:6])[0]\n"
+                  "    assert count in [len(f) + 1 for f in fonts]\n"
+                  "    places = struct.unpack(\">%dI\" % (count + 1), part(b\"loca\"))\n"
+                  "    assert places == tuple(sorted(places))\n"
+                  "    assert places[-1] == len(part(b\"glyf\"))\n"
+                  "    assert len(part(b\"hmtx\")) == 4 * count\n"
+                  "print(len(re.findall(rb\"([0-9.]+ [0-9.]+) m \\1 l\", page)))\n"
+                  "for f, text in re.findall(rb\"/F(.) \\S+ Tf [^<]*<(\\w+)> Tj\", page):\n"
+                  "    print(\"\".join(fonts[int(f) - 1][text[i:i + 4]]\n"
+                  "          for i in range(0, len(text), 4)))'"));
+    EXPECT_TRUE(checked.starts_with("37\n")) << checked.substr(0, 20);
+    EXPECT_THAT(checked, HasSubstr("\nGröße (10⁻³) ★\n37 points, seed 1\n"));
+    // Every font is carried by the file, and its letters are found by readers.
+    EXPECT_THAT(pdf, HasSubstr("/FontFile2 "));
+    EXPECT_THAT(pdf, Not(HasSubstr("/Type1")));
+    if (box.shell("command -v pdffonts && command -v pdftotext").code == 0) {
+        EXPECT_THAT(good(box.shell("pdftotext p.pdf -")), HasSubstr("Größe (10⁻³) ★"));
+        std::istringstream fonts(good(box.shell("pdffonts p.pdf")));
+        std::string line;
+        for (int i = 0; std::getline(fonts, line); ++i)
+            if (i >= 2) EXPECT_THAT(line, HasSubstr("yes yes yes"));
+    }
     EXPECT_THAT(pdf, HasSubstr("/Title<FEFF004700720"));
     good(box.shell("stipple plot --generate random -n 37 --title 'Größe (10⁻³) ★' -f pdf > q.pdf"));
     EXPECT_TRUE(box.read("q.pdf").substr(0, 900) == pdf.substr(0, 900));
+}
+
+// Two coordinates that differ in their last bits, or by all that doubles can, end in a picture that says
+// so, in every form; none takes long or prints what is no number.
+TEST(Plot, EndsForEveryPairOfCoordinates) {
+    const Sandbox box;
+    const std::vector<std::pair<std::string, std::string>> pairs = {
+        {"1", "1.0000000000000002"},
+        {"1e15", "1000000000000000.125"},
+        {"1e300", "-1e300"},
+        {"5e-324", "1e-320"},
+        {"0", "5e-324"},
+        {"1e-300", "1e300"},
+        {"7", "7"},
+        {"-1e15", "-1000000000000000.125"},
+        {"1e9", "1000000000.001"}};
+    for (const auto& [a, b] : pairs)
+        for (const std::string file : {"p.svg", "p.pdf", "p.txt"})
+            for (const std::string chart : {"", " --chart histogram"}) {
+                for (const std::string d : {"1", "2", "3", "4"}) {
+                    box.write("p.csv", d == "1"   ? "x\n" + a + "\n" + b + "\n"
+                                       : d == "2" ? "x,y\n" + a + ",1\n" + b + ",2\n"
+                                       : d == "3" ? "x,y,z\n" + a + ",1," + b + "\n" + b + ",2,3\n"
+                                                  : "x,y,z,w\n" + a + ",1,2," + b + "\n" + b +
+                                                        ",2,3," + a + "\n");
+                    const Outcome outcome =
+                        box.shell("ulimit -t 20 -v 4000000; stipple plot p.csv -o " + file + chart);
+                    ASSERT_EQ(outcome.code, 0) << a << " " << b << " " << d << outcome.err;
+                    const std::string picture = box.read(file);
+                    ASSERT_LT(picture.size(), 200'000U) << a << " " << b << " " << d;
+                    if (file == "p.pdf") continue;
+                    ASSERT_THAT(picture, Not(::testing::ContainsRegex("[ \"(]-?(nan|inf)[ \")]")))
+                        << a << " " << b;
+                }
+            }
+    box.write("p.csv", "x,y\n1,5\n1.0000000000000002,6\n");
+    good(box.shell("stipple plot p.csv -o p.svg"));
+    EXPECT_THAT(xml(box, "p.svg", "text"), HasSubstr("x (all the same to 13 digits)"));
+    box.write("p.csv", "x,y\n-1.7e308,0\n1.7e308,1\n");
+    EXPECT_THAT(box.shell("stipple plot p.csv -o q.svg").err, HasSubstr("too wide for float64"));
+    box.write("r.json", R"([{"format":"stipple.report","version":1,"analyzer":"dispersion",)"
+                        R"("input":{"source":"a","count":4,"dimension":2,"domain":"unit-cube"},)"
+                        R"("options":{},"results":{"value":1e-320}},)"
+                        R"({"format":"stipple.report","version":1,"analyzer":"dispersion",)"
+                        R"("input":{"source":"b","count":9,"dimension":2,"domain":"unit-cube"},)"
+                        R"("options":{},"results":{"value":1e300}}])");
+    for (const std::string file : {"p.svg", "p.png", "p.txt"})
+        good(box.shell("ulimit -t 20 -v 4000000; stipple plot r.json -o " + file));
+}
+
+// Runs that failed have no numbers: their rows are left out, with a note.
+TEST(Plot, LeavesOutRowsWithMissingNumbers) {
+    const Sandbox box;
+    box.write("p.csv", "x,y\n0.1,0.2\n,0.5\n0.3,NA\n0.4,nan\n0.9,0.8\n");
+    const Outcome outcome = box.run({"plot", "p.csv", "-o", "p.svg"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_THAT(outcome.err, HasSubstr("p.csv: 3 of 5 rows are left out"));
+    EXPECT_EQ(xml(box, "p.svg", "circle"), "2\n");
+    EXPECT_THAT(xml(box, "p.svg", "text"),
+                HasSubstr("2 points, without 3 that have missing numbers"));
+    box.write("p.csv", "x,y\n,0.2\n1,nan\n");
+    expect_refusal(box.run({"plot", "p.csv", "-o", "q.svg"}), 3, "each of its 2 rows");
+}
+
+// Words stand on axes as words, in pictures of every kind.
+TEST(Plot, ShowsWordsOfLevels) {
+    const Sandbox box;
+    box.write("p.json", R"({"parameters":[{"name":"a","range":[2,3]},)"
+                        R"({"name":"material","levels":["steel","brass","copper"]}]})");
+    good(box.shell("stipple generate sobol -n 64 --parameters p.json -o e.csv --meta"));
+    for (const std::string chart : {"", " --chart histogram", " --chart pairs"}) {
+        good(box.shell("stipple plot e.csv -o p.svg" + chart));
+        const std::string texts = xml(box, "p.svg", "text");
+        EXPECT_THAT(texts, HasSubstr("steel|")) << chart;
+        EXPECT_THAT(texts, HasSubstr("copper|")) << chart;
+    }
+}
+
+TEST(Plot, LabelsAndAxesNameWhatIsDrawn) {
+    const Sandbox box;
+    const std::string three =
+        "stipple plot --generate halton --generate sobol --generate random -n 64 ";
+    good(box.shell(three + "--overlay --labels 'One,Two and more,Three' --axes 'Width (mm),Höhe' "
+                           "-o p.svg"));
+    std::string texts = xml(box, "p.svg", "text");
+    for (const char* word : {"|One|", "|Two and more|", "|Three|", "|Width (mm)|", "|Höhe"})
+        EXPECT_THAT("|" + texts, HasSubstr(word));
+    good(box.shell(three + "--labels A,B,C -o p.svg"));
+    EXPECT_THAT(xml(box, "p.svg", "text"), HasSubstr("A|64 points"));
+    good(box.shell(three + "--chart radial --labels A,B,C --axes 'f,P(f),dB' -o p.svg"));
+    texts = xml(box, "p.svg", "text");
+    for (const char* word : {"A|B|C|", "|P(f)|", "|dB", "|f"}) EXPECT_THAT(texts, HasSubstr(word));
+    expect_refusal(box.shell(three + "--labels A,B -o q.svg"), 2, "--labels: 2 names; the sets");
+    expect_refusal(box.shell(three + "--axes A -o q.svg"), 2, "--axes: 1 names for points of 2");
+    good(
+        box.shell("stipple study --generators halton,random -n 16,64,256 --seeds 3 --analyze "
+                  "dispersion --quiet -o s.csv"));
+    good(box.shell("stipple plot s.csv --labels 'Quasi,Pseudo' -o p.svg"));
+    EXPECT_THAT(xml(box, "p.svg", "text"), HasSubstr("Pseudo (slope"));
 }
 
 // A frame for each set, with its own points; --overlay has one for all.

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,6 +15,24 @@ TEST(Scramble, OnTheWayOutOrFromAFileIsTheSame) {
         box.shell("stipple generate halton -n 3000 -s 5 -w owen:base=[2,3] -o a.csv &&"
                   "stipple generate halton -n 3000 | stipple warp owen --base 2,3 -s 5 -o b.csv "
                   "&& cmp a.csv b.csv"));
+}
+
+// The digits of each generator are in its own base, on the way out and from a file that tells of it.
+TEST(Scramble, TakesTheBasesOfTheGenerator) {
+    const Sandbox box;
+    for (const auto& [generator, bases] : {std::pair{"faure -d 5", "5"},
+                                           {"halton -d 3", "2,3,5"},
+                                           {"niederreiter --base 3", "3"},
+                                           {"hammersley -d 3", "5,2,3"},
+                                           {"van-der-corput --base 7", "7"},
+                                           {"sobol -d 3", "2"}})
+        for (const char* scramble : {"owen", "digital-shift", "matrix"}) {
+            const std::string make = fmt::format("stipple generate {} -n 125 -s 3", generator);
+            good(box.shell(fmt::format(
+                "({0} -w {1}:base=[{2}] -o a.csv && {0} -w {1} -o b.csv && cmp a.csv b.csv && "
+                "{0} --meta | stipple warp {1} -s 3 -o c.csv && cmp a.csv c.csv) 2>/dev/null",
+                make, scramble, bases)));
+        }
 }
 
 TEST(Scramble, ReplicationsAreIndependentAndHaveTheirSeeds) {

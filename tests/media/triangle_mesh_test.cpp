@@ -5,9 +5,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
+#include "core/rng.hpp"
 #include "places.hpp"
 #include "support/units.hpp"
 
@@ -152,6 +154,76 @@ TEST(TriangleMesh, EveryCutOfABinaryPlyIsRefusedNamingAByte) {
     EXPECT_NE(ply_error(whole + "x"), "");
     const std::string error = ply_error(binary_square(std::numeric_limits<double>::quiet_NaN()));
     EXPECT_NE(error.find("x of vertex 4 of 4 is nan"), std::string::npos) << error;
+}
+
+/// Twice the area of the triangles, in the plane z = 0.
+double twice_area(const TriangleMesh& mesh) {
+    double sum = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const auto [a, b, c] = mesh.corners(i);
+        sum += cross(minus(b, a), minus(c, a))[2];
+    }
+    return sum;
+}
+
+// The area between (0,2) (1,.2) (2,2) (2,0) (0,0) is 4 - 1.8; a fan from the first corner has more.
+// Triangles keep the direction of their polygon.
+TEST(TriangleMesh, TriangulatesFacesThatAreNotConvex) {
+    const std::string notch = "v 0 2 0\nv 1 0.2 0\nv 2 2 0\nv 2 0 0\nv 0 0 0\n";
+    const TriangleMesh one = obj(notch + "f 1 2 3 4 5\n");
+    EXPECT_EQ(one.triangles.size(), 3U);
+    EXPECT_NEAR(twice_area(one), -2 * 2.2, 1e-15);
+    EXPECT_NEAR(twice_area(obj(notch + "f 5 4 3 2 1\n")), 2 * 2.2, 1e-15);
+    for (std::size_t i = 0; i < one.triangles.size(); ++i) {
+        const auto [a, b, c] = one.corners(i);
+        EXPECT_LE(cross(minus(b, a), minus(c, a))[2], 0);
+    }
+    const std::string head =
+        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+        "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    const TriangleMesh arrow = ply(head + "0 0 0\n4 0 0\n1 1 0\n0 4 0\n4 1 2 3 0\n");
+    EXPECT_NEAR(twice_area(arrow), 8, 1e-15);
+    EXPECT_EQ(arrow.triangles.size(), 2U);
+}
+
+// Combs of whole numbers in all directions of space, whose area the shoelace formula gives.
+TEST(TriangleMesh, TrianglesOfAPolygonHaveItsArea) {
+    const Rng rng(4);
+    for (std::uint64_t teeth = 1; teeth <= 30; ++teeth) {
+        std::string vertices = "v 0 0 0\n";
+        std::string face = "f 1";
+        double twice = 0;
+        double x = 0;
+        double y = 0;
+        const auto add = [&](double to_x, double to_y) {
+            twice += x * to_y - to_x * y;
+            x = to_x;
+            y = to_y;
+            vertices += fmt::format("v {} {} {}\n", x, y, 2 * x - 3 * y);
+            face += fmt::format(" {}", 1 + std::ranges::count(vertices, 'v') - 1);
+        };
+        add(static_cast<double>(2 * teeth), 0);
+        for (std::uint64_t k = 2 * teeth; k-- > 0;)
+            add(static_cast<double>(k),
+                static_cast<double>(k % 2 == 0 ? 1 : 2) + static_cast<double>(rng.below(k, 9)));
+        EXPECT_NEAR(twice_area(obj(vertices + face + "\n")), twice, 1e-9) << teeth;
+    }
+}
+
+TEST(TriangleMesh, RefusesPolygonsThatAreNotSimple) {
+    const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+    EXPECT_EQ(obj_error(square + "f 1 2 3 4\nf 1 3 2 4\n"),
+              "input: m.obj: face 2: edges of its 4 corners cross or touch; a simple polygon is "
+              "needed");
+    EXPECT_NE(obj_error(square + "v 0.5 0 0\nf 1 2 3 5 4\n"), "") << "touches an edge";
+    EXPECT_EQ(obj(square + "f 1 1 2 3\n").triangles.size(), 2U) << "one of them without area";
+    std::vector<std::string> notes;
+    RunContext run;
+    run.warn = [&](const std::string& note) { notes.push_back(note); };
+    parse_obj(square + "v 0 1 1\nf 1 2 3 4\nf 1 2 3 5\n", "m.obj", run);
+    EXPECT_EQ(notes, std::vector<std::string>{"m.obj: 1 of 2 faces are not flat, the first is face "
+                                              "2; the surface is that of triangles between their "
+                                              "corners"});
 }
 
 TEST(TriangleMesh, ReadMeshTellsKindsByTheirFirstLine) {

@@ -547,4 +547,49 @@ TEST(ReportCharts, MarksAtTheEndsAreWithinTheFrame) {
     }
 }
 
+// However long names are, and however small the picture is: every letter is there, within it.
+TEST(Chart, CutsNoNameOff) {
+    const std::string name =
+        "a_very/long.name of-a set, of which nobody would think: 0123456789abcdef";
+    std::string plain = name;
+    std::erase(plain, ' ');
+    for (const double width : {200.0, 400.0, 720.0})
+        for (const std::size_t panels : {1, 3}) {
+            Chart chart{.title = name, .subtitle = name};
+            for (std::size_t i = 0; i < panels; ++i)
+                chart.panels.push_back({.x_name = name,
+                                        .y_name = name,
+                                        .series = {{.name = name, .x = {1, 2}, .y = {3, 4}},
+                                                   {.name = "b", .x = {1, 2}, .y = {4, 3}}}});
+            chart.panels.push_back({.x_name = name,
+                                    .y_name = name,
+                                    .series = {{.name = name, .x = {1, 2}, .y = {3, 4}}},
+                                    .categories = {name, "other"}});
+            chart.own_x = true;
+            const Drawing drawing = draw_chart(chart, {.width = width});
+            std::string all;
+            for (const Shape& shape : drawing.shapes) {
+                const auto* label = std::get_if<Label>(&shape);
+                if (label == nullptr) continue;
+                all += label->text;
+                const double wide = text_width(label->text, label->size);
+                const double back = label->anchor == Anchor::start    ? 0
+                                    : label->anchor == Anchor::middle ? wide / 2
+                                                                      : wide;
+                const double from = label->upward ? label->at.y + back : label->at.x - back;
+                const double to = label->upward ? from - wide : from + wide;
+                EXPECT_GE(std::min(from, to), -1) << label->text << " " << width;
+                EXPECT_LE(std::max(from, to), 1 + (label->upward ? drawing.height : drawing.width))
+                    << label->text << " " << width;
+                EXPECT_GE(label->at.x, 0) << label->text;
+                EXPECT_LE(label->at.y, drawing.height) << label->text;
+            }
+            std::erase(all, ' ');
+            std::size_t found = 0;
+            for (auto at = all.find(plain); at != std::string::npos; at = all.find(plain, at + 1))
+                ++found;
+            EXPECT_EQ(found, 2 + 3 * panels + 2 - (panels - 1) + 1) << width;
+        }
+}
+
 }  // namespace stipple::testing::chart_test

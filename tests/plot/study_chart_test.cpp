@@ -88,6 +88,35 @@ TEST(StudyChart, OfErrorsTheRootMeanSquareCounts) {
     }
 }
 
+// Slopes differ from panel to panel, so each has its legend, in the same colours; a generator that one
+// of them lacks changes none.
+TEST(StudyChart, EachPanelHasItsOwnSlopes) {
+    std::vector<MeanRow> means;
+    for (const std::uint64_t n : {10, 20, 40}) {
+        means.push_back(mean_at(n, 1, 1, "a", "one"));
+        means.push_back(mean_at(n, 1, 0.5, "b", "one"));
+        means.push_back(mean_at(n, 1, 2, "b", "two"));
+        means.push_back(mean_at(n, 1, 0.25, "c", "two"));
+    }
+    const Chart chart = study_chart(means).chart;
+    ASSERT_EQ(chart.panels.size(), 2U);
+    EXPECT_TRUE(needs_legend(chart, 0) && needs_legend(chart, 1));
+    EXPECT_EQ(chart.panels[0].series[1].set, chart.panels[1].series[0].set);
+    std::vector<std::pair<std::string, Colour>> legend;  // names behind their lines
+    const Drawing drawing = draw_chart(chart, {});
+    for (std::size_t i = 1; i < drawing.shapes.size(); ++i)
+        if (const auto* label = std::get_if<Label>(&drawing.shapes[i]))
+            if (const auto* line = std::get_if<Line>(&drawing.shapes[i - 1]))
+                if (label->text.find("slope") != std::string::npos)
+                    legend.emplace_back(label->text, line->colour);
+    const auto colour = [](std::size_t i) { return light_theme.series_colour(i); };
+    const std::vector<std::pair<std::string, Colour>> expected = {{"a (slope −1.00)", colour(0)},
+                                                                  {"b (slope −0.50)", colour(1)},
+                                                                  {"b (slope −2.00)", colour(1)},
+                                                                  {"c (slope −0.25)", colour(2)}};
+    EXPECT_EQ(legend, expected);
+}
+
 TEST(StudyChart, ResultsAndDimensionsHavePanels) {
     std::vector<MeanRow> means;
     for (const std::uint64_t d : {2, 3})

@@ -50,10 +50,47 @@ def test_sets_bounds_warps_and_parameters(run):
 def test_meta_is_kept_by_the_array_alone():
     points = stipple.generate("halton", 10, return_meta=True, warp="disk")
     assert points.meta["generator"] == "halton" and points.meta["domain"] == "disk"
-    assert points[:5].meta is None and (points + 0).meta is None
+    assert points.copy().meta == points.meta and (points + 0).meta is None
     assert not isinstance(stipple.generate("halton", 10), stipple.Points)
     both = stipple.generate("random", 4, sets=2, return_meta=True)
     assert [meta["seed"] for meta in both.meta] == [1, 2]
+
+
+# Some of the points live where all do; their recipe is another one. Whole sets keep everything, and
+# numbers that are no points any more have nothing.
+def test_some_of_the_points_keep_their_domain_names_and_levels():
+    parameters = {"parameters": [{"name": "a", "range": [2, 3]}, {"name": "m", "levels": ["x", "y"]}]}
+    points = stipple.generate("sobol", 64, parameters=parameters, return_meta=True)
+    kept = {key: points.meta[key] for key in ("domain", "columns", "levels")}
+    assert kept["columns"] == ["a", "m"] and kept["levels"] == {"m": ["x", "y"]}
+    mask = points[:, 0] > 2.5
+    indices = [3, 1, 1]
+    for part in (points[:50], points[10:], points[::-3], points[mask], points[indices],
+                 points[np.array(indices)], points[indices, :], points[..., :][:9], points[5:5],
+                 points[mask, ...], points[:7, 0:2]):
+        assert part.meta == kept, part.shape
+    assert points[:].meta == points.meta and points[...].meta == points.meta
+    for part in (points[0], points[:, 0], points[:, :1], points[:, ::-1], points[:, [0, 1]],
+                 points[3, 0:2], points[None], points[points > 0], points[:5] * 2, points.T,
+                 points[[1, 2], [0, 1]], points.reshape(32, 4)):
+        assert getattr(part, "meta", None) is None, part.shape
+    disk = stipple.warp(stipple.generate("sobol", 64), "disk")
+    assert stipple.analyze("moments", disk[:50])._found is not None
+    assert stipple.analyze("nearest-neighbor", disk[disk[:, 0] > 0]).mean > 0
+    with pytest.raises(stipple.Error, match="no points"):
+        stipple.analyze("moments", disk[:0])
+    sets = stipple.generate("random", 8, sets=3, warp="disk", return_meta=True)
+    assert sets[1].meta == sets.meta[1] and sets[1:].meta == sets.meta[1:]
+    assert sets[:, :4].meta == [{"domain": "disk"}] * 3
+    assert sets[[2, 0]].meta == [sets.meta[2], sets.meta[0]]
+    assert sets[0, :4].meta == {"domain": "disk"} and sets[:, 0].meta is None
+
+
+def test_reports_say_of_how_many_points_they_are():
+    report = stipple.analyze("moments", stipple.warp(stipple.generate("halton", 50, 3), "ball"))
+    assert repr(report).startswith("moments of points (50 points, dimension 3, ball)\n")
+    assert "0 points" not in repr(stipple.analyze("integration", stipple.generate("halton", 50),
+                                                  integrand=lambda x: x[:, 0])).splitlines()[0]
 
 
 def test_sequences_by_index_and_in_blocks():
@@ -262,7 +299,14 @@ def test_pictures_and_pages(tmp_path):
     x = stipple.generate("halton", 50)
     picture = stipple.plot({"halton": x, "disk": stipple.generate("random", 50)})
     assert picture._repr_svg_().startswith("<svg") or "<svg" in picture.svg[:200]
-    picture.save(tmp_path / "a.svg")
+    for name, magic in (("a.svg", b"<?xml"), ("a.pdf", b"%PDF-1.4"), ("a.PNG", b"\x89PNG")):
+        picture.save(tmp_path / name)
+        assert (tmp_path / name).read_bytes().startswith(magic)
+    assert (tmp_path / "a.svg").read_text(encoding="utf-8") == picture.svg
+    for name in ("a.gif", "a", "svg"):
+        with pytest.raises(stipple.Error, match="expected .svg, .pdf or .png"):
+            picture.save(tmp_path / name)
+        assert not (tmp_path / name).exists()
     page = stipple.report(tmp_path / "a.html", {"halton": x, "random": stipple.generate("random", 50)})
     assert "<html" in (tmp_path / "a.html").read_text()[:500]
     assert "srcdoc=" in page._repr_html_() and "&lt;html" in page._repr_html_()

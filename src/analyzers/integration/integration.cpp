@@ -491,7 +491,8 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     const Sums sums = sums_over(points, view, tasks, uniform, run);
     Report report;
     tell_support(support, report);
-    const std::string& column = points.provenance.density_column;
+    const std::string& columns = points.provenance.density_column;
+    const std::string column = columns.substr(0, columns.find(','));
     if (!points.densities.empty()) report.add("density", column.empty() ? "warps" : column);
     for (std::size_t k = 0; k < tasks.size(); ++k) {
         const Tally& values = sums.weighted[k];

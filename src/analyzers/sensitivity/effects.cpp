@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string_view>
 
 #include "core/domain.hpp"
 #include "core/error.hpp"
-#include "core/spec.hpp"
 #include "core/text.hpp"
 #include "math/functions/distributions.hpp"
 
@@ -86,73 +86,70 @@ double interval_quantile(double level, std::size_t freedom) {
 
 namespace {
 
-/// The box that the provenance says the inputs lie in, if all do.
-std::optional<Box> box_of(const Inputs& inputs) {
-    const std::string& domain = inputs.values.provenance.domain;
-    const std::size_t k = inputs.size();
-    Box box{std::vector(k, 0.0), std::vector(k, 1.0)};
-    if (domain.starts_with("box")) {
-        const Spec spec = parse_spec(domain);
-        if (spec.settings.empty()) return std::nullopt;
-        box = parse_box(spec.settings[0].second, k);
-    } else if (domain != "unit-cube" && !domain.empty()) {
-        return std::nullopt;
+/// As the domain's distributions say.
+std::vector<double> by_domain(const Inputs& inputs) {
+    std::vector<double> u;
+    u.reserve(inputs.runs() * inputs.size());
+    std::vector<double> cube(inputs.domain->cube_dimension());
+    for (std::size_t i = 0; i < inputs.runs(); ++i) {
+        inputs.domain->to_cube(inputs.points[i], cube);
+        for (const std::size_t c : inputs.coordinates) u.push_back(cube[c]);
     }
-    for (std::size_t i = 0; i < inputs.runs(); ++i)
-        for (std::size_t j = 0; j < k; ++j)
-            if (const double x = inputs.values[i][j]; !(x >= box.low[j] && x <= box.high[j]))
-                return std::nullopt;
-    return box;
+    return u;
 }
 
-/// (rank - 1/2) / n of each value of column j; equal values have the mean of their ranks.
-void put_ranks(const PointSet& values, std::size_t j, std::span<double> u) {
-    const std::size_t n = values.count();
-    const std::size_t k = values.dimension();
-    std::vector<std::size_t> order(n);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto at = [&](std::size_t i) { return values.flat()[i * k + j]; };
-    std::ranges::stable_sort(order, {}, at);
-    for (std::size_t first = 0, last = 0; first < n; first = last) {
-        while (last < n && at(order[last]) == at(order[first])) ++last;
-        const double middle = static_cast<double>(first + last) / 2 / static_cast<double>(n);
-        for (std::size_t r = first; r < last; ++r) u[order[r] * k + j] = middle;
+/// As far as there is no better knowledge.
+UnitInputs as_they_lie(const PointSet& values) {
+    const auto flat = values.flat();
+    UnitInputs out{.u = {flat.begin(), flat.end()}, .scale = "cube"};
+    const Box box = bounding_box(flat, values.dimension());
+    if (std::ranges::min(box.low) >= 0 && std::ranges::max(box.high) <= 1) return out;
+    out.scale = "range";
+    for (std::size_t i = 0; i < out.u.size(); ++i) {
+        const std::size_t j = i % values.dimension();
+        // Halves, as the difference of two doubles may be none.
+        const double extent = box.high[j] / 2 - box.low[j] / 2;
+        out.u[i] = extent > 0 ? (out.u[i] / 2 - box.low[j] / 2) / extent : 0.5;
     }
+    return out;
+}
+
+const char* scale_of(const Domain& domain) {
+    const std::string spec = domain.spec();
+    return spec == "unit-cube" ? "cube" : spec.starts_with("box") ? "box" : "distributions";
 }
 
 }  // namespace
 
-std::vector<double> ranks_of(const PointSet& points) {
-    std::vector<double> ranks(points.flat().size());
-    for (std::size_t j = 0; j < points.dimension(); ++j) put_ranks(points, j, ranks);
+std::vector<double> ranks_of(std::span<const double> values) {
+    const std::size_t n = values.size();
+    std::vector<std::size_t> order(n);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto at = [&](std::size_t i) { return values[i]; };
+    std::ranges::stable_sort(order, {}, at);
+    std::vector<double> ranks(n);
+    for (std::size_t first = 0, last = 0; first < n; first = last) {
+        while (last < n && at(order[last]) == at(order[first])) ++last;
+        const double middle = static_cast<double>(first + last) / 2 / static_cast<double>(n);
+        for (std::size_t r = first; r < last; ++r) ranks[order[r]] = middle;
+    }
     return ranks;
 }
 
-bool distributions_are_known(const Inputs& inputs) {
-    const Provenance& told = inputs.values.provenance;
-    return (!told.generator.empty() || told.domain.starts_with("box")) && box_of(inputs);
+std::vector<double> ranks_of(const PointSet& points) {
+    std::vector<double> ranks(points.flat().size());
+    std::vector<double> column(points.count());
+    for (std::size_t j = 0; j < points.dimension(); ++j) {
+        for (std::size_t i = 0; i < column.size(); ++i) column[i] = points[i][j];
+        const auto own = ranks_of(column);
+        for (std::size_t i = 0; i < own.size(); ++i) ranks[i * points.dimension() + j] = own[i];
+    }
+    return ranks;
 }
 
-UnitInputs unit_inputs(const Inputs& inputs, bool ranks) {
-    const auto flat = inputs.values.flat();
-    const std::size_t k = inputs.size();
-    UnitInputs out{.u = {flat.begin(), flat.end()}, .scale = "range"};
-    const auto known = box_of(inputs);
-    if (known || !ranks) {
-        const Box box = known ? *known : bounding_box(flat, k);
-        const bool cube = known && !inputs.values.provenance.domain.starts_with("box");
-        if (known) out.scale = cube ? "cube" : "box";
-        for (std::size_t i = 0; i < out.u.size() && !cube; ++i)
-            out.u[i] =
-                box.extent(i % k) > 0 ? (out.u[i] - box.low[i % k]) / box.extent(i % k) : 0.5;
-    }
-    if (!ranks) return out;
-    std::vector<double> ranked = ranks_of(inputs.values);
-    constexpr double critical = 1.63;  // of Kolmogorov and Smirnov's statistic, at 1 %
-    const double most = critical / std::sqrt(static_cast<double>(inputs.runs()));
-    const bool uniform = std::ranges::equal(
-        out.u, ranked, [most](double u, double rank) { return std::abs(u - rank) <= most; });
-    return known && uniform ? out : UnitInputs{.u = std::move(ranked), .scale = "ranks"};
+UnitInputs unit_inputs(const Inputs& inputs) {
+    return inputs.domain ? UnitInputs{by_domain(inputs), scale_of(*inputs.domain)}
+                         : as_they_lie(inputs.values);
 }
 
 }  // namespace stipple::analyzers::sensitivity

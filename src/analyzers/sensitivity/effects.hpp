@@ -21,8 +21,13 @@ inline constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// The inputs of a model in its runs: a row each.
 struct Inputs {
-    std::vector<std::string> names;
-    PointSet values;  ///< with its provenance, where these are all of a file's columns
+    std::vector<std::string> names = {};
+    PointSet values;
+    std::string generator = {};  ///< that made them; empty: not known
+
+    DomainPtr domain = {};                      ///< that they are coordinates of; null: not known
+    PointSet points = {};                       ///< all coordinates on it
+    std::vector<std::size_t> coordinates = {};  ///< of these, the inputs
 
     [[nodiscard]] std::size_t runs() const { return values.count(); }
     [[nodiscard]] std::size_t size() const { return values.dimension(); }
@@ -39,8 +44,8 @@ struct Setting {
     std::size_t bootstrap = 1000;  ///< resamples; 0: no intervals from them
     double level = 0.95;
     std::uint64_t seed = 1;
-    std::size_t harmonics = 4;               ///< of fast
-    std::optional<std::size_t> degree = {};  ///< of chaos; else chosen
+    std::optional<std::size_t> harmonics = {};  ///< of fast; else as the curves show
+    std::optional<std::size_t> degree = {};     ///< of chaos; else chosen
 };
 
 /// A number with its interval; NaN where it has none.
@@ -72,11 +77,14 @@ struct Effects {
     std::vector<PairIndex> pairs = {};
     Report details = {};            ///< further numbers, of the method's own
     std::string no_intervals = {};  ///< why there are none; empty: there are, or none are expected
+    std::vector<std::string> missing = {};  ///< why an input has no indices; may be empty
 };
 
 /// Whether a design has the rows that a method needs; where not, why.
 struct Layout {
-    std::size_t group = 0;  ///< rows that belong together
+    std::size_t group = 0;      ///< rows that belong together
+    bool star = false;          ///< of morris: all rows of a group differ from its first
+    std::size_t harmonics = 0;  ///< of fast
     std::string trouble = {};
 
     explicit operator bool() const { return trouble.empty(); }
@@ -114,18 +122,17 @@ double interval_quantile(double level, std::size_t freedom);
 /// Inputs in [0, 1], run after run, where they are uniform as far as that is known.
 struct UnitInputs {
     std::vector<double> u;
-    const char* scale;  ///< "cube", "box", "range", "ranks"
+    const char* scale;  ///< "cube", "box", "distributions", "range"
 };
 
-/// Of the unit cube as they are; of the box that the provenance names, scaled; else scaled by their
-/// range. With `ranks`, inputs of no known box, or not uniform there, are replaced by the ranks of
-/// their values, equal ones by the mean of theirs.
-UnitInputs unit_inputs(const Inputs& inputs, bool ranks);
+/// As the distributions of the inputs' domain say; else as they are where all are in [0, 1], as points
+/// without provenance are taken to be; else scaled by their extremes.
+UnitInputs unit_inputs(const Inputs& inputs);
 
-/// Whether unit_inputs are uniform by what is told of the inputs, not as they look.
-bool distributions_are_known(const Inputs& inputs);
+/// (rank - 1/2) / n of each of n numbers; equal ones have the mean of theirs.
+std::vector<double> ranks_of(std::span<const double> values);
 
-/// (rank - 1/2) / n of each coordinate among those of all n points; equal ones have the mean of theirs.
+/// The same of each coordinate of points among those of all.
 std::vector<double> ranks_of(const PointSet& points);
 
 }  // namespace stipple::analyzers::sensitivity

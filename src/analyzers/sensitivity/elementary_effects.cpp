@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "analyzers/sensitivity/bootstrap.hpp"
 #include "core/error.hpp"
@@ -11,33 +13,93 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// The one coordinate in which two rows differ; k where there is none, or more than one.
+/// The coordinate in which two rows differ: k where there is none, k + 1 where there are several.
 std::size_t moved(std::span<const double> from, std::span<const double> to) {
-    std::size_t found = from.size();
-    for (std::size_t j = 0; j < from.size(); ++j) {
-        if (from[j] == to[j]) continue;
-        if (found < from.size()) return from.size();
-        found = j;
-    }
+    const std::size_t k = from.size();
+    std::size_t found = k;
+    for (std::size_t j = 0; j < k; ++j)
+        if (from[j] != to[j]) found = found == k ? j : k + 1;
     return found;
 }
 
-/// EE, |EE| and EE^2 of each input, a trajectory a row.
-TermTable effect_table(const Layout& layout, const PointSet& design, std::span<const double> u,
-                       std::span<const double> y, std::span<const std::size_t> trajectories) {
+/// The row from which that row moves.
+std::size_t origin_of(std::size_t row, std::size_t group, bool star) {
+    return star ? row - row % group : row - 1;
+}
+
+/// Whether rows in groups of k + 1 move one coordinate each from the one before or, of a star, from the
+/// first of their group. One that stands still, as a discrete input may, is none of these.
+Layout find_moves(const PointSet& design, bool star) {
     const std::size_t k = design.dimension();
-    TermTable table{.terms = std::vector<double>(trajectories.size() * 3 * k), .width = 3 * k};
+    const std::size_t group = k + 1;
+    std::size_t moves = 0;
+    std::vector<bool> seen(k);
+    for (std::size_t row = 0; row < design.count(); ++row) {
+        if (row % group == 0) seen.assign(k, false);
+        if (row % group == 0) continue;
+        const std::size_t from = origin_of(row, group, star);
+        const std::size_t i = moved(design[from], design[row]);
+        if (i == k) continue;
+        if (i > k)
+            return {.trouble =
+                        fmt::format("points {} and {} do not differ in one coordinate", from, row)};
+        if (seen[i])
+            return {.trouble = fmt::format("coordinate {} moves twice on the trajectory from "
+                                           "point {} on",
+                                           i + 1, row - row % group)};
+        seen[i] = true;
+        ++moves;
+    }
+    const std::size_t steps = design.count() / group * k;
+    if (2 * moves < steps)
+        return {.trouble = fmt::format("{} of {} steps move a coordinate", moves, steps)};
+    return {.group = group, .star = star};
+}
+
+/// EE - c, |EE|, (EE - c)^2 and 1 of each input, a trajectory a row, in which c is the mean effect; 0
+/// where it did not move.
+struct EffectTable {
+    TermTable terms;
+    std::vector<double> centre;
+};
+
+EffectTable effect_table(const Layout& layout, const PointSet& design, std::span<const double> u,
+                         std::span<const double> y, std::span<const std::size_t> trajectories) {
+    const std::size_t k = design.dimension();
+    EffectTable table{{std::vector<double>(trajectories.size() * 4 * k), 4 * k},
+                      std::vector<double>(k)};
+    const auto terms_of = [&](std::size_t t) { return &table.terms.terms[t * 4 * k]; };
+    std::vector<double> counts(k);
     for (std::size_t t = 0; t < trajectories.size(); ++t)
-        for (std::size_t s = 0; s < k; ++s) {
+        for (std::size_t s = 1; s <= k; ++s) {
             const std::size_t row = trajectories[t] * layout.group + s;
-            const std::size_t i = moved(design[row], design[row + 1]);
-            const double effect = (y[row + 1] - y[row]) / (u[(row + 1) * k + i] - u[row * k + i]);
-            double* terms = &table.terms[t * table.width];
-            terms[i] = effect;
-            terms[k + i] = std::abs(effect);
-            terms[2 * k + i] = effect * effect;
+            const std::size_t from = origin_of(row, layout.group, layout.star);
+            const std::size_t i = moved(design[from], design[row]);
+            const double step = i < k ? u[row * k + i] - u[from * k + i] : 0;
+            if (step == 0) continue;
+            terms_of(t)[i] = (y[row] - y[from]) / step;
+            terms_of(t)[3 * k + i] = 1;
+            table.centre[i] += terms_of(t)[i];
+            ++counts[i];
+        }
+    for (std::size_t i = 0; i < k; ++i) table.centre[i] /= std::max(counts[i], 1.0);
+    for (std::size_t t = 0; t < trajectories.size(); ++t)
+        for (std::size_t i = 0; i < k; ++i) {
+            double* terms = terms_of(t);
+            if (terms[3 * k + i] == 0) continue;
+            terms[k + i] = std::abs(terms[i]);
+            terms[i] -= table.centre[i];
+            terms[2 * k + i] = terms[i] * terms[i];
         }
     return table;
+}
+
+/// A power of two near the largest size of the outputs that did not fail, a normal number.
+double size_of(std::span<const double> y) {
+    double largest = std::numeric_limits<double>::min();
+    for (const double value : y)
+        if (std::abs(value) > largest) largest = std::abs(value);
+    return std::scalbn(1.0, std::ilogb(largest));
 }
 
 }  // namespace
@@ -46,21 +108,10 @@ Layout find_trajectories(const PointSet& design) {
     const std::size_t group = design.dimension() + 1;
     if (design.count() == 0 || design.count() % group != 0)
         return {.trouble = fmt::format("{} rows are no multiple of {}", design.count(), group)};
-    std::vector<bool> seen(design.dimension());
-    for (std::size_t at = 0; at + 1 < design.count(); ++at) {
-        if (at % group == 0) seen.assign(seen.size(), false);
-        if (at % group + 1 == group) continue;
-        const std::size_t i = moved(design[at], design[at + 1]);
-        if (i == seen.size())
-            return {.trouble = fmt::format("points {} and {} do not differ in one coordinate", at,
-                                           at + 1)};
-        if (seen[i])
-            return {.trouble = fmt::format("coordinate {} moves twice on the trajectory from "
-                                           "point {} on",
-                                           i + 1, at - at % group)};
-        seen[i] = true;
-    }
-    return {.group = group};
+    Layout trajectories = find_moves(design, false);
+    if (trajectories) return trajectories;
+    Layout stars = find_moves(design, true);
+    return stars ? stars : trajectories;
 }
 
 Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Response& response,
@@ -72,19 +123,27 @@ Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Res
         fail(ErrorKind::input,
              "the output {} has {} trajectories without failed runs; two are needed", response.name,
              trajectories.size());
-    const UnitInputs unit = unit_inputs(inputs, false);
-    const TermTable table = effect_table(layout, inputs.values, unit.u, response.y, trajectories);
+    const UnitInputs unit = unit_inputs(inputs);
+    const double size = size_of(response.y);
+    std::vector<double> y = response.y;
+    for (double& value : y) value /= size;
+    const EffectTable table = effect_table(layout, inputs.values, unit.u, y, trajectories);
     constexpr double caution = 20;
-    const auto found = bootstrapped(
-        table, 3 * k,
+    auto found = bootstrapped(
+        table.terms, 3 * k,
         [&](std::span<const double> means, std::span<double> values) {
-            for (std::size_t t = 0; t < 2 * k; ++t) values[t] = means[t];
             for (std::size_t i = 0; i < k; ++i) {
-                const double square = means[2 * k + i] - means[i] * means[i];
-                values[2 * k + i] = std::sqrt(std::max(square, 0.0) * r / (r - 1));
+                const double moves = means[3 * k + i];
+                const double count = std::round(r * moves);
+                const double off = means[i] / moves;
+                const double square = means[2 * k + i] / moves - off * off;
+                values[i] = table.centre[i] + off;
+                values[k + i] = means[k + i] / moves;
+                values[2 * k + i] = std::sqrt(std::max(square, 0.0) * count / (count - 1));
             }
         },
         caution, setting, run);
+    for (Index& index : found) index = {index.value * size, index.low * size, index.high * size};
     Effects effects{
         .used = trajectories.size() * layout.group,
         .samples = trajectories.size(),
@@ -92,6 +151,8 @@ Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Res
                   {"mu_star", part_of(found, k, k)},
                   {"sigma", part_of(found, 2 * k, k)}},
         .no_intervals = too_few_for_intervals(trajectories.size(), least_rows, "trajectories")};
+    effects.missing.assign(
+        k, "it moves in too few trajectories, or the number is too large for float64");
     effects.details.add("scale", unit.scale);
     return effects;
 }

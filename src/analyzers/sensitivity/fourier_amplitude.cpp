@@ -71,30 +71,44 @@ class Spectrum {
     std::vector<CosSin> turns_;
 };
 
-/// Coordinate j along curve i, less its mean.
+/// Ranks of coordinate j along curve i of n rows, less their mean: they undo distributions.
 std::vector<double> along(const PointSet& design, std::size_t i, std::size_t j, std::size_t n) {
     std::vector<double> x(n);
-    double mean = 0;
-    for (std::size_t s = 0; s < n; ++s) {
-        x[s] = design[i * n + s][j];
-        mean += x[s] / static_cast<double>(n);
-    }
-    for (double& value : x) value -= mean;
+    for (std::size_t s = 0; s < n; ++s) x[s] = design[i * n + s][j];
+    x = ranks_of(x);
+    for (double& value : x) value -= 0.5;
     return x;
+}
+
+/// The M of a closed curve whose frequency is w = floor((n - 1) / (2 M)): it crosses its mean 2 w times.
+/// As n > 4 M^2, no other number has that w.
+std::size_t harmonics_of(std::span<const double> curve) {
+    std::size_t crossings = 0;
+    for (std::size_t s = 0; s < curve.size(); ++s)
+        crossings += (curve[s] > 0) != (curve[(s + 1) % curve.size()] > 0) ? 1 : 0;
+    const std::size_t w = crossings / 2;
+    return w == 0 ? 0 : (curve.size() - 1) / (2 * w);
 }
 
 }  // namespace
 
-Layout find_curves(const PointSet& design, std::size_t harmonics, const RunContext& run) {
+Layout find_curves(const PointSet& design, std::optional<std::size_t> asked,
+                   const RunContext& run) {
     const std::size_t k = design.dimension();
     const std::size_t n = design.count() / k;
     if (design.count() % k != 0)
         return {.trouble = fmt::format("{} rows are no multiple of {}", design.count(), k)};
+    const std::size_t harmonics = harmonics_of(along(design, 0, 0, n));
+    if (harmonics == 0)
+        return {.trouble = "coordinate 1 swings too fast on curve 1, or not at all"};
+    if (asked.value_or(harmonics) != harmonics)
+        return {.trouble = fmt::format("coordinate 1 swings on curve 1 as of {} harmonics, not {}",
+                                       harmonics, *asked)};
     if (n <= 4 * harmonics * harmonics)
         return {.trouble = fmt::format("curves of {} rows; {} harmonics need {}", n, harmonics,
                                        4 * harmonics * harmonics + 1)};
     const Spectrum spectrum(n, harmonics);
-    constexpr double own_least = 0.7;  // a triangle wave has 0.998 for M = 4; warps change it
+    constexpr double own_least = 0.7;  // a triangle wave has 0.998 for M = 4; outcomes are steps
     constexpr double others_most = 0.1;
     for (std::size_t i = 0; i < k; ++i)
         for (std::size_t j = 0; j < k; ++j) {
@@ -109,11 +123,11 @@ Layout find_curves(const PointSet& design, std::size_t harmonics, const RunConte
                             "curve's frequency and its harmonics; expected {}",
                             i + 1, share, j + 1, i == j ? "nearly all" : "nearly nothing")};
         }
-    return {.group = n};
+    return {.group = n, .harmonics = harmonics};
 }
 
 Effects fourier_amplitudes(const Layout& layout, const Inputs& inputs, const Response& response,
-                           const Setting& setting, const RunContext& run) {
+                           const RunContext& run) {
     const std::size_t k = inputs.size();
     const std::size_t n = layout.group;
     const auto runs = succeeded(response.y);
@@ -123,7 +137,7 @@ Effects fourier_amplitudes(const Layout& layout, const Inputs& inputs, const Res
              "or take --method rank or chaos",
              response.name, response.y.size() - runs.size());
     const Centred f = centred(response.y);
-    const Spectrum spectrum(n, setting.harmonics);
+    const Spectrum spectrum(n, layout.harmonics);
     Effects effects{.used = response.y.size(),
                     .samples = n,
                     .mean = f.mean,

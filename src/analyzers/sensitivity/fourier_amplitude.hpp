@@ -20,12 +20,14 @@
 
 namespace stipple::analyzers::sensitivity {
 
-/// Whether the harmonics of w are nearly all that the own input of each curve consists of, and no
-/// part of the other inputs.
-Layout find_curves(const PointSet& design, std::size_t harmonics, const RunContext& run);
+/// Whether the harmonics of w are nearly all that the ranks of the own input of each curve consist of,
+/// and no part of those of other inputs.
+/// @param harmonics M; none: that of the w of the first curve
+Layout find_curves(const PointSet& design, std::optional<std::size_t> harmonics,
+                   const RunContext& run);
 
 /// @throws Error(input) for failed runs, as a curve with gaps has no spectrum
 Effects fourier_amplitudes(const Layout& layout, const Inputs& inputs, const Response& response,
-                           const Setting& setting, const RunContext& run);
+                           const RunContext& run);
 
 }  // namespace stipple::analyzers::sensitivity

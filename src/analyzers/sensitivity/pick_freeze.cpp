@@ -2,7 +2,9 @@
 #include "analyzers/sensitivity/pick_freeze.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -36,6 +38,28 @@ std::size_t first_unfit(const PointSet& design, std::size_t group) {
     return moves ? design.count() : 0;
 }
 
+/// Whether first and last rows of groups differ in every coordinate although these have few values, as
+/// in a factorial design: independent ones would be equal in some, less likely than exp(-most) in none.
+bool is_factorial(const PointSet& design, std::size_t group) {
+    constexpr double most = 2;
+    const auto groups = design.count() / group;
+    double expected = 0;
+    for (std::size_t j = 0; j < design.dimension(); ++j) {
+        std::map<double, double> times;
+        for (std::size_t at = 0; at < design.count(); at += group) {
+            const double a = design[at][j];
+            const double b = design[at + group - 1][j];
+            if (a == b) return false;
+            ++times[a];
+            ++times[b];
+        }
+        if (times.size() > groups) return false;  // no few levels
+        for (const auto& [value, count] : times)
+            expected += count * count / static_cast<double>(4 * groups);
+    }
+    return expected >= most;
+}
+
 /// The terms of a base row, whose outputs are `f`, behind each other: V's, first, total, pairs.
 void append_terms(std::span<const double> f, std::size_t k, std::vector<double>& terms) {
     const double a = f.front();
@@ -51,15 +75,40 @@ void append_terms(std::span<const double> f, std::size_t k, std::vector<double>&
         for (std::size_t j = i + 1; j < k; ++j) terms.push_back(ba[i] * ab[j] - a * b);
 }
 
-/// Mean, variance and indices from the means of such terms, in their order.
+/// Mean, variance and indices from the means of such terms, in their order; none where first and last
+/// rows, whose variance it is, hardly vary but for rounding.
 void indices_of(std::span<const double> means, std::size_t k, std::span<double> values) {
+    constexpr double rounding = 1e-12;  // of outputs the largest of which is 1 in size
     const double variance = means[1] - means[0] * means[0];
+    if (!(variance > rounding)) {
+        std::ranges::fill(values, none);
+        return;
+    }
     values[0] = means[0];
     values[1] = variance;
     for (std::size_t t = 2; t < values.size(); ++t) values[t] = means[t] / variance;
     std::size_t pair = 2 + 2 * k;
     for (std::size_t i = 0; pair < values.size(); ++i)
         for (std::size_t j = i + 1; j < k; ++j) values[pair++] -= values[2 + i] + values[2 + j];
+}
+
+/// Drops the indices of inputs whose mixed rows vary so much more than A and B, of which they should be
+/// other samples, that V cannot be the variance of the output.
+void drop_unlike(Effects& effects, std::span<const double> f, std::size_t k, double variance) {
+    constexpr double most = 10;
+    const std::size_t group = f.size() / effects.samples;
+    effects.missing.resize(k);
+    for (std::size_t i = 0; i < k; ++i) {
+        double square = 0;
+        for (std::size_t at = 1 + i; at < f.size(); at += group) square += f[at] * f[at];
+        if (square <= most * variance * static_cast<double>(effects.samples)) continue;
+        for (IndexKind& kind : effects.kinds) kind.of[i] = {.value = none};
+        for (PairIndex& pair : effects.pairs)
+            if (pair.first == i || pair.second == i) pair.index = {.value = none};
+        effects.missing[i] =
+            "the rows in which it is mixed vary far more than the first and last rows of "
+            "groups, which should be samples of the same";
+    }
 }
 
 /// The outputs of those groups, one behind the other.
@@ -82,6 +131,10 @@ Layout find_pick_freeze(const PointSet& design) {
     for (const std::size_t group : {k + 2, 2 * k + 2}) {
         if (n == 0 || n % group != 0) continue;
         const std::size_t unfit = first_unfit(design, group);
+        if (unfit == n && is_factorial(design, group))
+            return {.trouble =
+                        "first and last rows of groups differ in every coordinate, as corners "
+                        "of a factorial design do; they are no independent samples"};
         if (unfit == n) return {.group = group};
         layout.trouble = fmt::format(
             "in groups of {}, point {} is not the mix of the first and "
@@ -123,6 +176,7 @@ Effects pick_freeze(const Layout& layout, const Inputs& inputs, const Response& 
     std::size_t at = 2 + 2 * k;
     for (std::size_t i = 0; at < found.size(); ++i)
         for (std::size_t j = i + 1; j < k; ++j) effects.pairs.push_back({i, j, found[at++]});
+    drop_unlike(effects, f.z, k, found[1].value);
     return effects;
 }
 

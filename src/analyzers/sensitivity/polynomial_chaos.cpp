@@ -268,10 +268,9 @@ std::vector<double> column_of(std::span<const double> table, std::size_t width, 
 std::vector<Basis> bases_of(const Inputs& inputs, std::span<const std::size_t> runs,
                             std::size_t degree) {
     const std::size_t k = inputs.size();
-    const UnitInputs unit = unit_inputs(inputs, false);
-    const bool told = distributions_are_known(inputs);
+    const UnitInputs unit = unit_inputs(inputs);
+    const bool told = inputs.domain != nullptr;
     const bool cube = told || std::string_view(unit.scale) == "cube";
-    const std::vector<double> all_ranks = ranks_of(inputs.values);
     Basis values{.scale = unit.scale, .known = told};
     Basis ranks{.scale = "ranks"};
     bool even = true;
@@ -283,7 +282,7 @@ std::vector<Basis> bases_of(const Inputs& inputs, std::span<const std::size_t> r
             continue;
         }
         const auto x = column_of(inputs.values.flat(), k, j, runs);
-        const auto rank = column_of(all_ranks, k, j, runs);
+        const auto rank = ranks_of(x);
         values.scale = "values";
         values.known = false;
         even = even && is_even(x, rank);

@@ -26,7 +26,7 @@
 //     sum_g (n_g n_(g+1) (z_g - z_(g+1))^2 - n_(g+1) s_g^2 - n_g s_(g+1)^2) / (n_g + n_(g+1)) / (n V),
 //
 // for both ways to join neighbors. Where x_i is constant in both, they hide nothing. Intervals hold the
-// index in 92 % of samples at least where 95 % are asked for, for n from 20 to 1000, on the functions of
+// index in 90 % of samples at least where 95 % are asked for, for n from 20 to 1000, on the functions of
 // tests/oracles/sensitivity.py.
 //
 // Shape   four runs or more, twenty for intervals.

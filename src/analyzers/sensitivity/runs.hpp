@@ -23,10 +23,12 @@ struct Runs {
     std::vector<Response> responses;
 };
 
-/// With a design, its columns are the inputs, and the outputs those of the table that neither have
-/// the name of an input nor repeat its numbers; without, the last column of the table is the output
-/// and the others are the inputs.
-/// @throws Error(input) for another number of rows; Error(usage) for columns that are not there
+/// The inputs are the coordinates of the domain in the table's provenance, or the design's, by name;
+/// where neither knows any, all columns of the design, or all of the table but the last one. All other
+/// columns of the table are outputs, except copies of inputs: with the name and the numbers of one.
+/// Notes tell what was taken without being known, and which columns are not looked at.
+/// @throws Error(input) for another number of rows, for a column with the name of an input and other
+/// numbers, for words; Error(usage) for columns that are not there
 Runs runs_of(const PointSet& table, const ColumnsAsked& asked, const RunContext& run);
 
 }  // namespace stipple::analyzers::sensitivity

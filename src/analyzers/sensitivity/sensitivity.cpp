@@ -35,6 +35,7 @@
 #include "analyzers/sensitivity/polynomial_chaos.hpp"
 #include "analyzers/sensitivity/rank_indices.hpp"
 #include "analyzers/sensitivity/runs.hpp"
+#include "analyzers/sensitivity/structure.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 
@@ -50,14 +51,16 @@ constexpr Param<Path> design{
 constexpr Param<Text> inputs{
     {.name = "inputs",
      .unit = "columns",
-     .help = "Columns of the inputs, by name or number from 1: x,y; default: all of --design, or "
-             "all of the table that are no outputs"}};
+     .help =
+         "Columns of the inputs, by name or number from 1: x,y; default: those that provenance "
+         "or --parameters name, else all of --design, or all of the table that are no outputs"}};
 
 constexpr Param<Text> response{
     {.name = "response",
      .unit = "columns",
-     .help = "Columns of the outputs, by name or number from 1: y,z; default: with --design all "
-             "but copies of inputs, else the last one"}};
+     .help =
+         "Columns of the outputs, by name or number from 1: y,z; default: all but the inputs and "
+         "their copies or, where the inputs are not known by name, the last one"}};
 
 constexpr Param<Choice> method{
     .name = "method",
@@ -86,10 +89,10 @@ constexpr Param<double> level{.name = "level",
 
 constexpr Param<std::int64_t> harmonics{
     .name = "harmonics",
-    .fallback = 4,
     .low = 1,
-    .high = 100,
-    .help = "Of fast: multiples of the curve's frequency that count; the design's own number"};
+    .high = 1000,
+    .optional = true,
+    .help = "Of fast: multiples of the curve's frequency that count; default: as the curves show"};
 
 constexpr Param<std::int64_t> degree{
     .name = "degree",
@@ -107,34 +110,62 @@ struct Plan {
 Setting setting_of(const Values& options) {
     Setting setting{.bootstrap = static_cast<std::size_t>(options[bootstrap]),
                     .level = options[level],
-                    .seed = static_cast<std::uint64_t>(options[bootstrap_seed]),
-                    .harmonics = static_cast<std::size_t>(options[harmonics])};
+                    .seed = static_cast<std::uint64_t>(options[bootstrap_seed])};
+    if (options.given(harmonics)) setting.harmonics = static_cast<std::size_t>(options[harmonics]);
     if (options.given(degree)) setting.degree = static_cast<std::size_t>(options[degree]);
     return setting;
 }
 
+/// The rows that a method needs.
+Layout find_layout(const std::string& kind, const PointSet& points, const Setting& setting,
+                   const RunContext& run) {
+    if (kind == "saltelli") return find_pick_freeze(points);
+    if (kind == "morris") return find_trajectories(points);
+    return find_curves(points, setting.harmonics, run);
+}
+
+/// Says that the rows of a design are not those of the generator that made it, or only look alike.
+void note_broken(const Inputs& in, const std::string& trouble, const RunContext& run) {
+    if (!trouble.empty())
+        return run.notify(fmt::format(
+            "{} made the design, and its rows are not whole: {}; constraints, correlated "
+            "or nested inputs and another order break them; as any other design it is "
+            "measured by chaos or rank, whose inputs are independent",
+            in.generator, trouble));
+    const double share = share_of_neighbors(in.values, run);
+    constexpr double enough = 1. / 3;
+    if (share >= enough)
+        run.notify(fmt::format(
+            "{:.0f} % of the rows differ from another in one input, as those of saltelli and "
+            "morris "
+            "do, but they are not whole groups of such a design in its order; they are measured as "
+            "any rows, by chaos or rank, which take them as independent",
+            100 * share));
+}
+
 /// @throws Error(input) where the design has not the rows that the method needs
-Plan plan_of(const PointSet& points, const std::string& asked, const Setting& setting,
+Plan plan_of(const Inputs& in, const std::string& asked, const Setting& setting,
              const RunContext& run) {
-    const auto find = [&](const std::string& kind) -> Layout {
-        if (kind == "saltelli") return find_pick_freeze(points);
-        if (kind == "morris") return find_trajectories(points);
-        return find_curves(points, setting.harmonics, run);
-    };
     if (asked == "rank" || asked == "chaos") return {.method = asked};
     if (asked != "auto") {
-        Plan plan{.method = asked, .layout = find(asked)};
+        Plan plan{.method = asked, .layout = find_layout(asked, in.values, setting, run)};
         if (!plan.layout)
             fail_with_hint(ErrorKind::input, "--method rank and chaos take any design",
                            "--method {}: the design has not its rows: {}", asked,
                            plan.layout.trouble);
         return plan;
     }
+    std::string trouble;
     for (const std::string kind : {"saltelli", "morris", "fast"}) {
+        const bool made = in.generator == kind;
         // Any two values of a single input make a trajectory.
-        if (kind == "morris" && points.dimension() == 1) continue;
-        if (Layout layout = find(kind)) return {.method = kind, .layout = std::move(layout)};
+        if (kind == "morris" && in.size() == 1 && !made) continue;
+        Layout layout = find_layout(kind, in.values, setting, run);
+        if (layout) return {.method = kind, .layout = std::move(layout)};
+        if (made) trouble = layout.trouble;
     }
+    note_broken(in, trouble, run);
+    if (!in.domain) note_dependence(in, run);
     return {};
 }
 
@@ -183,8 +214,7 @@ Effects effects_of(Plan& plan, const Runs& runs, const Response& out, const Sett
     if (plan.method == "saltelli") return pick_freeze(plan.layout, runs.inputs, out, setting, run);
     if (plan.method == "morris")
         return elementary_effects(plan.layout, runs.inputs, out, setting, run);
-    if (plan.method == "fast")
-        return fourier_amplitudes(plan.layout, runs.inputs, out, setting, run);
+    if (plan.method == "fast") return fourier_amplitudes(plan.layout, runs.inputs, out, run);
     return of_any_design(plan.method, runs.inputs, out, setting, run);
 }
 
@@ -210,11 +240,25 @@ std::string key_of(std::string name, const Report& taken) {
     return name;
 }
 
+/// Nothing of what is no number.
 void add(Report& report, const std::string& name, const Index& index) {
+    if (!std::isfinite(index.value)) return;
     report.add(name, index.value);
-    if (std::isnan(index.low)) return;
+    if (!std::isfinite(index.low) || !std::isfinite(index.high)) return;
     report.add(name + "_low", index.low);
     report.add(name + "_high", index.high);
+}
+
+/// The indices of one input; why some are missing.
+Report report_of_input(const Effects& effects, std::size_t i) {
+    Report own;
+    const auto known = [i](const IndexKind& kind) { return std::isfinite(kind.of[i].value); };
+    for (const IndexKind& kind : effects.kinds) add(own, kind.name, kind.of[i]);
+    if (!std::ranges::all_of(effects.kinds, known))
+        own.add("missing", i < effects.missing.size() && !effects.missing[i].empty()
+                               ? effects.missing[i]
+                               : "the runs determine no number, or one too large for float64");
+    return own;
 }
 
 Report report_of(const Effects& effects, const std::string& name, const Inputs& in,
@@ -230,14 +274,13 @@ Report report_of(const Effects& effects, const std::string& name, const Inputs& 
     if (!effects.no_intervals.empty()) report.add("no_intervals", effects.no_intervals);
     std::vector<std::string> keys;
     for (std::size_t i = 0; i < in.size(); ++i) {
-        Report own;
-        for (const IndexKind& kind : effects.kinds) add(own, kind.name, kind.of[i]);
         keys.push_back(key_of(in.names[i], report));
-        report.add(keys.back(), std::move(own));
+        report.add(keys.back(), report_of_input(effects, i));
     }
     for (const PairIndex& pair : effects.pairs) {
         Report own;
         add(own, "second", pair.index);
+        if (own.entries().empty()) continue;  // as of its inputs, which tell why
         report.add(key_of(keys[pair.first] + ":" + keys[pair.second], report), std::move(own));
     }
     return report;
@@ -272,7 +315,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
         points,
         {.design = options[design], .inputs = options[inputs], .response = options[response]}, run);
     const Setting setting = setting_of(options);
-    const Plan plan = plan_of(runs.inputs.values, options[method], setting, run);
+    const Plan plan = plan_of(runs.inputs, options[method], setting, run);
     Report report;
     std::vector<std::string> methods;
     const auto count = static_cast<double>(runs.responses.size());
@@ -289,6 +332,11 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
             const Effects effects =
                 effects_of(own, runs, out, setting, run.stage(done / count, (done + 1) / count));
             tell_failures(out, effects, run);
+            const auto* scale = std::get_if<std::string>(effects.details.find("scale"));
+            if (scale != nullptr && *scale == "range" && methods.empty())
+                run.notify(
+                    "the ranges of the inputs are not known; each is scaled by its own extremes; "
+                    "--parameters, --bounds and the provenance of the design tell them");
             methods.push_back(own.method);
             report.add(key, report_of(effects, own.method, runs.inputs, out));
         } catch (const Error& error) {  // others may have indices
@@ -338,10 +386,11 @@ Analyzer unit() {
               false},
              {"OUTPUT.scale",
               "of morris and chaos: how inputs become numbers in [0, 1]: cube: they are; box: from "
-              "the box that the design's file tells; range: from their extremes. Of chaos also "
-              "values "
-              "and ranks, whose distribution is that of the sample",
-              false, "cube|box|range|values|ranks"},
+              "the box that provenance or --bounds tell; distributions: as those of provenance or "
+              "--parameters; range: from their extremes. Of chaos also values and ranks, whose "
+              "distribution is that of the sample",
+              false, "cube|box|distributions|range|values|ranks"},
+             {"OUTPUT.INPUT.missing", "why some index of it is not there", false},
              {"OUTPUT.INPUT.first", "share of the variance that is due to the input alone"},
              {"OUTPUT.INPUT.first_low", "lower end of its interval; not of fast"},
              {"OUTPUT.INPUT.first_high", "upper end of its interval; not of fast"},

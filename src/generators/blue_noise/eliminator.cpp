@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <queue>
 #include <utility>
@@ -201,13 +202,13 @@ namespace {
 
 constexpr std::size_t most_points = 65'536;
 constexpr std::size_t most_balls = 256;
-constexpr std::size_t outer_most = 64;  ///< points in a ball, its centre not counted
-constexpr std::size_t fewest = 128;     ///< points that tell anything
+constexpr std::size_t fewest = 24;  ///< points that tell anything
 
-/// The squares of two distances of a point: to its k-th and its 4k-th neighbour.
-struct Balls {
-    double inner;
-    double outer;
+/// Squares of distances from a point: to its k-th neighbour, and how much larger the mean is of the
+/// 4k nearest than of the k nearest.
+struct Ball {
+    double square;
+    double growth;
 };
 
 /// One of each of `some` equal stretches of the numbers below `all`.
@@ -228,13 +229,12 @@ double quantile(std::vector<double> values, double share) {
     return *place;
 }
 
-std::vector<Balls> balls_of(std::span<const double> rows, std::size_t directions, std::size_t inner,
-                            const RunContext& run) {
-    const std::size_t all = rows.size() / directions;
-    const auto others = spread_numbers(all, std::min(all, most_points));
+std::vector<Ball> balls_of(std::span<const double> rows, std::size_t directions,
+                           std::span<const std::size_t> others, std::size_t inner,
+                           const RunContext& run) {
     const auto centres = spread_numbers(others.size(), std::min(others.size(), most_balls));
     std::vector<double> squares(others.size());
-    std::vector<Balls> balls;
+    std::vector<Ball> balls;
     for (const std::size_t centre : centres) {
         run.check_stop();
         const double* from = rows.data() + others[centre] * directions;
@@ -248,9 +248,11 @@ std::vector<Balls> balls_of(std::span<const double> rows, std::size_t directions
         const auto far = squares.begin() + static_cast<std::ptrdiff_t>(4 * inner);
         std::ranges::nth_element(squares, far);
         const auto near = squares.begin() + static_cast<std::ptrdiff_t>(inner);
-        const double outer = *far;
         std::nth_element(squares.begin(), near, far);
-        if (*near > 0) balls.push_back({*near, outer});
+        std::sort(squares.begin(), far + 1);  // so that sums do not depend on the library
+        const double within = std::accumulate(squares.begin(), near + 1, 0.0);
+        const double all = std::accumulate(near + 1, far + 1, within);
+        if (*near > 0) balls.push_back({*near, all / (4 * within)});
     }
     return balls;
 }
@@ -267,26 +269,28 @@ std::size_t dimension_for(double growth, std::size_t most) {
 }  // namespace
 
 CrowdExtent crowd_extent(std::span<const double> rows, std::size_t directions,
-                         std::size_t dimension, const RunContext& run) {
+                         std::size_t dimension, const RunContext& run, std::uint64_t kept) {
     const std::size_t all = rows.size() / directions;
     if (all < fewest) return {};
-    const std::size_t inner = std::min(outer_most, all / 8) / 4;
-    const auto balls = balls_of(rows, directions, inner, run);
+    const auto others = spread_numbers(all, std::min(all, most_points));
+    const double each = kept > 0 ? static_cast<double>(all) / static_cast<double>(kept) : 16;
+    const auto inner = static_cast<std::size_t>(
+        std::min(std::max(1.5 * each, 6.0), static_cast<double>(others.size() / 12)));
+    const auto balls = balls_of(rows, directions, others, inner, run);
     if (balls.empty()) return {};
     std::vector<double> growth;
-    for (const Balls& b : balls) growth.push_back(b.outer / b.inner);
+    for (const Ball& ball : balls) growth.push_back(ball.growth);
     const std::size_t d =
         dimension > 0 ? dimension : dimension_for(quantile(std::move(growth), 0.5), directions);
     std::vector<double> volumes;
-    for (const Balls& b : balls) {
-        double volume = unit_ball_volume(d) * (d % 2 == 1 ? std::sqrt(b.outer) : 1);
-        for (std::size_t k = 0; k < d / 2; ++k) volume *= b.outer;
+    for (const Ball& ball : balls) {
+        double volume = unit_ball_volume(d) * (d % 2 == 1 ? std::sqrt(ball.square) : 1);
+        for (std::size_t k = 0; k < d / 2; ++k) volume *= ball.square;
         volumes.push_back(volume);
     }
-    const double points = static_cast<double>(4 * inner) - 0.5;
-    const double looked_at = static_cast<double>(std::min(all, most_points));
-    constexpr double inside = 0.3;  // far from any rim, as a rule
-    return {d, quantile(std::move(volumes), inside) * looked_at / points};
+    const double points = static_cast<double>(inner) - 1.0 / 3;  // the median of such a ball
+    constexpr double inside = 0.35;                              // far from any rim, as a rule
+    return {d, quantile(std::move(volumes), inside) * static_cast<double>(others.size()) / points};
 }
 
 }  // namespace stipple

@@ -50,21 +50,27 @@ double elimination_memory(double points, std::size_t dimension, bool with_shares
 // on, and its measure.
 //
 // The balls about some of the points that hold k of n points have, on d dimensions of measure A,
-// the volume V_d r_k^d = A k / n, nearly, however evenly the points lie; and r_4k / r_k = 4^(1/d).
-// The median growth says d. Balls that reach beyond a rim are too large; the smaller ones say A,
-// within some 6 % in the plane, and in space within 25 % (of 200 points) or 5 % (of 5000).
+// the volume V_d r_k^d = A k / n, nearly, however evenly the points lie; and the mean square of
+// distances in them, which is smoother than r_k^2, grows 4^(2/d) times from k points to 4k. The
+// median growth says d. Balls that reach beyond a rim are too large; the smaller ones say A, within
+// some 10 % in the plane, and in space within 25 % (of 200 points) or 5 % (of 5000).
+//
+// What counts is how points lie at the distances that those have which are to be kept: a coil of
+// wire is a curve to many points, and a surface to few. So k is about 1.5 n / kept, half of the
+// points that are nearer than 2 r_max, within [6, n / 12].
 //
 // Cost    O(65536) distances for each of 256 points.
 // Promise the same on every machine: no more than roots and products.
 
 struct CrowdExtent {
-    std::size_t dimension = 0;  ///< 0: the points are too few, or too many in one place
+    std::size_t dimension = 0;  ///< 0: the points are fewer than 24, or too many in one place
     double measure = 0;
 };
 
 /// @param rows points in so many directions, up to 6
 /// @param dimension that they have, or 0 to look for it
+/// @param kept number of points whose distances count; 0: a sixteenth of them
 CrowdExtent crowd_extent(std::span<const double> rows, std::size_t directions,
-                         std::size_t dimension, const RunContext& run);
+                         std::size_t dimension, const RunContext& run, std::uint64_t kept = 0);
 
 }  // namespace stipple

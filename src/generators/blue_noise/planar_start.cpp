@@ -117,8 +117,8 @@ Plan planar_plan(const Request& request, const Values& options) {
 }
 
 std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& density,
-                                             double (*function)(double), const Planar& planar,
-                                             const RunContext& run) {
+                                             const std::function<double(double)>& function,
+                                             const Planar& planar, const RunContext& run) {
     if (!density) return {};
     run.need_memory(56.0 * static_cast<double>(density->values().size()), "the density");
     std::vector<double> values(density->values().size());

@@ -9,6 +9,7 @@
 // --from      points of a file, in the box.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -71,8 +72,8 @@ PlanarStart planar_start(const Plan& plan, const Values& options, double bytes,
 
 /// Moments of a function of the density over cells, scaled to a mean of 1.
 std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& density,
-                                             double (*function)(double), const Planar& planar,
-                                             const RunContext& run);
+                                             const std::function<double(double)>& function,
+                                             const Planar& planar, const RunContext& run);
 
 /// The order of the points along strips of the rectangle: what is near in it is near in memory.
 std::vector<std::uint32_t> along_strips(const std::vector<double>& rows, const Planar& planar,

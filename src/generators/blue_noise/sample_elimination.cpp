@@ -10,8 +10,8 @@
 // r_max^3 = V / (4 sqrt(2) N), in d > 3 dimensions r_max^d = V / (N C_d), C_d the volume of the
 // unit ball. The points of a file may fill a part of their box, or lie on a surface:
 // --manifold-dimension 2 --measure 12.566 takes d and A from the unit sphere, while distances stay
-// those in space. Where nobody says what they fill, they do (crowd_extent.hpp), unless
-// that is about their box: with a measure that is a fourth too large all near pairs weigh the same.
+// those in space. Where nobody says what they fill, they do (crowd_extent() in eliminator.hpp), and
+// a note tells what was found. Of equal points of a file all but one go before any other point.
 //
 // --density: in the plane, the M points are random in proportion to it, and r_max of a point is
 // that of the whole divided by the root of the density at the point, whose mean is 1.
@@ -29,7 +29,9 @@
 // Promise exactly N points; always the point of greatest weight goes, of equal ones the first.
 // Source  C. Yuksel, Comput. Graph. Forum 34 (2015) 25-32, doi:10.1111/cgf.12538.
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "core/text.hpp"
@@ -83,7 +85,30 @@ struct Crowd {
     BoxSpace space;
     std::vector<double> shares = {};  ///< of the largest radius that are each point's own
     CrowdExtent extent = {};
+    /// How many of the points before each are the same; empty: none are.
+    std::vector<std::uint32_t> copies = {};
 };
+
+/// For each point how many before it are the same.
+std::vector<std::uint32_t> copies_among(const std::vector<double>& rows, std::size_t d) {
+    const auto row = [&](std::uint32_t i) { return std::span(rows).subspan(i * d, d); };
+    std::vector<std::uint32_t> sorted(rows.size() / d);
+    std::iota(sorted.begin(), sorted.end(), 0U);
+    std::ranges::sort(sorted, [&](std::uint32_t i, std::uint32_t j) {
+        const auto way = std::lexicographical_compare_three_way(row(i).begin(), row(i).end(),
+                                                                row(j).begin(), row(j).end());
+        return way < 0 || (way == 0 && i < j);
+    });
+    std::vector<std::uint32_t> copies(sorted.size());
+    bool any = false;
+    for (std::size_t k = 1; k < sorted.size(); ++k)
+        if (std::ranges::equal(row(sorted[k - 1]), row(sorted[k]))) {
+            copies[sorted[k]] = copies[sorted[k - 1]] + 1;
+            any = true;
+        }
+    if (!any) copies.clear();
+    return copies;
+}
 
 PointSet points_of_file(const Values& options, const RunContext& run) {
     PointSet points = io::read_given(from.name, options[from], {}, run);
@@ -146,7 +171,9 @@ Crowd crowd_of_file(const Plan& plan, const Values& options, const RunContext& r
         const std::vector<double> first(points[0].begin(), points[0].end());
         space.box = bounding_box(points.flat(), {first, first});
     }
-    return {{points.flat().begin(), points.flat().end()}, std::move(space)};
+    Crowd crowd{{points.flat().begin(), points.flat().end()}, std::move(space)};
+    crowd.copies = copies_among(crowd.rows, points.dimension());
+    return crowd;
 }
 
 Crowd random_crowd(const Plan& plan, const Values& options, const RunContext& run) {
@@ -170,8 +197,21 @@ Crowd random_crowd(const Plan& plan, const Values& options, const RunContext& ru
     return crowd;
 }
 
+/// The rows of different points.
+std::vector<double> different_rows(const Crowd& crowd) {
+    const std::size_t d = crowd.space.box.dimension();
+    std::vector<double> rows;
+    for (std::size_t i = 0; i < crowd.rows.size() / d; ++i)
+        if (crowd.copies.empty() || crowd.copies[i] == 0) {
+            const auto row = crowd.rows.begin() + static_cast<std::ptrdiff_t>(i * d);
+            rows.insert(rows.end(), row, row + static_cast<std::ptrdiff_t>(d));
+        }
+    return rows;
+}
+
 /// What a file's points fill: as it is said, their box if they fill it, or what they say.
-CrowdExtent extent_of_file(const Crowd& crowd, const Values& options, const RunContext& run) {
+CrowdExtent extent_of_file(const Crowd& crowd, std::uint64_t kept, const Values& options,
+                           const RunContext& run) {
     constexpr double most_of_it = 0.88;
     const BoxSpace& space = crowd.space;
     const std::size_t d = space.box.dimension();
@@ -180,9 +220,12 @@ CrowdExtent extent_of_file(const Crowd& crowd, const Values& options, const RunC
     if (options.given(measure)) return {said ? wanted : d, options[measure]};
     const CrowdExtent box{d, volume_of(space.box)};
     if (space.torus || wanted == d) return box;
-    const CrowdExtent whole = crowd_extent(crowd.rows, d, d, run);
-    if (!said && (whole.dimension == 0 || whole.measure >= most_of_it * box.measure)) return box;
-    const CrowdExtent found = crowd_extent(crowd.rows, d, wanted, run);
+    const auto rows = different_rows(crowd);
+    const CrowdExtent found = crowd_extent(rows, d, wanted, run, kept);
+    const bool filled =
+        found.dimension == d && (rows.size() / d < 128 ||
+                                 crowd_extent(rows, d, d, run).measure >= most_of_it * box.measure);
+    if (filled || (found.dimension == 0 && !said)) return box;
     if (found.dimension == 0)
         fail(ErrorKind::input,
              "{}: too few different points to tell the measure of what they are "
@@ -199,11 +242,28 @@ double radius_for(const Crowd& crowd, std::uint64_t kept) {
     return packing_radius(static_cast<double>(kept), crowd.extent.dimension, crowd.extent.measure);
 }
 
+/// Takes out copies of other points, until `kept` points are left or no copies; those that go, in
+/// order: of the points that there are most of first.
+std::vector<std::uint32_t> take_copies(const Crowd& crowd, std::vector<std::uint32_t>& points,
+                                       std::uint64_t kept) {
+    std::vector<std::uint32_t> gone;
+    for (const std::uint32_t i : points)
+        if (!crowd.copies.empty() && crowd.copies[i] > 0) gone.push_back(i);
+    std::ranges::stable_sort(gone, std::greater(),
+                             [&](std::uint32_t i) { return crowd.copies[i]; });
+    gone.resize(std::min<std::size_t>(gone.size(), points.size() - kept));
+    auto sorted = gone;
+    std::ranges::sort(sorted);
+    std::erase_if(points, [&](std::uint32_t i) { return std::ranges::binary_search(sorted, i); });
+    return gone;
+}
+
 /// Eliminates points, by the numbers of their rows, until `kept` are left; those that go, in order.
 std::vector<std::uint32_t> thin(const Crowd& crowd, std::vector<std::uint32_t>& points,
                                 std::uint64_t kept, const RunContext& run) {
     const std::size_t d = crowd.space.box.dimension();
-    if (points.size() == kept) return {};
+    std::vector<std::uint32_t> names = take_copies(crowd, points, kept);
+    if (points.size() == kept) return names;
     std::vector<double> rows;
     std::vector<double> shares;
     rows.reserve(points.size() * d);
@@ -214,7 +274,6 @@ std::vector<std::uint32_t> thin(const Crowd& crowd, std::vector<std::uint32_t>& 
     }
     const auto gone = eliminate(rows, crowd.space, radius_for(crowd, kept), kept, run, shares);
     std::vector<bool> stays(points.size(), true);
-    std::vector<std::uint32_t> names;
     for (const std::uint32_t i : gone) {
         stays[i] = false;
         names.push_back(points[i]);
@@ -245,8 +304,8 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& outside
     const bool file = options.given(from);
     Crowd crowd = file ? crowd_of_file(plan, options, run) : random_crowd(plan, options, run);
     const std::size_t d = plan.dimension;
-    crowd.extent =
-        file ? extent_of_file(crowd, options, run) : CrowdExtent{d, volume_of(crowd.space.box)};
+    crowd.extent = file ? extent_of_file(crowd, plan.count, options, run)
+                        : CrowdExtent{d, volume_of(crowd.space.box)};
     if (!(radius_for(crowd, plan.count) > 0))
         fail_with_hint(ErrorKind::input,
                        "--measure, with --manifold-dimension, tells what they are on",
@@ -282,6 +341,7 @@ Generator unit() {
             .options = Schema(ratio, order, density_option, invert_option, from, manifold, measure,
                               torus_option, bounded_option),
             .aliases = {"weighted-sample-elimination", "yuksel"},
+            .stream_version = 2,
             .plan = plan,
             .set = make,
             .uses_seed = [](const Values& options) { return !options.given(from); }};

@@ -102,7 +102,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
     const Blocks& blocks = blocks_for(plan.dimension);
     const bool ends = options[ends_option];
     return level_sequence(
-        plan.dimension, level_places(3, ends),
+        plan, level_places(3, ends),
         [places = places_of(blocks), log = log_runs(blocks)](
             std::uint64_t run, std::size_t factor) { return level(places, log, run, factor); },
         {{"coded_bounds", coded_range(3, ends)}});

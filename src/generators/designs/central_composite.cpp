@@ -110,7 +110,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
     const bool ends = options[ends_option];
     const double unit = options[type] == "circumscribed" ? std::max(a, 1.0) : 1;
     const std::string reach = format_number(unit * (ends ? 1 : 1.5));
-    return level_sequence(plan.dimension, places_of(a, ends),
+    return level_sequence(plan, places_of(a, ends),
                           [corners](std::uint64_t i, std::size_t k) -> std::size_t {
                               if (i < corners.runs()) return corners.level(i, k) == 1 ? 3 : 1;
                               const std::uint64_t axial = i - corners.runs();

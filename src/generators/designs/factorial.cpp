@@ -4,7 +4,7 @@
 // first factor fastest. Where levels are in the cube: levels.hpp.
 //
 // Shape   n = m_1 m_2 ... m_k runs, up to 2^53. Without --levels a count is m^k, and without a
-//         count every factor has two levels.
+//         count every factor has two levels, or all outcomes of a parameter that has up to ten.
 // Cost    O(n k).
 // Source  D. C. Montgomery, "Design and Analysis of Experiments", Wiley, chapter 5.
 
@@ -25,7 +25,8 @@ constexpr Param<Numbers> levels{
     {.name = "levels",
      .unit = "levels",
      .help = "Levels of all factors (3) or of each (2,3,4); gives the count, and the dimension. "
-             "Default: 2, or the k-th root of the count"}};
+             "Default: 2, or the k-th root of the count; of parameters with up to 10 outcomes, all "
+             "of these"}};
 
 /// Levels of each factor. @throws Error(usage)
 std::vector<std::uint64_t> levels_of(const std::vector<double>& given, std::size_t dimension) {
@@ -58,22 +59,38 @@ Plan plan(const Request& request, const Values& options) {
     return plan_of_runs(request, runs, d, "--levels " + format_value(Value(given)));
 }
 
+/// Each outcome of a parameter stands as often as others. @throws Error(usage)
+void check_outcomes(const std::vector<std::uint64_t>& sizes, const LevelPlaces& places) {
+    for (std::size_t k = 0; k < sizes.size(); ++k) {
+        const std::uint64_t outcomes = places.outcomes(k);
+        if (outcomes == 0 || sizes[k] <= outcomes || sizes[k] % outcomes == 0) continue;
+        fail(ErrorKind::usage,
+             "--levels: {} levels of parameter {} would show some of its {} outcomes more often "
+             "than others; {} or fewer, or a multiple, show them equally",
+             sizes[k], k + 1, outcomes, outcomes);
+    }
+}
+
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     const auto sizes =
         options.given(levels)
             ? levels_of(options[levels], plan.dimension)
             : std::vector(plan.dimension, exact_root(plan.count, plan.dimension, "factorial"));
     const bool ends = options[ends_option];
-    auto points = sequence_of([sizes, ends](std::uint64_t first, std::span<double> rows) {
+    const LevelPlaces places(plan);
+    check_outcomes(sizes, places);
+    const auto place = [sizes, ends, places](std::size_t k, std::uint64_t level) {
+        return places(k, level_place(level, sizes[k], ends));
+    };
+    auto points = sequence_of([sizes, place](std::uint64_t first, std::span<double> rows) {
         const std::size_t d = sizes.size();
         for_each_lattice_row(sizes, first, rows.size() / d,
                              [&](auto cell, std::size_t offset, std::size_t length) {
                                  double* x = rows.data() + offset * d;
-                                 for (std::size_t k = 1; k < d; ++k)
-                                     x[k] = level_place(cell[k], sizes[k], ends);
+                                 for (std::size_t k = 1; k < d; ++k) x[k] = place(k, cell[k]);
                                  for (std::size_t j = 0; j < length; ++j) {
                                      std::copy_n(x + 1, d - 1, x + j * d + 1);
-                                     x[j * d] = level_place(cell[0] + j, sizes[0], ends);
+                                     x[j * d] = place(0, cell[0] + j);
                                  }
                              });
     });

@@ -133,7 +133,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
     const FoundFraction found = decide(plan.count, plan.dimension, options, run);
     const bool ends = options[ends_option];
     return level_sequence(
-        plan.dimension, level_places(2, ends),
+        plan, level_places(2, ends),
         [design = *found.design](std::uint64_t i, std::size_t k) { return design.level(i, k); },
         findings_of(found, !options.given(equations), ends));
 }

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"
@@ -58,13 +60,55 @@ void require_whole_blocks(const Plan& plan, std::uint64_t block, const std::stri
         fail(ErrorKind::usage, "--start: {} is not {}, as {} needs", plan.start, what, who);
 }
 
-std::unique_ptr<Sequence> level_sequence(std::size_t factors, std::vector<double> places,
+std::vector<double> outcome_ends(const OutcomeAxis& axis, std::size_t most) {
+    if (!axis.discrete()) return {};
+    const double last = axis.outcome(one_minus_ulp);
+    std::vector<double> ends{0};
+    while (ends.back() < 1) {
+        if (ends.size() > most) return {};
+        const double x = axis.outcome(ends.back());
+        double inside = ends.back();
+        double end = 1;
+        while (x != last && inside < (inside + end) / 2 && (inside + end) / 2 < end) {
+            const double middle = (inside + end) / 2;
+            (axis.outcome(middle) == x ? inside : end) = middle;
+        }
+        ends.push_back(end);
+    }
+    return ends;
+}
+
+std::vector<double> level_ends(const OutcomeAxis& axis) {
+    return outcome_ends(axis, axis.categories ? 10'000 : 10);
+}
+
+LevelPlaces::LevelPlaces(const Plan& plan) {
+    if (!plan.destination) return;
+    for (const OutcomeAxis& axis : plan.destination->axes) ends_.push_back(level_ends(axis));
+}
+
+double LevelPlaces::operator()(std::size_t factor, double x) const {
+    const std::size_t count = outcomes(factor);
+    if (count == 0) return x;
+    const auto outcome =
+        std::min(static_cast<std::size_t>(x * static_cast<double>(count)), count - 1);
+    return (ends_[factor][outcome] + ends_[factor][outcome + 1]) / 2;
+}
+
+std::unique_ptr<Sequence> level_sequence(const Plan& plan, std::span<const double> places,
                                          LevelOf level_of, Findings findings) {
-    auto points = sequence_of([factors, places = std::move(places), level_of = std::move(level_of)](
-                                  std::uint64_t run, std::span<double> rows) {
-        for (; !rows.empty(); rows = rows.subspan(factors), ++run)
-            for (std::size_t k = 0; k < factors; ++k) rows[k] = places[level_of(run, k)];
-    });
+    const std::size_t factors = plan.dimension;
+    const LevelPlaces place(plan);
+    std::vector<double> at;  // of each factor
+    for (std::size_t k = 0; k < factors; ++k)
+        for (const double x : places) at.push_back(place(k, x));
+    auto points =
+        sequence_of([factors, levels = places.size(), at = std::move(at),
+                     level_of = std::move(level_of)](std::uint64_t run, std::span<double> rows) {
+            for (; !rows.empty(); rows = rows.subspan(factors), ++run)
+                for (std::size_t k = 0; k < factors; ++k)
+                    rows[k] = at[k * levels + level_of(run, k)];
+        });
     points->set_found([findings = std::move(findings)] { return findings; });
     return points;
 }

@@ -8,6 +8,9 @@
 // From the middles every warp by inversion onto m equally probable integers or categories gives the
 // levels exactly, as does the box from -m / (m - 1) to m / (m - 1), in which they are the coded
 // values -1, ..., 1 of the literature: --bounds -2..2 for two levels, -1.5..1.5 for three.
+//
+// A factor that becomes one of K outcomes, words or up to ten numbers, takes them in turn, whatever
+// their probabilities: a level at x is in the middle of the interval of outcome floor(K x).
 #pragma once
 
 #include <cstddef>
@@ -62,10 +65,34 @@ Plan plan_with_center(const Request& request, const Values& options, std::uint64
 /// Holds that count and start are multiples of the runs that belong together. @throws Error(usage)
 void require_whole_blocks(const Plan& plan, std::uint64_t block, const std::string& who);
 
+/// The ends of the intervals of [0, 1] that have the same outcome each, rising; none where these are
+/// more than `most`, or the axis is continuous.
+std::vector<double> outcome_ends(const OutcomeAxis& axis, std::size_t most);
+
+/// The same of categories, and of up to ten outcomes that are none: what designs take for levels.
+std::vector<double> level_ends(const OutcomeAxis& axis);
+
+/// Where levels are along the factors of a plan.
+class LevelPlaces {
+  public:
+    explicit LevelPlaces(const Plan& plan);
+
+    /// How many outcomes a factor has for levels; 0: those of a number are anywhere.
+    [[nodiscard]] std::size_t outcomes(std::size_t factor) const {
+        return factor < ends_.size() && !ends_[factor].empty() ? ends_[factor].size() - 1 : 0;
+    }
+
+    /// Of the level at x.
+    [[nodiscard]] double operator()(std::size_t factor, double x) const;
+
+  private:
+    std::vector<std::vector<double>> ends_;  ///< of each factor, level_ends()
+};
+
 /// Which of the places a run has along a factor.
 using LevelOf = std::function<std::size_t(std::uint64_t run, std::size_t factor)>;
 
-std::unique_ptr<Sequence> level_sequence(std::size_t factors, std::vector<double> places,
+std::unique_ptr<Sequence> level_sequence(const Plan& plan, std::span<const double> places,
                                          LevelOf level_of, Findings findings);
 
 }  // namespace stipple::generators

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
 // Morris' design for elementary effects: r trajectories of k + 1 runs, of which each differs from
-// the one before in one factor, by
+// the one before in one factor. The levels of a factor are l / (p - 1), l = 0, ..., p - 1, from end to
+// end of its range, and the factor moves by
 //
-//     delta = p / (2 (p - 1))        of the factor's range, p / 2 of its p levels.
+//     delta = p / (2 (p - 1)),       p / 2 of its p levels.
 //
 // Which factor moves when, from which level and in which direction is random, each equally likely.
-// Between the middles of levels, where runs are unless --ends is given (levels.hpp), it is 1/2.
 //
+//     --middles  levels (2 l + 1) / (2 p), the middles of equal cells; delta is 1/2 for every p
 //     --radial   r stars in place of trajectories: a point A, then for each factor A with that
 //                coordinate from another point B; both from a Sobol' sequence, B four points ahead
 //
 // Shape   n = r (k + 1).
 // Cost    O(n k).
 // Promise trajectory t is the same for any number of them: more reuse all there were.
+// Beware  a factor whose effects have the period delta looks inert, with --middles any period 1/2.
 // Source  M. D. Morris, Technometrics 33 (1991) 161-174, doi:10.1080/00401706.1991.10484804;
 //         F. Campolongo, A. Saltelli, J. Cariboni, Comput. Phys. Commun. 182 (2011) 978-988,
 //         doi:10.1016/j.cpc.2010.12.039 (radial).
@@ -49,13 +51,19 @@ constexpr Param<bool> radial{
     .name = "radial",
     .help = "One point after the other with one coordinate replaced, by Sobol' points, not levels"};
 
+constexpr Param<bool> middles{
+    .name = "middles",
+    .help =
+        "Levels are the middles of equal cells, for distributions without ends; by default they "
+        "go from 0 to just below 1"};
+
 void check_options(const Values& options) {
     if (options[levels] % 2 != 0)
         fail(ErrorKind::usage, "--levels: {} is odd; steps of half the levels need an even number",
              options[levels]);
-    if (options[radial] && (options.given(levels) || options[ends_option]))
+    if (options[radial] && (options.given(levels) || options[middles]))
         fail(ErrorKind::usage, "--{}: the points of --radial have no levels",
-             options.given(levels) ? levels.name : ends_option.name);
+             options.given(levels) ? levels.name : middles.name);
 }
 
 Plan plan(const Request& request, const Values& options) {
@@ -91,9 +99,9 @@ class Trajectory {
         up_[k] = !up_[k];
     }
 
-    void write(std::span<double> row, bool ends) const {
+    void write(std::span<double> row, bool ends, const LevelPlaces& places) const {
         for (std::size_t k = 0; k < row.size(); ++k)
-            row[k] = level_place(low_[k] + (up_[k] ? levels_ / 2 : 0), levels_, ends);
+            row[k] = places(k, level_place(low_[k] + (up_[k] ? levels_ / 2 : 0), levels_, ends));
     }
 
   private:
@@ -104,8 +112,8 @@ class Trajectory {
     std::size_t moved_ = 0;
 };
 
-void fill(const Plan& plan, std::uint64_t p, bool ends, std::uint64_t first,
-          std::span<double> rows) {
+void fill(const Plan& plan, const LevelPlaces& places, std::uint64_t p, bool ends,
+          std::uint64_t first, std::span<double> rows) {
     const std::size_t d = plan.dimension;
     const Rng keys(plan.seed, 0);
     while (!rows.empty()) {
@@ -113,7 +121,7 @@ void fill(const Plan& plan, std::uint64_t p, bool ends, std::uint64_t first,
         for (std::size_t j = 0; j <= d && !rows.empty(); ++j) {
             if (j > 0) trajectory.step();
             if (j < first % (d + 1)) continue;  // only of the first one
-            trajectory.write(rows.first(d), ends);
+            trajectory.write(rows.first(d), ends, places);
             rows = rows.subspan(d);
             if (j == d) first += d + 1 - first % (d + 1);
         }
@@ -128,10 +136,11 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
                 if (j > 0) row[j - 1] = b[j - 1];
             });
     const auto p = static_cast<std::uint64_t>(options[levels]);
-    const bool ends = options[ends_option];
-    return sequence_of([plan, p, ends](std::uint64_t first, std::span<double> rows) {
-        fill(plan, p, ends, first, rows);
-    });
+    const bool ends = !options[middles];
+    return sequence_of(
+        [plan, places = LevelPlaces(plan), p, ends](std::uint64_t first, std::span<double> rows) {
+            fill(plan, places, p, ends, first, rows);
+        });
 }
 
 }  // namespace
@@ -145,7 +154,8 @@ Generator unit() {
             .related = {"sensitivity", "elementary-effects", "screening", "oat", "one-at-a-time",
                         "gsa", "salib"},
             .traits = {.max_dimension = 10'600},
-            .options = Schema(levels, trajectories, radial, ends_option),
+            .options = Schema(levels, trajectories, radial, middles),
+            .stream_version = 2,
             .plan = plan,
             .sequence = make};
 }

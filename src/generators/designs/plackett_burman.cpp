@@ -57,7 +57,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
     const bool ends = options[ends_option];
     const Hadamard matrix(plan.count);
     return level_sequence(
-        plan.dimension, level_places(2, ends),
+        plan, level_places(2, ends),
         [matrix](std::uint64_t i, std::size_t k) -> std::size_t {
             return matrix.positive(i, k + 1) ? 1 : 0;
         },

@@ -299,6 +299,10 @@ std::unique_ptr<Sequence> make(const Plan& decided, const Values& options, const
                         options);
 }
 
+std::vector<std::uint32_t> bases(const Plan& /*decided*/, const Values& options) {
+    return {read(options).base};
+}
+
 std::vector<std::string> notes(const Request& request, const Plan& decided, const Values& options) {
     return net_notes(read(options).base, request, decided);
 }
@@ -318,7 +322,8 @@ Generator unit() {
             .plan = plan,
             .sequence = make,
             .uses_seed = binary_uses_seed,
-            .notes = notes};
+            .notes = notes,
+            .bases = bases};
 }
 
 }  // namespace stipple::generators::digital_net

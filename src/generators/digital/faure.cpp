@@ -69,6 +69,10 @@ std::unique_ptr<Sequence> make(const Plan& decided, const Values& options, const
     return net_sequence(base, std::move(matrices), decided, options);
 }
 
+std::vector<std::uint32_t> bases(const Plan& decided, const Values& options) {
+    return {base_for(decided.dimension, options)};
+}
+
 std::vector<std::string> notes(const Request& request, const Plan& decided, const Values& options) {
     return net_notes(base_for(decided.dimension, options), request, decided);
 }
@@ -84,7 +88,8 @@ Generator unit() {
             .plan = plan,
             .sequence = make,
             .uses_seed = binary_uses_seed,
-            .notes = notes};
+            .notes = notes,
+            .bases = bases};
 }
 
 }  // namespace stipple::generators::faure

@@ -140,6 +140,10 @@ std::unique_ptr<Sequence> make(const Plan& decided, const Values& options, const
     return net_sequence(base, std::move(matrices), decided, options);
 }
 
+std::vector<std::uint32_t> bases(const Plan& /*decided*/, const Values& options) {
+    return {static_cast<std::uint32_t>(options[base_option])};
+}
+
 std::vector<std::string> notes(const Request& request, const Plan& decided, const Values& options) {
     return net_notes(static_cast<std::uint64_t>(options[base_option]), request, decided);
 }
@@ -156,7 +160,8 @@ Generator unit() {
             .plan = plan,
             .sequence = make,
             .uses_seed = binary_uses_seed,
-            .notes = notes};
+            .notes = notes,
+            .bases = bases};
 }
 
 }  // namespace stipple::generators::niederreiter

@@ -215,7 +215,7 @@ class Construction {
         products_.keep_in_range();
     }
 
-    [[nodiscard]] std::uint64_t next() {
+    [[nodiscard]] std::uint64_t next(std::span<const std::uint64_t> vector) {
         std::vector<double> error(n_ / 2 + 1, 0.0);
         for (const auto& part : parts_) {
             run_.check_stop();
@@ -223,6 +223,7 @@ class Construction {
         }
         for (std::uint64_t z = 0; z < error.size(); ++z)
             if (std::gcd(z, n_) != 1) error[z] = std::numeric_limits<double>::infinity();
+        leave_out(vector, error);
         const double mean = products_.mean();
         const double margin = products_.rounding(kernel_norm_);
         return best_component(

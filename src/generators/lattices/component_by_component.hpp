@@ -10,8 +10,8 @@
 //
 // Shape    n in [1, 2^24].
 // Beware   weights above 6 / pi^2 make factors negative. With many of those the products of some
-//          points become the more negative the worse they are spread, and the least e^2 is found
-//          by repeating a component; weights that decay, or up to 0.6, do not let it come so far.
+//          points become the more negative the worse they are spread, and the least e^2 would be
+//          found by repeating a component, as it would with weights that have become very small.
 // Units    with all weights 1, e^2 is the figure of merit P_2 of the lattice.
 // Source   I. H. Sloan, S. Joe, Lattice Methods for Multiple Integration, Oxford 1994 (P_alpha).
 #pragma once
@@ -32,7 +32,8 @@ double squared_lattice_error(std::uint64_t n, std::span<const std::uint64_t> vec
                              std::span<const double> weights);
 
 /// The vector that grows from z_1 = 1 by the component, prime to n and at most n / 2, with the
-/// least e^2; the smallest of those that are equally good. One component a weight.
+/// least e^2 of those that are not there yet, if there are any; the smallest of those that are
+/// equally good. One component a weight.
 std::vector<std::uint64_t> component_by_component(std::uint64_t n, std::span<const double> weights,
                                                   const RunContext& run);
 

@@ -93,8 +93,18 @@ std::uint64_t best_component(std::uint64_t end, const Nearly& nearly, double mar
     return nominees[static_cast<std::size_t>(first - errors.begin())];
 }
 
+/// Makes E infinite for the candidates that the vector has, since equal components make equal
+/// coordinates, unless no other is left.
+inline void leave_out(std::span<const std::uint64_t> vector, std::vector<double>& error) {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    std::vector<double> others = error;
+    for (const std::uint64_t z : vector)
+        if (z < others.size()) others[z] = never;
+    if (std::ranges::any_of(others, [](double e) { return e < never; })) error = std::move(others);
+}
+
 /// The vector that grows from 1, one component a weight.
-/// @param search has multiply_by(component, weight) and next()
+/// @param search has multiply_by(component, weight) and next(vector so far)
 template <class Search>
 std::vector<std::uint64_t> grow_vector(Search&& search, std::span<const double> weights,
                                        const RunContext& run) {
@@ -102,7 +112,7 @@ std::vector<std::uint64_t> grow_vector(Search&& search, std::span<const double> 
     for (std::size_t k = 1; k < weights.size(); ++k) {
         search_tick(run, k, weights.size());
         search.multiply_by(vector.back(), weights[k - 1]);
-        vector.push_back(search.next());
+        vector.push_back(search.next(vector));
     }
     return vector;
 }

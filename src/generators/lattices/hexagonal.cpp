@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Hexagonal (triangular) lattice in the unit square, of exactly n points: the lattice of n points
-// whose smallest distance on the torus (opposite edges joined) is the largest that a lattice of n
-// points has.
+// Hexagonal (triangular) lattice in the unit square or in a box, of exactly n points: the lattice
+// of n points whose smallest distance on the torus (opposite edges joined) is the largest that a
+// lattice of n points has. Points that form no lattice may be farther apart: those of n = 3, 4, 6,
+// 7 and 8 can in the square.
 //
-// The torus's aspect, 1 : 1, lets no lattice be perfectly hexagonal, which would have the smallest
+// The square torus lets no lattice be perfectly hexagonal, which would have the smallest
 // distance sqrt(2 / (sqrt(3) n)). By how much less the one here has, depends on n: by 24 % for
 // n = 3, on average 6 % below 100 points and 2 % below 1000, and at most 7.3 % from 100 points on,
 // 3.2 % from 2000, 0.4 % from 10^5; always less than 2.1 / sqrt(n). Rows of the lattice are not
@@ -16,6 +17,7 @@
 //         does not fall from point to point. Coordinates are correctly rounded, and below 1.
 // Source  the bound: J. L. Lagrange 1773; A. Thue 1910 (for any points in the plane).
 
+#include "generators/box_space.hpp"
 #include "generators/generator.hpp"
 #include "math/arithmetic/ratio.hpp"
 #include "math/geometry/torus_packing.hpp"
@@ -23,11 +25,19 @@
 namespace stipple::generators::hexagonal {
 namespace {
 
+Plan plan(const Request& request, const Values&) { return plan_in_proportion(request); }
+
+TorusPacking packing_of(const Plan& plan) {
+    const auto sides = proportions_of(plan);
+    return sides.empty() ? densest_torus_packing(plan.count)
+                         : densest_torus_packing(plan.count, sides[0] / sides[1]);
+}
+
 std::unique_ptr<Sequence> make(const Plan& plan, const Values&, const RunContext&) {
-    const TorusPacking packing = densest_torus_packing(plan.count);
+    const TorusPacking packing = packing_of(plan);
     const std::uint64_t gap = plan.count / packing.row_points;  // of neighbours in a row, over n
-    return sequence_of([packing, gap, n = static_cast<double>(plan.count)](std::uint64_t first,
-                                                                           std::span<double> rows) {
+    return sequence_of([packing, gap, box = plan.bounds, n = static_cast<double>(plan.count)](
+                           std::uint64_t first, std::span<double> rows) {
         std::uint64_t row = first / packing.row_points;
         std::uint64_t column = first % packing.row_points;
         auto start = static_cast<std::uint64_t>(Wide{row} * packing.shift % gap);
@@ -40,6 +50,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values&, const RunContext
             start += packing.shift;
             if (start >= gap) start -= gap;
         }
+        if (box) scale_into(*box, rows);
     });
 }
 
@@ -47,16 +58,21 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values&, const RunContext
 
 Generator unit() {
     return {.name = "hexagonal",
-            .summary = "Hexagonal lattice: n points farthest apart on the torus",
+            .summary =
+                "Hexagonal lattice: of all lattices of n points that with the largest "
+                "smallest distance on the torus, also in a box",
             .source = "Standard construction; the densest lattice of n points, by search",
             .related = {"honeycomb"},
             .traits = {.min_dimension = 2,
                        .max_dimension = 2,
                        .prefix = false,
                        .seeded = false,
+                       .boxed = true,
                        .max_index = std::uint64_t{1} << 40},
             .options = Schema(),
             .aliases = {"hex", "triangular"},
+            .stream_version = 2,
+            .plan = plan,
             .sequence = make};
 }
 

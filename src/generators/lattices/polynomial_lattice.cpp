@@ -177,7 +177,8 @@ Generator unit() {
             .traits = {.prefix = false},
             .options = Schema(rule, modulus_option, vector_option, vector_file, product_weights,
                               weight_decay, vector_output, vector_format, binary_scramble),
-            .writes = {std::string(vector_output.name)},
+            .writes = {std::string(vector_output.name), std::string(vector_format.name)},
+            .stream_version = 2,
             .plan = plan,
             .sequence = make,
             .settle =

@@ -60,18 +60,18 @@ class Search {
         products_.keep_in_range();
     }
 
-    [[nodiscard]] std::uint64_t next() {
+    [[nodiscard]] std::uint64_t next(std::span<const std::uint64_t> vector) {
         const double mean = products_.mean();
         const double rounding = products_.rounding(kernel_norm_);
         std::ranges::transform(products_.all(), correlation_.values().begin(),
                                [&](double p) { return p - mean; });
         correlation_.correlate();
-        const auto nearly = [&](std::uint64_t q) {
-            return q == 0 ? std::numeric_limits<double>::infinity()
-                          : correlation_.values()[exponents_[q]];
-        };
+        std::vector<double> error(units_.size() + 1, std::numeric_limits<double>::infinity());
+        for (std::uint64_t q = 1; q < error.size(); ++q)
+            error[q] = correlation_.values()[exponents_[q]];
+        leave_out(vector, error);
         return best_component(
-            units_.size() + 1, nearly, 2 * rounding,
+            error.size(), [&](std::uint64_t q) { return error[q]; }, 2 * rounding,
             [&](std::uint64_t q) { return error_by_sum(q, mean); }, 0.1 * rounding);
     }
 

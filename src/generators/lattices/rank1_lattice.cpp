@@ -7,7 +7,8 @@
 // The vector comes by one of four rules:
 //
 //     cbc        component by component, each making the worst-case error in the weighted Korobov
-//                space of smoothness 2 (component_by_component.hpp) least;
+//                space of smoothness 2 (component_by_component.hpp) least, no two being the same
+//                as long as there are others;
 //     korobov    (1, a, a^2, ...) mod n with a given multiplier a, or the best in that space;
 //     fibonacci  (1, F_(k-1)) for n = F_k, the best there are in two dimensions;
 //     vector     given.
@@ -29,6 +30,7 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <utility>
 
 #include "core/error.hpp"
@@ -197,8 +199,26 @@ Sequence::Fill multiples(std::uint64_t n, const std::vector<std::uint64_t>& z) {
     };
 }
 
+/// Warns of coordinates that are the same in all points.
+void note_repeated(std::span<const std::uint64_t> z, std::uint64_t n, const RunContext& run) {
+    std::unordered_map<std::uint64_t, std::size_t> seen;
+    std::string first;
+    std::size_t repeated = 0;
+    for (std::size_t k = 0; k < z.size() && n > 1; ++k) {
+        const auto [there, is_new] = seen.try_emplace(z[k] % n, k);
+        if (!is_new && repeated++ == 0)
+            first = fmt::format("coordinate {} is the same as {}", k + 1, there->second + 1);
+    }
+    if (repeated == 0) return;
+    const std::string others =
+        repeated > 1 ? fmt::format(", and {} more are repeated", repeated - 1) : "";
+    run.notify(fmt::format("rank1-lattice: {}{}: the vector of {} numbers has {} different ones",
+                           first, others, z.size(), seen.size()));
+}
+
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext& run) {
     const auto z = vector_of(plan, options, run);
+    note_repeated(z, plan.count, run);
     const std::string chosen = rule_of(options);
     Sequence::Found found;
     if (chosen == "cbc" || searches_multiplier(chosen, options))
@@ -248,7 +268,8 @@ Generator unit() {
             .options = Schema(rule, multiplier, effort, vector, vector_file, product_weights,
                               weight_decay, vector_output, vector_format),
             .aliases = {"lattice", "rank-1-lattice"},
-            .writes = {std::string(vector_output.name)},
+            .writes = {std::string(vector_output.name), std::string(vector_format.name)},
+            .stream_version = 2,
             .plan = plan,
             .sequence = make,
             .settle = [](Values& options) { options.put(rule.name, rule_of(options), false); },

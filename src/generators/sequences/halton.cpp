@@ -119,7 +119,11 @@ Generator unit() {
             .options = Schema(scramble, leap),
             .plan = plan,
             .sequence = make,
-            .uses_seed = random_digits};
+            .uses_seed = random_digits,
+            .bases = [](const Plan& plan, const Values&) {
+                const auto end = primes.begin() + static_cast<std::ptrdiff_t>(plan.dimension);
+                return std::vector<std::uint32_t>(primes.begin(), end);
+            }};
 }
 
 }  // namespace stipple::generators::halton

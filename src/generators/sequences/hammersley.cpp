@@ -48,6 +48,19 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
     });
 }
 
+/// The sweep has the base of which n is a power, so that it is a net's coordinate, else 2.
+std::vector<std::uint32_t> bases(const Plan& plan, const Values& options) {
+    std::vector<std::uint32_t> all(
+        primes.begin(), primes.begin() + static_cast<std::ptrdiff_t>(plan.dimension - 1));
+    const std::uint64_t factor = plan.count > 1 ? smallest_factor(plan.count) : 2;
+    std::uint64_t rest = plan.count;
+    while (rest % factor == 0) rest /= factor;
+    const bool power = rest == 1 && factor <= primes.back();
+    all.insert(options[sweep] == "last" ? all.end() : all.begin(),
+               power ? static_cast<std::uint32_t>(factor) : 2);
+    return all;
+}
+
 }  // namespace
 
 Generator unit() {
@@ -56,7 +69,8 @@ Generator unit() {
             .source = "Hammersley 1960, doi:10.1111/j.1749-6632.1960.tb42846.x",
             .traits = {.max_dimension = primes.size() + 1, .prefix = false, .seeded = false},
             .options = Schema(sweep, offset),
-            .sequence = make};
+            .sequence = make,
+            .bases = bases};
 }
 
 }  // namespace stipple::generators::hammersley

@@ -42,7 +42,10 @@ Generator unit() {
             .options = Schema(base),
             .aliases = {"radical-inverse", "vdc"},
             .plan = plan,
-            .sequence = make};
+            .sequence = make,
+            .bases = [](const Plan&, const Values& options) {
+                return std::vector{static_cast<std::uint32_t>(options[base])};
+            }};
 }
 
 }  // namespace stipple::generators::van_der_corput

@@ -158,29 +158,36 @@ Plan plan_sliced(const Request& request, const Values& options) {
                  (plan.count / slices + 1) * slices);
 }
 
-PointSet given_points(const Values& options, const RunContext& run) {
+PointSet given_points(const Plan& plan, const Values& options, const RunContext& run) {
+    if (plan.destination && plan.destination->given.count() > 0) return plan.destination->given;
     PointSet points = io::read_given(extend.name, options[extend], {}, run);
     require_in_cube(points, options[extend], "--extend takes designs in [0, 1)");
     return points;
+}
+
+/// @throws Error(usage) where no points are added
+void require_more(std::uint64_t count, const PointSet& given, const Values& options) {
+    if (count <= given.count())
+        fail(ErrorKind::usage, "--count: {} is not more than the {} points of {}", count,
+             given.count(), options[extend]);
 }
 
 Plan plan_extended(const Request& request, const Values& options) {
     if (request.bounds)
         fail(ErrorKind::usage,
              "--bounds: the points of --extend stay as they are; scale all of them afterwards");
-    const PointSet points = given_points(options, {});
-    require_dimension(request, points, options[extend]);
     if (!options.given(add) && !request.count)
         fail(ErrorKind::usage, "--extend: how many points to add? --add says it");
+    if (!options.given(add) && request.dimension) return default_plan(request);  // all is told
+    const PointSet points = given_points({}, options, {});
+    require_dimension(request, points, options[extend]);
     const std::uint64_t count = options.given(add)
                                     ? points.count() + static_cast<std::uint64_t>(options[add])
                                     : *request.count;
     if (request.count.value_or(count) != count)
         fail(ErrorKind::usage, "--count: {} is not {}, the {} points of {} and those of --add",
              *request.count, count, points.count(), options[extend]);
-    if (count <= points.count())
-        fail(ErrorKind::usage, "--count: {} is not more than the {} points of {}", count,
-             points.count(), options[extend]);
+    require_more(count, points, options);
     return default_plan(request, count, points.dimension());
 }
 
@@ -289,10 +296,27 @@ std::unique_ptr<Sequence> points_of(std::shared_ptr<const LatinPlaces> places,
     });
 }
 
+/// What --extend begins with. @throws Error(usage), Error(input)
+PointSet points_to_extend(const Plan& plan, const Values& options, const RunContext& run) {
+    if (!options.given(extend)) return {};
+    PointSet given = given_points(plan, options, run);
+    require_dimension({.dimension = plan.dimension}, given, options[extend]);
+    require_more(plan.count, given, options);
+    std::size_t most = 0;
+    for (std::size_t k = 0; k < plan.dimension; ++k)
+        most = std::max(most, crowded_strata(given, k, plan.count));
+    if (most > 0)
+        run.notify(fmt::format(
+            "latin-hypercube: no Latin hypercube of all {0} points: points of {1} share "
+            "up to {2} of the {0} strata along an axis; new ones share none",
+            plan.count, options[extend], most));
+    return given;
+}
+
 /// What is worked out as a whole: searched, or behind given points.
 std::unique_ptr<Sequence> make_design(const Plan& plan, const Values& options,
                                       const RunContext& run) {
-    const PointSet given = options.given(extend) ? given_points(options, run) : PointSet();
+    const PointSet given = points_to_extend(plan, options, run);
     run.need_memory(16 * static_cast<double>(plan.count) * static_cast<double>(plan.dimension),
                     "the design");
     const auto places = std::make_shared<LatinPlaces>(plan, options[centered_option]);
@@ -336,20 +360,6 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
                              Substrata::independent);
 }
 
-std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
-                               const Values& options) {
-    if (!options.given(extend)) return {};
-    const PointSet given = given_points(options, {});
-    std::size_t most = 0;
-    for (std::size_t k = 0; k < plan.dimension; ++k)
-        most = std::max(most, crowded_strata(given, k, plan.count));
-    if (most == 0) return {};
-    return {
-        fmt::format("latin-hypercube: no Latin hypercube of all {0} points: points of {1} share "
-                    "up to {2} of the {0} strata along an axis; new ones share none",
-                    plan.count, options[extend], most)};
-}
-
 }  // namespace
 
 Generator unit() {
@@ -366,7 +376,6 @@ Generator unit() {
             .aliases = {"lhs", "n-rooks", "nrooks"},
             .plan = plan,
             .sequence = make,
-            .notes = notes,
             .whole = is_whole};
 }
 

@@ -214,9 +214,11 @@ class RowReader {
 
     /// The number that a field of a column stands for. @throws Error(input)
     double number_in(std::string_view line, const Field& field, std::size_t c) const {
-        if (dialect_.gaps && is_gap(field)) return unknown;
-        if (const auto* words = words_of(c)) {
+        const auto* words = words_of(c);
+        const bool gap = dialect_.gaps && is_gap(field);
+        if (words != nullptr) {
             const auto at = std::ranges::find(*words, field.text);
+            if (at == words->end() && gap) return unknown;
             if (at == words->end())
                 refuse(line, field.at,
                        shown(field.text) +
@@ -224,6 +226,7 @@ class RowReader {
                            shown(join(*words, ", ")));
             return static_cast<double>(at - words->begin());
         }
+        if (gap) return unknown;
         double value = 0;
         const bool taken =
             dialect_.comma ? take_number_with_comma(field, value) : take_number(field, value);
@@ -606,8 +609,11 @@ void take_words(TableHead& head, const SourceText& text) {
         for (std::size_t c = 0; c < std::min(fields.size(), columns.width()); ++c) {
             const std::size_t role = columns.role[c];
             if (role >= columns.words.size() || (head.dialect.gaps && is_gap(fields[c]))) continue;
-            // They were written as numbers.
-            if (is_number(fields[c].text)) columns.words[role].clear();
+            auto& words = columns.words[role];
+            // They were written as numbers; but nan may be a word.
+            if (is_number(fields[c].text) &&
+                std::ranges::find(words, fields[c].text) == words.end())
+                words.clear();
             head.words_to_find |= columns.words[role].empty() && holds_word(fields[c]);
         }
         return false;
@@ -633,7 +639,7 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
     head.columns = choose_columns(names, fields.size(), options,
                                   fmt::format("{}:{}", text.source(), head.dialect.model_line));
     head.top.provenance.density_column = head.columns.density;
-    head.top.provenance.columns = kept_names(head.columns.names);
+    head.top.provenance.columns = kept_names(head.columns.names, options.gaps);
     head.body = head.names ? head.top.next : head.top.first;
     head.dialect.comma = has_decimal_comma(text, head.body, head.dialect.separator);
     if (head.names) take_words(head, text);

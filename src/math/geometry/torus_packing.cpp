@@ -2,6 +2,7 @@
 #include "math/geometry/torus_packing.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "core/machine/int128.hpp"
@@ -91,7 +92,82 @@ TorusPacking rows_of(const Basis& basis, std::int64_t n) {
             .shortest = norm(u)};
 }
 
+// ---------------------------------------------------------------- on a rectangle
+
+/// Lengths of whole-number vectors on a rectangle.
+struct Metric {
+    double x2;  ///< square of the unit of x
+    double y2;
+
+    double dot(Vector a, Vector b) const {
+        return x2 * static_cast<double>(a.x) * static_cast<double>(b.x) +
+               y2 * static_cast<double>(a.y) * static_cast<double>(b.y);
+    }
+    double norm(Vector v) const { return dot(v, v); }
+};
+
+/// As partner().
+std::optional<Vector> partner(Vector u, std::int64_t n, const Metric& metric) {
+    const Bezout unit = bezout(u.x, u.y);
+    const std::int64_t g = unit.divisor;
+    if (n % g != 0) return std::nullopt;
+    // Some solution, without the part of it that is along u, up to one step.
+    const Int128 far_x = -Int128{unit.t} * (n / g);
+    const Int128 far_y = Int128{unit.s} * (n / g);
+    const Int128 turns = u.x > u.y ? far_x / (u.x / g) : far_y / (u.y / g);
+    const Vector v{static_cast<std::int64_t>(far_x - turns * (u.x / g)),
+                   static_cast<std::int64_t>(far_y - turns * (u.y / g))};
+    const double half = metric.norm(u) / 2;
+    const double step = metric.norm(u) / static_cast<double>(g);
+    constexpr double rounding = 1e-9;  // of a step: the best may be half of u, exactly
+    const double along = metric.dot(u, v);
+    const auto up = static_cast<std::int64_t>(std::floor((half - along) / step + rounding));
+    const auto down = static_cast<std::int64_t>(std::ceil((-half - along) / step - rounding));
+    const auto moved = [&](std::int64_t t) {
+        return Vector{v.x + t * (u.x / g), v.y + t * (u.y / g)};
+    };
+    const bool above = metric.dot(u, moved(up)) >= -metric.dot(u, moved(down));
+    return moved(above ? up : down);
+}
+
+/// The best basis with low <= |u|^2 <= high; mirrors of the torus give others.
+std::optional<Basis> best_within(double low, double high, std::int64_t n, const Metric& metric) {
+    std::optional<Basis> best;
+    const auto last = static_cast<std::int64_t>(std::sqrt(high / metric.x2));
+    for (std::int64_t a = 0; a <= last; ++a) {
+        const double part = metric.x2 * static_cast<double>(a) * static_cast<double>(a);
+        auto b = static_cast<std::int64_t>(std::sqrt(std::max(0.0, high - part) / metric.y2));
+        for (; b >= 0; --b) {
+            const Vector u{a, b};
+            const double norm = metric.norm(u);
+            if (norm < low || norm == 0 || (best && norm <= metric.norm(best->u))) break;
+            const auto v = partner(u, n, metric);
+            if (v && metric.norm(*v) >= norm * (1 - 1e-12)) best = Basis{u, *v};
+        }
+    }
+    return best;
+}
+
 }  // namespace
+
+TorusPacking densest_torus_packing(std::uint64_t n, double ratio) {
+    const bool wide = ratio >= 1;  // else x and y change places
+    const Metric metric{wide ? ratio : 1 / ratio, wide ? 1 / ratio : ratio};
+    const auto count = static_cast<double>(n);
+    const double width = 4 * std::sqrt(count);
+    double high = 1.1547005383792517 * count;  // 2 n / sqrt(3)
+    std::optional<Basis> basis;
+    while (!basis) {
+        const double low = high > width ? high - width : 0;
+        basis = best_within(low, high, static_cast<std::int64_t>(n), metric);
+        high = low;
+    }
+    if (!wide)
+        for (Vector* v : {&basis->u, &basis->v}) std::swap(v->x, v->y);
+    TorusPacking packing = rows_of(*basis, static_cast<std::int64_t>(n));
+    packing.shortest = 0;
+    return packing;
+}
 
 TorusPacking densest_torus_packing(std::uint64_t n) {
     // floor(2 n / sqrt(3)): the largest h with 3 h^2 <= 4 n^2.

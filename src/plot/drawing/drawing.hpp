@@ -146,7 +146,7 @@ std::string svg_element(const Drawing& light, const Drawing& dark, const std::st
 /// A number to hundredths of a unit, which are more than eyes see.
 std::string short_number(double x);
 
-/// As one page of PDF 1.4, the letters in Helvetica; one unit is `scale` times 3/4 of a point.
+/// As one page of PDF 1.4, which carries its fonts; one unit is `scale` times 3/4 of a point.
 std::string pdf_bytes(const Drawing& drawing, double scale, const PictureNotes& notes = {});
 
 /// Pixels as PNG; grey: of one part, where all three are the same.

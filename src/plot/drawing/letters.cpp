@@ -163,13 +163,38 @@ double text_width(std::string_view text, double size) {
     return units * size / em_units;
 }
 
-std::string cut_to(const std::string& text, double size, double width, bool end) {
-    std::string out = text;
-    for (auto rest = code_points(text); !rest.empty() && text_width(out, size) > width;) {
-        rest.erase(end ? 0 : rest.size() - 1, 1);
-        out = end ? "…" + utf8_of(rest) : utf8_of(rest) + "…";
+std::vector<std::string> wrapped(std::string_view text, double size, double width) {
+    constexpr std::u32string_view breaks = U" _-/,.:;=";
+    const std::u32string letters = code_points(text);
+    const double room = width * em_units / size;
+    std::vector<std::string> lines;
+    for (std::size_t first = 0; first < letters.size();) {
+        double used = 0;
+        std::size_t end = first;
+        std::size_t good = first;  // behind the last sign where the line can break
+        for (; end < letters.size(); ++end) {
+            used += advance_of(letters[end]);
+            if (used > room && letters[end] != U' ' && end > first) break;
+            if (breaks.find(letters[end]) != std::u32string_view::npos) good = end + 1;
+        }
+        const std::size_t next = end < letters.size() && good > first ? good : end;
+        const std::string line = utf8_of(std::u32string_view(letters).substr(first, next - first));
+        if (const auto text_of_line = trim(line); !text_of_line.empty())
+            lines.emplace_back(text_of_line);
+        first = next;
     }
-    return out;
+    return lines;
+}
+
+void add_lines(Drawing& drawing, const Label& label, const std::vector<std::string>& lines,
+               double leading) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const double back = leading * static_cast<double>(lines.size() - 1 - i);
+        Label line = label;
+        line.text = lines[i];
+        (label.upward ? line.at.x : line.at.y) -= back;
+        drawing.add(std::move(line));
+    }
 }
 
 }  // namespace stipple::plot

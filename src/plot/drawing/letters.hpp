@@ -32,8 +32,13 @@ std::vector<std::vector<Position>> strokes_of(char32_t letter);
 /// Width of a line of text of that size.
 double text_width(std::string_view text, double size);
 
-/// The text, or as much of its front as fits into the width, before "…"; with `end`, of its end, after
-/// that: of a path, its file.
-std::string cut_to(const std::string& text, double size, double width, bool end = false);
+/// The text in lines that are no wider: broken at blanks and behind other signs or, within longer
+/// words, anywhere.
+std::vector<std::string> wrapped(std::string_view text, double size, double width);
+
+/// A label's text as its lines, the last of which is where the label is; upward ones to the left of each
+/// other.
+void add_lines(Drawing& drawing, const Label& label, const std::vector<std::string>& lines,
+               double leading);
 
 }  // namespace stipple::plot

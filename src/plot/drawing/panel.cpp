@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
+#include "core/text.hpp"
 #include "plot/drawing/letters.hpp"
 
 namespace stipple::plot {
@@ -16,11 +18,36 @@ constexpr double small_mark = 2;  ///< between them
 constexpr double gap = 10;        ///< at least, between numbers side by side
 constexpr double capital = 0.714 * number_size;
 
-/// The middle of a number's text, that many units from the axis's start.
+constexpr double number_row = number_size + 2;
+constexpr double name_row = name_size + 2;
+constexpr double farthest = 1e5;  ///< units of a drawing; what is further out is never seen
+
+/// The width of a text's widest line.
+double block_width(const std::string& text) {
+    double widest = 0;
+    for (const auto line : split(text, '\n'))
+        widest = std::max(widest, text_width(line, number_size));
+    return widest;
+}
+
+double rows_of(const std::string& text) {
+    return static_cast<double>(std::ranges::count(text, '\n') + 1);
+}
+
+/// A number's text, of words several lines, the last of which is where the label is.
+void add_text(Drawing& drawing, const Label& label) {
+    std::vector<std::string> lines;
+    for (const auto line : split(label.text, '\n')) lines.emplace_back(line);
+    add_lines(drawing, label, lines, number_row);
+}
+
+/// The middle of a number's text, that many units from the axis's start: not far beyond its ends or,
+/// where another frame is beside it, within them.
 double middle_of(const Axis& axis, const Tick& tick, double length) {
+    constexpr double beyond = 20;  // less than pictures' margins
     const double at = axis.share(tick.value) * length;
-    const double half = text_width(tick.text, number_size) / 2;
-    return axis.tight && length > 2 * half ? std::clamp(at, half, length - half) : at;
+    const double inside = block_width(tick.text) / 2 - (axis.tight ? 0 : beyond);
+    return length > 2 * inside ? std::clamp(at, inside, length - inside) : at;
 }
 
 /// Whether numbers side by side keep their distance.
@@ -28,7 +55,7 @@ bool fit(const Axis& axis, const Ticks& ticks, double length) {
     double end = -1e9;
     for (const Tick& tick : ticks.numbers) {
         const double middle = middle_of(axis, tick, length);
-        const double half = text_width(tick.text, number_size) / 2;
+        const double half = block_width(tick.text) / 2;
         if (middle - half < end + gap) return false;
         end = middle + half;
     }
@@ -40,6 +67,41 @@ std::string full_name(const Axis& axis, const Ticks& ticks) {
     if (ticks.exponent == 0) return axis.name;
     const std::string factor = fmt::format("×{}", power_of_ten(ticks.exponent));
     return axis.name.empty() ? factor : fmt::format("{} ({})", axis.name, factor);
+}
+
+double room_of_numbers(const Ticks& ticks) {
+    double rows = 1;
+    for (const Tick& tick : ticks.numbers) rows = std::max(rows, rows_of(tick.text));
+    return rows * number_row;
+}
+
+/// Rows of an axis's name that are no longer than it; a little longer beside short ones.
+std::vector<std::string> rows_of_name(const Axis& axis, const Ticks& ticks, double length) {
+    return wrapped(full_name(axis, ticks), name_size, length + 6);
+}
+
+/// What these rows take, with some space before them.
+double room_of_name(const Axis& axis, const Ticks& ticks, double length, double space) {
+    const auto rows = static_cast<double>(rows_of_name(axis, ticks, length).size());
+    return axis.numbers && rows > 0 ? name_row * rows + space : 0;
+}
+
+/// Words as numbers, or every second, third, ... of them.
+Ticks ticks_of_words(const Axis& axis, double length, bool upright) {
+    constexpr double widest = 110;
+    const double pitch = length / (axis.high - axis.low);  // from one word to the next
+    const double least = upright ? number_row : 24;
+    const double stride = std::max(1.0, std::ceil(least / pitch));
+    const double room = upright ? widest : std::max(least, stride * pitch) - gap / 2;
+    Ticks found;
+    for (std::size_t i = 0; i < axis.words.size(); ++i) {
+        const double value = axis.first_word + static_cast<double>(i);
+        if (std::fmod(static_cast<double>(i), stride) == 0)
+            found.numbers.push_back({value, join(wrapped(axis.words[i], number_size, room), "\n")});
+        else
+            found.minor.push_back(value);
+    }
+    return found;
 }
 
 /// The left side and the lower one; closed: all four.
@@ -57,14 +119,7 @@ void draw_sides(Drawing& drawing, const Area& area, Colour colour, bool closed) 
 }  // namespace
 
 Ticks Axis::ticks(double length, bool upright) const {
-    if (!words.empty()) {
-        const double room = length / static_cast<double>(words.size()) - gap / 2;
-        Ticks found;
-        for (const std::string& word : words)
-            found.numbers.push_back({.value = static_cast<double>(found.numbers.size() + 1),
-                                     .text = cut_to(word, number_size, room)});
-        return found;
-    }
+    if (!words.empty()) return ticks_of_words(*this, length, upright);
     const double room = upright ? 34 : 44;
     auto most = static_cast<std::size_t>(std::clamp(length / room, 2.0, 11.0));
     for (;; --most) {
@@ -77,25 +132,34 @@ Ticks Axis::ticks(double length, bool upright) const {
 
 double Axis::share(double value) const {
     if (!log) return (value - low) / (high - low);
-    const double bottom = std::log(low);
-    return (std::log(std::max(value, 1e-300)) - bottom) / (std::log(high) - bottom);
+    const auto up_from_low = [this](double x) {  // a quotient tells near numbers apart
+        const double ratio = x / low;
+        return std::isfinite(ratio) ? std::log(ratio) : std::log(x) - std::log(low);
+    };
+    return up_from_low(std::max(value, least_shown)) / up_from_low(high);
 }
 
-void Axis::make_valid() {
+void Axis::make_valid(int digits) {
     if (!std::isfinite(low) || !std::isfinite(high)) {
         low = log ? 0.1 : 0;
         high = 1;
     }
+    if (low > high) std::swap(low, high);
     if (log && low <= 0) low = high > 0 ? high * 1e-6 : 0.1;
-    if (low < high) return;
     if (log) {
-        high = low * 2;
-        low /= 2;
+        low = std::max(low, least_shown);
+        high = std::max(high, least_shown);
+    }
+    if (const std::string flaw = flaw_of_range(low, high, digits); !flaw.empty())
+        name += fmt::format("{}({})", name.empty() ? "" : " ", flaw);
+    else if (low < high)
+        return;
+    if (log) {
+        low = std::max(low / 2, least_shown);
+        high = low * 4;
         return;
     }
-    const double reach = low == 0 ? 0.5 : 0.5 * std::abs(low);
-    high = low + reach;
-    low -= reach;
+    std::tie(low, high) = visible_range(low, high, digits);
 }
 
 Panel::Panel(const Area& frame, Axis x, Axis y)
@@ -106,21 +170,29 @@ Panel::Panel(const Area& frame, Axis x, Axis y)
     y_ticks_ = y_.ticks(frame_.height, true);
 }
 
-double Panel::x(double value) const { return frame_.left + x_.share(value) * frame_.width; }
+double Panel::x(double value) const {
+    return std::clamp(frame_.left + x_.share(value) * frame_.width, -farthest, farthest);
+}
 
-double Panel::y(double value) const { return frame_.bottom() - y_.share(value) * frame_.height; }
+double Panel::y(double value) const {
+    return std::clamp(frame_.bottom() - y_.share(value) * frame_.height, -farthest, farthest);
+}
 
 double Panel::room_left(const Axis& y, double height) {
     Axis axis = y;
     axis.make_valid();
+    const Ticks found = axis.ticks(height, true);
     double widest = 0;
-    for (const Tick& tick : axis.ticks(height, true).numbers)
-        widest = std::max(widest, text_width(tick.text, number_size));
-    return widest + mark + 6 + (y.name.empty() ? 0 : name_size + 10);
+    for (const Tick& tick : found.numbers) widest = std::max(widest, block_width(tick.text));
+    return widest + mark + 6 + room_of_name(axis, found, height, 8);
 }
 
-double Panel::room_below(const Axis& x) {
-    return (x.numbers ? mark + number_size + 6 : mark) + (x.name.empty() ? 0 : name_size + 8);
+double Panel::room_below(const Axis& x, double width) {
+    Axis axis = x;
+    axis.make_valid();
+    const Ticks found = axis.ticks(width, false);
+    return mark + (x.numbers ? room_of_numbers(found) + 4 : 0) +
+           room_of_name(axis, found, width, 6);
 }
 
 void Panel::draw_grid(Drawing& drawing, const Theme& theme) const {
@@ -139,20 +211,24 @@ void Panel::draw_x(Drawing& drawing, const Theme& theme) const {
         drawing.line({at, bottom}, {at, bottom + mark}, theme.frame);
         const double middle = frame_.left + middle_of(x_, tick, frame_.width);
         if (x_.numbers)
-            drawing.add(Label{.text = tick.text,
-                              .at = {middle, bottom + mark + 4 + capital},
-                              .size = number_size,
-                              .colour = theme.text,
-                              .anchor = Anchor::middle});
+            add_text(drawing, {.text = tick.text,
+                               .at = {middle, bottom + mark + 4 + capital +
+                                                  number_row * (rows_of(tick.text) - 1)},
+                               .size = number_size,
+                               .colour = theme.text,
+                               .anchor = Anchor::middle});
     }
-    const std::string name = full_name(x_, x_ticks_);
+    const auto name = rows_of_name(x_, x_ticks_, frame_.width);
     if (!x_.numbers || name.empty()) return;
-    drawing.add(
-        Label{.text = name,
-              .at = {frame_.left + frame_.width / 2, bottom + mark + number_size + 6 + name_size},
-              .size = name_size,
-              .colour = theme.ink,
-              .anchor = Anchor::middle});
+    const double end =
+        bottom + mark + 4 + room_of_numbers(x_ticks_) + name_row * static_cast<double>(name.size());
+    add_lines(drawing,
+              {.text = {},
+               .at = {frame_.left + frame_.width / 2, end - 2},
+               .size = name_size,
+               .colour = theme.ink,
+               .anchor = Anchor::middle},
+              name, name_row);
 }
 
 void Panel::draw_y(Drawing& drawing, const Theme& theme) const {
@@ -163,23 +239,24 @@ void Panel::draw_y(Drawing& drawing, const Theme& theme) const {
     for (const auto& [value, text] : y_ticks_.numbers) {
         drawing.line({left - mark, y(value)}, {left, y(value)}, theme.frame);
         if (!y_.numbers) continue;
-        double base = y(value) + capital / 2;
+        double base = y(value) + capital / 2 + number_row * (rows_of(text) - 1) / 2;
         if (y_.tight) base = std::clamp(base, frame_.top + capital, frame_.bottom());
-        drawing.add(Label{.text = text,
-                          .at = {left - mark - 4, base},
-                          .size = number_size,
-                          .colour = theme.text,
-                          .anchor = Anchor::end});
-        widest = std::max(widest, text_width(text, number_size));
+        add_text(drawing, {.text = text,
+                           .at = {left - mark - 4, base},
+                           .size = number_size,
+                           .colour = theme.text,
+                           .anchor = Anchor::end});
+        widest = std::max(widest, block_width(text));
     }
-    const std::string name = full_name(y_, y_ticks_);
-    if (!y_.numbers || name.empty()) return;
-    drawing.add(Label{.text = cut_to(name, name_size, frame_.height + 6),
-                      .at = {left - mark - 4 - widest - 9, frame_.top + frame_.height / 2},
-                      .size = name_size,
-                      .colour = theme.ink,
-                      .anchor = Anchor::middle,
-                      .upward = true});
+    if (!y_.numbers) return;
+    add_lines(drawing,
+              {.text = {},
+               .at = {left - mark - 4 - widest - 9, frame_.top + frame_.height / 2},
+               .size = name_size,
+               .colour = theme.ink,
+               .anchor = Anchor::middle,
+               .upward = true},
+              rows_of_name(y_, y_ticks_, frame_.height), name_row);
 }
 
 void Panel::draw_axes(Drawing& drawing, const Theme& theme, bool closed) const {

@@ -22,10 +22,11 @@ struct Axis {
     bool log = false;
     bool binary = false;                  ///< logarithmic, with numbers at powers of two
     bool whole = false;                   ///< numbers are whole
-    std::vector<std::string> words = {};  ///< in place of the numbers 1, 2, ...
-    std::string name = {};                ///< empty: none
-    bool numbers = true;                  ///< false: marks only, where the panel below has them
-    bool tight = false;  ///< numbers stay within the frame, where another one is beside it
+    std::vector<std::string> words = {};  ///< in place of the numbers from first_word on
+    double first_word = 1;
+    std::string name = {};  ///< empty: none
+    bool numbers = true;    ///< false: marks only, where the panel below has them
+    bool tight = false;     ///< numbers stay within the frame, where another one is beside it
 
     /// Numbers that fit along so many units: side by side, or one above the other.
     [[nodiscard]] Ticks ticks(double length, bool upright) const;
@@ -33,8 +34,9 @@ struct Axis {
     /// The place of a value between low (0) and high (1).
     [[nodiscard]] double share(double value) const;
 
-    /// Makes low < high, and what is logarithmic positive.
-    void make_valid();
+    /// Makes [low, high] a range whose ends differ to so many digits, and what is logarithmic positive; a
+    /// range that was narrower is named so. @throws Error(input) beyond what axes reach
+    void make_valid(int digits = shown_digits);
 };
 
 class Panel {
@@ -54,9 +56,9 @@ class Panel {
     /// The frame with its numbers and names; closed: on all four sides.
     void draw_axes(Drawing& drawing, const Theme& theme, bool closed) const;
 
-    /// Room that numbers and name take beside and below the frame.
+    /// Room that numbers and name take beside a frame of that height, and below one of that width.
     static double room_left(const Axis& y, double height);
-    static double room_below(const Axis& x);
+    static double room_below(const Axis& x, double width);
 
   private:
     void draw_x(Drawing& drawing, const Theme& theme) const;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A drawing as a page of PDF. Text is text, in Helvetica and Symbol, which every reader has; letters
-// that these do not have are drawn as strokes.
+// A drawing as a page of PDF. Text is text, in a font that the file carries: glyphs of the letters that
+// are in it, and a table of what they are, for readers that search and copy.
 //
 // Source  ISO 32000-1:2008, Document management, Portable document format 1.7 (as far as 1.4 goes).
 #include <fmt/format.h>
@@ -11,10 +11,11 @@
 #include <array>
 #include <map>
 #include <new>
-#include <optional>
 
+#include "core/bytes/fingerprint.hpp"
 #include "core/text.hpp"
 #include "plot/drawing/drawing.hpp"
+#include "plot/drawing/font_file.hpp"
 #include "plot/drawing/letters.hpp"
 
 namespace stipple::plot {
@@ -38,51 +39,67 @@ std::string stream_of(const std::string& keys, const std::string& bytes) {
            content + "\nendstream";
 }
 
-/// A text for readers, in UTF-16.
+/// A letter in UTF-16, as hexadecimal digits.
+std::string utf16_of(char32_t letter) {
+    if (letter < 0x10000) return fmt::format("{:04X}", static_cast<std::uint32_t>(letter));
+    return fmt::format("{:04X}{:04X}", 0xD800 + ((letter - 0x10000) >> 10),
+                       0xDC00 + ((letter - 0x10000) & 0x3FF));
+}
+
+/// A text for readers.
 std::string text_string(const std::string& text) {
     std::string out = "<FEFF";
-    for (const char32_t letter : code_points(text))
-        if (letter < 0x10000)
-            out += fmt::format("{:04X}", static_cast<std::uint32_t>(letter));
-        else
-            out += fmt::format("{:04X}{:04X}", 0xD800 + ((letter - 0x10000) >> 10),
-                               0xDC00 + ((letter - 0x10000) & 0x3FF));
+    for (const char32_t letter : code_points(text)) out += utf16_of(letter);
     return out + ">";
 }
 
-/// Where a letter is in the encodings of the fonts.
-struct Placed {
-    bool symbol = false;  ///< of the font Symbol
-    char byte = 0;
-};
+/// Letters that a page has, regular (0) or bold (1): glyph i is letter i - 1.
+using Fonts = std::array<std::u32string, 2>;
 
-std::optional<Placed> place_of(char32_t letter) {
-    struct Entry {
-        char32_t letter;
-        Placed placed;
-    };
-    constexpr auto entry = [](char32_t of, bool symbol, int byte) {
-        return Entry{of, {symbol, static_cast<char>(byte)}};
-    };
-    static constexpr std::array known = {
-        entry(U'…', false, 0x85), entry(U'–', false, 0x96), entry(U'—', false, 0x97),
-        entry(U'‘', false, 0x91), entry(U'’', false, 0x92), entry(U'“', false, 0x93),
-        entry(U'”', false, 0x94), entry(U'•', false, 0x95), entry(U'‑', false, '-'),
-        entry(U'−', true, 0x2D),  entry(U'∞', true, 0xA5),  entry(U'√', true, 0xD6),
-        entry(U'≤', true, 0xA3),  entry(U'≥', true, 0xB3),  entry(U'Δ', true, 0x44),
-        entry(U'χ', true, 0x63),  entry(U'π', true, 0x70),  entry(U'σ', true, 0x73),
-        entry(U'λ', true, 0x6C),  entry(U'ψ', true, 0x79)};
-    if (letter >= 0x20 && letter < 0x7F) return Placed{false, static_cast<char>(letter)};
-    if (letter >= 0xA0 && letter <= 0xFF) return Placed{false, static_cast<char>(letter)};
-    const auto it = std::ranges::find(known, letter, &Entry::letter);
-    return it == known.end() ? std::nullopt : std::optional(it->placed);
+/// What makes text of the glyphs.
+std::string unicode_map(const std::u32string& letters) {
+    constexpr std::size_t most = 100;  // entries in a block
+    std::string map =
+        "/CIDInit/ProcSet findresource begin 12 dict begin begincmap"
+        "/CIDSystemInfo<</Registry(Adobe)/Ordering(UCS)/Supplement 0>>def"
+        "/CMapName/Adobe-Identity-UCS def/CMapType 2 def\n"
+        "1 begincodespacerange<0000><FFFF>endcodespacerange\n";
+    for (std::size_t first = 0; first < letters.size(); first += most) {
+        const std::size_t end = std::min(first + most, letters.size());
+        map += fmt::format("{} beginbfchar\n", end - first);
+        for (std::size_t i = first; i < end; ++i)
+            map += fmt::format("<{:04X}><{}>\n", i + 1, utf16_of(letters[i]));
+        map += "endbfchar\n";
+    }
+    return map + "endcmap CMapName currentdict/CMap defineresource pop end end";
 }
 
-/// A letter of a string in brackets.
-std::string escaped(char byte) {
-    if (byte == '(' || byte == ')' || byte == '\\') return {'\\', byte};
-    const auto code = static_cast<unsigned char>(byte);
-    return code < 0x7F ? std::string(1, byte) : fmt::format("\\{:03o}", code);
+/// Adds the objects of a font; gives the number of the first one, which stands for it.
+std::size_t add_font(std::vector<std::string>& objects, const std::u32string& letters, bool bold) {
+    const std::size_t number = objects.size() + 1;
+    std::string bytes = font_file(letters, bold);
+    std::uint64_t tag = fingerprint(bytes);  // a subset's name has six letters of its own
+    std::string name;
+    for (int k = 0; k < 6; ++k, tag /= 26) name += static_cast<char>('A' + tag % 26);
+    name += bold ? "+Stipple-Bold" : "+Stipple";
+    std::string widths = fmt::format("{}", font_advance(U'\uFFFD'));
+    for (const char32_t letter : letters) widths += fmt::format(" {}", font_advance(letter));
+    objects.push_back(
+        fmt::format("<</Type/Font/Subtype/Type0/BaseFont/{}/Encoding/Identity-H/DescendantFonts[{} "
+                    "0 R]/ToUnicode {} 0 R>>",
+                    name, number + 1, number + 4));
+    objects.push_back(
+        fmt::format("<</Type/Font/Subtype/CIDFontType2/BaseFont/{}/CIDSystemInfo<</Registry(Adobe)"
+                    "/Ordering(Identity)/Supplement 0>>/FontDescriptor {} 0 R/CIDToGIDMap/Identity"
+                    "/W[0[{}]]>>",
+                    name, number + 2, widths));
+    objects.push_back(fmt::format(
+        "<</Type/FontDescriptor/FontName/{}/Flags 4/FontBBox[-200 -250 1100 950]/ItalicAngle 0"
+        "/Ascent 900/Descent -250/CapHeight 714/StemV {}/FontFile2 {} 0 R>>",
+        name, bold ? 107 : 82, number + 3));
+    objects.push_back(stream_of(fmt::format("/Length1 {}", bytes.size()), bytes));
+    objects.push_back(stream_of("", unicode_map(letters)));
+    return number;
 }
 
 /// Writes shapes as operators of a page's content, y downward.
@@ -120,16 +137,24 @@ class Content {
     }
 
     void operator()(const Label& label) {
+        if (label.text.empty()) return;
         const double width = text_width(label.text, label.size);
-        double along = label.anchor == Anchor::start    ? 0
-                       : label.anchor == Anchor::middle ? -width / 2
-                                                        : -width;
-        fill(label.colour);
+        const double back = label.anchor == Anchor::start    ? 0
+                            : label.anchor == Anchor::middle ? width / 2
+                                                             : width;
+        const Position at = label.upward ? Position{label.at.x, label.at.y + back}
+                                         : Position{label.at.x - back, label.at.y};
+        std::u32string& letters = fonts_[label.bold ? 1 : 0];
+        std::string glyphs;
         for (const char32_t letter : code_points(label.text)) {
-            if (!put(letter, label, along)) draw(letter, label, along);
-            along += advance_of(letter) * label.size / em_units * (label.bold ? bold_width : 1);
+            const std::size_t known = std::min(letters.find(letter), letters.size());
+            if (known == letters.size()) letters += letter;
+            glyphs += fmt::format("{:04X}", known + 1);
         }
-        end_text();
+        fill(label.colour);
+        out_ += fmt::format("BT /F{} {} Tf {} {} Tm <{}> Tj ET\n", label.bold ? 2 : 1,
+                            short_number(label.size), label.upward ? "0 -1 -1 0" : "1 0 0 -1",
+                            place(at), glyphs);
     }
 
     void operator()(const PixelImage& image) {
@@ -164,12 +189,11 @@ class Content {
         return std::move(out_);
     }
     [[nodiscard]] const std::vector<std::string>& images() const { return images_; }
+    [[nodiscard]] const Fonts& fonts() const { return fonts_; }
     /// Opacities by their names.
     [[nodiscard]] const std::map<std::string, std::string>& opacities() const { return opacities_; }
 
   private:
-    static constexpr double bold_width = 1.05;  ///< of Helvetica-Bold over Helvetica, about
-
     static std::string colour(Colour c) {
         return fmt::format("{:.3g} {:.3g} {:.3g}", c.red / 255.0, c.green / 255.0, c.blue / 255.0);
     }
@@ -194,59 +218,9 @@ class Content {
             out_ += place(vertex) + (&vertex == vertices.data() ? " m\n" : " l\n");
     }
 
-    /// Where a label's text is so far along its line.
-    static Position moved(const Label& label, double along, double up = 0) {
-        return label.upward ? Position{label.at.x - up, label.at.y - along}
-                            : Position{label.at.x + along, label.at.y - up};
-    }
-
-    /// Adds a letter of a font; raised ones are small. False: the fonts do not have it.
-    bool put(char32_t letter, const Label& label, double along) {
-        const auto plain = lowered(letter);
-        const auto found = place_of(plain.value_or(letter));
-        if (!found) return false;
-        const double size = plain ? raised_size * label.size : label.size;
-        const std::string font = fmt::format("/F{} {}",
-                                             found->symbol ? 3
-                                             : label.bold  ? 2
-                                                           : 1,
-                                             short_number(size));
-        if (font != font_ || !in_text_) {
-            end_text();
-            const double up = plain ? raised_by * label.size / em_units : 0;
-            out_ +=
-                fmt::format("BT {} Tf {} {} Tm (", font, label.upward ? "0 -1 -1 0" : "1 0 0 -1",
-                            place(moved(label, along, up)));
-            font_ = font;
-            in_text_ = true;
-        }
-        out_ += escaped(found->byte);
-        return true;
-    }
-
-    void end_text() {
-        if (in_text_) out_ += ") Tj ET\n";
-        in_text_ = false;
-    }
-
-    /// Draws a letter that the fonts do not have.
-    void draw(char32_t letter, const Label& label, double along) {
-        end_text();
-        const double unit = label.size / em_units;
-        stroke(label.colour, 2.3 * unit);
-        for (const auto& line : strokes_of(letter)) {
-            std::vector<Position> vertices;
-            for (const Position& at : line)
-                vertices.push_back(moved(label, along + at.x * unit, at.y * unit));
-            path(vertices);
-            out_ += "S\n";
-        }
-    }
-
     std::string out_;
     bool clipped_ = false;
-    bool in_text_ = false;
-    std::string font_;
+    Fonts fonts_;
     std::string opacity_ = "G100";
     std::vector<std::string> images_;
     std::map<std::string, std::string> opacities_ = {{"G100", "1"}};
@@ -280,29 +254,27 @@ std::string pdf_bytes(const Drawing& drawing, double scale, const PictureNotes& 
     const std::string page = fmt::format("{0} 0 0 -{0} 0 {1} cm\n", short_number(points),
                                          short_number(points * drawing.height)) +
                              content.take();
-    constexpr std::size_t first_image = 8;
+    std::vector<std::string> objects(4);
+    objects[0] = "<</Type/Catalog/Pages 2 0 R>>";
+    objects[1] = "<</Type/Pages/Kids[3 0 R]/Count 1>>";
+    objects[3] = stream_of("", page);
+    std::string fonts;
+    for (std::size_t bold = 0; bold < 2; ++bold)
+        if (const std::u32string& letters = content.fonts()[bold]; !letters.empty())
+            fonts += fmt::format("/F{} {} 0 R", bold + 1, add_font(objects, letters, bold == 1));
     std::string images;
-    for (std::size_t i = 0; i < content.images().size(); ++i)
-        images += fmt::format("/I{} {} 0 R", i + 1, first_image + i);
+    for (const std::string& image : content.images()) {
+        objects.push_back(image);
+        images += fmt::format("/I{} {} 0 R", &image - content.images().data() + 1, objects.size());
+    }
     std::string states;
     for (const auto& [name, value] : content.opacities())
         states += fmt::format("/{}<</ca {}/CA {}>>", name, value, value);
-    const auto font = [](const char* name, const char* encoding) {
-        return fmt::format("<</Type/Font/Subtype/Type1/BaseFont/{}{}>>", name, encoding);
-    };
-    constexpr const char* latin = "/Encoding/WinAnsiEncoding";
-    std::vector<std::string> objects = {
-        "<</Type/Catalog/Pages 2 0 R>>",
-        "<</Type/Pages/Kids[3 0 R]/Count 1>>",
-        fmt::format("<</Type/Page/Parent 2 0 R/MediaBox[0 0 {} {}]/Contents 4 0 R/Resources<</Font"
-                    "<</F1 5 0 R/F2 6 0 R/F3 7 0 R>>/XObject<<{}>>/ExtGState<<{}>>>>>>",
-                    short_number(points * drawing.width), short_number(points * drawing.height),
-                    images, states),
-        stream_of("", page),
-        font("Helvetica", latin),
-        font("Helvetica-Bold", latin),
-        font("Symbol", "")};
-    objects.insert(objects.end(), content.images().begin(), content.images().end());
+    objects[2] = fmt::format(
+        "<</Type/Page/Parent 2 0 R/MediaBox[0 0 {} {}]/Contents 4 0 R/Resources<</Font<<{}>>"
+        "/XObject<<{}>>/ExtGState<<{}>>>>>>",
+        short_number(points * drawing.width), short_number(points * drawing.height), fonts, images,
+        states);
     std::string information = "/Title" + text_string(drawing.title);
     for (const auto& [keyword, text] : notes)
         information +=

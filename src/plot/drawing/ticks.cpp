@@ -7,10 +7,13 @@
 #include <array>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/text.hpp"
 
 namespace stipple::plot {
 namespace {
+
+double size_of(double low, double high) { return std::max(std::abs(low), std::abs(high)); }
 
 std::string with_minus(std::string text) {
     replace_all(text, "-", "−");
@@ -115,6 +118,28 @@ void add_digits(double low, double high, std::size_t most, Ticks& ticks) {
 
 }  // namespace
 
+void require_shown(double low, double high) {
+    if (!std::isfinite(low) || !std::isfinite(high) || size_of(low, high) <= most_shown) return;
+    fail(ErrorKind::input, "the numbers go from {} to {}; an axis reaches from {} to {}",
+         format_number(low), format_number(high), format_number(-most_shown),
+         format_number(most_shown));
+}
+
+std::string flaw_of_range(double low, double high, int digits) {
+    if (!(low < high)) return {};
+    if (high - low < least_shown) return fmt::format("differs by less than {}", least_shown);
+    if (high - low < size_of(low, high) * ten_to(-digits))
+        return fmt::format("all the same to {} digits", digits);
+    return {};
+}
+
+std::pair<double, double> visible_range(double low, double high, int digits) {
+    if (low < high && flaw_of_range(low, high, digits).empty()) return {low, high};
+    const double size = size_of(low, high);
+    const double reach = size < least_shown ? 0.5 : 0.5 * size;
+    return {low - reach, high + reach};
+}
+
 std::string printed(double value, int digits_after_point) {
     const std::string text = fmt::format("{:.{}f}", value, digits_after_point);
     const bool zero = text.find_first_not_of("-0.") == std::string::npos;
@@ -125,9 +150,17 @@ std::string rounded(double value, int digits) {
     return with_minus(fmt::format("{:.{}g}", value, digits));
 }
 
+std::pair<std::string, std::string> rounded_ends(double low, double high, int digits) {
+    const double ratio = size_of(low, high) / (high - low);
+    const int more = ratio > 1 ? static_cast<int>(std::log10(ratio)) : 0;
+    const int all = std::min(digits + more, 17);
+    return {rounded(low, all), rounded(high, all)};
+}
+
 std::string power_of_ten(int exponent) { return "10" + raised(exponent); }
 
 Ticks linear_ticks(double low, double high, std::size_t most, bool whole) {
+    if (!(low < high) || !flaw_of_range(low, high).empty()) return {};
     most = std::max<std::size_t>(most, 2);
     Step step = step_at_least((high - low) / static_cast<double>(most));
     if (whole && step.number < 0) step.number = 0;
@@ -143,7 +176,7 @@ Ticks linear_ticks(double low, double high, std::size_t most, bool whole) {
     }
     const Numbered numbered = spread(first, last, most);
     Ticks ticks;
-    const double largest = std::max(std::abs(low), std::abs(high));
+    const double largest = size_of(low, high);
     if (largest >= 1e5 || largest < 1e-2)
         ticks.exponent = static_cast<int>(std::floor(std::log10(largest)));
     const int digits = std::max(0, ticks.exponent - step.exponent());

@@ -9,17 +9,71 @@ import numpy as np
 from ._errors import Error
 
 
+def _is_whole(key, size):
+    return isinstance(key, slice) and range(size)[key] == range(size)
+
+
+def _picks(key):
+    """Whether a key keeps an axis: a slice, a list of indices, a mask."""
+    return isinstance(key, slice) or np.ndim(key) == 1
+
+
+def _keys_of(index, dimensions):
+    """One key for each axis; None where there are others."""
+    keys = list(index) if isinstance(index, tuple) else [index]
+    dots = [i for i, key in enumerate(keys) if key is Ellipsis]
+    place = dots[0] if dots else len(keys)
+    keys[place : place + len(dots)] = [slice(None)] * (dimensions - len(keys) + len(dots))
+    return None if len(keys) != dimensions or any(key is None for key in keys) else keys
+
+
+def _meta_of_part(points, index):
+    """The meta of some of the points: what they live on, the names and levels of their columns; of
+    whole sets everything. None where points lose coordinates or are no points any more."""
+    keys = _keys_of(index, points.ndim)
+    if keys is None or not _is_whole(keys[-1], points.shape[-1]) or not _picks(keys[-2]):
+        return None
+    rows = keys[-2]
+
+    def part(meta):
+        if _is_whole(rows, points.shape[-2]):
+            return meta
+        return {key: meta[key] for key in ("domain", "columns", "levels") if key in meta}
+
+    if points.ndim == 2:
+        return part(points.meta)
+    if not isinstance(points.meta, list) or points.ndim != 3:
+        return None
+    sets = keys[0]
+    if _picks(sets):
+        both = isinstance(sets, slice) or isinstance(rows, slice)
+        numbers = np.arange(len(points))[sets]
+        return [part(points.meta[k]) for k in numbers] if both else None
+    return part(points.meta[sets]) if np.ndim(sets) == 0 else None
+
+
 class Points(np.ndarray):
     """An array of points (n, d), or (sets, n, d), with where they come from.
 
     meta: a dictionary of the generator, its options, the seed, warps, domain ...; of several sets a
-    list of them. Slices and results of arithmetic are plain arrays, whose meta is None.
+    list of them. Some of the points (x[:50], x[::2], x[mask], x[[3, 1]]) keep their domain and the
+    names and levels of their columns. Some of the columns, and results of arithmetic, are plain
+    arrays, whose meta is None.
     """
 
     meta = None
 
     def __array_finalize__(self, source):
         self.meta = None
+
+    def __getitem__(self, index):
+        part = super().__getitem__(index)
+        if self.meta is not None and isinstance(part, Points):
+            part.meta = _meta_of_part(self, index)
+        return part
+
+    def copy(self, order="C"):
+        return with_meta(super().copy(order), self.meta)
 
 
 def with_meta(array, meta):

@@ -2,7 +2,10 @@
 """What analyzers find."""
 
 import html
+import os
 from collections.abc import Mapping
+
+from ._errors import Error
 
 
 class Report(Mapping):
@@ -55,21 +58,28 @@ class Report(Mapping):
 
 
 class Picture:
-    """An SVG picture: shown by notebooks, saved by save(path)."""
+    """A picture: shown by notebooks, saved by save(path); svg is its text as SVG."""
 
-    def __init__(self, svg):
-        self.svg = svg
+    def __init__(self, drawing):
+        self._drawing = drawing
+
+    @property
+    def svg(self):
+        return self._drawing.bytes("svg").decode()
 
     def _repr_svg_(self):
         return self.svg
 
     def save(self, path):
-        """Writes the SVG to a file."""
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(self.svg)
+        """Writes the picture to a file, as its name says: .svg, .pdf or .png."""
+        extension = os.path.splitext(os.fspath(path))[1].lower()
+        if extension not in (".svg", ".pdf", ".png"):
+            raise Error(f"{os.fspath(path)} has no extension of a picture; expected .svg, .pdf or .png")
+        with open(path, "wb") as file:
+            file.write(self._drawing.bytes(extension[1:]))
 
     def __repr__(self):
-        return f"<SVG picture, {len(self.svg)} bytes>"
+        return f"<picture, {len(self.svg)} bytes as SVG>"
 
 
 class Page:

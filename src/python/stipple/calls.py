@@ -346,8 +346,8 @@ def plot(x, ax=None, *, key="", width=0, height=0, **options):
     """A picture of points, or of a dictionary of points by name: in 1-D a histogram, in 2-D and 3-D the
     points with the outline of their domain, else pairs of coordinates. Of reports of one analyzer, their
     curves (of several without any, one number over the number of points; key names the result). Notebooks
-    show it; save(path) writes the SVG. With matplotlib axes as ax, draws points (n, 2) there and gives
-    ax."""
+    show it; save(path) writes it as .svg, .pdf or .png. With matplotlib axes as ax, draws points (n, 2)
+    there and gives ax."""
     how = _take_how(options)
     reports = x if isinstance(x, dict) else {"report": x}
     if ax is None and reports and all(isinstance(one, Report) for one in reports.values()):

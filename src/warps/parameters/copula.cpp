@@ -9,6 +9,7 @@
 #include "math/functions/cholesky.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/incomplete_functions.hpp"
+#include "math/functions/jacobi_eigen.hpp"
 #include "math/functions/normal_distribution.hpp"
 #include "math/functions/trigonometry.hpp"
 
@@ -119,46 +120,9 @@ bool is_correlation(const std::vector<double>& matrix, std::size_t d) {
 
 namespace {
 
-/// Eigenvalues of a symmetric matrix, and its eigenvectors as columns, by Jacobi's rotations.
-struct Eigen {
-    std::vector<double> values;
-    std::vector<double> vectors;
-};
-
-Eigen eigen(std::vector<double> a, std::size_t d) {
-    Eigen out{.values = std::vector<double>(d), .vectors = std::vector<double>(d * d)};
-    auto& v = out.vectors;
-    for (std::size_t i = 0; i < d; ++i) v[i * d + i] = 1;
-    for (int sweep = 0; sweep < 60; ++sweep) {
-        double off = 0;
-        for (std::size_t p = 0; p < d; ++p)
-            for (std::size_t q = p + 1; q < d; ++q) {
-                const double pq = a[p * d + q];
-                off = std::max(off, std::abs(pq));
-                if (std::abs(pq) < 1e-300) continue;
-                const double theta = (a[q * d + q] - a[p * d + p]) / (2 * pq);
-                const double t =
-                    std::copysign(1, theta) / (std::abs(theta) + std::sqrt(theta * theta + 1));
-                const double c = 1 / std::sqrt(t * t + 1);
-                const double s = t * c;
-                const auto turn = [&](double& x, double& y) {
-                    const double old = x;
-                    x = c * old - s * y;
-                    y = s * old + c * y;
-                };
-                for (std::size_t k = 0; k < d; ++k) turn(a[k * d + p], a[k * d + q]);
-                for (std::size_t k = 0; k < d; ++k) turn(a[p * d + k], a[q * d + k]);
-                for (std::size_t k = 0; k < d; ++k) turn(v[k * d + p], v[k * d + q]);
-            }
-        if (off < 1e-15) break;
-    }
-    for (std::size_t i = 0; i < d; ++i) out.values[i] = a[i * d + i];
-    return out;
-}
-
 /// The nearest matrix whose eigenvalues are not below `least`.
 std::vector<double> lifted(const std::vector<double>& matrix, std::size_t d, double least) {
-    const auto [values, vectors] = eigen(matrix, d);
+    const auto [values, vectors] = jacobi_eigen(matrix, d);
     std::vector<double> out(d * d);
     for (std::size_t i = 0; i < d; ++i)
         for (std::size_t j = 0; j < d; ++j)

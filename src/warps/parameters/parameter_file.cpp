@@ -354,13 +354,16 @@ class CorrelationReader {
         : place_(place),
           parameters_(parameters),
           matrix_(parameters.size() * parameters.size()),
-          given_(matrix_.size()) {}
+          spearman_(matrix_.size()),
+          given_(matrix_.size()),
+          numbers_(parameters.size()),
+          ranks_(parameters.size()) {}
 
     Joint read() {
         place_.check_keys({"copula", "degrees", "reordering", "spearman", "kendall", "pearson"},
                           "expected an object, {\"spearman\": [[\"length\", \"load\", 0.7]]}");
         const std::size_t d = parameters_.size();
-        for (std::size_t i = 0; i < d; ++i) matrix_[i * d + i] = 1;
+        for (std::size_t i = 0; i < d; ++i) matrix_[i * d + i] = spearman_[i * d + i] = 1;
         const bool reordered = read_reordering();
         const auto degrees = read_degrees();
         if (degrees && place_.has("spearman"))
@@ -373,8 +376,12 @@ class CorrelationReader {
         if (!is_correlation(matrix_, d)) offer_nearest();
         if (!reordered) return {.copula = Copula(matrix_, degrees)};
         std::vector<std::string> names;
-        for (const Parameter& parameter : parameters_) names.push_back(parameter.name);
-        return {.reordering = Reordering(matrix_, std::move(names))};
+        std::vector<MarginalPtr> laws;
+        for (const Parameter& parameter : parameters_) {
+            names.push_back(parameter.name);
+            laws.push_back(parameter.law && parameter.law->discrete() ? parameter.law : nullptr);
+        }
+        return {.reordering = Reordering(spearman_, matrix_, std::move(names), std::move(laws))};
     }
 
   private:
@@ -434,27 +441,41 @@ class CorrelationReader {
         const std::size_t d = parameters_.size();
         if (given_[i * d + j]) pair.refuse("the pair stands twice");
         given_[i * d + j] = given_[j * d + i] = true;
+        spearman_[i * d + j] = spearman_[j * d + i] = r;  // asked for by a reordering alone
         const double scores = of_scores(pair, i, j, r, kind, student);
         matrix_[i * d + j] = matrix_[j * d + i] = scores;
     }
 
     /// The correlation of the scores, of which the copula is made, that has a parameter's.
     double of_scores(const Place& pair, std::size_t i, std::size_t j, double r,
-                     std::string_view kind, bool student) const {
-        if (kind == "spearman") return score_correlation(r);
-        if (kind == "kendall") return std::copysign(cos_sin_turns(std::abs(r) / 4).sin, r);
+                     std::string_view kind, bool student) {
         const MarginalPtr& a = parameters_[i].law;
         const MarginalPtr& b = parameters_[j].law;
+        const bool discrete = (a && a->discrete()) || (b && b->discrete());
+        if (kind == "kendall" && discrete)
+            pair.refuse("Kendall's tau is not known of integers, levels and others that have ties",
+                        student ? "" : "give \"spearman\"");
+        if (kind == "kendall") return std::copysign(cos_sin_turns(std::abs(r) / 4).sin, r);
+        // Of a parameter that depends on others it is that of its probability, given these.
+        if (kind == "spearman" && (!a || !b || !discrete)) return score_correlation(r);
         if (!a || !b) pair.refuse("a parameter that depends on others has no correlation known");
         if (student) pair.refuse("is known of the Gaussian copula only", "give \"kendall\"");
-        return pair.naming([&] { return correlation_of_scores(*a, *b, r); });
+        ranks_only_ = ranks_only_ && !discrete;
+        const auto of = kind == "spearman" ? Scored::Of::ranks : Scored::Of::numbers;
+        return pair.naming([&] { return scored(i, of).scores_for(scored(j, of), r); });
+    }
+
+    const Scored& scored(std::size_t i, Scored::Of of) {
+        auto& made = (of == Scored::Of::ranks ? ranks_ : numbers_)[i];
+        if (!made) made = std::make_shared<const Scored>(parameters_[i].law, of);
+        return *made;
     }
 
     /// Says which correlations would be possible. @throws Error(input)
     [[noreturn]] void offer_nearest() const {
         const std::size_t d = parameters_.size();
         auto nearest = nearest_correlation(matrix_, d);
-        const bool ranks = !place_.has("kendall") && !place_.has("pearson");
+        const bool ranks = ranks_only_ && !place_.has("kendall") && !place_.has("pearson");
         for (double& r : nearest)
             if (ranks) r = 6 / std::numbers::pi * std::asin(r / 2);
         std::vector<std::string> pairs;
@@ -472,7 +493,11 @@ class CorrelationReader {
     const Place& place_;
     const std::vector<Parameter>& parameters_;
     std::vector<double> matrix_;  ///< of the scores
+    std::vector<double> spearman_;
     std::vector<bool> given_;
+    bool ranks_only_ = true;  ///< rank correlations of scores are those of the parameters
+    std::vector<std::shared_ptr<const Scored>> numbers_;  ///< a parameter, where it was asked for
+    std::vector<std::shared_ptr<const Scored>> ranks_;
 };
 
 }  // namespace

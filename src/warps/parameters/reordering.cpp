@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "warps/parameters/reordering.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -44,15 +46,6 @@ std::vector<double> van_der_waerden(std::size_t n) {
     return scores;
 }
 
-/// Spearman's, of ranks without ties.
-double rank_correlation(const Ranks& a, const Ranks& b) {
-    const auto n = static_cast<double>(a.size());
-    const double middle = (n - 1) / 2;
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - middle) * (b[i] - middle);
-    return sum / (n * (n * n - 1) / 12);
-}
-
 /// P Q^-1 of lower triangular matrices.
 std::vector<double> quotient(const std::vector<double>& p, const std::vector<double>& q,
                              std::size_t d) {
@@ -69,12 +62,16 @@ std::vector<double> quotient(const std::vector<double>& p, const std::vector<dou
 /// The numbers of a set by their coordinates, and the scores of their ranks.
 class ScoredSet {
   public:
-    ScoredSet(std::span<const double> rows, std::size_t d, const RunContext& run)
-        : d_(d),
+    ScoredSet(std::span<const double> rows, const std::vector<MarginalPtr>& laws,
+              const RunContext& run)
+        : d_(laws.size()),
           run_(silent(run)),
-          scores_(van_der_waerden(rows.size() / d)),
-          ranks_(d),
-          numbers_(d) {
+          scores_(van_der_waerden(rows.size() / d_)),
+          ranks_(d_),
+          numbers_(d_),
+          mean_ranks_(d_),
+          tied_(d_) {
+        const std::size_t d = d_;
         for_each_block(run_, d, 1, [&](const Block& column) {
             const auto k = static_cast<std::size_t>(column.first);
             std::vector<Ranked> items(scores_.size());
@@ -82,11 +79,29 @@ class ScoredSet {
             ranks_[k] = ranks_of(items);
             numbers_[k].reserve(items.size());
             for (const Ranked& item : items) numbers_[k].push_back(item.number);
+            rank_equals(k, laws[k]);
         });
     }
 
     [[nodiscard]] bool same_in_all(std::size_t k) const {
         return numbers_[k].front() == numbers_[k].back();
+    }
+
+    /// Whether some points have the same parameter.
+    [[nodiscard]] bool tied(std::size_t k) const { return tied_[k] != 0; }
+
+    /// Spearman's, of parameters; 0 where one is the same in all points.
+    [[nodiscard]] double rank_correlation(std::size_t j, std::size_t k,
+                                          const std::vector<Ranks>& ranks) const {
+        double sum = 0, of_j = 0, of_k = 0;
+        for (std::size_t i = 0; i < scores_.size(); ++i) {
+            const double x = mean_ranks_[j][ranks[j][i]];
+            const double y = mean_ranks_[k][ranks[k][i]];
+            sum += x * y;
+            of_j += x * x;
+            of_k += y * y;
+        }
+        return of_j > 0 && of_k > 0 ? sum / std::sqrt(of_j * of_k) : 0;
     }
 
     /// E, of the scores of all coordinates.
@@ -129,11 +144,75 @@ class ScoredSet {
     }
 
   private:
+    /// Equal parameters have the mean of their ranks; from the mean of all on.
+    void rank_equals(std::size_t k, const MarginalPtr& law) {
+        const auto& numbers = numbers_[k];
+        const auto parameter = [&](double u) { return law ? law->quantile(u) : u; };
+        auto& means = mean_ranks_[k];
+        for (std::size_t first = 0; first < numbers.size(); first = means.size()) {
+            const double x = parameter(numbers[first]);
+            std::size_t end = first + 1;
+            while (end < numbers.size() && parameter(numbers[end]) == x) ++end;
+            if (end > first + 1) tied_[k] = 1;
+            const auto twice =
+                static_cast<double>(first + end) - static_cast<double>(numbers.size());
+            means.resize(end, twice / 2);
+        }
+    }
+
     std::size_t d_;
     RunContext run_;
-    std::vector<double> scores_;                ///< of the ranks 0, 1, ...
-    std::vector<Ranks> ranks_;                  ///< a coordinate, by points
-    std::vector<std::vector<double>> numbers_;  ///< a coordinate, in their order
+    std::vector<double> scores_;                   ///< of the ranks 0, 1, ...
+    std::vector<Ranks> ranks_;                     ///< a coordinate, by points
+    std::vector<std::vector<double>> numbers_;     ///< a coordinate, in their order
+    std::vector<std::vector<double>> mean_ranks_;  ///< of these
+    std::vector<std::uint8_t> tied_;
+};
+
+/// Which correlations of scores have given too little and too much.
+class Corrections {
+  public:
+    Corrections(const std::vector<double>& spearman, std::vector<double> scores,
+                const ScoredSet& set)
+        : spearman_(spearman),
+          set_(set),
+          d_(static_cast<std::size_t>(std::lround(std::sqrt(spearman.size())))),
+          asked_(std::move(scores)),
+          low_(spearman.size(), -1),
+          high_(spearman.size(), 1) {}
+
+    [[nodiscard]] const std::vector<double>& asked() const { return asked_; }
+
+    /// Corrects what is asked for by what the ranks lack; returns the most, in terms of scores.
+    double correct(const std::vector<Ranks>& ranks) {
+        double worst = 0;
+        for (std::size_t j = 0; j < d_; ++j)
+            for (std::size_t k = 0; k < j; ++k) {
+                const double lacks = score_correlation(spearman_[j * d_ + k]) -
+                                     score_correlation(set_.rank_correlation(j, k, ranks));
+                worst = std::max(worst, std::abs(lacks));
+                asked_[j * d_ + k] = asked_[k * d_ + j] = next(j, k, lacks);
+            }
+        return worst;
+    }
+
+  private:
+    double next(std::size_t j, std::size_t k, double lacks) {
+        const double now = asked_[j * d_ + k];
+        if (!set_.tied(j) && !set_.tied(k)) return now + lacks;
+        double& low = low_[j * d_ + k];
+        double& high = high_[j * d_ + k];
+        (lacks > 0 ? low : high) = now;
+        const double then = now + lacks;
+        return then > low && then < high ? then : (low + high) / 2;
+    }
+
+    const std::vector<double>& spearman_;
+    const ScoredSet& set_;
+    std::size_t d_;
+    std::vector<double> asked_;  ///< of the scores
+    std::vector<double> low_;
+    std::vector<double> high_;
 };
 
 /// Q. @throws Error(input) where there is none
@@ -156,8 +235,14 @@ std::vector<double> factor_of(const ScoredSet& set, const std::vector<std::strin
 
 }  // namespace
 
+Reordering::Reordering(std::vector<double> spearman, std::vector<double> scores,
+                       std::vector<std::string> names, std::vector<MarginalPtr> laws)
+    : spearman_(std::move(spearman)),
+      scores_(std::move(scores)),
+      names_(std::move(names)),
+      laws_(std::move(laws)) {}
+
 void Reordering::apply(std::span<double> rows, const RunContext& run) const {
-    constexpr int most = 10;
     constexpr double enough = 1e-5;
     const std::size_t d = names_.size();
     const std::size_t n = rows.size() / d;
@@ -168,35 +253,33 @@ void Reordering::apply(std::span<double> rows, const RunContext& run) const {
              n == 1 ? "is" : "are", n);
     if (n > std::numeric_limits<std::uint32_t>::max())
         fail(ErrorKind::limit, "iman-conover takes less than 2^32 points");
-    run.need_memory(28.0 * static_cast<double>(rows.size()), "the reordering of the points");
-    const ScoredSet set(rows, d, run);
+    run.need_memory(36.0 * static_cast<double>(rows.size()), "the reordering of the points");
+    const ScoredSet set(rows, laws_, run);
     const std::vector<double> own = factor_of(set, names_);
-    std::vector<double> asked = correlations_;
+    bool tied = false;
+    for (std::size_t k = 0; k < d; ++k) tied = tied || set.tied(k);
+    const int most = tied ? 30 : 10;
+    Corrections corrections(spearman_, scores_, set);
     std::vector<Ranks> best;
     double least = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < most && !(least < enough); ++pass) {
-        const Cholesky wanted = cholesky(asked, d);
+        const Cholesky wanted = cholesky(corrections.asked(), d);
         if (wanted.failed != 0) break;
         std::vector<Ranks> ranks = set.transformed(quotient(wanted.factor, own, d));
-        const double lacks = correct(asked, ranks);
+        const double lacks = corrections.correct(ranks);
         if (lacks < least) best = std::move(ranks);
         least = std::min(least, lacks);
     }
     set.give_out(best, rows);
-}
-
-double Reordering::correct(std::vector<double>& asked, const std::vector<Ranks>& ranks) const {
-    const std::size_t d = ranks.size();
-    double worst = 0;
+    constexpr double told = 0.01;
     for (std::size_t j = 0; j < d; ++j)
-        for (std::size_t k = 0; k < j; ++k) {
-            const double lacks =
-                correlations_[j * d + k] - score_correlation(rank_correlation(ranks[j], ranks[k]));
-            worst = std::max(worst, std::abs(lacks));
-            asked[j * d + k] += lacks;
-            asked[k * d + j] += lacks;
-        }
-    return worst;
+        for (std::size_t k = j + 1; k < d; ++k)
+            if (const double r = set.rank_correlation(j, k, best);
+                std::abs(r - spearman_[j * d + k]) > told)
+                run.notify(fmt::format(
+                    "iman-conover: the rank correlation of {} and {} in these {} points is {:.4f}; "
+                    "{} was asked for",
+                    names_[j], names_[k], n, r, spearman_[j * d + k]));
 }
 
 }  // namespace stipple::parameters

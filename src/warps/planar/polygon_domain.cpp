@@ -2,43 +2,123 @@
 #include "warps/planar/polygon_domain.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <limits>
+#include <iterator>
+#include <set>
+#include <utility>
 
 #include "math/densities/line_table.hpp"
 #include "math/geometry/law_moments.hpp"
+#include "math/geometry/orientation.hpp"
 #include "math/geometry/planar_area.hpp"
 #include "warps/planar/area_share.hpp"
 
 namespace stipple::warps {
 namespace {
 
-/// An edge that is not level, from its lower to its upper end.
-struct SlantedEdge {
-    PlanePoint low;
-    PlanePoint high;
-
-    [[nodiscard]] double x_at(double y) const {
-        if (y == high.y) return high.x;
-        return low.x + (high.x - low.x) * ((y - low.y) / (high.y - low.y));
-    }
-};
-
-/// An edge that passes through the slab at hand, and where it does half way up.
-struct Passing {
-    const SlantedEdge* edge;
-    double x = 0;
-};
-
-/// By insertion: edges don't cross, so that all but the new ones at the end are in order already.
-void sort_from_left(std::vector<Passing>& passing, double middle) {
-    for (Passing& p : passing) p.x = p.edge->x_at(middle);
-    for (auto p = passing.begin(); p != passing.end(); ++p) {
-        if (p == passing.begin() || (p - 1)->x <= p->x) continue;
-        const auto place = std::ranges::upper_bound(passing.begin(), p, p->x, {}, &Passing::x);
-        std::rotate(place, p, p + 1);
-    }
+double x_at(const UpwardEdge& edge, double y) {
+    if (y == edge.high.y) return edge.high.x;
+    return edge.low.x +
+           (edge.high.x - edge.low.x) * ((y - edge.low.y) / (edge.high.y - edge.low.y));
 }
+
+/// What is inside between two edges, from one height to another.
+struct Trapezoid {
+    UpwardEdge left;
+    UpwardEdge right;
+    std::size_t bottom;  ///< places among the heights
+    std::size_t top;
+};
+
+/// Edges in a row that rises from height to height, and the trapezoids between them.
+class TrapezoidSweep {
+  public:
+    TrapezoidSweep(std::span<const UpwardEdge> edges, std::span<const double> heights)
+        : edges_(edges), states_(edges.size()), row_(ToRight{edges}) {
+        starts_.resize(heights.size());
+        ends_.resize(heights.size());
+        const auto place = [&](double y) {
+            return static_cast<std::size_t>(std::ranges::lower_bound(heights, y) - heights.begin());
+        };
+        for (std::size_t i = 0; i < edges.size(); ++i) {
+            starts_[place(edges[i].low.y)].push_back(i);
+            ends_[place(edges[i].high.y)].push_back(i);
+        }
+    }
+
+    std::vector<Trapezoid> trapezoids(const RunContext& run) {
+        for (std::size_t height = 0; height < starts_.size(); ++height) {
+            if (height % 1024 == 0) run.check_stop();
+            pass(height);
+        }
+        return std::move(found_);
+    }
+
+  private:
+    struct ToRight {
+        std::span<const UpwardEdge> edges;
+        bool operator()(std::size_t i, std::size_t j) const {
+            const int side = i == j ? 0 : side_of_edge(edges[j], edges[i]);
+            return side != 0 ? side > 0 : i < j;
+        }
+    };
+    static constexpr std::size_t none = static_cast<std::size_t>(-1);
+    /// An edge that the row meets.
+    struct State {
+        std::set<std::size_t, ToRight>::iterator place = {};
+        bool met = false;
+        bool left = false;           ///< what is on its right is inside
+        std::size_t partner = none;  ///< on the other side of an open trapezoid
+        std::size_t bottom = 0;      ///< of that trapezoid
+    };
+
+    /// Ends the trapezoid at the edge.
+    void close(std::size_t edge, std::size_t height) {
+        const std::size_t other = states_[edge].partner;
+        if (other == none) return;
+        const std::size_t left = states_[edge].left ? edge : other;
+        const std::size_t right = states_[edge].left ? other : edge;
+        found_.push_back({edges_[left], edges_[right], states_[left].bottom, height});
+        states_[left].partner = states_[right].partner = none;
+        loose_.insert(loose_.end(), {left, right});
+    }
+
+    void pass(std::size_t height) {
+        loose_.clear();
+        for (const std::size_t edge : ends_[height]) {
+            close(edge, height);
+            row_.erase(states_[edge].place);
+            states_[edge].met = false;
+        }
+        std::ranges::sort(starts_[height], ToRight{edges_});
+        for (const std::size_t edge : starts_[height]) {
+            const auto place = row_.insert(edge).first;
+            const bool first = place == row_.begin();
+            if (!first) close(*std::prev(place), height);
+            states_[edge] = {
+                .place = place, .met = true, .left = first || !states_[*std::prev(place)].left};
+            loose_.push_back(edge);
+        }
+        for (const std::size_t edge : loose_) {
+            if (!states_[edge].met || states_[edge].partner != none) continue;
+            const auto place = states_[edge].place;
+            const std::size_t left = states_[edge].left ? edge : *std::prev(place);
+            const std::size_t right = states_[edge].left ? *std::next(place) : edge;
+            states_[left].partner = right;
+            states_[right].partner = left;
+            states_[left].bottom = height;
+        }
+    }
+
+    std::span<const UpwardEdge> edges_;
+    std::vector<State> states_;
+    std::set<std::size_t, ToRight> row_;
+    std::vector<std::vector<std::size_t>> starts_;  ///< edges, by height
+    std::vector<std::vector<std::size_t>> ends_;
+    std::vector<std::size_t> loose_;  ///< edges that have lost a partner, or have had none yet
+    std::vector<Trapezoid> found_;
+};
 
 /// The share of a slab's height, from the end where its row is w0 long, that has the share f of its
 /// area; the longer one of w0 and w1 is 1.
@@ -72,70 +152,100 @@ double distance(PlanePoint p, PlanePoint a, PlanePoint b) {
 
 }  // namespace
 
-PolygonDomain::PolygonDomain(std::string spec, const std::vector<Ring>& rings,
+PolygonDomain::PolygonDomain(std::string spec, const std::vector<RingSegment>& edges,
                              const RunContext& run)
     : NamedDomain(std::move(spec), 2, 2) {
-    measure_rings(rings);
-    cut_slabs(run);
+    measure_rim(edges);
+    cut_bands(run);
     measure_slabs();
 }
 
-void PolygonDomain::measure_rings(const std::vector<Ring>& rings) {
+void PolygonDomain::measure_rim(const std::vector<RingSegment>& edges) {
     std::vector<double> rows;
-    for (const Ring& ring : rings)
-        for (std::size_t i = 0; i < ring.size(); ++i) {
-            rim_.emplace_back(ring[i], ring[(i + 1) % ring.size()]);
-            rows.insert(rows.end(), {ring[i].x, ring[i].y});
-        }
+    for (const RingSegment& edge : edges) {
+        rim_.emplace_back(edge.a, edge.b);
+        rows.insert(rows.end(), {edge.a.x, edge.a.y});
+    }
     box_ = stipple::bounding_box(rows, 2);
     double size = 0;
     for (const double x : rows) size = std::max(size, std::abs(x));
     slack_ = 16 * std::numeric_limits<double>::epsilon() * size;
 }
 
-/// One slab between each height of a vertex and the next, with the parts of it that are inside:
-/// every second interval between the edges that pass through it, from left to right.
-void PolygonDomain::cut_slabs(const RunContext& run) {
-    std::vector<SlantedEdge> edges;
+/// One slab between each height of a vertex and the next, under the leaves of a tree whose nodes
+/// have the trapezoids.
+void PolygonDomain::cut_bands(const RunContext& run) {
+    std::vector<UpwardEdge> edges;
     std::vector<double> heights;
     for (const auto& [p, q] : rim_) {
         heights.push_back(p.y);
-        if (p.y != q.y) edges.push_back(p.y < q.y ? SlantedEdge{p, q} : SlantedEdge{q, p});
+        if (p.y != q.y) edges.push_back(upward(p, q));
     }
     std::ranges::sort(heights);
     heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
-    std::ranges::sort(edges, {}, [](const SlantedEdge& edge) { return edge.low.y; });
+    const auto trapezoids = TrapezoidSweep(edges, heights).trapezoids(run);
 
-    std::vector<Passing> passing;
-    auto next = edges.begin();
-    for (std::size_t j = 0; j + 1 < heights.size(); ++j) {
-        run.check_stop();
-        const double bottom = heights[j];
-        const double top = heights[j + 1];
-        std::erase_if(passing, [&](const Passing& p) { return p.edge->high.y <= bottom; });
-        for (; next != edges.end() && next->low.y <= bottom; ++next) passing.push_back({&*next});
-        sort_from_left(passing, bottom + 0.5 * (top - bottom));
-        const std::size_t first = parts_.size();
-        for (std::size_t k = 0; k + 1 < passing.size(); k += 2) {
-            const SlantedEdge& left = *passing[k].edge;
-            const SlantedEdge& right = *passing[k + 1].edge;
-            parts_.push_back(
-                {left.x_at(bottom), left.x_at(top), right.x_at(bottom), right.x_at(top)});
-        }
-        slabs_.push_back({.bottom = bottom, .top = top, .first = first, .last = parts_.size()});
-        run.need_memory(static_cast<double>(parts_.size()) * 2 * sizeof(Part),
+    struct Piece {
+        std::size_t node;
+        Part part;
+    };
+    std::vector<Piece> pieces;
+    const std::size_t slabs = heights.size() - 1;
+    const std::size_t leaves = std::bit_ceil(slabs);
+    const auto span_of = [&](std::size_t node) {
+        const std::size_t width = leaves / std::bit_floor(node);
+        const std::size_t first = (node - std::bit_floor(node)) * width;
+        return std::pair{heights[first], heights[first + width]};
+    };
+    const auto add = [&](std::size_t node, const Trapezoid& whole) {
+        const auto [bottom, top] = span_of(node);
+        pieces.push_back({node,
+                          {x_at(whole.left, bottom), x_at(whole.left, top),
+                           x_at(whole.right, bottom), x_at(whole.right, top)}});
+    };
+    for (const Trapezoid& whole : trapezoids) {
+        run.need_memory(static_cast<double>(pieces.size()) * 2.5 * sizeof(Piece),
                         "the rows of the polygon");
+        std::size_t low = whole.bottom + leaves;
+        for (std::size_t high = whole.top + leaves; low < high; low /= 2, high /= 2) {
+            if (low % 2 == 1) add(low++, whole);
+            if (high % 2 == 1) add(--high, whole);
+        }
     }
+    std::ranges::sort(pieces, [](const Piece& a, const Piece& b) {
+        const auto sum = [](const Part& p) {  // grows to the right
+            return 0.5 * (p.left_bottom + p.left_top) + 0.5 * (p.right_bottom + p.right_top);
+        };
+        return a.node != b.node ? a.node < b.node : sum(a.part) < sum(b.part);
+    });
+
+    std::vector<std::size_t> lowest(2 * leaves, none);  // band at each node, or above it
+    auto piece = pieces.begin();
+    for (std::size_t node = 1; node < 2 * leaves; ++node) {
+        lowest[node] = lowest[node / 2];
+        if (piece == pieces.end() || piece->node != node) continue;
+        const auto [bottom, top] = span_of(node);
+        const std::size_t first = parts_.size();
+        for (; piece != pieces.end() && piece->node == node; ++piece) {
+            if (parts_.size() > first) {
+                piece->part.before_bottom = parts_.back().through(0);
+                piece->part.before_top = parts_.back().through(1);
+            }
+            parts_.push_back(piece->part);
+        }
+        bands_.push_back({bottom, top, first, parts_.size(), lowest[node]});
+        lowest[node] = bands_.size() - 1;
+    }
+    for (std::size_t j = 0; j < slabs; ++j)
+        slabs_.push_back({.bottom = heights[j], .top = heights[j + 1], .band = lowest[leaves + j]});
 }
 
 void PolygonDomain::measure_slabs() {
     std::vector<double> sums;
     for (std::size_t j = 0; j < slabs_.size(); ++j) {
         Slab& slab = slabs_[j];
-        for (const Part& part : parts_of(slab)) {
-            slab.width_bottom += part.right(0) - part.left(0);
-            slab.width_top += part.right(1) - part.left(1);
-        }
+        slab.width_bottom = row_at(slab, slab.bottom).length();
+        slab.width_top = row_at(slab, slab.top).length();
         slab.area = 0.5 * (slab.width_bottom + slab.width_top) * slab.height();
         slab.area_below = area_;
         area_ += slab.area;
@@ -157,30 +267,32 @@ void PolygonDomain::measure_slabs() {
 /// What is between two edges from one height to another is a quadrilateral.
 std::optional<Estimate> PolygonDomain::box_mass(const Box& box) const {
     return area_share(box, *this, [&](const Polygon& window) {
-        const auto from = std::ranges::upper_bound(slabs_, window[0][1], {}, &Slab::top);
         double sum = 0;
-        for (auto slab = from; slab != slabs_.end() && slab->bottom < window[2][1]; ++slab)
-            for (const Part& part : parts_of(*slab))
-                sum += shared_area({{part.left(0), slab->bottom},
-                                    {part.right(0), slab->bottom},
-                                    {part.right(1), slab->top},
-                                    {part.left(1), slab->top}},
+        for (const Band& band : bands_) {
+            if (band.bottom >= window[2][1] || band.top <= window[0][1]) continue;
+            for (const Part& part : parts_of(band))
+                sum += shared_area({{part.left(0), band.bottom},
+                                    {part.right(0), band.bottom},
+                                    {part.right(1), band.top},
+                                    {part.left(1), band.top}},
                                    window);
+        }
         return sum;
     });
 }
 
 std::optional<Moments> PolygonDomain::moments() const {
     MixedMoments all({0.5 * (box_.low[0] + box_.high[0]), 0.5 * (box_.low[1] + box_.high[1])});
-    for (const Slab& slab : slabs_)
-        for (const Part& part : parts_of(slab)) {
-            const std::vector<double> low = {part.left_bottom, slab.bottom};
-            const std::vector<double> high = {part.right_top, slab.top};
+    for (const Band& band : bands_)
+        for (const Part& part : parts_of(band)) {
+            const std::vector<double> low = {part.left_bottom, band.bottom};
+            const std::vector<double> high = {part.right_top, band.top};
+            const double height = band.top - band.bottom;
             // Weights are widths at the sides: both triangles are as high.
-            all.add((part.right_bottom - part.left_bottom) * slab.height(),
-                    triangle_moments({low, {part.right_bottom, slab.bottom}, high}));
-            all.add((part.right_top - part.left_top) * slab.height(),
-                    triangle_moments({low, {part.left_top, slab.top}, high}));
+            all.add((part.right_bottom - part.left_bottom) * height,
+                    triangle_moments({low, {part.right_bottom, band.bottom}, high}));
+            all.add((part.right_top - part.left_top) * height,
+                    triangle_moments({low, {part.left_top, band.top}, high}));
         }
     return all.moments();
 }
@@ -205,22 +317,72 @@ PlanePoint PolygonDomain::forward(double u, double v) const {
     const double step = height_share(f, near, away) * slab.height();
     const double row = up ? slab.bottom + step : slab.top - step;
     const double y = std::max(slab.bottom, std::min(row, slab.top));
-    const double t = (y - slab.bottom) / slab.height();  // of the row as it is rounded
-    return {along_row(slab, t, v * slab.width(t)), y};
+    const Row cuts = row_at(slab, y);
+    return {along_row(cuts, v * cuts.length()), y};
 }
 
-/// The place in a row, the length `way` from its left end on.
-double PolygonDomain::along_row(const Slab& slab, double t, double way) const {
-    const auto parts = parts_of(slab);
-    double passed = 0;
-    for (std::size_t k = 0;; ++k) {
-        const double left = parts[k].left(t);
-        const double right = parts[k].right(t);
-        const double after = passed + (right - left);
-        if (way < after || k + 1 == parts.size())
-            return std::min(left + std::max(0.0, way - passed), right);
-        passed = after;
+PolygonDomain::Row PolygonDomain::row_at(const Slab& slab, double y) const {
+    Row row;
+    for (std::size_t b = slab.band; b != none; b = bands_[b].above) {
+        const Band& band = bands_[b];
+        row.cuts[row.count++] = {&parts_[band.first], band.last - band.first,
+                                 (y - band.bottom) / (band.top - band.bottom)};
     }
+    return row;
+}
+
+double PolygonDomain::Row::length() const {
+    double sum = 0;
+    for (const Cut& cut : all()) sum += cut.before(cut.count);
+    return sum;
+}
+
+std::size_t PolygonDomain::Cut::left_of(double x, std::size_t low, std::size_t high) const {
+    const auto from = parts + low;
+    const auto past =
+        std::partition_point(from, parts + high, [&](const Part& p) { return p.left(t) < x; });
+    return static_cast<std::size_t>(past - parts);
+}
+
+/// The place in a row, the length `way` from its left end on: the last part is looked for that has
+/// no more of the row on its left. Each step tries the one in the middle of the longest list.
+double PolygonDomain::along_row(const Row& row, double way) {
+    std::array<std::size_t, most_bands> low;
+    std::array<std::size_t, most_bands> high;
+    std::array<std::size_t, most_bands> middle;
+    for (std::size_t i = 0; i < row.count; ++i) {
+        low[i] = 0;
+        high[i] = row.cuts[i].count;
+    }
+    double left = -std::numeric_limits<double>::infinity();
+    double right = left;
+    double passed = 0;
+    while (true) {
+        std::size_t longest = 0;
+        for (std::size_t i = 1; i < row.count; ++i)
+            if (high[i] - low[i] > high[longest] - low[longest]) longest = i;
+        if (high[longest] == low[longest]) break;
+        const Cut& cut = row.cuts[longest];
+        const Part& part = cut.parts[low[longest] + (high[longest] - low[longest]) / 2];
+        const double x = part.left(cut.t);
+        double before = 0;
+        for (std::size_t i = 0; i < row.count; ++i) {
+            middle[i] = row.cuts[i].left_of(x, low[i], high[i]);
+            before += row.cuts[i].before(middle[i]);
+        }
+        if (before > way) {
+            high = middle;
+            continue;
+        }
+        low = middle;
+        ++low[longest];
+        const double end = part.right(cut.t);
+        if (!(x > left || end > right)) continue;  // it is a point where another part begins
+        left = x;
+        right = end;
+        passed = before;
+    }
+    return std::min(left + std::max(0.0, way - passed), right);
 }
 
 void PolygonDomain::to_cube(std::span<const double> point, std::span<double> cube) const {
@@ -237,39 +399,42 @@ void PolygonDomain::to_cube(std::span<const double> point, std::span<double> cub
     const bool topmost = &slab == &slabs_[last_filled_];
     cube[0] =
         share_within(u, area_, slab.area_below, topmost ? 2 * area_ : slab.area_below + slab.area);
-    cube[1] = place_in_row(slab, t, p.x);
+    cube[1] = place_in_row(row_at(slab, y), p.x);
+}
+
+/// The part of a row that is nearest to x, the leftmost of them.
+PolygonDomain::Nearest PolygonDomain::nearest_part(const Row& row, double x) {
+    Nearest nearest;
+    for (const Cut& cut : row.all()) {
+        const std::size_t begun = cut.left_of(x, 0, cut.count);
+        const std::size_t end = std::min(begun + 1, cut.count);
+        for (std::size_t k = begun - std::min<std::size_t>(begun, 2); k < end; ++k) {
+            const double left = cut.parts[k].left(cut.t);
+            const double right = cut.parts[k].right(cut.t);
+            const double gap = std::max({left - x, x - right, 0.0});
+            if (gap < nearest.gap || (gap == nearest.gap && left < nearest.left))
+                nearest = {left, right, gap};
+        }
+    }
+    return nearest;
 }
 
 /// The share of the row's length that is on the left of x, or of the part that is nearest to it.
-double PolygonDomain::place_in_row(const Slab& slab, double t, double x) const {
-    const double width = slab.width(t);
+double PolygonDomain::place_in_row(const Row& row, double x) {
+    const double width = row.length();
     if (!(width > 0)) return 0;
-    double passed = 0;
-    double nearest = std::numeric_limits<double>::infinity();
-    double place = 0;
-    const auto parts = parts_of(slab);
-    for (std::size_t k = 0; k < parts.size() && nearest > 0; ++k) {
-        const double left = parts[k].left(t);
-        const double right = parts[k].right(t);
-        const double after = passed + (right - left);
-        const double gap = std::max({left - x, x - right, 0.0});
-        if (gap < nearest) {
-            nearest = gap;
-            place = share_within((passed + std::clamp(x - left, 0.0, right - left)) / width, width,
-                                 passed, k + 1 == parts.size() ? 2 * width : after);
-        }
-        passed = after;
-    }
-    return place;
+    const Nearest part = nearest_part(row, x);
+    double before = 0;
+    for (const Cut& cut : row.all()) before += cut.before(cut.left_of(part.left, 0, cut.count));
+    const double length = part.right - part.left;
+    const double after = before + length;
+    return share_within((before + std::clamp(x - part.left, 0.0, length)) / width, width, before,
+                        after >= width ? 2 * width : after);
 }
 
 /// How far the point is from the slab's parts, along its row.
 double PolygonDomain::gap(const Slab& slab, PlanePoint p) const {
-    const double t = (std::clamp(p.y, slab.bottom, slab.top) - slab.bottom) / slab.height();
-    double least = std::numeric_limits<double>::infinity();
-    for (const Part& part : parts_of(slab))
-        least = std::min(least, std::max({part.left(t) - p.x, p.x - part.right(t), 0.0}));
-    return least;
+    return nearest_part(row_at(slab, std::clamp(p.y, slab.bottom, slab.top)), p.x).gap;
 }
 
 /// The slab of the point. Where two meet, or are thinner than rounding, the one that holds it.

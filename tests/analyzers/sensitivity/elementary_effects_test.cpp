@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analyzers/sensitivity/models.hpp"
+#include "stipple/warp.hpp"
 #include "support/temporary_file.hpp"
 
 namespace stipple::testing::elementary_effects_test {
@@ -73,6 +74,61 @@ TEST(ElementaryEffects, StepsAreOfUnitInputs) {
     EXPECT_EQ(told.text("y.scale"), "box");
     EXPECT_NEAR(told.number("y.x.mu"), 2, 1e-12);
     EXPECT_NEAR(told.number("y.y.mu"), 3, 1e-12);
+}
+
+// f(x) = ln x of a log range from 1 to e^6 is 6 u: its effect is 6, whatever the steps. A design that
+// --bounds says lies in (0, 2) is of u = x / 2.
+TEST(ElementaryEffects, AreOfProbabilitiesOfTheInputs) {
+    const std::string range =
+        R"({"parameters":[{"name":"a","range":[1,403.428793492735],"scale":"log"},)"
+        R"({"name":"b","range":[0,2]}]})";
+    const PointSet points = make("morris", {.dimension = 2}, {{"middles", "true"}});
+    PointSet design = warp("parameters:json=[" + range + "]", points);
+    PointSet table =
+        with_outputs(points_in(design), [](auto x) { return std::log(x[0]) + 3 * x[1]; });
+    table.provenance = design.provenance;
+    table.provenance.columns = {"a", "b", "y"};
+    const Report report = analyze(unit, table);
+    EXPECT_EQ(report.text("y.scale"), "distributions");
+    EXPECT_NEAR(report.number("y.a.mu_star"), 6, 1e-9);
+    EXPECT_NEAR(report.number("y.b.mu_star"), 6, 1e-9);
+    EXPECT_NEAR(report.number("y.a.sigma"), 0, 1e-9);
+}
+
+// A star around (0, 0) and one around (1/2, 1/2), by hand: x y has the effects 0, 0 and 1/2, 1/2.
+TEST(ElementaryEffects, OfStars) {
+    const Rows rows = {{0, 0}, {1, 0}, {0, 1}, {0.5, 0.5}, {1, 0.5}, {0.5, 0}};
+    const Report report = analyze(unit, with_outputs(rows, [](auto u) { return u[0] * u[1]; }));
+    EXPECT_EQ(report.text("z.method"), "morris");
+    EXPECT_DOUBLE_EQ(report.number("z.x.mu"), 0.25);
+    EXPECT_DOUBLE_EQ(report.number("z.y.mu_star"), 0.25);
+    EXPECT_DOUBLE_EQ(report.number("z.y.sigma"), std::sqrt(0.125));
+    const PointSet radial = make("morris", points(80, 3), {{"radial", "true"}});
+    const Report made = analyze(unit, with_outputs(points_in(radial), linear));
+    EXPECT_EQ(made.number("x4.samples"), 20);
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_NEAR(made.number("x4.x" + std::to_string(i + 1) + ".mu_star"),
+                    3. - static_cast<double>(i), 1e-9);
+}
+
+// The second trajectory does not move x: its effects are those of the other two, 1 and 3, by hand.
+TEST(ElementaryEffects, OfAnInputThatStandsStill) {
+    const Rows rows = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {0, 0}, {0, 1}, {0, 1}, {1, 1}, {1, 0}};
+    const Report report =
+        analyze(unit, with_outputs(rows, [](auto u) { return u[0] + 2 * u[0] * u[1]; }));
+    EXPECT_EQ(report.text("z.method"), "morris");
+    EXPECT_DOUBLE_EQ(report.number("z.x.mu"), 2);
+    EXPECT_DOUBLE_EQ(report.number("z.x.sigma"), std::sqrt(2));
+    EXPECT_DOUBLE_EQ(report.number("z.y.mu"), 4. / 3);
+}
+
+TEST(ElementaryEffects, TooLargeForADoubleAreMissing) {
+    const Rows rows = {{0, 0}, {1, 0}, {1, 1}, {0.5, 0.5}, {0.5, 1}, {1, 1}};
+    const Report report =
+        analyze(unit, with_outputs(rows, [](auto u) { return u[0] > 0.9 ? 1.7e308 : -1.7e308; }));
+    EXPECT_EQ(report.find("z.x.mu_star"), nullptr);
+    EXPECT_NE(report.find("z.x.missing"), nullptr);
+    EXPECT_EQ(report.number("z.y.mu_star"), 0);
 }
 
 TEST(ElementaryEffects, LeavesOutTrajectoriesWithFailedRuns) {

@@ -77,11 +77,29 @@ TEST(FourierAmplitude, FindsTheIndicesOfTheGFunctionAndOfALinearModel) {
     }
 }
 
+// The curves' frequency tells M, whatever the inputs follow: with four harmonics in place of two, those
+// of w / 2 would count.
+TEST(FourierAmplitude, TakesTheDesignsOwnHarmonics) {
+    for (const char* m : {"1", "2", "3", "5"}) {
+        PointSet design = make("fast", points(771, 3), {{"harmonics", m}});
+        Rows rows = points_in(design);
+        const PointSet plain = with_outputs(rows, linear);
+        for (auto& row : rows) row = {std::exp(9 * row[0]), -1 / (0.01 + row[1]), row[2]};
+        PointSet warped = with_outputs(rows, linear);
+        for (std::size_t i = 0; i < rows.size(); ++i) warped[i][3] = plain[i][3];
+        const Report report = analyze(unit, warped);
+        ASSERT_EQ(report.text("x4.method"), "fast") << m;
+        EXPECT_EQ(report.number("x4.x1.first"),
+                  measure(unit, "x4.x1.first", plain, {{"method", "fast"}, {"harmonics", m}}));
+        EXPECT_NEAR(report.number("x4.x1.first"), 9. / 14, 0.2) << m;
+    }
+}
+
 TEST(FourierAmplitude, RefusesFailedRunsAndOtherHarmonics) {
     PointSet table = with_outputs(fast_rows(257, 3, 1), ishigami);
     EXPECT_NE(error_of([&] {
                   analyze(unit, table, {{"method", "fast"}, {"harmonics", "6"}});
-              }).find("of the variance of coordinate 1 is at the curve's frequency"),
+              }).find("coordinate 1 swings on curve 1 as of 4 harmonics, not 6"),
               std::string::npos);
     table[17][3] = std::nan("");
     EXPECT_EQ(error_of([&] { analyze(unit, table); }),

@@ -207,4 +207,20 @@ TEST(PickFreeze, UnitsDoNotMatter) {
     EXPECT_NEAR(measure(unit, "x4.x1.first", with_outputs(rows, moved)), plain, 1e-8);
 }
 
+// By hand: A and B have the outputs 0, 1, 0, 1, of variance 1/4, and one mixed row has 1e8.
+TEST(PickFreeze, HasNoIndicesOfRowsThatAreNoSampleOfTheSame) {
+    PointSet table =
+        with_outputs(pick_freeze_rows(make("random", points(4, 4)), false), g_function);
+    for (std::size_t i = 0; i < table.count(); ++i) table[i][2] = i % 4 == 3;
+    table[1][2] = 1e8;
+    const Report report = analyze(unit, table, {{"method", "saltelli"}});
+    EXPECT_EQ(report.find("z.x.first"), nullptr);
+    EXPECT_NE(report.find("z.x.missing"), nullptr);
+    // Where A and B do not vary at all, there is no index.
+    for (std::size_t i = 0; i < table.count(); ++i) table[i][2] = i % 4 == 1;
+    const Report none = analyze(unit, table, {{"method", "saltelli"}});
+    for (const char* key : {"z.x.first", "z.y.total", "z.variance"})
+        EXPECT_EQ(none.find(key), nullptr) << key;
+}
+
 }  // namespace stipple::testing::pick_freeze_test

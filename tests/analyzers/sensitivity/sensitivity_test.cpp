@@ -60,26 +60,78 @@ TEST(Sensitivity, DesignNamesTheInputsAndTheTableTheOutputs) {
     EXPECT_NEAR(two.number("y.length.first"), 9. / 14, 0.1);
 }
 
-// The table may repeat inputs, by number or by name, and hold several outputs.
-TEST(Sensitivity, CopiesOfInputsAreNoOutputs) {
-    Rows rows = points_in(make("sobol", points(64, 2)));
+/// What a call says.
+std::vector<std::string> notes_of(const PointSet& table, const Settings& settings) {
+    std::vector<std::string> told;
+    RunContext run;
+    run.warn = [&](const std::string& sentence) { told.push_back(sentence); };
+    analyze(unit, table, settings, run);
+    return told;
+}
+
+// A copy of an input has its name and its numbers, up to their rounding in writing.
+TEST(Sensitivity, CopiesOfInputsAreNoOutputsButNoneVanishes) {
+    Rows rows = points_in(make("sobol", points(64, 2, 1)));
     const TemporaryFile design(csv_of("a,b", rows), ".csv");
-    for (auto& row : rows) row = {row[1], row[0] + 1e-7, row[0] + row[1], row[0]};
+    for (auto& row : rows) row = {row[1], row[0] * (1 + 1e-7), row[0] + row[1], row[0]};
     PointSet table = points_of(rows);
     table.provenance.columns = {"other", "a", "sum", "first.one"};
-    const Report report =
-        analyze(unit, table, {{"design", design.path()}, {"method", "chaos"}, {"degree", "1"}});
-    ASSERT_EQ(report.entries().size(), 1U);
-    EXPECT_NEAR(report.number("sum.a.first"), 0.5, 1e-3);
+    const Settings settings = {{"design", design.path()}, {"method", "rank"}};
+    const Report report = analyze(unit, table, settings);
+    ASSERT_EQ(report.entries().size(), 3U);
+    EXPECT_NEAR(report.number("other.b.first"), 1, 0.1);
+    EXPECT_NEAR(report.number("sum.a.first"), 0.5, 0.1);
+    EXPECT_NEAR(report.number("first_one.a.first"), 1, 0.1);
+    EXPECT_EQ(notes_of(table, settings),
+              (std::vector<std::string>{"the output other is equal to the input b",
+                                        "the output first.one is equal to the input a"}));
     const Report asked = analyze(
         unit, table, {{"design", design.path()}, {"method", "rank"}, {"response", "first.one,3"}});
-    ASSERT_EQ(asked.entries().size(), 2U);
-    EXPECT_NEAR(asked.number("first_one.a.first"), 1, 0.1);
-    EXPECT_NEAR(asked.number("sum.b.first"), 0.5, 0.1);
+    EXPECT_EQ(asked.entries().size(), 2U);
+
+    table.provenance.columns = {"other", "b", "sum", "y"};
+    EXPECT_THAT(refusal(table, settings),
+                HasSubstr("the column b has the name of an input, and other numbers: "));
+    table = points_of(points_in(make("sobol", points(64, 2, 1))));
+    table.provenance.columns = {"a", "b"};
+    EXPECT_EQ(refusal(table, settings),
+              "input: all columns of the table are copies of inputs: a, b | --response picks "
+              "outputs");
+}
+
+// Provenance of a design to which a column was added knows which columns it had.
+TEST(Sensitivity, ProvenanceNamesTheInputs) {
+    PointSet table =
+        with_outputs(points_in(make("sobol", points(64, 2))), [](auto u) { return u[0]; });
+    table.provenance = make("sobol", points(64, 2)).provenance;
+    table.provenance.columns = {"x", "load", "y"};
+    for (std::size_t i = 0; i < 64; ++i) std::swap(table[i][1], table[i][2]);
+    const Report report = analyze(unit, table, {{"method", "rank"}});
+    ASSERT_EQ(report.entries().size(), 1U);
+    EXPECT_NEAR(report.number("load.x.first"), 1, 0.1);
+    EXPECT_NE(report.find("load.y.first"), nullptr);
+    EXPECT_EQ(notes_of(table, {}), std::vector<std::string>{});
+    // Of an output that is picked, the others are neither.
+    table.provenance.columns = {"a", "load", "b"};
+    EXPECT_THAT(refusal(table), HasSubstr("the table has no column x, y, as inputs of its design"));
+    EXPECT_EQ(notes_of(table, {{"inputs", "b"}, {"response", "load"}}),
+              (std::vector<std::string>{
+                  "the table: neither input nor output: a",
+                  "the table: not all of x, y are there, and what they follow is left out of "
+                  "account"}));
+    EXPECT_THAT(refusal(make("sobol", points(64, 2))), HasSubstr("holds no outputs"));
+    PointSet words = with_outputs(points_in(make("sobol", points(8, 1))), [](auto) { return 1; });
+    words.provenance.columns = {"a", "state"};
+    words.provenance.levels = {{"state", {"good", "bad"}}};
+    EXPECT_THAT(refusal(words), HasSubstr("the output state holds words, such as good"));
 }
 
 TEST(Sensitivity, WithoutADesignTheLastColumnIsTheOutput) {
     const PointSet table = with_outputs(points_in(make("sobol", points(128, 3))), linear);
+    EXPECT_EQ(notes_of(table, {}),
+              std::vector<std::string>{"the last column is taken as the output, x4, and the others "
+                                       "as inputs, x1, x2, x3; --response and --inputs name "
+                                       "others"});
     const Report report = analyze(unit, table, {{"method", "chaos"}});
     EXPECT_NEAR(report.number("x4.x1.first"), 9. / 14, 1e-12);
     const Report picked =
@@ -125,6 +177,56 @@ TEST(Sensitivity, WarpedDesignsKeepTheirMethod) {
     EXPECT_EQ(method(pick_freeze_rows(make("sobol", points(64, 6)), true)), "saltelli");
     EXPECT_EQ(method(morris_rows(20, 3, 1)), "morris");
     EXPECT_EQ(method(fast_rows(129, 3, 1)), "fast");
+}
+
+// Whole rows of no method, in any order, are told; so are inputs that depend on each other.
+TEST(Sensitivity, SaysThatADesignIsBroken) {
+    Rows rows = pick_freeze_rows(make("sobol", points(64, 6)), false);
+    std::ranges::rotate(rows, rows.begin() + 2);
+    PointSet table = with_outputs(rows, linear);
+    const Settings settings = {{"response", "4"}};
+    ASSERT_EQ(notes_of(table, settings).size(), 1U);
+    EXPECT_THAT(notes_of(table, settings)[0],
+                HasSubstr("83 % of the rows differ from another in one input"));
+    table.provenance = make("saltelli", points(320, 3)).provenance;
+    table.provenance.columns = {"x", "y", "z", "out"};
+    ASSERT_EQ(notes_of(table, {}).size(), 1U);
+    EXPECT_THAT(
+        notes_of(table, {})[0],
+        HasSubstr("saltelli made the design, and its rows are not whole: in groups of 8, "));
+
+    Rows dependent = points_in(make("sobol", points(256, 2)));
+    for (auto& row : dependent) row[1] = 0.7 * row[0] + 0.3 * row[1];
+    const PointSet plain = with_outputs(dependent, [](auto u) { return u[0]; });
+    ASSERT_EQ(notes_of(plain, {{"response", "3"}}).size(), 1U);
+    EXPECT_THAT(
+        notes_of(plain, {{"response", "3"}})[0],
+        HasSubstr("the inputs x and y depend on each other: their rank correlation is 0.9"));
+    for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+        const auto free = points_in(make("random", points(50, 5), {}, {.seed = seed}));
+        EXPECT_EQ(notes_of(with_outputs(free, linear), {{"response", "6"}, {"method", "auto"}}),
+                  std::vector<std::string>{});
+    }
+}
+
+// A 2^2 design in the order 00, 10, 01, 11 has the rows of pick-freeze with A = 00 and B = 11 alone.
+TEST(Sensitivity, ReplicatedFactorialsAreNoPickFreeze) {
+    Rows rows;
+    for (int replicate = 0; replicate < 6; ++replicate)
+        rows.insert(rows.end(), {{0, 0}, {1, 0}, {0, 1}, {1, 1}});
+    int run = 0;
+    const PointSet table =
+        with_outputs(rows, [&](auto u) { return u[0] + 2 * u[1] + 0.01 * (run++ % 5); });
+    EXPECT_NE(analyze(unit, table).text("z.method"), "saltelli");
+    EXPECT_THAT(refusal(table, {{"method", "saltelli"}}),
+                HasSubstr("as corners of a factorial design do"));
+    // Two-level inputs of real pick-freeze rows are equal in A and B half of the time.
+    Rows levels = pick_freeze_rows(make("random", points(32, 4)), false);
+    for (auto& row : levels)
+        for (double& x : row) x = std::floor(2 * x);
+    EXPECT_EQ(
+        analyze(unit, with_outputs(levels, [](auto u) { return u[0] + u[1]; })).text("z.method"),
+        "saltelli");
 }
 
 TEST(Sensitivity, RefusesAnotherNumberOfRows) {
@@ -211,9 +313,9 @@ TEST(Sensitivity, RefusesAMethodThatTheDesignIsNotFor) {
     EXPECT_THAT(refusal(table, {{"method", "morris"}}),
                 HasSubstr("points 0 and 1 do not differ in one coordinate"));
     EXPECT_THAT(refusal(table, {{"method", "fast"}}),
-                HasSubstr("curves of 20 rows; 4 harmonics need 65"));
+                HasSubstr("coordinate 1 swings too fast on curve 1, or not at all"));
     EXPECT_THAT(refusal(table, {{"method", "fast"}, {"harmonics", "1"}}),
-                HasSubstr("of the variance of coordinate 1 is at the curve's frequency"));
+                HasSubstr("coordinate 1 swings too fast on curve 1"));
     const PointSet odd = with_outputs(points_in(make("sobol", points(61, 3))), linear);
     EXPECT_THAT(refusal(odd, {{"method", "saltelli"}}),
                 HasSubstr("61 rows are no multiple of 5 or 8"));
@@ -250,12 +352,11 @@ TEST(Sensitivity, RefusesOptionsOfOtherMethods) {
 TEST(Sensitivity, NamesRunsThatFailed) {
     PointSet table = with_outputs(points_in(make("sobol", points(64, 3))), linear);
     for (const std::size_t i : {3, 7, 8, 20, 30, 31}) table[i][3] = std::nan("");
-    std::vector<std::string> told;
-    RunContext run;
-    run.warn = [&](const std::string& sentence) { told.push_back(sentence); };
-    const Report report = analyze(unit, table, {{"method", "chaos"}}, run);
-    EXPECT_EQ(told, std::vector<std::string>{
-                        "x4: 6 of 64 runs failed, points 3, 7, 8, 20, 30, ...; 58 runs are used"});
+    const Settings settings = {{"method", "chaos"}, {"response", "x4"}};
+    const Report report = analyze(unit, table, settings);
+    EXPECT_EQ(notes_of(table, settings),
+              std::vector<std::string>{
+                  "x4: 6 of 64 runs failed, points 3, 7, 8, 20, 30, ...; 58 runs are used"});
     EXPECT_EQ(report.number("x4.failed"), 6);
     EXPECT_EQ(report.number("x4.used"), 58);
     EXPECT_NEAR(report.number("x4.x1.first"), 9. / 14, 1e-12);

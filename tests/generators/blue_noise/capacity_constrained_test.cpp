@@ -103,7 +103,26 @@ TEST(CapacityConstrained, EmptyRegionsStayEmpty) {
         const auto row = static_cast<std::size_t>(set[i][1] * 8);
         outside += values[row * 8 + column] == 0;
     }
-    EXPECT_LT(outside, 15);
+    EXPECT_EQ(outside, 0);
+}
+
+// A checkered half and a white one; points in the white, where their centroids are, would be dots in
+// the margins of a picture.
+TEST(CapacityConstrained, PutsNoPointIntoPureWhite) {
+    std::vector<double> values(256, 0.0);
+    for (std::size_t k = 0; k < 128; ++k) values[k] = (k / 16 + k) % 2 == 0 ? 1 : 0;
+    const TemporaryFile density(npy_of<double>("<f8", "(16, 16)", values));
+    for (const std::uint64_t n : {3U, 40U, 700U}) {
+        Request request = points(n, 2);
+        request.bounds = Box{{-1, 0}, {2, 1}};
+        const PointSet set = make("capacity-constrained", request,
+                                  {{"density", density.path()}, {"iterations", "20"}});
+        for (std::size_t i = 0; i < set.count(); ++i) {
+            const auto column = static_cast<std::size_t>((set[i][0] + 1) / 3 * 16);
+            const auto row = static_cast<std::size_t>(set[i][1] * 16);
+            EXPECT_GT(values[row * 16 + column], 0) << set[i][0] << ", " << set[i][1];
+        }
+    }
 }
 
 TEST(CapacityConstrained, WorksForFewPointsInAnyBoxAndPlace) {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
 #include <numeric>
+#include <set>
 
 #include "core/rng.hpp"
 #include "generators/blue_noise/eliminator.hpp"
@@ -343,6 +347,96 @@ TEST(SampleElimination, FindsWhatPointsFill) {
     }
     EXPECT_EQ(crowd_extent(PointSet(500, 2).flat(), 2, 0, {}).dimension, 0U) << "all in one place";
     EXPECT_EQ(crowd_extent(PointSet(50, 2).flat(), 2, 0, {}).dimension, 0U) << "too few";
+}
+
+/// Mean distance to the nearest other point.
+double mean_nearest(const PointSet& set) {
+    double sum = 0;
+    for (std::size_t i = 0; i < set.count(); ++i) {
+        double least = 1e300;
+        for (std::size_t j = 0; j < set.count(); ++j) {
+            double square = 0;
+            for (std::size_t k = 0; k < set.dimension(); ++k)
+                square += (set[i][k] - set[j][k]) * (set[i][k] - set[j][k]);
+            if (j != i) least = std::min(least, square);
+        }
+        sum += std::sqrt(least);
+    }
+    return sum / static_cast<double>(set.count());
+}
+
+// As well spread as a run that is told what the points are on, at every ratio of counts; a curve, a
+// surface and a body, few points and many.
+TEST(SampleElimination, FindsTheManifoldAtEveryRatio) {
+    constexpr double turn = 6.283185307179586;
+    struct Shape {
+        const char* name;
+        const char* dimension;
+        double measure;
+        std::function<std::vector<double>(double, double, double)> point;
+    };
+    const std::vector<Shape> shapes = {
+        {"sphere", "2", 2 * turn,
+         [](double u, double v, double) {
+             const double z = 2 * u - 1;
+             const double r = std::sqrt(1 - z * z);
+             return std::vector{r * std::cos(turn * v), r * std::sin(turn * v), z};
+         }},
+        {"circle", "1", turn,
+         [](double u, double, double) {
+             return std::vector{std::cos(turn * u), std::sin(turn * u)};
+         }},
+        {"cylinder", "2", 2 * turn,
+         [](double u, double v, double) {
+             return std::vector{std::cos(turn * u), std::sin(turn * u), 2 * v};
+         }},
+        {"helix", "1", std::hypot(2 * turn, 3),
+         [](double u, double, double) {
+             return std::vector{std::cos(2 * turn * u), std::sin(2 * turn * u), 3 * u};
+         }},
+        {"cube", "3", 1, [](double u, double v, double w) {
+             return std::vector{u, v, w};
+         }}};
+    const Rng rng(8);
+    for (const Shape& shape : shapes)
+        for (const std::size_t n : {150, 1000}) {
+            std::vector<std::vector<double>> rows;
+            for (std::size_t i = 0; i < n; ++i)
+                rows.push_back(shape.point(rng.uniform(3 * i), rng.uniform(3 * i + 1),
+                                           rng.uniform(3 * i + 2)));
+            const TemporaryFile file(csv_of(points_of(rows)));
+            for (const double ratio : {1.5, 2.0, 5.0, 20.0}) {
+                const Request kept{.count =
+                                       static_cast<std::uint64_t>(static_cast<double>(n) / ratio)};
+                const double found = mean_nearest(make(unit, kept, {{"from", file.path()}}));
+                const double told =
+                    mean_nearest(make(unit, kept,
+                                      {{"from", file.path()},
+                                       {"manifold-dimension", shape.dimension},
+                                       {"measure", fmt::format("{}", shape.measure)}}));
+                EXPECT_GT(found, 0.9 * told) << shape.name << ", " << n << " / " << ratio;
+            }
+        }
+}
+
+// Of equal points all but one go before any other does.
+TEST(SampleElimination, CopiesGoFirst) {
+    const PointSet some = random_in(square, 60, 3);
+    std::vector<std::vector<double>> rows;
+    for (std::size_t i = 0; i < some.count(); ++i)
+        for (std::size_t copy = 0; copy <= i % 3; ++copy)
+            rows.emplace_back(some[i].begin(), some[i].end());
+    const TemporaryFile file(csv_of(points_of(rows)));
+    for (const char* order : {"random", "progressive"})
+        for (const std::size_t kept : {10U, 59U, 60U, 75U}) {
+            const PointSet left =
+                make(unit, {.count = kept}, {{"from", file.path()}, {"order", order}});
+            std::set<std::vector<double>> different;
+            for (std::size_t i = 0; i < left.count(); ++i)
+                different.insert({left[i].begin(), left[i].end()});
+            EXPECT_EQ(left.count(), kept);
+            EXPECT_EQ(different.size(), std::min<std::size_t>(kept, 60)) << order;
+        }
 }
 
 TEST(SampleElimination, SpreadsPointsOfADisk) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "support/designs.hpp"
@@ -23,18 +25,18 @@ std::size_t moved(std::span<const double> a, std::span<const double> b) {
 
 }  // namespace
 
-// Each factor moves once in a trajectory, by p/2 levels: 1/2 between the middles of cells, and
-// delta = p / (2 (p - 1)) with --ends.
+// Each factor moves once in a trajectory, by p/2 levels: delta = p / (2 (p - 1)) of the range, and 1/2
+// with --middles.
 TEST(Morris, EveryFactorMovesOnceByDelta) {
     for (const int p : {2, 4, 6, 10})
-        for (const bool ends : {false, true})
+        for (const bool middles : {false, true})
             for (const std::size_t k : {1, 2, 5}) {
                 const PointSet set = make("morris", {.dimension = k},
                                           {{"levels", std::to_string(p)},
                                            {"trajectories", "50"},
-                                           {"ends", ends ? "true" : "false"}});
+                                           {"middles", middles ? "true" : "false"}});
                 ASSERT_EQ(set.count(), 50 * (k + 1));
-                const double delta = ends ? p / (2. * (p - 1)) : 0.5;
+                const double delta = middles ? 0.5 : p / (2. * (p - 1));
                 for (std::size_t t = 0; t < 50; ++t) {
                     std::set<std::size_t> factors;
                     for (std::size_t j = 1; j <= k; ++j) {
@@ -50,8 +52,30 @@ TEST(Morris, EveryFactorMovesOnceByDelta) {
             }
 }
 
-TEST(Morris, LevelsAreTheMiddlesOfEqualCells) {
+// Morris 1991, section 3: each input takes values of {0, 1/(p-1), 2/(p-1), ..., 1}.
+TEST(Morris, LevelsGoFromEndToEnd) {
     const PointSet set = make("morris", points(3000, 2), {{"levels", "6"}});
+    std::map<double, int> seen;
+    for (const double x : set.flat()) ++seen[x];
+    ASSERT_EQ(seen.size(), 6U);
+    double level = 0;
+    for (const auto& [x, times] : seen) EXPECT_NEAR(x, level++ / 5, 1.2e-16);
+}
+
+// Effects of 7 sin(x)^2, x = pi (2 u - 1), by hand: u = 0, 1/3, 2/3, 1 give 0, 21/4, 21/4, 0, so that
+// every step of 2/3 changes it by 21/4. A step of 1/2 changes nothing.
+TEST(Morris, SeesWhatHasHalfTheRangeAsItsPeriod) {
+    const PointSet set = make("morris", {.dimension = 1});
+    const auto f = [](double u) {
+        return 7 * std::pow(std::sin(std::numbers::pi * (2 * u - 1)), 2);
+    };
+    for (std::size_t t = 0; t < set.count(); t += 2)
+        EXPECT_NEAR(std::abs((f(set[t + 1][0]) - f(set[t][0])) / (set[t + 1][0] - set[t][0])),
+                    7.875, 1e-12);
+}
+
+TEST(Morris, LevelsMayBeTheMiddlesOfEqualCells) {
+    const PointSet set = make("morris", points(3000, 2), {{"levels", "6"}, {"middles", "true"}});
     for (const double x : set.flat()) {
         const double level = std::floor(x * 6);
         EXPECT_EQ(x, (2 * level + 1) / 12);
@@ -108,8 +132,8 @@ TEST(Morris, RefusesOddLevelsAndParts) {
         "usage: --count: 10 contradicts --trajectories 3, which has 12 runs; leave --count out");
     EXPECT_EQ(error({}, {{"radial", "true"}, {"levels", "6"}}),
               "usage: --levels: the points of --radial have no levels");
-    EXPECT_EQ(error({}, {{"radial", "true"}, {"ends", "true"}}),
-              "usage: --ends: the points of --radial have no levels");
+    EXPECT_EQ(error({}, {{"radial", "true"}, {"middles", "true"}}),
+              "usage: --middles: the points of --radial have no levels");
 }
 
 }  // namespace stipple::testing::morris_test

@@ -76,6 +76,48 @@ TEST(Hexagonal, KeepsTheLargestDistanceOfAllLattices) {
     }
 }
 
+/// Oracle: the largest smallest distance of all lattices of n points in a box of this width and of
+/// height 1, each row by row with every shift.
+double best_in_box(std::int64_t n, double width) {
+    double best = 0;
+    for (std::int64_t in_row = 1; in_row <= n; ++in_row) {
+        if (n % in_row != 0) continue;
+        const std::int64_t gap = n / in_row;
+        for (std::int64_t shift = 0; shift < gap; ++shift) {
+            double least = std::min(width, 1.0);  // to its own image
+            for (std::int64_t row = 0; row < gap; ++row)
+                for (std::int64_t x = row * shift % gap; x < n; x += gap)
+                    if (x != 0 || row != 0) {
+                        const std::int64_t y = row * in_row;
+                        least = std::min(least,
+                                         std::hypot(width * static_cast<double>(std::min(x, n - x)),
+                                                    static_cast<double>(std::min(y, n - y))) /
+                                             static_cast<double>(n));
+                    }
+            best = std::max(best, least);
+        }
+    }
+    return best;
+}
+
+// In a box, too: of its sides, not of those of a square that is scaled.
+TEST(Hexagonal, KeepsTheLargestDistanceInABox) {
+    for (const double width : {2.0, 0.3, 8.0, 1.0 / 17, 1.7320508075688772})
+        for (std::uint64_t n = 1; n <= 60; ++n) {
+            Request request = points(n, 2);
+            request.bounds = Box{{5, -1}, {5 + width, 0}};
+            const PointSet set = make("hexagonal", request);
+            double least = std::min(width, 1.0);
+            for (std::size_t i = 1; i < set.count(); ++i) {
+                const double x = set[i][0] - set[0][0];
+                const double y = set[i][1] - set[0][1];
+                least = std::min(least, std::hypot(std::min(x, width - x), std::min(y, 1 - y)));
+            }
+            EXPECT_NEAR(least, best_in_box(static_cast<std::int64_t>(n), width), 1e-12)
+                << n << " in " << width;
+        }
+}
+
 TEST(Hexagonal, IsClosedUnderAddition) {
     for (const std::uint64_t n : {1, 2, 7, 30, 97, 400, 1000}) {
         const auto lattice = numerators(make("hexagonal", points(n, 2)));

@@ -33,15 +33,20 @@ double by_definition(std::uint64_t n, const Vector& z, const std::vector<double>
     return sum / static_cast<double>(n) - 1;
 }
 
-/// Oracle: all components tried one after the other; the first of those within rounding.
+/// Oracle: all components tried one after the other, those that are there already only if there are
+/// no others; the first of those within rounding.
 Vector by_trial(std::uint64_t n, const std::vector<double>& weights) {
     Vector z{1};
     while (z.size() < weights.size()) {
         double least = 1e300;
         std::uint64_t best = 0;
+        Vector candidates;
+        for (const bool again : {false, true})
+            for (std::uint64_t c = 1; 2 * c <= n && (!again || candidates.empty()); ++c)
+                if (std::gcd(c, n) == 1 && (again || std::ranges::count(z, c) == 0))
+                    candidates.push_back(c);
         z.push_back(0);
-        for (std::uint64_t c = 1; 2 * c <= n; ++c) {
-            if (std::gcd(c, n) != 1) continue;
+        for (const std::uint64_t c : candidates) {
             z.back() = c;
             const double error = by_definition(n, z, weights);
             if (error < least - 1e-12) {
@@ -365,6 +370,25 @@ TEST(Rank1Lattice, SaysWherePointsCoincide) {
     generate("rank1-lattice", points(100, 2), {{"vector", "0,12"}}, run);
     EXPECT_EQ(notes, std::vector<std::string>{"rank1-lattice: 4 divides the number of points and "
                                               "all of the vector: every point comes 4 times"});
+}
+
+// Where there are enough components, no coordinate is another one; else a note names the first.
+TEST(Rank1Lattice, RepeatsNoCoordinateInSilence) {
+    std::vector<std::string> notes;
+    RunContext run;
+    run.warn = [&](const std::string& note) { notes.push_back(note); };
+    for (const std::uint64_t n : {128U, 101U, 64U}) {
+        const Vector z = component_by_component(n, decaying(16, 2), {});
+        EXPECT_EQ(std::set(z.begin(), z.end()).size(), 16U) << n;
+    }
+    generate("rank1-lattice", points(128, 12), {}, run);
+    EXPECT_TRUE(notes.empty());
+    generate("rank1-lattice", points(10, 3), {{"vector", "1,3,11"}}, run);
+    EXPECT_EQ(notes, std::vector<std::string>{"rank1-lattice: coordinate 3 is the same as 1: the "
+                                              "vector of 3 numbers has 2 different ones"});
+    notes.clear();
+    generate("rank1-lattice", points(8, 5), {}, run);  // 1 and 3 are all that are prime to 8
+    EXPECT_EQ(notes.size(), 1U);
 }
 
 TEST(Rank1Lattice, ASearchCanBeStoppedShowsItsProgressAndKeepsToItsMemory) {

@@ -87,11 +87,45 @@ TEST(PolygonContact, NamesBothEdgesAndTellsCrossingFromTouching) {
     EXPECT_TRUE(crossing->crossing);
     EXPECT_EQ(crossing->first, (RingEdge{0, 1}));
     EXPECT_EQ(crossing->second, (RingEdge{1, 0}));
-    const auto touching = find_contact({square, {{2, 0}, {3, 1}, {2, 2}}}, {});
-    ASSERT_TRUE(touching);
+    const auto touching = find_contact({square, {{2, 0}, {3, 0}, {2, 2}}}, {});
+    ASSERT_TRUE(touching) << "along an edge";
     EXPECT_FALSE(touching->crossing);
     EXPECT_EQ(touching->first, (RingEdge{0, 0}));
     EXPECT_FALSE(find_contact({square, {{1, 1}, {2, 1}, {2, 2}}, {{5, 0}, {6, 0}, {6, 5}}}, {}));
+}
+
+// As in the simple features of the OGC. Where both rings have a vertex, they may touch or cross.
+TEST(PolygonContact, TwoRingsMayTouchInPoints) {
+    const Ring square = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+    for (const Ring& other : {Ring{{2, 0}, {3, 1}, {2, 2}}, Ring{{4, 4}, {5, 4}, {5, 5}},
+                              Ring{{0, 0}, {2, 1}, {4, 2}, {1, 3}}, Ring{{2, 0}, {4, 2}, {2, 4}}})
+        EXPECT_FALSE(find_contact({square, other}, {})) << other[0].x << ", " << other[0].y;
+    const auto through = find_contact({square, {{4, 4}, {5, 2}, {3, 2}}}, {});
+    ASSERT_TRUE(through);
+    EXPECT_TRUE(through->crossing);
+    const Ring diamond = {{2, 0}, {4, 2}, {2, 4}, {0, 2}};
+    EXPECT_FALSE(find_contact({square, diamond, {{2, 0}, {2.5, 2}, {2, 4}, {1.5, 2}}}, {}));
+    // Through two corners of the diamond.
+    EXPECT_TRUE(find_contact({diamond, {{2, -1}, {3, -1}, {2, 0}, {2, 4}, {1, 5}}}, {}));
+    EXPECT_TRUE(find_contact({square, square}, {}));
+    // On a slanted edge the vertex of a hole is where rounding has put it.
+    const Ring slanted = {{0, 0}, {3, 1}, {3, 3}, {0, 3}};
+    std::vector<RingSegment> edges;
+    EXPECT_FALSE(find_contact({slanted, {{1, 1. / 3}, {2, 2}, {1, 2}}}, {}, &edges));
+    EXPECT_EQ(edges.size(), 8U) << "the slanted edge is cut";
+}
+
+// A comb turned by half a right angle, all of whose edges share rows and columns.
+TEST(PolygonContact, LooksAtFewPairsOfManyEdges) {
+    Ring comb;
+    for (int k = 0; k < 20'000; ++k) {
+        const double x = k;
+        const double y = k % 2 == 0 ? 0 : 10'000;
+        comb.push_back({x - y, x + y});
+    }
+    comb.push_back({19'999 + 1.0, 19'999 - 1.0});
+    comb.push_back({1, -1});
+    EXPECT_FALSE(find_contact({comb}, {}));
 }
 
 TEST(PolygonContact, NearIsNotTouching) {

@@ -3,11 +3,17 @@
 // Drawings as SVG and as pixels, the letters in them, and the numbers on axes.
 #include "plot/drawing/drawing.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cmath>
+#include <limits>
 #include <regex>
 
+#include "core/error.hpp"
+#include "core/rng.hpp"
 #include "media/png_picture.hpp"
 #include "plot/drawing/html_text.hpp"
 #include "plot/drawing/letters.hpp"
@@ -185,13 +191,25 @@ TEST(Letters, CurvesAreEllipses) {
     }
 }
 
-TEST(Letters, LongTextsLoseTheirFront) {
-    EXPECT_EQ(cut_to("abc", 12, 100, true), "abc");
-    const std::string cut = cut_to("a/long/path/to/points.csv", 12, 80, true);
-    EXPECT_TRUE(cut.starts_with("…"));
-    EXPECT_TRUE(cut.ends_with("points.csv"));
-    EXPECT_LE(text_width(cut, 12), 80);
-    EXPECT_EQ(cut_to("abcdef", 10, text_width("abc…", 10)), "abc…");
+// Broken at blanks and behind signs, within longer words anywhere; no letter is lost.
+TEST(Letters, LongTextsAreWrapped) {
+    EXPECT_THAT(wrapped("abc", 12, 100), ElementsAre("abc"));
+    EXPECT_THAT(wrapped("", 12, 100), ElementsAre());
+    EXPECT_THAT(wrapped("one two three", 12, text_width("one two", 12)),
+                ElementsAre("one two", "three"));
+    EXPECT_THAT(wrapped("outer_diameter", 12, text_width("outer_dia", 12)),
+                ElementsAre("outer_", "diameter"));
+    EXPECT_THAT(wrapped("temperature", 12, text_width("temper", 12)),
+                ElementsAre("temper", "ature"));
+    EXPECT_THAT(wrapped("üü", 12, 1), ElementsAre("ü", "ü"));
+    for (double width = 1; width < 300; width += 7) {
+        std::string all;
+        for (const std::string& line : wrapped("a/long/path/to/points.csv", 12, width)) {
+            EXPECT_TRUE(text_width(line, 12) <= width || line.size() == 1) << line;
+            all += line;
+        }
+        EXPECT_EQ(all, "a/long/path/to/points.csv");
+    }
 }
 
 // ---------------------------------------------------------------- numbers on axes
@@ -294,6 +312,109 @@ TEST(Panel, MendsAxesWithoutExtent) {
             EXPECT_TRUE(!log || axis.low > 0);
             EXPECT_FALSE(axis.ticks(300, false).numbers.empty());
         }
+}
+
+namespace {
+
+/// Pairs of doubles of every kind: any bits, equal, neighbours, tiny, huge, of both signs.
+std::vector<std::pair<double, double>> ranges_of_every_kind() {
+    constexpr double none = std::numeric_limits<double>::denorm_min();
+    const double ends[] = {0, none,      1e-320, 1e-308, 1e-300,       1e-10, 0.1,  1 - 1e-13,
+                           1, 1 + 1e-13, 1e5,    1e15,   1e15 + 0.125, 1e300, 1e307};
+    std::vector<std::pair<double, double>> found;
+    for (const double a : ends)
+        for (const double b : ends)
+            for (const auto& [low, high] : {std::pair{a, b}, {-a, b}, {a, -b}, {-a, -b}})
+                found.emplace_back(low, high);
+    const Rng rng(7, 0);
+    for (std::uint64_t i = 0; found.size() < 10'000; i += 2) {
+        double low = std::bit_cast<double>(rng.bits(i));
+        double high = std::bit_cast<double>(rng.bits(i + 1));
+        if (i % 3 == 1) high = std::nextafter(low, high);
+        if (i % 3 == 2) high = low * (1 + std::exp2(-static_cast<double>(i / 6 % 60)));
+        found.emplace_back(low, high);
+    }
+    return found;
+}
+
+/// What holds of an axis whatever it was made of.
+void expect_axis(const Axis& axis, double length, const std::string& what) {
+    ASSERT_LT(axis.low, axis.high) << what;
+    ASSERT_TRUE(std::isfinite(axis.high - axis.low)) << what;
+    for (const bool upright : {false, true}) {
+        const Ticks ticks = axis.ticks(length, upright);
+        ASSERT_GE(ticks.numbers.size(), axis.whole ? 0U : 2U) << what;
+        ASSERT_LE(ticks.numbers.size(), 12U) << what;
+        ASSERT_LE(ticks.minor.size(), 1000U) << what;
+        double last = -1;
+        for (const Tick& tick : ticks.numbers) {
+            ASSERT_GT(axis.share(tick.value), last) << what;
+            ASSERT_THAT(tick.text, Not(::testing::ContainsRegex("nan|inf"))) << what;
+            ASSERT_LT(tick.text.size(), 24U) << what;
+            last = axis.share(tick.value);
+            ASSERT_LE(last, 1 + 1e-6) << what;
+        }
+    }
+}
+
+}  // namespace
+
+// Whatever two doubles a range is made of, there is an axis with few, rising, finite numbers, or a
+// sentence that says why there cannot be one.
+TEST(Panel, HasAnAxisForEveryPairOfDoubles) {
+    std::size_t drawn = 0;
+    for (const auto& [low, high] : ranges_of_every_kind())
+        for (const bool log : {false, true}) {
+            Axis axis{.low = low, .high = high, .log = log};
+            const std::string what = fmt::format("{} to {}, {}", low, high, log);
+            if (std::isfinite(low) && std::isfinite(high) &&
+                std::max(std::abs(low), std::abs(high)) > most_shown) {
+                EXPECT_THROW(require_shown(low, high), Error) << what;
+                continue;
+            }
+            axis.make_valid();
+            expect_axis(axis, 300, what);
+            const bool shown = low < high && flaw_of_range(low, high).empty();
+            if (!log && std::isfinite(high - low) && low <= high) {
+                EXPECT_EQ(axis.name.empty(), shown || !(low < high)) << what << axis.name;
+                EXPECT_EQ(axis.low == low && axis.high == high, shown) << what;
+            }
+            if (log) {
+                ASSERT_LE(binary_ticks(axis.low, axis.high, 5).numbers.size(), 5U) << what;
+            }
+            const Panel panel({50, 10, 300, 200}, axis, axis);
+            for (const double value : {low, high, 0.0, 1e300, -1e300})
+                if (std::isfinite(value)) {
+                    ASSERT_LE(std::abs(panel.x(value)), 1e5) << what;
+                    ASSERT_LE(std::abs(panel.y(value)), 1e5) << what;
+                }
+            ++drawn;
+        }
+    EXPECT_GT(drawn, 5000U);
+}
+
+TEST(Ticks, SayWhyARangeIsNotShown) {
+    EXPECT_EQ(flaw_of_range(1, std::nextafter(1.0, 2)), "all the same to 13 digits");
+    EXPECT_EQ(flaw_of_range(1e15, 1e15 + 0.125), "all the same to 13 digits");
+    EXPECT_EQ(flaw_of_range(0, 5e-324), "differs by less than 1e-300");
+    EXPECT_EQ(flaw_of_range(1, 1 + 1e-12), "");
+    EXPECT_EQ(flaw_of_range(2, 2), "");
+    EXPECT_EQ(rounded_ends(1, 1 + 1e-12),
+              (std::pair<std::string, std::string>("1", "1.000000000001")));
+    EXPECT_EQ(rounded_ends(-1, 2), (std::pair<std::string, std::string>("−1", "2")));
+}
+
+// A line that leaves the frame for 1e300 ends, dashed, too.
+TEST(PngDrawing, EndsLinesThatGoFarOutside) {
+    const Panel panel({10, 10, 80, 80}, {.low = 0, .high = 1}, {.low = 0, .high = 1});
+    for (const Dash dash : {Dash::none, Dash::dashed, Dash::dotted}) {
+        Drawing drawing = page(100, 100);
+        drawing.add(
+            Line{.vertices = {panel.at(0.1, 0.2), panel.at(0.9, 1e300), panel.at(-1e300, 5)},
+                 .dash = dash});
+        EXPECT_GT(ink(pixels(drawing)), 20);
+        EXPECT_LT(svg_bytes(drawing, 1).size(), 2000U);
+    }
 }
 
 TEST(HtmlText, LeavesNoLetterThatMeansSomethingElse) {

@@ -156,6 +156,12 @@ TEST(Mesh, ChiSquareAcceptsItAndRejectsEqualChancesOfTriangles) {
     EXPECT_LT(measure("chi-square", "p_value", warped(*mapping(tetrahedron), cube)), 1e-100);
 }
 
+// Faces upon each other, the same or in part: each of them gets its share of points back.
+TEST(Mesh, ChiSquareAcceptsFacesUponEachOther) {
+    const MeshFile file("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 3 1 2\nf 2 4 3\nf 1 2 4\n");
+    EXPECT_GT(p_of_random(*mapping(file.spec()), 50'000), 1e-5);
+}
+
 TEST(Mesh, DomainKnowsWhatIsOnTheSurface) {
     const DomainPtr domain = mapping(tetrahedron)->domain();
     EXPECT_EQ(domain->spec(), tetrahedron);

@@ -26,7 +26,7 @@ std::vector<double> reordered(std::vector<double> rows, const std::vector<double
     for (const double r : spearman) scores.push_back(r == 1 ? 1 : score_correlation(r));
     std::vector<std::string> names;
     for (std::size_t k = 0; k < d; ++k) names.emplace_back(1, static_cast<char>('a' + k));
-    Reordering(scores, names).apply(rows, run);
+    Reordering(spearman, scores, names, std::vector<MarginalPtr>(d)).apply(rows, run);
     return rows;
 }
 

@@ -220,14 +220,50 @@ TEST(Polygon, RefusesCrossingsAndNamesThem) {
     EXPECT_EQ(error("polygon:vertices=[0,0 4,0 4,4 0,4 / 3,1 5,1 5,2 3,2]"),
               "usage: --vertices: edge 2 of ring 1 (4,0 to 4,4) and edge 1 of ring 2 (3,1 to 5,1) "
               "cross; edges may meet in a vertex that they share only");
-    EXPECT_NE(error("polygon:vertices=[0,0 4,0 4,4 0,4 / 2,0 3,1 2,1]"), "") << "touches an edge";
-    EXPECT_NE(error("polygon:vertices=[0,0 4,0 4,4 0,4 / 4,4 5,4 5,5]"), "") << "shares a corner";
+    EXPECT_NE(error("polygon:vertices=[0,0 4,0 4,4 0,4 / 2,0 3,0 2,1]"), "") << "along an edge";
+    EXPECT_NE(error("polygon:vertices=[0,0 4,0 4,4 0,4 / 4,4 5,2 3,2]"), "") << "in a corner";
     EXPECT_NE(error("polygon:vertices=[0,0 2,0 2,1 / 0,0 2,0 2,1]"), "") << "twice the same";
     EXPECT_NE(error("polygon:vertices=[0,0 2,0 1,1 2,2 0,2 1,1]"), "") << "touches itself";
     EXPECT_EQ(error("polygon:vertices=[0,0 2,0 2,2 2,3 2,2 0,2]"),
               "usage: --vertices: edge 2 (2,0 to 2,2) and edge 4 (2,3 to 2,2) touch; edges may "
               "meet in a vertex that they share only")
         << "a spike";
+}
+
+TEST(Polygon, RingsMayTouchInPoints) {
+    const char* on_edge = "polygon:vertices=[0,0 4,0 4,4 0,4 / 2,0 3,1 2,1]";
+    const char* on_corner = "polygon:vertices=[0,0 4,0 4,4 0,4 / 4,4 5,4 5,5]";
+    const char* slanted = "polygon:vertices=[0,0 3,1 3,3 0,3 / 1,0.3333333333333333 2,2 1,2]";
+    EXPECT_DOUBLE_EQ(mapping(on_edge)->domain()->measure(), 15.5);
+    EXPECT_DOUBLE_EQ(mapping(on_corner)->domain()->measure(), 16.5);
+    EXPECT_NEAR(mapping(slanted)->domain()->measure(), 7.5 - 5. / 6, 1e-14);
+    for (const char* spec : {on_edge, on_corner, slanted}) {
+        expect_round_trip(*mapping(spec), 1e-13);
+        expect_chi_square_can_tell(*mapping(spec));
+    }
+}
+
+// Teeth of different heights: rows meet thousands of them, and there are as many rows.
+TEST(Polygon, ManyVerticesAreQuick) {
+    const Rng rng(1);
+    Corners comb;
+    const int teeth = 3000;
+    for (int k = 0; k < teeth; ++k) {
+        const double height = 1 + rng.uniform(static_cast<std::uint64_t>(k));
+        comb.insert(comb.end(), {{k, 0.5}, {k + 0.25, height}, {k + 0.75, height}});
+    }
+    comb.insert(comb.end(), {{teeth, 0.5}, {teeth, 0}, {0, 0}});
+    const auto map = mapping(fmt::format("polygon:vertices=[{}]", text_of(comb)));
+    EXPECT_NEAR(map->domain()->measure(), std::abs(shoelace(comb)), 1e-9);
+    const PointSet cube = make("random", points(2000, 2));
+    const PointSet image = warped(*map, cube);
+    std::vector<double> back(2);
+    for (std::size_t i = 0; i < image.count(); ++i) {
+        ASSERT_TRUE(inside(comb, image[i][0], image[i][1])) << i;
+        map->domain()->to_cube(image[i], back);
+        ASSERT_NEAR(back[0], cube[i][0], 1e-12);
+        ASSERT_NEAR(back[1], cube[i][1], 1e-12);
+    }
 }
 
 TEST(Polygon, RefusesWhatHasNoArea) {

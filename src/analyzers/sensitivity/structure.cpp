@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "analyzers/sensitivity/structure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "math/combinatorics/splitmix64.hpp"
+
+namespace stipple::analyzers::sensitivity {
+namespace {
+
+constexpr double most_work = 1e8;  ///< numbers that are looked at, a second or less
+
+/// Different values of coordinate j.
+std::size_t levels_of(const PointSet& points, std::size_t j) {
+    std::vector<double> values(points.count());
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = points[i][j];
+    std::ranges::sort(values);
+    return values.size() - std::ranges::unique(values).size();
+}
+
+}  // namespace
+
+double share_of_neighbors(const PointSet& points, const RunContext& run) {
+    const std::size_t n = points.count();
+    const std::size_t k = points.dimension();
+    if (k < 2 || static_cast<double>(n) * static_cast<double>(k) > most_work / 30) return 0;
+    double grid = 1;
+    for (std::size_t j = 0; j < k; ++j) grid *= static_cast<double>(levels_of(points, j));
+    if (std::fmod(static_cast<double>(n), grid) == 0) return 0;
+    // Sums of scrambled coordinates: two rows without coordinate j are equal where theirs are.
+    const auto code = [&](std::size_t i, std::size_t j) {
+        return SplitMix64(std::bit_cast<std::uint64_t>(points[i][j] + 0.0) + j).next();
+    };
+    std::vector<std::uint64_t> whole(n);
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < k; ++j) whole[i] += code(i, j);
+    std::vector<bool> found(n);
+    for (std::size_t j = 0; j < k; ++j) {
+        run.check_stop();
+        std::vector<std::pair<std::uint64_t, std::size_t>> rows(n);
+        for (std::size_t i = 0; i < n; ++i) rows[i] = {whole[i] - code(i, j), i};
+        std::ranges::sort(rows);
+        for (std::size_t r = 1; r < n; ++r) {
+            const std::size_t a = rows[r - 1].second;
+            const std::size_t b = rows[r].second;
+            if (rows[r - 1].first == rows[r].first && points[a][j] != points[b][j])
+                found[a] = found[b] = true;
+        }
+    }
+    return static_cast<double>(std::ranges::count(found, true)) / static_cast<double>(n);
+}
+
+void note_dependence(const Inputs& in, const RunContext& run) {
+    const std::size_t n = in.runs();
+    const std::size_t k = in.size();
+    const double pairs = static_cast<double>(k) * static_cast<double>(k - 1) / 2;
+    if (k < 2 || std::max(pairs, 30.0) * static_cast<double>(n) > most_work) return;
+    const std::vector<double> ranks = ranks_of(in.values);
+    std::vector<double> squares(k);
+    std::vector<std::size_t> levels(k);
+    for (std::size_t i = 0; i < ranks.size(); ++i) squares[i % k] += std::pow(ranks[i] - 0.5, 2);
+    for (std::size_t j = 0; j < k; ++j) levels[j] = levels_of(in.values, j);
+    double largest = 0, correlation = 0;
+    std::pair<std::size_t, std::size_t> at;
+    for (std::size_t a = 0; a < k; ++a)
+        for (std::size_t b = a + 1; b < k; ++b) {
+            run.check_stop();
+            double sum = 0;
+            for (std::size_t i = 0; i < n; ++i)
+                sum += (ranks[i * k + a] - 0.5) * (ranks[i * k + b] - 0.5);
+            if (!(squares[a] * squares[b] > 0)) continue;
+            const double r = sum / std::sqrt(squares[a] * squares[b]);
+            // Rows that repeat coordinates are no independent ones; levels repeat them anyway.
+            constexpr std::size_t few = 30;
+            const std::size_t values = std::max(levels[a], levels[b]);
+            const double size = std::sqrt(static_cast<double>(values < few ? n : values) - 1);
+            if (std::abs(r) * size > largest) {
+                largest = std::abs(r) * size;
+                correlation = r;
+                at = {a, b};
+            }
+        }
+    // Of independent inputs it is exceeded once in 10^4 designs.
+    if (largest <= std::sqrt(2 * std::log(1e4 * pairs))) return;
+    run.notify(
+        fmt::format("the inputs {} and {} depend on each other: their rank correlation is "
+                    "{:.2f}; indices are those of independent inputs",
+                    in.names[at.first], in.names[at.second], correlation));
+}
+
+}  // namespace stipple::analyzers::sensitivity
