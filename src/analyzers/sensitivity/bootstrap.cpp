@@ -6,6 +6,7 @@
 
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
+#include "math/functions/normal_distribution.hpp"
 
 namespace stipple::analyzers::sensitivity {
 namespace {
@@ -38,8 +39,8 @@ void take_means(const TermTable& table, std::span<const double> uniform, std::sp
 }  // namespace
 
 std::vector<Index> bootstrapped(const TermTable& table, std::size_t count,
-                                const Statistics& statistics, const Setting& setting,
-                                const RunContext& run) {
+                                const Statistics& statistics, double caution,
+                                const Setting& setting, const RunContext& run) {
     const std::size_t rows = table.rows();
     std::vector<double> means(table.width, 0.0);
     for (std::size_t i = 0; i < table.terms.size(); ++i) means[i % table.width] += table.terms[i];
@@ -47,9 +48,10 @@ std::vector<Index> bootstrapped(const TermTable& table, std::size_t count,
     std::vector<double> values(count);
     statistics(means, values);
 
-    std::vector<double> resampled(setting.bootstrap * count);
+    const std::size_t resamples = rows < least_rows ? 0 : setting.bootstrap;
+    std::vector<double> resampled(resamples * count);
     constexpr std::size_t block = 4;
-    for_each_block(run, setting.bootstrap, block, [&](const Block& part) {
+    for_each_block(run, resamples, block, [&](const Block& part) {
         std::vector<double> uniform(rows);
         std::vector<double> own(table.width);
         for (std::uint64_t b = part.first; b < part.last; ++b) {
@@ -60,14 +62,20 @@ std::vector<Index> bootstrapped(const TermTable& table, std::size_t count,
     });
 
     std::vector<Index> indices(count);
-    std::vector<double> column(setting.bootstrap);
+    for (std::size_t v = 0; v < count; ++v) indices[v].value = values[v];
+    if (resamples == 0) return indices;
+    const auto n = static_cast<double>(rows);
+    const double tail =
+        normal_distribution(-std::sqrt(n / (n - 1)) * interval_quantile(setting.level, rows - 1));
+    std::vector<double> column(resamples);
     for (std::size_t v = 0; v < count; ++v) {
-        indices[v].value = values[v];
-        if (setting.bootstrap == 0) continue;
-        column.resize(setting.bootstrap);
-        for (std::size_t b = 0; b < column.size(); ++b) column[b] = resampled[b * count + v];
-        indices[v].low = quantile(column, 0.5 - setting.level / 2);
-        indices[v].high = quantile(column, 0.5 + setting.level / 2);
+        const auto end_at = [&](double p) {
+            column.resize(resamples);
+            for (std::size_t b = 0; b < resamples; ++b) column[b] = resampled[b * count + v];
+            return values[v] + (quantile(column, p) - values[v]) * (1 + caution / n);
+        };
+        indices[v].low = end_at(tail);
+        indices[v].high = end_at(1 - tail);
     }
     return indices;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "analyzers/sensitivity/effects.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -9,7 +11,7 @@
 #include "core/domain.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "math/functions/normal_distribution.hpp"
+#include "math/functions/distributions.hpp"
 
 namespace stipple::analyzers::sensitivity {
 
@@ -19,20 +21,35 @@ double Centred::variance() const {
     return sum / static_cast<double>(z.size());
 }
 
-Centred centred(std::span<const double> y, const std::string& name) {
-    Centred out{.z = {y.begin(), y.end()}};
-    for (const double value : y) out.mean += value / static_cast<double>(y.size());
-    double largest = 0;
+bool is_constant(std::span<const double> y) {
+    if (y.empty()) return true;
+    const auto [low, high] = std::ranges::minmax(y);
+    constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+    return high / 2 - low / 2 <= rounding * std::max(std::abs(low), std::abs(high)) / 2;
+}
+
+Centred centred(std::span<const double> y) {
+    const auto [low, high] = std::ranges::minmax(y);
+    const double largest = std::max(std::abs(low), std::abs(high));
+    if (!(largest > 0)) return {.z = {y.begin(), y.end()}};
+    // Sums of differences from the middle are exact to the last bits of these, not of the numbers.
+    const double middle = low / 2 + high / 2;
+    const double reach = std::max(high / 2 - low / 2, std::numeric_limits<double>::min());
+    Centred out{.z = {y.begin(), y.end()}, .unit = reach};
+    double mean = 0;
     for (double& value : out.z) {
-        value -= out.mean;
-        largest = std::max(largest, std::abs(value));
+        value = (value / 2 - middle / 2) / (reach / 2);
+        mean += value / static_cast<double>(y.size());
     }
-    constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
-    if (!(largest > rounding * std::abs(out.mean)))
-        fail(ErrorKind::input, "the output {} is constant: {} in all runs; it has no variance",
-             name, format_number(y.front()));
-    for (double& value : out.z) value /= largest;
-    out.unit = largest;
+    double most = 0;
+    for (double& value : out.z) {
+        value -= mean;
+        most = std::max(most, std::abs(value));
+    }
+    if (!(most > 0)) return out;
+    for (double& value : out.z) value /= most;
+    out.mean = middle + mean * reach;
+    out.unit = reach * most;
     return out;
 }
 
@@ -58,9 +75,13 @@ std::vector<std::size_t> complete_groups(std::span<const double> y, std::size_t 
     return complete;
 }
 
-Index normal_interval(double value, double standard_error, double level) {
-    const double reach = normal_quantile(0.5 + level / 2) * standard_error;
-    return {value, value - reach, value + reach};
+std::string too_few_for_intervals(std::size_t count, std::size_t least, const char* of_what) {
+    if (count >= least) return {};
+    return fmt::format("{} {}; intervals need {}", count, of_what, least);
+}
+
+double interval_quantile(double level, std::size_t freedom) {
+    return student_quantile((1 - level) / 2, static_cast<double>(freedom));
 }
 
 namespace {
@@ -126,17 +147,9 @@ std::vector<double> ranks_of(const PointSet& points) {
     return ranks;
 }
 
-UnitInputs unit_inputs(const Inputs& inputs, bool ranks) {
-    UnitInputs out = inputs.domain ? UnitInputs{by_domain(inputs), scale_of(*inputs.domain)}
-                                   : as_they_lie(inputs.values);
-    if (!ranks) return out;
-    std::vector<double> ranked = ranks_of(inputs.values);
-    constexpr double critical = 1.63;  // of Kolmogorov and Smirnov's statistic, at 1 %
-    const double most = critical / std::sqrt(static_cast<double>(inputs.runs()));
-    const bool uniform = std::ranges::equal(
-        out.u, ranked, [most](double u, double rank) { return std::abs(u - rank) <= most; });
-    const bool known = inputs.domain || std::string_view(out.scale) == "cube";
-    return known && uniform ? out : UnitInputs{.u = std::move(ranked), .scale = "ranks"};
+UnitInputs unit_inputs(const Inputs& inputs) {
+    return inputs.domain ? UnitInputs{by_domain(inputs), scale_of(*inputs.domain)}
+                         : as_they_lie(inputs.values);
 }
 
 }  // namespace stipple::analyzers::sensitivity

@@ -75,8 +75,9 @@ struct Effects {
     double variance = none;
     std::vector<IndexKind> kinds = {};
     std::vector<PairIndex> pairs = {};
+    Report details = {};            ///< further numbers, of the method's own
+    std::string no_intervals = {};  ///< why there are none; empty: there are, or none are expected
     std::vector<std::string> missing = {};  ///< why an input has no indices; may be empty
-    Report details = {};                    ///< further numbers, of the method's own
 };
 
 /// Whether a design has the rows that a method needs; where not, why.
@@ -99,8 +100,10 @@ struct Centred {
     [[nodiscard]] double variance() const;
 };
 
-/// @throws Error(input) for a constant output, of whose variance there are no shares
-Centred centred(std::span<const double> y, const std::string& name);
+/// Whether numbers differ by no more than rounding may: there are no shares of their variance.
+bool is_constant(std::span<const double> y);
+
+Centred centred(std::span<const double> y);
 
 /// The values of the runs that did not fail, and the numbers of these runs.
 std::vector<std::size_t> succeeded(std::span<const double> y);
@@ -109,19 +112,22 @@ std::vector<double> picked(std::span<const double> y, std::span<const std::size_
 /// The groups of so many consecutive runs none of which failed, by number.
 std::vector<std::size_t> complete_groups(std::span<const double> y, std::size_t group);
 
-/// value +- the normal quantile of the level times the standard error.
-Index normal_interval(double value, double standard_error, double level);
+/// Runs below which methods of any design give no intervals.
+inline constexpr std::size_t least_for_intervals = 20;
+std::string too_few_for_intervals(std::size_t count, std::size_t least, const char* of_what);
+
+/// Student's quantile of an interval of that level.
+double interval_quantile(double level, std::size_t freedom);
 
 /// Inputs in [0, 1], run after run, where they are uniform as far as that is known.
 struct UnitInputs {
     std::vector<double> u;
-    const char* scale;  ///< "cube", "box", "distributions", "range", "ranks"
+    const char* scale;  ///< "cube", "box", "distributions", "range"
 };
 
 /// As the distributions of the inputs' domain say; else as they are where all are in [0, 1], as points
-/// without provenance are taken to be; else scaled by their extremes. With `ranks`, those of no known
-/// domain, or not uniform there, are replaced by their ranks.
-UnitInputs unit_inputs(const Inputs& inputs, bool ranks);
+/// without provenance are taken to be; else scaled by their extremes.
+UnitInputs unit_inputs(const Inputs& inputs);
 
 /// (rank - 1/2) / n of each of n numbers; equal ones have the mean of theirs.
 std::vector<double> ranks_of(std::span<const double> values);

@@ -123,11 +123,12 @@ Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Res
         fail(ErrorKind::input,
              "the output {} has {} trajectories without failed runs; two are needed", response.name,
              trajectories.size());
-    const UnitInputs unit = unit_inputs(inputs, false);
+    const UnitInputs unit = unit_inputs(inputs);
     const double size = size_of(response.y);
     std::vector<double> y = response.y;
     for (double& value : y) value /= size;
     const EffectTable table = effect_table(layout, inputs.values, unit.u, y, trajectories);
+    constexpr double caution = 20;
     auto found = bootstrapped(
         table.terms, 3 * k,
         [&](std::span<const double> means, std::span<double> values) {
@@ -141,13 +142,15 @@ Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Res
                 values[2 * k + i] = std::sqrt(std::max(square, 0.0) * count / (count - 1));
             }
         },
-        setting, run);
+        caution, setting, run);
     for (Index& index : found) index = {index.value * size, index.low * size, index.high * size};
-    Effects effects{.used = trajectories.size() * layout.group,
-                    .samples = trajectories.size(),
-                    .kinds = {{"mu", part_of(found, 0, k)},
-                              {"mu_star", part_of(found, k, k)},
-                              {"sigma", part_of(found, 2 * k, k)}}};
+    Effects effects{
+        .used = trajectories.size() * layout.group,
+        .samples = trajectories.size(),
+        .kinds = {{"mu", part_of(found, 0, k)},
+                  {"mu_star", part_of(found, k, k)},
+                  {"sigma", part_of(found, 2 * k, k)}},
+        .no_intervals = too_few_for_intervals(trajectories.size(), least_rows, "trajectories")};
     effects.missing.assign(
         k, "it moves in too few trajectories, or the number is too large for float64");
     effects.details.add("scale", unit.scale);

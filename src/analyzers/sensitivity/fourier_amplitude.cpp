@@ -136,7 +136,7 @@ Effects fourier_amplitudes(const Layout& layout, const Inputs& inputs, const Res
              "the output {} has {} failed runs; a curve with gaps has no spectrum: run them again, "
              "or take --method rank or chaos",
              response.name, response.y.size() - runs.size());
-    const Centred f = centred(response.y, response.name);
+    const Centred f = centred(response.y);
     const Spectrum spectrum(n, layout.harmonics);
     Effects effects{.used = response.y.size(),
                     .samples = n,

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/parallel.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
 
 namespace stipple::analyzers::sensitivity {
 namespace {
@@ -19,56 +20,59 @@ void subtract(std::vector<double>& from, double factor, std::span<const double> 
     for (std::size_t i = 0; i < from.size(); ++i) from[i] -= factor * b[i];
 }
 
-/// One call: the fit grows column by column.
+/// One call: the fit grows column by column, by an orthonormal basis q of the columns that are in.
 class Pursuit {
   public:
     Pursuit(const Candidates& candidates, std::span<const double> z, const RunContext& run)
         : candidates_(candidates),
-          z_(z),
-          run_(worth_threads(silent(run), 1e-9 * static_cast<double>(candidates.values.size()))),
-          residual_(z.begin(), z.end()),
-          leverage_(z.size(), 0.0),
+          n_(candidates.rows.size()),
+          run_(run),
+          leverage_(n_, 0.0),
           usable_(candidates.columns, true),
           norms_(column_sums([](double v, double) { return v * v; })) {
-        const auto n = static_cast<double>(z.size());
-        append(std::vector(z.size(), 1 / std::sqrt(n)), {}, std::sqrt(n));
+        for (const std::size_t i : candidates.rows) residual_.push_back(z[i]);
+        const double root = std::sqrt(static_cast<double>(n_));
+        append(std::vector(n_, 1 / root), {}, root);
+        whole_ = dot(residual_, residual_);
         least_ = error();
     }
 
     SparseFit best() {
-        const std::size_t most = std::min({candidates_.columns, z_.size() / 2, most_terms});
+        const std::size_t most = std::min({candidates_.columns, n_ / 2, most_terms});
         constexpr std::size_t patience = 10;
         constexpr double exact = 1e-24;
         std::size_t best = 0;
-        while (fit_.chosen.size() < most && take_next()) {
+        while (whole_ > 0 && chosen_.size() < most && take_next()) {
             const double now = error();
             if (now < least_) {
                 least_ = now;
-                best = fit_.chosen.size();
+                best = chosen_.size();
             }
-            if (least_ < exact || fit_.chosen.size() > best + best / 4 + patience) break;
+            if (least_ < exact || chosen_.size() > best + best / 4 + patience) break;
         }
-        fit_.chosen.resize(best);
-        fit_.q.resize(best + 1);
-        fit_.back.resize(best + 1);
-        fit_.along.resize(best + 1);
-        fit_.error = least_;
-        return std::move(fit_);
+        chosen_.resize(best);
+        SparseFit fit{.error = least_, .chosen = std::move(chosen_)};
+        std::vector<double> c(best + 1, 0.0);
+        for (std::size_t s = 0; s <= best; ++s)
+            for (std::size_t row = 0; row <= s; ++row) c[row] += back_[s][row] * along_[s];
+        fit.constant = c.front();
+        fit.coefficients.assign(c.begin() + 1, c.end());
+        return fit;
     }
 
   private:
+    [[nodiscard]] const double* row(std::size_t i) const {
+        return candidates_.values.data() + candidates_.rows[i] * candidates_.columns;
+    }
+
     /// sum over the rows of term(value, residual), column by column.
     template <class Term>
     std::vector<double> column_sums(const Term& term) const {
         std::vector<double> sums(candidates_.columns, 0.0);
-        for_each_block(run_, candidates_.columns, 64, [&](const Block& block) {
-            for (std::size_t i = 0; i < z_.size(); ++i) {
-                const double* row = candidates_.values.data() + i * candidates_.columns;
-                const double rest = residual_[i];
-                for (std::uint64_t j = block.first; j < block.last; ++j)
-                    sums[j] += term(row[j], rest);
-            }
-        });
+        for (std::size_t i = 0; i < n_; ++i) {
+            const double rest = residual_.empty() ? 0 : residual_[i];
+            for (std::size_t j = 0; j < sums.size(); ++j) sums[j] += term(row(i)[j], rest);
+        }
         return sums;
     }
 
@@ -92,21 +96,20 @@ class Pursuit {
 
     /// Takes in a column; false: it depends on those that are in.
     bool orthogonalized(std::size_t column) {
-        std::vector<double> v(z_.size());
-        for (std::size_t i = 0; i < v.size(); ++i)
-            v[i] = candidates_.values[i * candidates_.columns + column];
-        std::vector<double> r(fit_.q.size(), 0.0);
+        std::vector<double> v(n_);
+        for (std::size_t i = 0; i < n_; ++i) v[i] = row(i)[column];
+        std::vector<double> r(q_.size(), 0.0);
         for (int pass = 0; pass < 2; ++pass)  // twice is enough
             for (std::size_t s = 0; s < r.size(); ++s) {
-                const double part = dot(fit_.q[s], v);
+                const double part = dot(q_[s], v);
                 r[s] += part;
-                subtract(v, part, fit_.q[s]);
+                subtract(v, part, q_[s]);
             }
         const double norm = std::sqrt(dot(v, v));
         constexpr double dependent = 1e-6;
         if (!(norm > dependent * std::sqrt(norms_[column]))) return false;
         for (double& value : v) value /= norm;
-        fit_.chosen.push_back(column);
+        chosen_.push_back(column);
         append(std::move(v), r, norm);
         return true;
     }
@@ -115,57 +118,49 @@ class Pursuit {
     void append(std::vector<double> q, std::span<const double> r, double norm) {
         std::vector<double> column(r.size() + 1, 0.0);
         for (std::size_t s = 0; s < r.size(); ++s)
-            for (std::size_t row = 0; row <= s; ++row)
-                column[row] -= fit_.back[s][row] * r[s] / norm;
+            for (std::size_t row = 0; row <= s; ++row) column[row] -= back_[s][row] * r[s] / norm;
         column.back() = 1 / norm;
         trace_ += dot(column, column);
         const double along = dot(q, residual_);
         subtract(residual_, along, q);
         for (std::size_t i = 0; i < q.size(); ++i) leverage_[i] += q[i] * q[i];
-        fit_.q.push_back(std::move(q));
-        fit_.back.push_back(std::move(column));
-        fit_.along.push_back(along);
+        q_.push_back(std::move(q));
+        back_.push_back(std::move(column));
+        along_.push_back(along);
     }
 
-    /// The corrected leave-one-out error of the fit as it is.
+    /// Of the fit as it is: see the header.
     [[nodiscard]] double error() const {
-        const auto n = static_cast<double>(z_.size());
+        const auto n = static_cast<double>(n_);
+        const auto terms = static_cast<double>(chosen_.size());
+        const auto candidates = static_cast<double>(std::max<std::size_t>(candidates_.columns, 2));
         double sum = 0;
-        for (std::size_t i = 0; i < z_.size(); ++i) {
+        for (std::size_t i = 0; i < n_; ++i) {
             const double left_out = residual_[i] / std::max(1 - leverage_[i], 1e-12);
             sum += left_out * left_out;
         }
-        const auto terms = static_cast<double>(fit_.q.size());
-        return sum / dot(z_, z_) * n / (n - terms) * (1 + trace_);
+        if (whole_ == 0) return sum;
+        return sum / whole_ * n / (n - terms - 1) * (1 + trace_) *
+               exponential(2 * terms * logarithm(candidates) / n);
     }
 
     Candidates candidates_;
-    std::span<const double> z_;
-    RunContext run_;
+    std::size_t n_;
+    const RunContext& run_;
     std::vector<double> residual_;
     std::vector<double> leverage_;
     std::vector<bool> usable_;
     std::vector<double> norms_;  ///< squared
+    double whole_ = 0;           ///< sum of squares about the mean
     double trace_ = 0;           ///< of the inverse of the Gram matrix
     double least_ = 1;
-    SparseFit fit_;
+    std::vector<std::size_t> chosen_;
+    std::vector<std::vector<double>> q_;     ///< that of the constant first
+    std::vector<std::vector<double>> back_;  ///< columns of the inverse of R, upper triangular
+    std::vector<double> along_;              ///< q . z
 };
 
 }  // namespace
-
-std::vector<double> SparseFit::coefficients() const {
-    std::vector<double> c(along.size(), 0.0);
-    for (std::size_t s = 0; s < along.size(); ++s)
-        for (std::size_t row = 0; row <= s; ++row) c[row] += back[s][row] * along[s];
-    c.erase(c.begin());
-    return c;
-}
-
-std::vector<double> SparseFit::residual(std::span<const double> z) const {
-    std::vector<double> rest(z.begin(), z.end());
-    for (std::size_t s = 0; s < q.size(); ++s) subtract(rest, along[s], q[s]);
-    return rest;
-}
 
 SparseFit sparse_fit(const Candidates& candidates, std::span<const double> z,
                      const RunContext& run) {

@@ -152,22 +152,27 @@ Effects pick_freeze(const Layout& layout, const Inputs& inputs, const Response& 
     if (complete.size() < 2)
         fail(ErrorKind::input, "the output {} has {} base rows without failed runs; two are needed",
              response.name, complete.size());
-    const Centred f = centred(joined(response.y, group, complete), response.name);
+    const Centred f = centred(joined(response.y, group, complete));
+    if (is_constant(f.z))
+        fail(ErrorKind::input, "the output {} is constant in the {} base rows without failed runs",
+             response.name, complete.size());
 
     const std::size_t pairs = group == k + 2 ? 0 : k * (k - 1) / 2;
     TermTable table{.terms = {}, .width = 2 + 2 * k + pairs};
     run.need_memory(8.0 * static_cast<double>(complete.size() * table.width), "the bootstrap");
     for (std::size_t at = 0; at < f.z.size(); at += group)
         append_terms(std::span(f.z).subspan(at, group), k, table.terms);
+    constexpr double caution = 50;
     const auto found = bootstrapped(
-        table, table.width, [k](auto means, auto values) { indices_of(means, k, values); }, setting,
-        run);
+        table, table.width, [k](auto means, auto values) { indices_of(means, k, values); }, caution,
+        setting, run);
     Effects effects{
         .used = f.z.size(),
         .samples = complete.size(),
         .mean = f.mean + f.unit * found[0].value,
         .variance = f.unit * f.unit * found[1].value,
-        .kinds = {{"first", part_of(found, 2, k)}, {"total", part_of(found, 2 + k, k)}}};
+        .kinds = {{"first", part_of(found, 2, k)}, {"total", part_of(found, 2 + k, k)}},
+        .no_intervals = too_few_for_intervals(complete.size(), least_rows, "base rows")};
     std::size_t at = 2 + 2 * k;
     for (std::size_t i = 0; at < found.size(); ++i)
         for (std::size_t j = i + 1; j < k; ++j) effects.pairs.push_back({i, j, found[at++]});

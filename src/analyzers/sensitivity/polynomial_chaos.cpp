@@ -1,189 +1,370 @@
 // SPDX-License-Identifier: MIT
 #include "analyzers/sensitivity/polynomial_chaos.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <map>
+#include <fmt/format.h>
 
-#include "analyzers/sensitivity/legendre_basis.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <string_view>
+
 #include "analyzers/sensitivity/matching_pursuit.hpp"
+#include "analyzers/sensitivity/orthonormal_basis.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/rng.hpp"
 
 namespace stipple::analyzers::sensitivity {
 namespace {
 
 constexpr std::size_t max_degree = 20;
+constexpr std::size_t fold_count = 5;
 
-/// A fit, and the terms that its columns are.
-struct Expansion {
-    std::size_t degree = 0;
-    std::vector<BasisTerm> terms = {};
-    SparseFit fit = {};
+/// The polynomials of the inputs in the runs that did not fail.
+struct Basis {
+    std::string scale;
+    std::vector<Polynomials> inputs = {};
+    bool known = false;  ///< for distributions that are known, not those of the sample
 };
 
-/// The fit among all terms of total degree up to p.
-Expansion expanded(std::size_t p, std::span<const double> u, std::size_t k,
-                   std::span<const double> z, const RunContext& run) {
-    const double rows = static_cast<double>(z.size());
-    run.need_memory(8 * rows * (term_count(k, p) + most_terms), "polynomial chaos");
-    Expansion out{.degree = p, .terms = basis_terms(k, p)};
-    const auto values = basis_values(u, k, out.terms, run);
-    out.fit = sparse_fit({values, out.terms.size()}, z, run);
-    std::vector<BasisTerm> chosen;
-    for (const std::size_t t : out.fit.chosen) chosen.push_back(std::move(out.terms[t]));
-    out.terms = std::move(chosen);
+/// Terms that are columns of a table, row after row.
+struct Table {
+    std::size_t degree;
+    std::vector<BasisTerm> terms;
+    std::vector<double> values;
+};
+
+/// A polynomial, and the runs that it has and has not seen.
+struct Fold {
+    std::vector<std::size_t> seen = {};
+    std::vector<std::size_t> unseen = {};
+    std::string scale = {};
+    std::size_t degree = 0;  ///< of its candidates; 0: none yet
+    double error = 0;
+    double constant = 0;
+    std::vector<BasisTerm> terms = {};
+    std::vector<double> coefficients = {};
+    std::vector<double> products = {};  ///< of coefficients and terms: a row an unseen run
+
+    [[nodiscard]] bool is_settled(std::size_t next_degree) const {
+        constexpr double enough = 1e-6;
+        constexpr std::size_t patience = 3;  // even and odd terms come by turns
+        return degree > 0 && (error < enough || next_degree > degree + patience);
+    }
+};
+
+std::vector<Fold> folds_of(std::size_t n) {
+    std::vector<std::size_t> order(n);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const Rng rng(1);
+    for (std::size_t i = n; i > 1; --i) std::swap(order[i - 1], order[rng.below(i, i)]);
+    std::vector<Fold> folds(fold_count);
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t f = 0; f < fold_count; ++f)
+            (i % fold_count == f ? folds[f].unseen : folds[f].seen).push_back(order[i]);
+    return folds;
+}
+
+/// Takes the best polynomial with terms of the table if it is better than the one so far.
+void improve(Fold& fold, const Table& table, const Basis& basis, std::span<const double> z,
+             const RunContext& run) {
+    const std::size_t columns = table.terms.size();
+    const SparseFit fit = sparse_fit({table.values, columns, fold.seen}, z, run);
+    if (fold.degree > 0 && !(fit.error < fold.error)) return;
+    fold.scale = basis.scale;
+    fold.degree = table.degree;
+    fold.error = fit.error;
+    fold.constant = fit.constant;
+    fold.coefficients = fit.coefficients;
+    fold.terms.clear();
+    for (const std::size_t t : fit.chosen) fold.terms.push_back(table.terms[t]);
+    fold.products.clear();
+    for (const std::size_t i : fold.unseen)
+        for (std::size_t t = 0; t < fit.chosen.size(); ++t)
+            fold.products.push_back(fit.coefficients[t] *
+                                    table.values[i * columns + fit.chosen[t]]);
+}
+
+/// The largest degree at which the candidates are not too many, at least 1.
+std::size_t bearable_degree(std::size_t k, std::size_t n) {
+    const double most = std::min(600.0, 1e7 / static_cast<double>(n));
+    std::size_t degree = 1;
+    while (degree < max_degree && term_count(k, degree + 1) <= most) ++degree;
+    return degree;
+}
+
+/// Folds with their best polynomials of all degrees that are bearable and may help, or of the given one.
+std::vector<Fold> fitted_folds(const Basis& basis, std::span<const double> z,
+                               const std::optional<std::size_t>& degree, const RunContext& run) {
+    std::vector<Fold> folds = folds_of(z.size());
+    const std::size_t k = basis.inputs.size();
+    const auto rows = static_cast<double>(z.size());
+    const std::size_t last = degree.value_or(bearable_degree(k, z.size()));
+    for (std::size_t p = degree.value_or(1); p <= last; ++p) {
+        run.tick(p - 1, max_degree);
+        if (std::ranges::all_of(folds, [p](const Fold& fold) { return fold.is_settled(p); })) break;
+        const double terms = term_count(k, p);
+        const double picked = std::min(terms, static_cast<double>(most_terms));
+        run.need_memory(8 * rows * (terms + picked * fold_count), "polynomial chaos");
+        Table table{.degree = p, .terms = basis_terms(basis.inputs, p), .values = {}};
+        table.values = basis_values(basis.inputs, z.size(), table.terms, run);
+        for_each_block(silent(run), folds.size(), 1, [&](const Block& block) {
+            Fold& fold = folds[block.index];
+            if (!fold.is_settled(p)) improve(fold, table, basis, z, run);
+        });
+    }
+    return folds;
+}
+
+/// A group of terms with an index: those with both inputs, or only they.
+struct Part {
+    std::size_t first;
+    std::size_t second;  ///< the same for one input
+    bool alone;          ///< no other input may be in the term
+
+    /// Whether a term has the inputs, and is of the group.
+    [[nodiscard]] std::pair<bool, bool> holds(const BasisTerm& term) const {
+        const auto has = [&](std::size_t i) {
+            return std::ranges::any_of(term, [i](const auto& factor) { return factor.first == i; });
+        };
+        const bool with = has(first) && has(second);
+        return {with, with && (!alone || term.size() == (first == second ? 1U : 2U))};
+    }
+};
+
+/// Sums over terms in the runs, each where it was not seen.
+struct Sums {
+    std::vector<double> norm;    ///< squares of coefficients
+    std::vector<double> own;     ///< values of the terms of the group
+    std::vector<double> around;  ///< values of all terms that have its inputs
+};
+
+template <class Holds>
+Sums sums_of(std::span<const Fold> folds, std::size_t n, const Holds& holds) {
+    Sums sums{std::vector(n, 0.0), std::vector(n, 0.0), std::vector(n, 0.0)};
+    for (const Fold& fold : folds)
+        for (std::size_t t = 0; t < fold.terms.size(); ++t) {
+            const auto [with, inside] = holds(fold.terms[t]);
+            if (!with) continue;
+            const double square = fold.coefficients[t] * fold.coefficients[t];
+            for (std::size_t r = 0; r < fold.unseen.size(); ++r) {
+                const std::size_t i = fold.unseen[r];
+                const double value = fold.products[r * fold.terms.size() + t];
+                sums.around[i] += value;
+                if (!inside) continue;
+                sums.own[i] += value;
+                sums.norm[i] += square;
+            }
+        }
+    return sums;
+}
+
+double mean_of(std::span<const double> values) {
+    double sum = 0;
+    for (const double value : values) sum += value;
+    return sum / static_cast<double>(values.size());
+}
+
+/// The polynomials' errors in runs that they have not seen, and the variance of the output.
+struct Judgement {
+    bool known = false;  ///< the inputs' distributions
+    std::vector<double> error;
+    std::vector<double> moving = {};  ///< whose mean is V: how a run moves it
+    double variance = 0;              ///< V
+    double q2 = 0;
+};
+
+Judgement judged(std::span<const Fold> folds, std::span<const double> z, bool known) {
+    const Sums all = sums_of(folds, z.size(), [](const auto&) { return std::pair(true, true); });
+    Judgement out{.known = known, .error = {z.begin(), z.end()}};
+    double squares = 0;
+    double whole = 0;
+    for (const Fold& fold : folds)
+        for (const std::size_t i : fold.unseen) out.error[i] -= fold.constant + all.own[i];
+    for (std::size_t i = 0; i < z.size(); ++i) {
+        const double r = out.error[i];
+        squares += r * r;
+        whole += z[i] * z[i];
+        const double term = all.norm[i] + 2 * all.own[i] * r + r * r;
+        out.variance += term;
+        out.moving.push_back(known ? term : z[i] * z[i]);
+    }
+    // A few wild predictions must not make it vanish.
+    out.variance = std::max(out.variance, whole / 2) / static_cast<double>(z.size());
+    out.q2 = 1 - squares / whole;
     return out;
 }
 
-/// The expansion of the degree that is given or, up to what is bearable, of the best one.
-Expansion best_expansion(std::span<const double> u, std::size_t k, std::span<const double> z,
-                         const std::optional<std::size_t>& degree, const RunContext& run) {
-    if (degree) return expanded(*degree, u, k, z, run);
-    constexpr double enough = 1e-6;
-    constexpr std::size_t patience = 3;  // even and odd terms come by turns
-    const double most = std::min(2000.0, 1e7 / static_cast<double>(z.size()));
-    Expansion best;
-    for (std::size_t p = 1; p <= max_degree; ++p) {
-        run.tick(p - 1, max_degree);
-        if (p > 1 && term_count(k, p) > most) break;
-        Expansion next = expanded(p, u, k, z, run);
-        if (p == 1 || next.fit.error < best.fit.error) best = std::move(next);
-        if (best.fit.error < enough || p >= best.degree + patience) break;
-    }
-    return best;
+/// The standard error of mean(values) / V.
+double error_of_ratio(std::span<const double> values, double ratio, const Judgement& judgement) {
+    std::vector<double> rest(values.begin(), values.end());
+    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= ratio * judgement.moving[i];
+    const double mean = mean_of(rest);
+    double squares = 0;
+    for (const double value : rest) squares += (value - mean) * (value - mean);
+    const auto n = static_cast<double>(rest.size());
+    return std::sqrt(squares / (n - 1) / n) / judgement.variance;
 }
 
-/// Where the squares of coefficients add up to indices: first, total, then pairs that have a term.
-class Shares {
-  public:
-    Shares(std::span<const BasisTerm> terms, std::size_t k) : terms_(terms), k_(k) {
-        for (const BasisTerm& term : terms)
-            if (term.size() == 2) pairs_.try_emplace({term[0].first, term[1].first}, 0);
-        std::size_t at = 2 * k;
-        for (auto& pair : pairs_) pair.second = at++;
-        for (const BasisTerm& term : terms)  // alone, as a pair, or nowhere
-            places_.push_back(term.size() == 1   ? term[0].first
-                              : term.size() == 2 ? pairs_.at({term[0].first, term[1].first})
-                                                 : at);
+Index index_of(const Sums& sums, const Judgement& judgement, double level) {
+    const std::size_t n = judgement.error.size();
+    std::vector<double> explained(n);
+    std::vector<double> moving(n);
+    double unexplained = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double r = judgement.error[i];
+        const double own = sums.own[i];
+        explained[i] = sums.norm[i] + 2 * own * r;
+        const double square = judgement.known ? sums.norm[i] : own * (2 * sums.around[i] - own);
+        moving[i] = square + 2 * own * r;
+        unexplained += r * r / static_cast<double>(n);
     }
-
-    [[nodiscard]] std::size_t size() const { return 2 * k_ + pairs_.size(); }
-    [[nodiscard]] const auto& pairs() const { return pairs_; }
-
-    void put(std::span<const double> coefficients, std::span<double> indices) const {
-        std::ranges::fill(indices, 0.0);
-        double all = 0;
-        for (std::size_t t = 0; t < terms_.size(); ++t) {
-            const double square = coefficients[t] * coefficients[t];
-            all += square;
-            if (places_[t] < indices.size()) indices[places_[t]] += square;
-            for (const auto& factor : terms_[t]) indices[k_ + factor.first] += square;
-        }
-        for (double& index : indices) index /= all;
-    }
-
-  private:
-    std::span<const BasisTerm> terms_;
-    std::size_t k_;
-    std::map<std::pair<std::size_t, std::size_t>, std::size_t> pairs_;
-    std::vector<std::size_t> places_;
-};
-
-/// The coefficients c of the fit without run i: c - (Gram matrix)^-1 psi_i e_i / (1 - h_i).
-void put_without(std::size_t i, const SparseFit& fit, double residual, std::vector<double>& c) {
-    double leverage = 0;
-    for (const auto& q : fit.q) leverage += q[i] * q[i];
-    const double error = residual / std::max(1 - leverage, 1e-12);
-    for (std::size_t s = 1; s < fit.q.size(); ++s)
-        for (std::size_t row = 1; row <= s; ++row)
-            c[row - 1] -= fit.back[s][row] * fit.q[s][i] * error;
+    Index index{.value = mean_of(explained) / judgement.variance};
+    if (n < least_for_intervals) return index;
+    const double high = index.value + unexplained / judgement.variance;
+    const double t = interval_quantile(level, n - 1);
+    index.low = index.value - t * error_of_ratio(moving, index.value, judgement);
+    for (std::size_t i = 0; i < n; ++i) moving[i] += judgement.error[i] * judgement.error[i];
+    index.high = high + t * error_of_ratio(moving, high, judgement);
+    return index;
 }
 
-/// The jackknife's standard errors.
-std::vector<double> jackknife(const SparseFit& fit, const Shares& shares,
-                              std::span<const double> indices, std::span<const double> z,
-                              const RunContext& run) {
-    const auto all = fit.coefficients();
-    const auto residual = fit.residual(z);
-    const std::size_t size = indices.size();
-    constexpr std::size_t rows = 256;
-    std::vector<std::vector<double>> sums(block_count(z.size(), rows));
-    for_each_block(silent(run), z.size(), rows, [&](const Block& block) {
-        auto& sum = sums[block.index];  // of differences, then of their squares
-        sum.assign(2 * size, 0.0);
-        std::vector<double> without(size);
-        for (std::uint64_t i = block.first; i < block.last; ++i) {
-            std::vector<double> c = all;
-            put_without(i, fit, residual[i], c);
-            shares.put(c, without);
-            for (std::size_t v = 0; v < size; ++v) {
-                const double difference = without[v] - indices[v];
-                sum[v] += difference;
-                sum[size + v] += difference * difference;
-            }
-        }
-    });
-    std::vector<double> total(2 * size, 0.0);
-    for (const auto& sum : sums)
-        for (std::size_t v = 0; v < total.size(); ++v) total[v] += sum[v];
-    const auto n = static_cast<double>(z.size());
-    std::vector<double> errors(size);
-    for (std::size_t v = 0; v < size; ++v)
-        errors[v] =
-            std::sqrt(std::max(total[size + v] - total[v] * total[v] / n, 0.0) * (n - 1) / n);
-    return errors;
+/// Whether ranks in [0, 1] are nearly the values, scaled.
+bool is_even(std::span<const double> x, std::span<const double> ranks) {
+    const auto [low, high] = std::ranges::minmax(x);
+    constexpr double most = 0.1;
+    const double extent = high / 2 - low / 2;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (std::abs(x[i] / 2 - low / 2 - ranks[i] * extent) > most * extent) return false;
+    return true;
 }
 
-/// The inputs of those runs in [0, 1], run after run, and where they are from.
-UnitInputs unit_inputs_of(const Inputs& inputs, std::span<const std::size_t> runs) {
-    const UnitInputs all = unit_inputs(inputs, true);
-    UnitInputs some{.u = {}, .scale = all.scale};
+/// Whether the mean and the variance of different numbers in [0, 1] are as of uniform ones, within so
+/// many standard errors.
+bool looks_uniform(std::span<const double> u, double errors) {
+    std::vector<double> sorted(u.begin(), u.end());
+    std::ranges::sort(sorted);
+    if (std::ranges::adjacent_find(sorted) != sorted.end()) return false;
+    const Polynomials legendre = legendre_polynomials(u, 2);
+    std::array<double, 3> sums = {};
+    for (std::size_t i = 0; i < legendre.values.size(); ++i) sums[i % 3] += legendre.values[i];
+    const double most = errors * std::sqrt(static_cast<double>(u.size()));
+    return std::abs(sums[1]) <= most && std::abs(sums[2]) <= most;
+}
+
+/// A column of a table, row after row of `width`, in those rows.
+std::vector<double> column_of(std::span<const double> table, std::size_t width, std::size_t j,
+                              std::span<const std::size_t> rows) {
+    std::vector<double> column;
+    column.reserve(rows.size());
+    for (const std::size_t i : rows) column.push_back(table[i * width + j]);
+    return column;
+}
+
+/// Polynomials of uniform inputs where these are known or look so, else of the values and, where that
+/// may matter, of their ranks.
+std::vector<Basis> bases_of(const Inputs& inputs, std::span<const std::size_t> runs,
+                            std::size_t degree) {
     const std::size_t k = inputs.size();
-    some.u.reserve(runs.size() * k);
-    for (const std::size_t i : runs)
-        std::ranges::copy(std::span(all.u).subspan(i * k, k), std::back_inserter(some.u));
-    return some;
+    const UnitInputs unit = unit_inputs(inputs);
+    const bool told = inputs.domain != nullptr;
+    const bool cube = told || std::string_view(unit.scale) == "cube";
+    Basis values{.scale = unit.scale, .known = told};
+    Basis ranks{.scale = "ranks"};
+    bool even = true;
+    for (std::size_t j = 0; j < k; ++j) {
+        const auto u = column_of(unit.u, k, j, runs);
+        if (cube && looks_uniform(u, told ? 5 : 2.6)) {
+            values.inputs.push_back(legendre_polynomials(u, degree));
+            ranks.inputs.push_back(values.inputs.back());
+            continue;
+        }
+        const auto x = column_of(inputs.values.flat(), k, j, runs);
+        const auto rank = ranks_of(x);
+        values.scale = "values";
+        values.known = false;
+        even = even && is_even(x, rank);
+        values.inputs.push_back(sample_polynomials(x, degree));
+        ranks.inputs.push_back(sample_polynomials(rank, degree));
+    }
+    std::vector<Basis> bases = {std::move(values)};
+    if (!even) bases.push_back(std::move(ranks));
+    return bases;
+}
+
+/// The pairs of inputs that are together in a term of two.
+std::set<std::pair<std::size_t, std::size_t>> pairs_in(std::span<const Fold> folds) {
+    std::set<std::pair<std::size_t, std::size_t>> pairs;
+    for (const Fold& fold : folds)
+        for (const BasisTerm& term : fold.terms)
+            if (term.size() == 2) pairs.emplace(term[0].first, term[1].first);
+    return pairs;
+}
+
+void add_details(Report& details, std::span<const Fold> folds, double q2,
+                 const std::string& scale) {
+    std::size_t degree = 0;
+    std::size_t terms = 0;
+    std::size_t by_ranks = 0;
+    for (const Fold& fold : folds) {
+        degree = std::max(degree, fold.degree);
+        terms = std::max(terms, fold.terms.size());
+        by_ranks += fold.scale == "ranks";
+    }
+    details.add("q2", q2);
+    details.add("degree", degree);
+    details.add("terms", terms);
+    details.add("scale", 2 * by_ranks > folds.size() ? "ranks" : scale);
 }
 
 }  // namespace
 
 std::optional<Effects> polynomial_chaos(const Inputs& inputs, const Response& response,
                                         const Setting& setting, const RunContext& run) {
-    const std::size_t k = inputs.size();
     const auto runs = succeeded(response.y);
     constexpr std::size_t least = 8;
     if (runs.size() < least)
         fail(ErrorKind::input, "the output {} has {} runs; polynomial chaos needs {}",
              response.name, runs.size(), least);
-    const Centred f = centred(picked(response.y, runs), response.name);
-    const UnitInputs unit = unit_inputs_of(inputs, runs);
-    const Expansion best = best_expansion(unit.u, k, f.z, setting.degree, run.stage(0, 0.9));
-    if (best.terms.empty()) return std::nullopt;
-
-    const Shares shares(best.terms, k);
-    std::vector<double> indices(shares.size());
-    shares.put(best.fit.coefficients(), indices);
-    const auto errors = jackknife(best.fit, shares, indices, f.z, run);
-    const auto index = [&](std::size_t v) {
-        return normal_interval(indices[v], errors[v], setting.level);
-    };
-    Effects effects{.used = runs.size(),
-                    .samples = runs.size(),
-                    .mean = f.mean,
-                    .variance = f.variance() * f.unit * f.unit,
-                    .kinds = {{"first", std::vector<Index>(k)}, {"total", std::vector<Index>(k)}}};
-    for (std::size_t i = 0; i < k; ++i) {
-        effects.kinds[0].of[i] = index(i);
-        effects.kinds[1].of[i] = index(k + i);
+    const Centred f = centred(picked(response.y, runs));
+    const std::size_t degree = setting.degree.value_or(bearable_degree(inputs.size(), runs.size()));
+    run.need_memory(16.0 * static_cast<double>(runs.size() * inputs.size() * (degree + 1)),
+                    "polynomial chaos");
+    std::vector<Fold> folds;
+    const auto bases = bases_of(inputs, runs, degree);
+    for (std::size_t b = 0; b < bases.size(); ++b) {
+        const auto share = 0.9 / static_cast<double>(bases.size());
+        auto next = fitted_folds(
+            bases[b], f.z, setting.degree,
+            run.stage(share * static_cast<double>(b), share * static_cast<double>(b + 1)));
+        if (b == 0) folds = next;
+        for (std::size_t i = 0; i < next.size(); ++i)
+            if (next[i].error < folds[i].error) folds[i] = std::move(next[i]);
     }
-    for (const auto& [pair, at] : shares.pairs())
-        effects.pairs.push_back({pair.first, pair.second, index(at)});
-    effects.details.add("q2", 1 - best.fit.error);
-    effects.details.add("degree", best.degree);
-    effects.details.add("terms", best.terms.size());
-    effects.details.add("scale", unit.scale);
+    if (std::ranges::all_of(folds, [](const Fold& fold) { return fold.terms.empty(); }))
+        return std::nullopt;
+
+    const Judgement judgement = judged(folds, f.z, bases[0].known);
+    const auto index = [&](const Part& part) {
+        run.check_stop();
+        const auto holds = [&](const BasisTerm& term) { return part.holds(term); };
+        return index_of(sums_of(folds, f.z.size(), holds), judgement, setting.level);
+    };
+    Effects effects{
+        .used = runs.size(),
+        .samples = runs.size(),
+        .mean = f.mean,
+        .variance = f.variance() * f.unit * f.unit,
+        .kinds = {{"first", {}}, {"total", {}}},
+        .no_intervals = too_few_for_intervals(runs.size(), least_for_intervals, "runs")};
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        effects.kinds[0].of.push_back(index({i, i, true}));
+        effects.kinds[1].of.push_back(index({i, i, false}));
+    }
+    for (const auto& [i, j] : pairs_in(folds)) effects.pairs.push_back({i, j, index({i, j, true})});
+    add_details(effects.details, folds, judgement.q2, bases[0].scale);
     return effects;
 }
 

@@ -16,31 +16,35 @@ struct Ordered {
     double z;
 };
 
-/// Sums over neighbors in the order of an input.
+/// Neighbors in the order of an input.
 struct Window {
     double size = 0;
     double mean = 0;
-    double squares = 0;
     double variance = 0;  ///< of one run, unbiased
+    bool constant;        ///< the input
 };
 
-/// Windows of at least `least` runs, two or more, none of which parts equal inputs.
+/// Windows of about as many runs, at least `least`, two or more, none of which parts equal inputs.
 std::vector<Window> windows_of(std::span<const Ordered> runs, std::size_t least) {
     std::vector<Window> windows;
     for (std::size_t first = 0, last = 0; first < runs.size(); first = last) {
+        const std::size_t rest = runs.size() - first;
+        const std::size_t count = std::max<std::size_t>(rest / least, 1);
+        const std::size_t size = (rest + count - 1) / count;
         double total = 0;
-        Window window;
+        double squares = 0;
         const auto goes_on = [&] {
-            const bool few = last - first < least || runs.size() - last < least;
+            const bool few = last - first < size || runs.size() - last < least;
             return last < runs.size() && (few || runs[last].x == runs[last - 1].x);
         };
         for (; goes_on(); ++last) {
             total += runs[last].z;
-            window.squares += runs[last].z * runs[last].z;
+            squares += runs[last].z * runs[last].z;
         }
-        window.size = static_cast<double>(last - first);
+        Window window{.size = static_cast<double>(last - first),
+                      .constant = runs[first].x == runs[last - 1].x};
         window.mean = total / window.size;
-        window.variance = (window.squares - total * window.mean) / (window.size - 1);
+        window.variance = std::max(squares - total * window.mean, 0.0) / (window.size - 1);
         windows.push_back(window);
     }
     return windows;
@@ -61,27 +65,55 @@ double chance_of(std::span<const Window> windows) {
     return std::min(independent, seen * all / (all - 2));
 }
 
+/// What sum n_g mean_g^2 would lose with windows of twice the size, on both ways to join neighbors.
+/// Where the input is constant in both, windows hide nothing.
+double hidden_in(std::span<const Window> windows) {
+    double sum = 0;
+    for (std::size_t g = 1; g < windows.size(); ++g) {
+        const Window& a = windows[g - 1];
+        const Window& b = windows[g];
+        if (a.constant && b.constant) continue;
+        const double step = b.mean - a.mean;
+        sum += (a.size * b.size * step * step - a.variance * b.size - b.variance * a.size) /
+               (a.size + b.size);
+    }
+    return std::max(sum, 0.0);
+}
+
+/// The variance of sum n_g mean_g^2 - S sum z^2.
+double variance_of(std::span<const Window> windows, std::span<const Ordered> runs, double index) {
+    double of_none = 0;
+    double sum = 0;
+    double squares = 0;
+    std::size_t at = 0;
+    for (const Window& window : windows) {
+        const double mean_square = window.mean * window.mean - window.variance / window.size;
+        of_none += 2 * window.size / (window.size - 1) * window.variance * window.variance;
+        for (const std::size_t last = at + static_cast<std::size_t>(window.size); at < last; ++at) {
+            const double z = runs[at].z;
+            const double others = (window.mean * window.size - z) / (window.size - 1);
+            const double term = 2 * z * others - mean_square - index * z * z;
+            sum += term;
+            squares += term * term;
+        }
+    }
+    const auto n = static_cast<double>(runs.size());
+    return std::max(squares - sum * sum / n, 0.0) * n / (n - 1) + of_none;
+}
+
 Index index_of(std::span<const Ordered> runs, double variance, double level) {
     const auto least = static_cast<std::size_t>(std::sqrt(static_cast<double>(runs.size())));
     const auto windows = windows_of(runs, least);
-    const auto count = static_cast<double>(windows.size());
     const double whole = variance * static_cast<double>(runs.size());
-    const double chance = chance_of(windows);
     double sum = 0;
     for (const Window& window : windows) sum += window.size * window.mean * window.mean;
-    const double index = (sum - chance) / whole;
-    double squares = 0;
-    double before = 0;
-    double of_none = 0;
-    const double mean_size = static_cast<double>(runs.size()) / count;
-    for (const Window& window : windows) {
-        const double w =
-            window.size * window.mean * window.mean - chance / count - index * window.squares;
-        squares += w * w - (1 - 1 / mean_size) * w * before;
-        before = w;
-        of_none += 2 * window.size / (window.size - 1) * window.variance * window.variance;
-    }
-    return normal_interval(index, std::sqrt(std::max(squares, of_none)) / whole, level);
+    Index index{.value = (sum - chance_of(windows)) / whole};
+    if (runs.size() < least_for_intervals) return index;
+    const double reach = interval_quantile(level, std::max(windows.size(), least) - 1) *
+                         std::sqrt(variance_of(windows, runs, index.value)) / whole;
+    index.low = index.value - reach;
+    index.high = index.value + reach + hidden_in(windows) / whole;
+    return index;
 }
 
 }  // namespace
@@ -95,13 +127,15 @@ Effects rank_indices(const Inputs& inputs, const Response& response, const Setti
              runs.size(), least);
     const std::size_t k = inputs.size();
     run.need_memory(24.0 * static_cast<double>(runs.size()) * run.thread_count(), "the ranks");
-    const Centred f = centred(picked(response.y, runs), response.name);
+    const Centred f = centred(picked(response.y, runs));
     const double variance = f.variance();
-    Effects effects{.used = runs.size(),
-                    .samples = runs.size(),
-                    .mean = f.mean,
-                    .variance = variance * f.unit * f.unit,
-                    .kinds = {{"first", std::vector<Index>(k)}}};
+    Effects effects{
+        .used = runs.size(),
+        .samples = runs.size(),
+        .mean = f.mean,
+        .variance = variance * f.unit * f.unit,
+        .kinds = {{"first", std::vector<Index>(k)}},
+        .no_intervals = too_few_for_intervals(runs.size(), least_for_intervals, "runs")};
     for_each_block(run, k, 1, [&](const Block& block) {
         const std::size_t i = block.index;
         std::vector<Ordered> ordered(runs.size());

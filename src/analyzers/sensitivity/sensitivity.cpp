@@ -68,7 +68,7 @@ constexpr Param<Choice> method{
     .choices = "auto|saltelli|morris|fast|rank|chaos",
     .help =
         "How the indices are estimated; auto: as the rows of the design show; where they show "
-        "nothing, chaos if its q2 is 0.8 or more, else rank"};
+        "nothing, chaos if its q2 is 0.8 or more, else rank; `reason` tells which"};
 
 constexpr Param<std::int64_t> bootstrap{
     .name = "bootstrap",
@@ -99,7 +99,7 @@ constexpr Param<std::int64_t> degree{
     .low = 1,
     .high = 20,
     .optional = true,
-    .help = "Of chaos: largest total degree; default: that of the least leave-one-out error"};
+    .help = "Of chaos: largest total degree; default: chosen for each polynomial by its own runs"};
 
 /// What there is to do.
 struct Plan {
@@ -169,23 +169,44 @@ Plan plan_of(const Inputs& in, const std::string& asked, const Setting& setting,
     return {};
 }
 
-/// By chaos or, where a polynomial explains too little, by ranks. Tells the method.
+/// By chaos or, where a polynomial predicts too little, by ranks. Tells the method, and why.
 Effects of_any_design(std::string& chosen, const Inputs& in, const Response& out,
                       const Setting& setting, const RunContext& run) {
     constexpr double enough = 0.8;
     constexpr std::size_t least = 8;  // runs of chaos
+    if (chosen == "rank") return rank_indices(in, out, setting, run);
     const bool both = chosen.empty();
-    if (chosen == "chaos" || (both && succeeded(out.y).size() >= least)) {
+    std::string reason = fmt::format("fewer than {} runs, which chaos needs", least);
+    if (!both || succeeded(out.y).size() >= least) {
         auto effects = polynomial_chaos(in, out, setting, both ? run.stage(0, 0.9) : run);
         if (!effects && !both)
             fail_with_hint(ErrorKind::input, "--method rank needs no polynomial",
                            "no polynomial predicts the output {} better than its mean", out.name);
         chosen = "chaos";
-        if (effects && (!both || effects->details.number("q2") >= enough))
+        if (!both) return *std::move(effects);
+        const double q2 = effects ? effects->details.number("q2") : 0;
+        const bool good = q2 >= enough;
+        reason =
+            fmt::format("q2 of chaos is {:.3g}, {}{}", q2, good ? "at least " : "below ", enough);
+        if (!effects) reason = "no polynomial predicts better than the mean";
+        if (good) {
+            effects->details.add("reason", reason);
             return *std::move(effects);
+        }
     }
     chosen = "rank";
-    return rank_indices(in, out, setting, both ? run.stage(0.9, 1) : run);
+    Effects effects = rank_indices(in, out, setting, run.stage(0.9, 1));
+    effects.details.add("reason", reason);
+    return effects;
+}
+
+/// Why an output has no indices by any method; empty: it may have.
+std::string why_none(const std::string& taken, const Response& out) {
+    const auto y = picked(out.y, succeeded(out.y));
+    if (y.empty()) return "all runs failed";
+    if (taken == "morris" || !is_constant(y)) return {};
+    return fmt::format("{} in all runs, but for rounding at most: there is no variance to share",
+                       format_number(y.front()));
 }
 
 Effects effects_of(Plan& plan, const Runs& runs, const Response& out, const Setting& setting,
@@ -250,6 +271,7 @@ Report report_of(const Effects& effects, const std::string& name, const Inputs& 
     if (std::isfinite(effects.mean)) report.add("mean", effects.mean);
     if (std::isfinite(effects.variance)) report.add("variance", effects.variance);
     for (const auto& entry : effects.details.entries()) report.entries().push_back(entry);
+    if (!effects.no_intervals.empty()) report.add("no_intervals", effects.no_intervals);
     std::vector<std::string> keys;
     for (std::size_t i = 0; i < in.size(); ++i) {
         keys.push_back(key_of(in.names[i], report));
@@ -264,13 +286,20 @@ Report report_of(const Effects& effects, const std::string& name, const Inputs& 
     return report;
 }
 
+/// Of an output without indices.
+Report report_of_none(const Response& out, const std::string& why) {
+    Report report;
+    report.add("failed", out.y.size() - succeeded(out.y).size());
+    return report.add("missing", why);
+}
+
 /// @throws Error(usage) for options of methods that were not used
 void check_options(const Values& options, const std::vector<std::string>& methods) {
     const auto require = [&](const auto& option, std::vector<std::string> of) {
         const auto used = [&](const std::string& name) {
             return std::ranges::find(methods, name) != methods.end();
         };
-        if (options.given(option) && std::ranges::none_of(of, used))
+        if (options.given(option) && !methods.empty() && std::ranges::none_of(of, used))
             fail(ErrorKind::usage, "--{} is of --method {}; this is {}", option.name,
                  join(of, " and "), methods.front());
     };
@@ -290,19 +319,30 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     Report report;
     std::vector<std::string> methods;
     const auto count = static_cast<double>(runs.responses.size());
-    for (const Response& out : runs.responses) {
-        const auto done = static_cast<double>(methods.size());
+    for (std::size_t r = 0; r < runs.responses.size(); ++r) {
+        const Response& out = runs.responses[r];
+        const auto done = static_cast<double>(r);
+        const std::string key = key_of(out.name, report);
         Plan own = plan;
-        const Effects effects =
-            effects_of(own, runs, out, setting, run.stage(done / count, (done + 1) / count));
-        tell_failures(out, effects, run);
-        const auto* scale = std::get_if<std::string>(effects.details.find("scale"));
-        if (scale != nullptr && *scale == "range" && methods.empty())
-            run.notify(
-                "the ranges of the inputs are not known; each is scaled by its own extremes; "
-                "--parameters, --bounds and the provenance of the design tell them");
-        methods.push_back(own.method);
-        report.add(key_of(out.name, report), report_of(effects, own.method, runs.inputs, out));
+        if (const std::string why = why_none(plan.method, out); !why.empty()) {
+            report.add(key, report_of_none(out, why));
+            continue;
+        }
+        try {
+            const Effects effects =
+                effects_of(own, runs, out, setting, run.stage(done / count, (done + 1) / count));
+            tell_failures(out, effects, run);
+            const auto* scale = std::get_if<std::string>(effects.details.find("scale"));
+            if (scale != nullptr && *scale == "range" && methods.empty())
+                run.notify(
+                    "the ranges of the inputs are not known; each is scaled by its own extremes; "
+                    "--parameters, --bounds and the provenance of the design tell them");
+            methods.push_back(own.method);
+            report.add(key, report_of(effects, own.method, runs.inputs, out));
+        } catch (const Error& error) {  // others may have indices
+            if (runs.responses.size() == 1 || error.kind() != ErrorKind::input) throw;
+            report.add(key, report_of_none(out, error.what()));
+        }
     }
     check_options(options, methods);
     run.tick(1, 1);
@@ -324,6 +364,11 @@ Analyzer unit() {
         .results =
             {{"OUTPUT.method", "saltelli, morris, fast, rank or chaos", true,
               "saltelli|morris|fast|rank|chaos"},
+             {"OUTPUT.reason",
+              "of auto, where the rows of the design show no method: why chaos or rank"},
+             {"OUTPUT.missing",
+              "in place of all numbers of an output: why it has none, such as a constant", false},
+             {"OUTPUT.no_intervals", "why indices have no intervals, such as few runs", false},
              {"OUTPUT.failed", "runs without this output"},
              {"OUTPUT.used", "runs that the indices are of"},
              {"OUTPUT.samples",
@@ -332,16 +377,19 @@ Analyzer unit() {
              {"OUTPUT.mean", "mean of the output; not of morris"},
              {"OUTPUT.variance", "its variance, of which the indices are shares; not of morris"},
              {"OUTPUT.q2",
-              "of chaos: share of the variance that the polynomial predicts of runs it has not "
-              "seen (leave-one-out)",
+              "of chaos: share of the variance that polynomials predict of runs that had no part "
+              "in "
+              "their choice (five-fold cross-validation); 0 or less where they predict nothing",
               false},
              {"OUTPUT.degree", "of chaos: largest total degree of the candidates", false},
-             {"OUTPUT.terms", "of chaos: terms of the polynomial, less the constant", false},
+             {"OUTPUT.terms", "of chaos: terms of the largest polynomial, without the constant",
+              false},
              {"OUTPUT.scale",
               "of morris and chaos: how inputs become numbers in [0, 1]: cube: they are; box: from "
               "the box that provenance or --bounds tell; distributions: as those of provenance or "
-              "--parameters; range: from their extremes; ranks",
-              false, "cube|box|distributions|range|ranks"},
+              "--parameters; range: from their extremes. Of chaos also values and ranks, whose "
+              "distribution is that of the sample",
+              false, "cube|box|distributions|range|values|ranks"},
              {"OUTPUT.INPUT.missing", "why some index of it is not there", false},
              {"OUTPUT.INPUT.first", "share of the variance that is due to the input alone"},
              {"OUTPUT.INPUT.first_low", "lower end of its interval; not of fast"},

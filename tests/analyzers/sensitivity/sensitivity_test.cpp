@@ -247,17 +247,61 @@ TEST(Sensitivity, RefusesColumnsThatAreNotThere) {
                 HasSubstr("a table of 1 column holds no inputs beside the outputs | --design"));
 }
 
-TEST(Sensitivity, RefusesConstantOutputs) {
-    for (const char* method : {"auto", "rank", "chaos"})
-        EXPECT_EQ(
-            refusal(with_outputs(points_in(make("sobol", points(16, 2))), [](auto) { return 0.1; }),
-                    {{"method", method}}),
-            "input: the output z is constant: 0.1 in all runs; it has no variance");
-    EXPECT_THAT(refusal(with_outputs(pick_freeze_rows(make("sobol", points(16, 4)), false),
-                                     [](auto) { return 0.1; })),
-                HasSubstr("is constant"));
+// Shares of no variance are missing, with the reason; rounding is no variance. Other outputs have theirs.
+TEST(Sensitivity, ConstantOutputsHaveNoIndices) {
+    const std::vector<std::pair<std::string, Rows>> designs = {
+        {"rank", points_in(make("sobol", points(64, 2)))},
+        {"chaos", points_in(make("sobol", points(64, 2)))},
+        {"saltelli", pick_freeze_rows(make("sobol", points(64, 4)), false)},
+        {"fast", fast_rows(129, 2, 1)}};
+    for (const auto& [method, rows] : designs) {
+        PointSet table(rows.size(), 7);
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const double step = static_cast<double>(i % 3) * 0x1p-50;
+            const double values[] = {rows[i][0],           rows[i][1],        5.3,
+                                     5.3 * (1 + step),     1e15 * (1 + step), std::nan(""),
+                                     1e15 + 8 * rows[i][0]};
+            std::ranges::copy(values, table[i].begin());
+        }
+        const Report report = analyze(
+            unit, table, {{"method", method}, {"inputs", "1,2"}, {"response", "3,4,5,6,7"}});
+        for (const char* key : {"x3", "x4", "x5"}) {
+            EXPECT_THAT(report.text(std::string(key) + ".missing"),
+                        HasSubstr("in all runs, but for rounding at most"))
+                << method << ' ' << key;
+            EXPECT_EQ(report.find(std::string(key) + ".x1"), nullptr) << method << ' ' << key;
+        }
+        EXPECT_EQ(report.text("x6.missing"), "all runs failed") << method;
+        EXPECT_EQ(report.number("x6.failed"), static_cast<double>(rows.size()));
+        EXPECT_NEAR(report.number("x7.x1.first"), 1, 0.3) << method;
+    }
     const PointSet trajectories = with_outputs(morris_rows(4, 2, 1), [](auto) { return 0.1; });
     EXPECT_EQ(measure(unit, "z.x.mu_star", trajectories), 0);  // no share of anything
+}
+
+TEST(Sensitivity, AnOutputWithTooFewRunsDoesNotHideOthers) {
+    PointSet table = with_outputs(points_in(make("sobol", points(64, 3))), linear);
+    for (std::size_t i = 3; i < 64; ++i) table[i][2] = std::nan("");
+    const Report report =
+        analyze(unit, table, {{"inputs", "1,2"}, {"response", "3,4"}, {"method", "rank"}});
+    EXPECT_EQ(report.text("x3.missing"), "the output x3 has 3 runs; ranks need 4");
+    EXPECT_NEAR(report.number("x4.x1.first"), 9. / 14, 0.1);
+}
+
+TEST(Sensitivity, SaysWhyItTookChaosOrRanks) {
+    const auto reason = [](std::size_t n, const Model& model) {
+        return analyze(unit, with_outputs(points_in(make("sobol", points(n, 2))), model))
+            .text("z.reason");
+    };
+    const Model sum = [](auto u) { return u[0] + u[1]; };
+    EXPECT_EQ(reason(64, sum), "q2 of chaos is 1, at least 0.8");
+    EXPECT_EQ(reason(7, sum), "fewer than 8 runs, which chaos needs");
+    const Rng rng(2);
+    EXPECT_THAT(reason(256,
+                       [&](auto u) {
+                           return u[0] + rng.uniform(static_cast<std::uint64_t>(u[1] * 0x1p40));
+                       }),
+                HasSubstr("below 0.8"));
 }
 
 TEST(Sensitivity, RefusesAMethodThatTheDesignIsNotFor) {
