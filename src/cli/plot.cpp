@@ -192,9 +192,9 @@ class Plot {
   private:
     /// The names that an option has between its commas.
     [[nodiscard]] std::vector<std::string> names_in_list(const char* option) const {
+        const std::string text = arguments_.get(option).value_or("");
         std::vector<std::string> names;
-        for (const auto name : split(arguments_.get(option).value_or(""), ','))
-            names.emplace_back(trim(name));
+        for (const auto name : split(text, ',')) names.emplace_back(trim(name));
         return names;
     }
 

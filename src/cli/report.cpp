@@ -15,6 +15,7 @@
 #include "core/text.hpp"
 #include "io/output.hpp"
 #include "io/source_text.hpp"
+#include "page/experiment.hpp"
 #include "page/html.hpp"
 #include "page/measures.hpp"
 #include "pipeline/chain.hpp"
@@ -278,6 +279,7 @@ class Reporter {
     void warn_of_nothing(const page::Set& set) const {
         const auto inputs = input_names(arguments_);
         if (std::ranges::find(inputs, set.source) == inputs.end() ||
+            page::is_experiment(set.domain) ||  // the page says why of each
             std::ranges::any_of(set.measures, [](const auto& m) { return m.results.has_value(); }))
             return;
         session_.warn(fmt::format(

@@ -299,7 +299,7 @@ def test_studies_are_tables(run):
 # Whatever two doubles coordinates are, there is a picture without a number that is none, or a refusal.
 def test_pictures_of_all_kinds_of_pairs():
     random = np.random.default_rng(3)
-    pairs = list(random.integers(0, 2**64, (300, 2), dtype=np.uint64).view(np.float64))
+    pairs = list(random.integers(0, 2**64, (60, 2), dtype=np.uint64).view(np.float64))
     pairs += [(x, np.nextafter(x, np.inf)) for x in (0.0, 1.0, 1e15, 1e300, -1e-300, 5e-324)]
     pairs += [(x, x) for x in (0.0, 1e-320, -1e307)] + [(-1e307, 1e307), (1e-300, 1e300), (-1e308, 1e308)]
     refused = 0
@@ -311,11 +311,11 @@ def test_pictures_of_all_kinds_of_pairs():
             try:
                 svg = stipple.plot(x).svg
             except stipple.Error as error:
-                assert "an axis reaches from" in str(error) and abs(x).max() > 1e307
+                assert "an axis reaches from" in str(error) and abs(x).max() > 6e306
                 refused += 1
                 continue
             assert len(svg) < 100_000 and not re.search(r"[ \"(ML,](-?nan|-?inf)[ \")<,]", svg), pair
-    assert 0 < refused < 400
+    assert 0 < refused < 100
 
 
 def test_pictures_and_pages(tmp_path):
