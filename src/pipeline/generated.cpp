@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/rng.hpp"
 #include "pipeline/earlier_runs.hpp"
 #include "pipeline/units.hpp"
 
@@ -340,13 +341,31 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
 
 namespace {
 
-/// Refuses what would take days. @throws Error(input)
-void check_share(std::uint64_t kept, std::uint64_t made) {
-    constexpr std::uint64_t enough = 3'000'000'000;
-    if (made < enough || static_cast<double>(kept) >= 1e-9 * static_cast<double>(made)) return;
-    fail(ErrorKind::input, "the constraints hold for {} of {:.2g} points: a share below {:.1g}",
-         kept == 0 ? "none" : std::to_string(kept), static_cast<double>(made),
-         3 / static_cast<double>(made));
+/// Refuses what would take long: after some seconds' points of d coordinates, a share below 1e-6.
+/// @throws Error(input)
+void check_share(std::uint64_t kept, std::uint64_t made, std::size_t d) {
+    const std::uint64_t enough =
+        std::max<std::uint64_t>(20'000'000 / std::max<std::size_t>(d, 2), 1'000'000);
+    if (made < enough || static_cast<double>(kept) > 1e-6 * static_cast<double>(made)) return;
+    fail_with_hint(ErrorKind::input,
+                   "constraints that hold on a surface alone, as with ==, never do at random",
+                   "the constraints hold for {} of {} points; a share above 1e-6 is needed",
+                   kept == 0 ? "none" : std::to_string(kept), made);
+}
+
+/// Looks for one random point that the constraints hold for, before large sets are made in vain.
+/// @throws Error(input)
+void look_for_one(const WarpChain& chain, std::size_t cube_dimension, const RunContext& run) {
+    const Rng rng(1, 0);
+    const std::size_t count = 1 + 0x40000 / cube_dimension;
+    std::vector<double> rows(count * cube_dimension);
+    std::uint64_t made = 0;
+    do {
+        check_share(0, made, cube_dimension);
+        rng.fill(made * cube_dimension, rows);
+        made += count;
+        run.check_stop();
+    } while (chain.mapped(rows, false, 0, run).empty());
 }
 
 }  // namespace
@@ -370,7 +389,7 @@ GeneratedSets::Images GeneratedSets::next_images(std::uint64_t set, const RunCon
                 fmt::format("the constraints hold for a share of {:.2g}{}; some {:.1g} more "
                             "points are needed",
                             share, images.kept == 0 ? " or less" : "", more));
-        check_share(images.kept, images.made);
+        check_share(images.kept, images.made, d);
         const std::uint64_t left = generator_.traits.max_index - images.made;
         if (left == 0)
             fail(ErrorKind::input, "the constraints hold for {} of the {} points that {} has",
@@ -424,6 +443,7 @@ GeneratedSets::Images GeneratedSets::images_of_more(std::uint64_t set, const Poi
             kept.size() / d, count, generator_.name));
         return {std::move(kept), count, kept.size() / d};
     }
+    if (kept.empty()) look_for_one(*chain, plan_.dimension, quiet);
     Images best{{}, count, 0};
     for (int step = 0; step < 12; ++step) {
         const std::uint64_t have = kept.size() / d;

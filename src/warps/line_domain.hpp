@@ -48,6 +48,7 @@ class LineDistribution {
     [[nodiscard]] virtual double measure() const {  ///< of all that it contains
         return range().second - range().first;
     }
+    /// Not finite where there is none, or none that is known.
     [[nodiscard]] virtual LineMoments moments() const = 0;
 
     /// Whether inverse() is the distribution function, which makes all intervals of the cube as
@@ -142,12 +143,7 @@ class LineDomain final : public NamedDomain {
     }
     std::optional<Moments> moments() const override {
         std::vector<LineMoments> each;
-        for (const auto& axis : axes_) {
-            each.push_back(axis->moments());
-            const auto [mean, variance, third] = each.back();
-            if (!std::isfinite(mean) || !std::isfinite(variance) || std::isnan(third))
-                return std::nullopt;
-        }
+        for (const auto& axis : axes_) each.push_back(axis->moments());
         return independent_moments(each);
     }
     std::vector<std::string> cube_axes() const override {

@@ -66,9 +66,14 @@ class MarginalLine final : public LineDistribution {
         if (endless_.first || endless_.second) return infinity;
         return law_->discrete() ? law_->outcomes() : ends_.second - ends_.first;
     }
+    /// NaN for those of more than one outcome that are beyond the range of numbers.
     LineMoments moments() const override {
+        constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
         const auto [mean, variance, skewness] = law_->moments();
-        return {mean, variance, skewness * variance * std::sqrt(variance)};
+        const double third = skewness * variance * std::sqrt(variance);
+        const bool lost = skewness != 0 && !(std::abs(third) >= 1e-300);
+        return {mean, variance == 0 && law_->outcomes() != 1 ? unknown : variance,
+                lost ? unknown : third};
     }
     /// In an endless direction, all but exp(-10) = 4.5e-5, or 6 times the middle two thirds.
     std::pair<double, double> range() const override {

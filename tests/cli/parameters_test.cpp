@@ -251,6 +251,20 @@ TEST_F(Parameters, ConstraintsLeaveAsManyPointsAsAreAskedFor) {
         "the constraints hold for none of");
 }
 
+// Equalities of what is continuous, and shares of 1e-8: by counting some million points.
+TEST_F(Parameters, ConstraintsThatHardlyEverHoldAreRefused) {
+    const auto refused = [&](const std::string& constraint, const std::string& unit) {
+        box.write("rare.json", R"({"parameters": [{"name": "a", "range": [0, 1]},
+            {"name": "b", "range": [0, 1]}], "constraints": [")" +
+                                   constraint + "\"]}");
+        expect_refusal(box.shell("stipple generate " + unit + " -n 10 --parameters rare.json"), 3,
+                       "the constraints hold for ");
+    };
+    refused("a == 0.5", "sobol");
+    refused("a == 0.5", "poisson-disk");
+    refused("a*b < 1e-10", "random");
+}
+
 // A Latin hypercube of twelve points: each twelfth of the cube's axes holds one, and so do the halves
 // and quarters that levels have.
 TEST_F(Parameters, OptimizedDesignsSatisfyConstraints) {

@@ -27,6 +27,7 @@
 //         (standard errors by the delta method).
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -62,6 +63,27 @@ SampleMoments exact_of(const Moments& moments) {
     const std::size_t d = moments.dimension();
     for (std::size_t k = 0; k < d; ++k) exact.variance.push_back(moments.covariance[k * d + k]);
     return exact;
+}
+
+/// Those that are numbers, and which are not.
+Report finite_of(const SampleMoments& exact) {
+    Report report;
+    std::vector<std::string> missing;
+    const auto add = [&](const char* name, const std::vector<double>& values) {
+        if (std::ranges::all_of(values, [](double x) { return std::isfinite(x); }))
+            report.add(name, values);
+        else
+            missing.emplace_back(name);
+    };
+    add("mean", exact.mean);
+    add("variance", exact.variance);
+    add("skewness", exact.skewness);
+    add("covariance", exact.covariance);
+    report.add("known", missing.empty());
+    if (!missing.empty())
+        report.add("missing", fmt::format("{}: infinite, not defined, or not known within 1e-9",
+                                          fmt::join(missing, ", ")));
+    return report;
 }
 
 /// The largest |value - exact| of n points on the cube, in standard errors of independent ones.
@@ -102,8 +124,7 @@ class Summation final : public SharedAccumulator {
         Report report = report_of(found.value);
         report.add("standard_error", report_of(found.error));
         const auto exact = domain_->moments();
-        Report law = exact ? report_of(exact_of(*exact)) : Report();
-        law.add("known", exact.has_value());
+        Report law = exact ? finite_of(exact_of(*exact)) : Report().add("known", false);
         law.add("law", fmt::format(fmt::runtime(level_ ? "uniform on {}" : "the density of {}"),
                                    domain_->title()));
         report.add("exact", std::move(law));
@@ -189,6 +210,9 @@ std::vector<ResultKey> results() {
          "whether the exact values of the domain's law are known: in closed form or, for "
          "formulas, by quadrature within 1e-6 of the range",
          true, true_or_false});
+    keys.push_back({"exact.missing",
+                    "which of them are not, because they are infinite, not defined, or not known",
+                    false});
     keys.push_back({"exact.law",
                     "whose they are: uniform on the domain, or its density; the law that is meant, "
                     "also where a biased method such as disk:method=naive made the points"});

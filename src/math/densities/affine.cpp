@@ -161,7 +161,7 @@ class AffineReader {
 
     static bool is_letter(char c) {
         return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-               c == '_';
+               c == '_' || c == '@';
     }
 
     std::optional<Affine> number() {

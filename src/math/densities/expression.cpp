@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -136,15 +137,19 @@ constexpr std::pair<const char*, mu::multfun_type> functions_of_many[] = {
 };
 
 int read_number(const char* text, int* at, double* value) {
-    const std::string_view rest(text);
-    if (rest.empty() || rest.find_first_of("0123456789.") != 0) return 0;  // no sign, no word
-    const auto [end, error] = std::from_chars(text, text + rest.size(), *value);
+    if (*text != '.' && !(*text >= '0' && *text <= '9')) return 0;  // no sign, no word
+    const char* last = text;
+    while (*last != 0 && std::string_view("0123456789.eE+-").find(*last) != std::string_view::npos)
+        ++last;
+    const auto [end, error] = std::from_chars(text, last, *value);
     if (error != std::errc()) return 0;
     *at += static_cast<int>(end - text);
     return 1;
 }
 
 constexpr char power_mark = '~';  // ^ is built in and the C library's; this one is ours
+
+constexpr char quote_mark = '@';  // begins what stands for a name in quotes
 
 constexpr std::string_view name_letters =
     "0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
@@ -157,7 +162,7 @@ constexpr std::string_view letters = "xyz";
 class Parser final : public mu::ParserBase {
   public:
     Parser(const std::string& text, const Names& names, std::vector<double>& variables) {
-        DefineNameChars(std::string(name_letters).c_str());
+        DefineNameChars(fmt::format("{}{}", name_letters, quote_mark).c_str());
         DefineOprtChars("+-*/^?<>=!&|~");
         DefineInfixOprtChars("+-");
         AddValIdent(read_number);
@@ -165,7 +170,7 @@ class Parser final : public mu::ParserBase {
         InitConst();
         InitOprt();
         EnableOptimizer(false);
-        for (const auto& [name, k] : names) DefineVar(name, &variables[k]);
+        for (std::size_t i = 0; i < names.size(); ++i) DefineVar(names[i].first, &variables[i]);
         std::string marked = text;
         std::ranges::replace(marked, '^', power_mark);
         SetExpr(marked);
@@ -238,12 +243,8 @@ std::string expectation(const mu::ParserError& error, const std::string& variabl
 
 /// The word or sign at the start of what muParser did not understand, which goes on to the end.
 std::string_view first_word(std::string_view rest) {
-    const auto is_name = [](char c) {
-        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-               c == '_';
-    };
-    const auto end = std::ranges::find_if_not(rest, is_name);
-    if (end != rest.begin()) return rest.substr(0, static_cast<std::size_t>(end - rest.begin()));
+    const std::size_t end = std::min(rest.find_first_not_of(name_letters), rest.size());
+    if (end > 0) return rest.substr(0, end);
     std::size_t size = std::min<std::size_t>(rest.size(), 1);  // and the other bytes of a character
     while (size < rest.size() && (static_cast<unsigned char>(rest[size]) & 0xC0U) == 0x80U) ++size;
     return rest.substr(0, size);
@@ -263,6 +264,8 @@ std::string_view first_word(std::string_view rest) {
     if (code != mu::ecUNASSIGNABLE_TOKEN) {
         std::string token = error.GetToken();
         std::ranges::replace(token, power_mark, '^');
+        if (token.starts_with(quote_mark))
+            token = text.substr(at, text.find(text[at], at + 1) + 1 - at);
         refuse(option, text, at + 1, token, expectation(error, variables));
     }
     const std::string word(first_word(text.substr(at)));
@@ -270,24 +273,225 @@ std::string_view first_word(std::string_view rest) {
            functions.contains(word) ? "expected '(' behind it" : expectation(error, variables));
 }
 
-/// A lone = would change a variable.
-void check_characters(std::string_view option, std::string_view text) {
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char before = i > 0 ? text[i - 1] : ' ';
-        const char behind = i + 1 < text.size() ? text[i + 1] : ' ';
-        if (text[i] == power_mark || text[i] == '"')
+/// A lone = would change a variable. @param marked the text as muParser gets it
+void check_characters(std::string_view option, std::string_view text, std::string_view marked) {
+    for (std::size_t i = 0; i < marked.size(); ++i) {
+        const char before = i > 0 ? marked[i - 1] : ' ';
+        const char behind = i + 1 < marked.size() ? marked[i + 1] : ' ';
+        const char c = marked[i];
+        if (c == power_mark || c == '"' || c == '\'' ||
+            (c == quote_mark && i < text.size() && text[i] == c))
             refuse(option, text, i + 1, text.substr(i, 1),
                    "expected a number, a variable or an operator");
-        if (text[i] != '=' || behind == '=') continue;
+        if (c != '=' || behind == '=') continue;
         if (before != '=' && before != '<' && before != '>' && before != '!')
             refuse(option, text, i + 1, "=", "expected == to compare");
     }
 }
 
+/// Where the part of a formula ends that begins at `from`: at a separator outside its parentheses.
+std::size_t part_end(std::string_view text, std::size_t from) {
+    std::size_t depth = 0;
+    for (std::size_t i = from; i < text.size(); ++i) {
+        if (text[i] == '(') ++depth;
+        if (depth == 0 && (text[i] == ')' || text[i] == ',' || text[i] == '?' || text[i] == ':' ||
+                           text[i] == '&' || text[i] == '|'))
+            return i;
+        if (text[i] == ')') --depth;
+    }
+    return text.size();
+}
+
+/// How many characters of a comparison begin here.
+std::size_t comparison_size(std::string_view rest) {
+    const bool two = rest.size() > 1 && rest[1] == '=';
+    if (rest[0] == '<' || rest[0] == '>') return two ? 2 : 1;
+    return (rest[0] == '=' || rest[0] == '!') && two ? 2 : 0;
+}
+
+/// a < b < c would compare c with 0 or 1.
+void refuse_chains(std::string_view option, std::string_view text, std::string_view marked) {
+    struct Part {
+        std::size_t begin = 0;
+        std::size_t operand = 0;  ///< behind its comparison; 0: it has none
+    };
+    std::vector<Part> parts(1);
+    for (std::size_t i = 0; i < marked.size(); ++i) {
+        const char c = marked[i];
+        if (c == '(') parts.push_back({.begin = i + 1});
+        if (c == ')' && parts.size() > 1) parts.pop_back();
+        if (c == ',' || c == '?' || c == ':' || c == '&' || c == '|') parts.back() = {i + 1};
+        const std::size_t size = comparison_size(marked.substr(i));
+        if (size == 0) continue;
+        const auto [begin, operand] = parts.back();
+        if (operand > 0 && !trim(text.substr(operand, i - operand)).empty()) {
+            const auto piece = [&](std::size_t from, std::size_t to) {
+                return trim(text.substr(from, to - from));
+            };
+            refuse(option, text, i + 1, text.substr(i, size),
+                   fmt::format("one comparison is compared with another; write {} && {} {}",
+                               piece(begin, i), piece(operand, i), piece(i, part_end(marked, i))));
+        }
+        i += size - 1;
+        parts.back().operand = i + 1;
+    }
+}
+
+std::string without_blanks(std::string_view text) {
+    std::string all;
+    char quote = 0;
+    for (const char c : text) {
+        if (quote == 0 && (c == '"' || c == '\''))
+            quote = c;
+        else if (c == quote)
+            quote = 0;
+        if (quote != 0 || (c != ' ' && c != '\t')) all += c;
+    }
+    return all;
+}
+
+/// A name, or what stands in quotes.
+struct Word {
+    std::size_t begin;
+    std::size_t end;
+    std::string text;
+    bool quoted;
+};
+
+/// Reads what names and words a formula has, and marks it for muParser: the same columns, with a
+/// variable or a number in place of each quoted text.
+class NameReader {
+  public:
+    NameReader(std::string_view option, std::string_view text, const FormulaNames& names)
+        : option_(option), text_(text), names_(names), marked_(text) {
+        for (std::size_t i = 0; i < text_.size();) {
+            double number = 0;
+            int at = 0;
+            const char c = text_[i];
+            const bool quotes = c == '"' || c == '\'';
+            if (read_number(text_.c_str() + i, &at, &number) != 0) {
+                i += static_cast<std::size_t>(at);
+            } else if (quotes || name_letters.find(c) != name_letters.npos) {
+                words_.push_back(quotes ? quoted(i) : name(i));
+                i = words_.back().end;
+            } else {
+                ++i;
+            }
+        }
+        for (std::size_t i = 0; i < words_.size(); ++i) {
+            const Word& word = words_[i];
+            if (word.quoted)
+                replace(i);
+            else if (may_name_variable(word.text))
+                use(word.text, word.text);
+        }
+    }
+
+    const std::string& marked() const { return marked_; }
+    const VariableNames& variables() const { return variables_; }
+
+  private:
+    Word name(std::size_t begin) const {
+        const std::string_view word = first_word(std::string_view(text_).substr(begin));
+        return {begin, begin + word.size(), std::string(word), false};
+    }
+    Word quoted(std::size_t begin) const {
+        const std::size_t end = text_.find(text_[begin], begin + 1);
+        if (end == text_.npos)
+            refuse(option_, text_, begin + 1, text_.substr(begin, 1),
+                   "expected another one behind");
+        return {begin, end + 1, text_.substr(begin + 1, end - begin - 1), true};
+    }
+
+    void use(const std::string& name, const std::string& marked) {
+        const auto k = names_.find(name);
+        if (k && used_.insert(marked).second) variables_.emplace_back(marked, *k);
+    }
+
+    /// The coordinate whose words word i is compared with.
+    std::optional<std::size_t> compared(std::size_t i) const {
+        for (const std::size_t left : {i - 1, i}) {
+            if (left + 1 == 0 || left + 1 >= words_.size()) continue;
+            const std::size_t from = words_[left].end;
+            const std::string_view sign =
+                trim(std::string_view(text_).substr(from, words_[left + 1].begin - from));
+            const auto k = names_.find(words_[left == i ? i + 1 : left].text);
+            if ((sign == "==" || sign == "!=") && k && !names_.words(*k).empty()) return k;
+        }
+        return std::nullopt;
+    }
+
+    void replace(std::size_t i) {
+        const Word& word = words_[i];
+        std::string by;
+        const auto name = names_.find(word.text);
+        if (const auto k = compared(i)) {
+            const auto& words = names_.words(*k);
+            const auto at = std::ranges::find(words, word.text);
+            if (at == words.end() && !name)
+                unknown(word, fmt::format("a level of {}", names_.names()[*k]), words);
+            if (at != words.end()) by = std::to_string(at - words.begin());
+        }
+        if (by.empty()) {
+            if (!name) unknown(word, "a name, or a level beside == or !=", names_.names());
+            by = fmt::format("{}{}", quote_mark, *name);
+            use(word.text, by);
+        }
+        // Those of very many names may be longer: then only columns in messages are others.
+        const std::size_t size = word.end - word.begin;
+        by.resize(std::max(by.size(), size), ' ');
+        marked_.replace(word.begin + shift_, size, by);
+        shift_ += by.size() - size;
+    }
+
+    [[noreturn]] void unknown(const Word& word, const std::string& expected,
+                              const std::vector<std::string>& known) const {
+        fail_with_hint(ErrorKind::usage, suggest(word.text, known),
+                       "--{}: '{}', column {}: {}: expected {}", option_, text_, word.begin + 1,
+                       text_.substr(word.begin, word.end - word.begin), expected);
+    }
+
+    std::string_view option_;
+    std::string text_;
+    const FormulaNames& names_;
+    std::string marked_;
+    std::vector<Word> words_;
+    VariableNames variables_;
+    std::unordered_set<std::string> used_;
+    std::size_t shift_ = 0;
+};
+
+/// Of the usual names, those that stand in a formula.
+VariableNames usual_in(std::string_view text, std::size_t dimension) {
+    VariableNames used;
+    for (auto& variable : usual_variables(dimension))
+        if (text.find(variable.first) != text.npos) used.push_back(std::move(variable));
+    return used;
+}
+
+/// Of names, for messages.
+std::string told_names(const FormulaNames& names) {
+    constexpr std::size_t most = 12;
+    std::vector<std::string> all;
+    for (std::size_t k = 0; k < std::min(most, names.size()); ++k) {
+        const std::string& name = names.names()[k];
+        all.push_back(may_name_variable(name) ? name : '"' + name + '"');
+    }
+    if (names.size() > most) all.emplace_back("...");
+    return fmt::format("{}", fmt::join(all, ", "));
+}
+
+/// x, y, z where they are no more; else x1, x2, ...
+std::string told_usual(std::size_t dimension) {
+    return dimension > letters.size()
+               ? fmt::format("x1 to x{}", dimension)
+               : fmt::format("{}", fmt::join(letters.substr(0, dimension), ", "));
+}
+
 /// A parser with its variables.
 struct Machine {
-    Machine(const std::string& text, const Names& names, std::size_t dimension)
-        : variables(dimension), parser(text, names, variables) {}
+    Machine(const std::string& text, const Names& names)
+        : variables(names.size()), parser(text, names, variables) {}
 
     std::vector<double> variables;
     Parser parser;
@@ -297,59 +501,52 @@ struct Machine {
 
 /// One for each thread.
 struct Expression::Machines {
-    Machines(const std::string& text, const Names& names, std::size_t dimension)
-        : of_threads(text, names, dimension) {}
+    Machines(const std::string& text, const Names& names) : of_threads(text, names) {}
 
     tbb::enumerable_thread_specific<Machine> of_threads;
 };
 
-/// The coordinates of a point as formulas call them.
-struct Expression::Variables {
-    std::size_t dimension = 0;
-    Names names = {};
-    std::string told = {};  ///< for messages
+void FormulaNames::add(const std::string& name, std::vector<std::string> words) {
+    places_.emplace(name, names_.size());
+    names_.push_back(name);
+    words_.push_back(std::move(words));
+}
 
-    /// x, y, z where they are no more; else x1, x2, ...
-    static Variables usual(std::size_t dimension) {
-        Variables all{.dimension = dimension, .names = usual_variables(dimension)};
-        all.told = dimension > letters.size()
-                       ? fmt::format("x1 to x{}", dimension)
-                       : fmt::format("{}", fmt::join(letters.substr(0, dimension), ", "));
-        return all;
-    }
-
-    static Variables named(const std::vector<std::string>& names) {
-        Variables all{.dimension = names.size(), .names = named_variables(names)};
-        for (const auto& variable : all.names)
-            all.told += (all.told.empty() ? "" : ", ") + variable.first;
-        return all;
-    }
-};
+std::optional<std::size_t> FormulaNames::find(const std::string& name) const {
+    const auto at = places_.find(name);
+    return at != places_.end() ? std::optional(at->second) : std::nullopt;
+}
 
 Expression::Expression(std::string_view option, std::string_view text, std::size_t dimension)
-    : Expression(option, text, Variables::usual(dimension)) {}
+    : variables_(usual_in(text, dimension)), dimension_(dimension) {
+    parse(option, text, std::string(text), told_usual(dimension));
+}
 
-Expression::Expression(std::string_view option, std::string_view text,
-                       const std::vector<std::string>& names)
-    : Expression(option, text, Variables::named(names)) {}
+Expression::Expression(std::string_view option, std::string_view text, const FormulaNames& names)
+    : dimension_(names.size()) {
+    const NameReader reader(option, text, names);
+    variables_ = reader.variables();
+    parse(option, text, reader.marked(), told_names(names));
+}
 
-Expression::Expression(std::string_view option, std::string_view text, const Variables& variables)
-    : dimension_(variables.dimension) {
-    check_characters(option, text);
-    for (const char c : text)
-        if (c != ' ' && c != '\t') text_ += c;
+void Expression::parse(std::string_view option, std::string_view text, const std::string& marked,
+                       const std::string& told) {
+    check_characters(option, text, marked);
+    refuse_chains(option, text, marked);
+    text_ = without_blanks(text);
+    plain_ = without_blanks(marked);
     std::optional<Machine> machine;
     try {
-        machine.emplace(std::string(text), variables.names, dimension_);
+        machine.emplace(marked, variables_);
         machine->parser.Eval();
         if (machine->parser.GetNumResults() > 1)
             refuse(option, text, text.rfind(',') + 1, ",",
                    "expected one formula, with commas between arguments of a function only");
     } catch (const mu::ParserError& error) {
-        explain(option, text, error, variables.told,
+        explain(option, text, error, told,
                 machine ? machine->parser.GetFunDef() : mu::funmap_type());
     }
-    machines_ = std::make_shared<Machines>(text_, variables.names, dimension_);
+    machines_ = std::make_shared<Machines>(plain_, variables_);
 }
 
 VariableNames usual_variables(std::size_t dimension) {
@@ -361,17 +558,10 @@ VariableNames usual_variables(std::size_t dimension) {
     return names;
 }
 
-VariableNames named_variables(const std::vector<std::string>& names) {
-    VariableNames variables;
-    for (std::size_t k = 0; k < names.size(); ++k)
-        if (may_name_variable(names[k])) variables.emplace_back(names[k], k);
-    return variables;
-}
-
 bool may_name_variable(std::string_view name) {
     if (name.empty() || name.find_first_not_of(name_letters) != std::string_view::npos)
         return false;
-    const auto functions = formula_functions();
+    static const std::vector<std::string> functions = formula_functions();
     return !(name[0] >= '0' && name[0] <= '9') && name != "e" && name != "pi" &&
            std::ranges::find(functions, name) == functions.end();
 }
@@ -389,7 +579,8 @@ double Expression::at(std::span<const double> point) const {
 void Expression::evaluate(std::span<const double> points, std::span<double> values) const {
     auto& [variables, parser] = machines_->of_threads.local();
     for (std::size_t i = 0; i < values.size(); ++i) {
-        std::copy_n(points.data() + i * dimension_, dimension_, variables.begin());
+        for (std::size_t j = 0; j < variables.size(); ++j)
+            variables[j] = points[i * dimension_ + variables_[j].second];
         values[i] = parser.Eval();
     }
 }

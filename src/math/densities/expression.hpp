@@ -4,7 +4,8 @@
 //
 // Variables, operators and functions are those of data/guide/formulas.md.
 //
-// Cost    some 10 ns an operation and point; parsing once a thread.
+// Cost    some 10 ns an operation and point; parsing once a thread. Names that do not stand in a
+//         formula cost nothing.
 // Promise the same bits on every machine: functions and ^ are those of src/math, not the C
 //         library's, and muParser's optimizer, which changes roundings, is off. Safe to use from
 //         several threads.
@@ -12,9 +13,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -26,21 +29,38 @@ using VariableNames = std::vector<std::pair<std::string, std::size_t>>;
 /// x1, x2, ... and, of up to three coordinates, x, y, z.
 VariableNames usual_variables(std::size_t dimension);
 
-/// Those of the names that are words of a formula.
-VariableNames named_variables(const std::vector<std::string>& names);
+/// What formulas call the coordinates of a point that have names of their own, and the words that
+/// stand for numbers 0, 1, ... of some of them.
+class FormulaNames {
+  public:
+    void add(const std::string& name, std::vector<std::string> words = {});
+    [[nodiscard]] std::size_t size() const { return names_.size(); }
+    [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+    [[nodiscard]] const std::vector<std::string>& words(std::size_t k) const { return words_[k]; }
+    /// Nothing for what is no name.
+    [[nodiscard]] std::optional<std::size_t> find(const std::string& name) const;
+
+  private:
+    std::vector<std::string> names_;
+    std::vector<std::vector<std::string>> words_;
+    std::unordered_map<std::string, std::size_t> places_;
+};
 
 class Expression {
   public:
     /// @throws Error(usage) "--OPTION: 'TEXT', column N: what is wrong; what is expected"
     Expression(std::string_view option, std::string_view text, std::size_t dimension);
 
-    /// Of a point whose coordinates have names of their own; those that are no words of a formula
-    /// (length, x_1) cannot stand in it. @throws Error(usage) as above
-    Expression(std::string_view option, std::string_view text,
-               const std::vector<std::string>& names);
+    /// Of a point whose coordinates have names of their own, in quotes where they are no words of a
+    /// formula ("cross section"), as are the words of coordinates: material == "steel".
+    /// @throws Error(usage) as above
+    Expression(std::string_view option, std::string_view text, const FormulaNames& names);
 
     /// The formula without blanks.
     [[nodiscard]] const std::string& text() const { return text_; }
+    /// The same without quotes, in these variables.
+    [[nodiscard]] const std::string& plain() const { return plain_; }
+    [[nodiscard]] const VariableNames& variables() const { return variables_; }
     [[nodiscard]] std::size_t dimension() const { return dimension_; }
 
     [[nodiscard]] double at(std::span<const double> point) const;
@@ -50,11 +70,13 @@ class Expression {
 
   private:
     struct Machines;
-    struct Variables;
 
-    Expression(std::string_view option, std::string_view text, const Variables& variables);
+    void parse(std::string_view option, std::string_view text, const std::string& marked,
+               const std::string& told);
 
     std::string text_;
+    std::string plain_;
+    VariableNames variables_;  ///< those that stand in it
     std::size_t dimension_;
     std::shared_ptr<Machines> machines_;
 };

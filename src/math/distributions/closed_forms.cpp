@@ -61,7 +61,42 @@ struct LogUniform {
         return (tail == Tail::lower ? log_1p((x - low) / low) : log_1p((high - x) / x)) / log_ratio;
     }
     double density(double x) const { return 1 / (x * log_ratio); }
+    MarginalMoments moments() const { return log_ratio < 4 ? narrow_moments() : wide_moments(); }
     std::pair<double, double> support() const { return {low, high}; }
+
+  private:
+    /// From E (x / high)^n = (1 - (low / high)^n) / (n log_ratio).
+    MarginalMoments wide_moments() const {
+        const auto raw = [&](double n) { return -exp_minus_1(-n * log_ratio) / (n * log_ratio); };
+        const double m = raw(1);
+        const double variance = raw(2) - m * m;
+        const double third = raw(3) - 3 * m * raw(2) + 2 * m * m * m;
+        return {high * m, high * high * variance, third / (variance * std::sqrt(variance))};
+    }
+
+    /// With h = log_ratio / 2 and g^2 = low high, central moments as series of terms above 0:
+    ///
+    ///     mean / g = sinh(h) / h,    variance / g^2 = sum_k 2 k (2 h)^(2 k) / (2 k + 2)!,
+    ///     third / g^3 = sum_k (9^k (2 k + 2) (2 k + 3) - 3/4 (9^(k+1) - 1) (2 k + 3)
+    ///                          + 3/2 (9^(k+1) - 1)) h^(2 k) / (2 k + 3)!
+    MarginalMoments narrow_moments() const {
+        const double h = 0.5 * log_ratio;
+        double mean = 0, variance = 0, third = 0;
+        double power = 1;  // h^(2 k) / (2 k + 1)!
+        double four = 1, nine = 1;
+        for (double k = 0; k < 30; ++k) {
+            const double below = 2 * k + 2;
+            mean += power;
+            variance += four * power * (2 * k / below);
+            third += power * (nine - 0.75 * (9 * nine - 1) * (2 * k + 1) / (below * (below + 1)));
+            power *= h * h / (below * (below + 1));
+            four *= 4;
+            nine *= 9;
+        }
+        const double middle = std::sqrt(low) * std::sqrt(high);
+        return {middle * mean, middle * middle * variance,
+                third / (variance * std::sqrt(variance))};
+    }
 };
 
 struct Triangular {
@@ -69,19 +104,29 @@ struct Triangular {
     double low;
     double mode;
     double high;
-    double below = (mode - low) / (high - low);  ///< probability below the mode
+    double below = (mode - low) / (high - low);   ///< probability below the mode
+    double above = (high - mode) / (high - low);  ///< and above it
 
+    /// From the nearer end, by sums of numbers above 0.
     double quantile(double p, Tail tail) const {
         const double from_low = tail == Tail::lower ? p : 1 - p;
         const double from_high = tail == Tail::lower ? 1 - p : p;
-        const double left = std::sqrt(from_low * below) * (high - low);
-        const double right = std::sqrt(from_high * (1 - below)) * (high - low);
-        return from_low < below ? low + left : high - right;
+        const bool left = below < 0.5 ? from_low < below : from_high > above;
+        const double rise = std::sqrt(left ? from_low * below : from_high * above);
+        const double rest =
+            (left ? from_high + above * from_low : from_low + below * from_high) / (1 + rise);
+        const double share = left ? rise : rest;  // of the width, from low
+        const double width = high - low;
+        return share < 0.5 ? low + share * width : high - (left ? rest : rise) * width;
     }
     double probability(double x, Tail tail) const {
-        const double y = x < mode ? (x - low) / (high - low) : (high - x) / (high - low);
-        const double share = y * y / (x < mode ? below : (high - mode) / (high - low));
-        return (x < mode) == (tail == Tail::lower) ? share : 1 - share;
+        const double y = (x - low) / (high - low);
+        const double rest = (high - x) / (high - low);
+        const bool left = x < mode;
+        const double share = left ? y * (y / below) : rest * (rest / above);
+        if (left == (tail == Tail::lower)) return share;
+        if (share < 0.5 || (left ? below : above) < 0.5) return 1 - share;
+        return left ? ((rest - above) + rest * y) / below : ((y - below) + y * rest) / above;
     }
     double density(double x) const {
         const double rise = x < mode ? (x - low) / (mode - low) : (high - x) / (high - mode);
@@ -186,7 +231,23 @@ struct Weibull {
         return shape / scale * real_power(y, shape - 1) *
                stipple::exponential(-real_power(y, shape));
     }
+    MarginalMoments moments() const {
+        if (shape > 10) return narrow_moments();
+        const double m = raw(1);
+        const double variance = raw(2) - m * m;
+        const double third = raw(3) - 3 * m * raw(2) + 2 * m * m * m;
+        return {scale * m, scale * scale * variance, third / (variance * std::sqrt(variance))};
+    }
     std::pair<double, double> support() const { return {0, infinite}; }
+
+  private:
+    /// Where raw ones would lose digits.
+    MarginalMoments narrow_moments() const {
+        const auto [mean, variance, skewness] = moments_by_quadrature(*weibull_law(shape, 1));
+        return {scale * mean, scale * scale * variance, skewness};
+    }
+    /// E (x / scale)^n.
+    double raw(double n) const { return stipple::exponential(log_gamma(1 + n / shape)); }
 };
 
 struct Gumbel {

@@ -114,7 +114,7 @@ std::vector<MarginalFamily> all_families() {
                  number("probability", 0.5, "Probability of success of each, between 0 and 1"))},
          [](const auto& p) { return binomial_law(p["trials"], p["probability"]); }},
         {"exponential",
-         {within(1e-300, 1e300, number("rate", 1, "Rate lambda, 1 / mean, above 0"))},
+         {within(1e-150, 1e150, number("rate", 1, "Rate lambda, 1 / mean, above 0"))},
          [](const auto& p) { return exponential_law(p["rate"]); }},
         {"gamma",
          {within(0.05, 1e6, number("shape", 2, "Shape k, in [0.05, 1e6]")),

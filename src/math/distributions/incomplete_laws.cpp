@@ -5,7 +5,8 @@
 //
 //     P(T > t) = I_z(nu / 2, 1 / 2) / 2,    z = nu / (nu + t^2),
 //
-// so that t = sqrt(nu (1 - z) / z); for small z, I_z(a, b) = z^a / (a B(a, b)) up to z of itself.
+// so that t = sqrt(nu (1 - z) / z); for small z, I_z(a, b) = z^a / (a B(a, b)) up to z of itself, and
+// P(T > t) = (t / sqrt(nu))^-nu / (nu B(nu / 2, 1 / 2)).
 
 #include <algorithm>
 #include <cmath>
@@ -80,8 +81,10 @@ struct StudentT {
     double degrees;
     double location;
     double scale;
-    double ratio = gamma_ratio(0.5 * degrees, 0.5);               ///< sqrt(pi) / B(nu / 2, 1 / 2)
-    double peak = ratio / std::sqrt(degrees * std::numbers::pi);  ///< density at 0
+    double ratio = gamma_ratio(0.5 * degrees, 0.5);                ///< sqrt(pi) / B(nu / 2, 1 / 2)
+    double peak = ratio / std::sqrt(degrees * std::numbers::pi);   ///< density at 0
+    double slope = degrees * std::sqrt(std::numbers::pi) / ratio;  ///< nu B(nu / 2, 1 / 2)
+    double far_out = 1e15 * std::sqrt(degrees);                    ///< beyond, t^2 + nu is t^2
 
     double quantile(double p, Tail tail) const {
         if (p == 0.5) return location;
@@ -91,17 +94,15 @@ struct StudentT {
     }
     double probability(double x, Tail tail) const {
         const double t = (x - location) / scale;
-        const double square = std::min(t * t / degrees, 1e300);
-        const double beyond = square < 1
-                                  ? 0.5 * beta_above(0.5, 0.5 * degrees, square / (1 + square))
-                                  : 0.5 * beta_below(0.5 * degrees, 0.5, 1 / (1 + square));
+        const double beyond = tail_beyond(std::abs(t));
         return (t < 0) == (tail == Tail::lower) ? beyond : 1 - beyond;
     }
     double density(double x) const {
-        const double t = (x - location) / scale;
-        return peak / scale *
-               stipple::exponential(-0.5 * (degrees + 1) *
-                                    log_1p(std::min(t * t / degrees, 1e300)));
+        const double t = std::abs(x - location) / scale;
+        const double power =
+            t > far_out ? real_power(t / std::sqrt(degrees), -degrees - 1)
+                        : stipple::exponential(-0.5 * (degrees + 1) * log_1p(t * t / degrees));
+        return peak / scale * power;
     }
     MarginalMoments moments() const {
         const double none = std::numeric_limits<double>::quiet_NaN();
@@ -116,8 +117,13 @@ struct StudentT {
     double standard_tail(double p) const {
         const auto [z, rest] = beta_quantile(0.5 * degrees, 0.5, 2 * p);
         if (z > 1e-30) return std::sqrt(degrees * rest / z);
-        const double beta = std::sqrt(std::numbers::pi) / ratio;
-        return std::sqrt(degrees) * real_power(p * degrees * beta, -1 / degrees);
+        return std::sqrt(degrees) * real_power(p * slope, -1 / degrees);
+    }
+    double tail_beyond(double t) const {
+        if (t > far_out) return real_power(t / std::sqrt(degrees), -degrees) / slope;
+        const double square = t * t / degrees;
+        return square < 1 ? 0.5 * beta_above(0.5, 0.5 * degrees, square / (1 + square))
+                          : 0.5 * beta_below(0.5 * degrees, 0.5, 1 / (1 + square));
     }
 };
 

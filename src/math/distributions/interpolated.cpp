@@ -10,6 +10,7 @@
 #include <cmath>
 #include <vector>
 
+#include "math/arithmetic/double_double.hpp"
 #include "math/distributions/laws.hpp"
 #include "math/distributions/marginal.hpp"
 
@@ -46,19 +47,27 @@ class Interpolated final : public Marginal {
         const std::size_t i = piece_of(x);
         return 1 / (pieces_ * (x_[i + 1] - x_[i]));
     }
-    /// Of uniform distributions on the pieces, mixed.
+    /// Of uniform distributions on the pieces, mixed; in units of the width, from a number in the
+    /// middle.
     MarginalMoments moments() const override {
-        double mean = 0;
-        for (std::size_t i = 0; i + 1 < x_.size(); ++i)
-            mean += (x_[i] + 0.5 * (x_[i + 1] - x_[i])) / pieces_;
-        double variance = 0, third = 0;
-        for (std::size_t i = 0; i + 1 < x_.size(); ++i) {
-            const double width = x_[i + 1] - x_[i];
-            const double from = x_[i] + 0.5 * width - mean;
-            variance += (from * from + width * width / 12) / pieces_;
-            third += from * (from * from + width * width / 4) / pieces_;
-        }
-        return {mean, variance, third / (variance * std::sqrt(variance))};
+        const double middle = x_[x_.size() / 2];
+        const double unit = x_.back() - x_.front();
+        const auto mean_of = [&](const auto& term) {
+            DoubleDouble sum;
+            for (std::size_t i = 0; i + 1 < x_.size(); ++i) {
+                const double width = (x_[i + 1] - x_[i]) / unit;
+                sum = sum + DoubleDouble{term((x_[i] - middle) / unit + 0.5 * width, width), 0};
+            }
+            return sum.high / pieces_;
+        };
+        const double m = mean_of([](double x, double /*width*/) { return x; });
+        const double variance =
+            mean_of([m](double x, double width) { return (x - m) * (x - m) + width * width / 12; });
+        const double third = mean_of([m](double x, double width) {
+            return (x - m) * ((x - m) * (x - m) + width * width / 4);
+        });
+        return {middle + unit * m, unit * unit * variance,
+                third / (variance * std::sqrt(variance))};
     }
     std::pair<double, double> support() const override { return {x_.front(), x_.back()}; }
     void quantiles(std::span<double> p) const override {

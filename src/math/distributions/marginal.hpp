@@ -9,9 +9,11 @@
 //     probability(x, upper)  1 - F(x)
 //
 // Shape   p in [0, 1]: 0 and 1 are the ends of the support, which may be infinite.
-// Promise quantiles and probabilities within 1e-13 of themselves, for probabilities from 1e-300 on,
-//         where a distribution does not say otherwise; a quantile that is a difference from a
-//         location, within 1e-13 of the larger of both. The same bits on every machine.
+// Promise quantiles, probabilities and densities within 1e-13 of themselves, for probabilities from
+//         1e-300 on, where a distribution does not say otherwise; a quantile that is a difference
+//         from a location or an end, within 1e-13 of the larger of both; a probability or density,
+//         as near as a change of x by 4 units in the last place leaves it. Moments within 1e-9 of
+//         themselves, skewness within 1e-9. The same bits on every machine.
 #pragma once
 
 #include <memory>
@@ -62,7 +64,8 @@ class Marginal {
     virtual void quantiles(std::span<double> p) const = 0;
 };
 
-/// By quadrature over p, for continuous distributions.
+/// By quadrature over p, for continuous distributions; not finite where more than a share of 1e-12
+/// lies beyond p = 1e-300, as of all that are infinite.
 MarginalMoments moments_by_quadrature(const Marginal& law);
 
 /// The distribution between two ends, either of which may be infinite, divided by its probability

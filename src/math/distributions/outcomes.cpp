@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "math/arithmetic/double_double.hpp"
+#include "math/arithmetic/quotient.hpp"
 #include "math/densities/guide_table.hpp"
 #include "math/distributions/laws.hpp"
 #include "math/distributions/outcomes.hpp"
@@ -71,17 +72,22 @@ double Outcomes::density(double x) const {
     return at != values_.end() && *at == x ? weights_[i] : 0;
 }
 
+/// From a value in the middle, in units of the largest distance.
 MarginalMoments Outcomes::moments() const {
-    double mean = 0;
-    for (std::size_t i = 0; i < values_.size(); ++i) mean += weights_[i] * values_[i];
-    double variance = 0;
-    double third = 0;
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-        const double from = values_[i] - mean;
-        variance += weights_[i] * from * from;
-        third += weights_[i] * from * from * from;
-    }
-    return {mean, variance, variance > 0 ? third / (variance * std::sqrt(variance)) : 0};
+    const double middle = quantile(0.5, Tail::lower);
+    const double unit = std::max(middle - values_.front(), values_.back() - middle);
+    if (unit == 0) return {middle, 0, 0};
+    const auto mean_of = [&](const auto& term) {
+        DoubleDouble sum;
+        for (std::size_t i = 0; i < values_.size(); ++i)
+            sum = sum + DoubleDouble{weights_[i] * term((values_[i] - middle) / unit), 0};
+        return sum.high;
+    };
+    const double m = mean_of([](double x) { return x; });
+    const double variance = mean_of([m](double x) { return (x - m) * (x - m); });
+    const double third = mean_of([m](double x) { return (x - m) * (x - m) * (x - m); });
+    return {middle + unit * m, unit * unit * variance,
+            variance > 0 ? third / (variance * std::sqrt(variance)) : 0};
 }
 
 void Outcomes::quantiles(std::span<double> p) const {
@@ -128,12 +134,6 @@ MarginalPtr Integers::between(double low, double high) const {
 }
 
 namespace {
-
-DoubleDouble quotient(const DoubleDouble& a, const DoubleDouble& b) {
-    const double q = a.high / b.high;
-    const DoubleDouble back = DoubleDouble{q, 0} * b;
-    return exact_sum(q, ((a.high - back.high) + (a.low - back.low)) / b.high);
-}
 
 /// Weights of first, ..., mode, ..., last, from ratios up(k) = p(k + 1) / p(k).
 template <class Ratio>

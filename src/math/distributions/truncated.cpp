@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <limits>
 
 #include "core/error.hpp"
 #include "math/densities/quadrature.hpp"
@@ -15,6 +15,9 @@
 #include "math/distributions/marginal.hpp"
 #include "math/distributions/marginal_of.hpp"
 #include "math/distributions/outcomes.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
+#include "math/functions/powers.hpp"
 
 namespace stipple {
 namespace {
@@ -76,30 +79,39 @@ class Truncated final : public Marginal {
     double mass_;
 };
 
-/// E (x - about)^n over both halves, with p = t^4 / 2 from their ends, where x may be endless.
-double moment_about(const Marginal& law, double about, int n) {
-    double sum = 0;
+/// E ((x - about) / unit)^n over both halves, with p = exp(-w) / 2 from their ends. NaN where it is
+/// infinite, or more of it than 1e-12 is beyond p = 1e-300.
+double moment_about(const Marginal& law, double about, double unit, int n) {
+    double sum = 0, size = 0, beyond = 0;
     for (const Tail tail : {Tail::lower, Tail::upper}) {
-        const auto f = [&](double t) {
-            const double p = 0.5 * t * t * t * t;
-            if (p < 1e-300) return 0.0;
-            double power = 2 * t * t * t;
-            for (int i = 0; i < n; ++i) power *= law.quantile(p, tail) - about;
-            return power;
+        double deepest = 690;
+        while (!std::isfinite(law.quantile(0.5 * exponential(-deepest), tail))) deepest -= 10;
+        const auto f = [&](double w) {
+            const double p = 0.5 * exponential(-w);
+            return p *
+                   whole_power((law.quantile(p, tail) - about) / unit, static_cast<std::size_t>(n));
         };
-        sum += integrate_interval(f, 0, 1).value;
+        const double part =
+            integrate_interval(f, 0, 10).value + integrate_interval(f, 10, deepest).value;
+        sum += part;
+        size += std::abs(part);
+        // As if it went on to fall as it does at the end.
+        const double last = std::abs(f(deepest));
+        const double fall = logarithm(std::abs(f(deepest - 10)) / last) / 10;
+        if (last > 0) beyond += fall > 0 ? last / fall : std::numeric_limits<double>::infinity();
     }
-    return sum;
+    return beyond <= 1e-12 * size ? sum : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
 
 MarginalMoments moments_by_quadrature(const Marginal& law) {
     const double middle = law.quantile(0.5);
-    const double mean = middle + moment_about(law, middle, 1);
-    const double variance = moment_about(law, mean, 2);
-    const double third = moment_about(law, mean, 3);
-    return {mean, variance, variance > 0 ? third / (variance * std::sqrt(variance)) : 0};
+    const double unit = law.quantile(0.25, Tail::upper) - law.quantile(0.25);
+    const double mean = middle + unit * moment_about(law, middle, unit, 1);
+    const double variance = moment_about(law, mean, unit, 2);
+    const double third = moment_about(law, mean, unit, 3);
+    return {mean, unit * unit * variance, third / (variance * std::sqrt(variance))};
 }
 
 MarginalPtr truncated(MarginalPtr law, double low, double high, std::string_view where) {

@@ -2,11 +2,13 @@
 #include "math/functions/incomplete_functions.hpp"
 
 #include <algorithm>
-#include <boost/math/special_functions/beta.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "math/arithmetic/quotient.hpp"
+#include "math/functions/distributions.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
 #include "math/functions/normal_distribution.hpp"
@@ -20,38 +22,67 @@ constexpr detail::NoErrors no_errors;
 
 /// Below this, both integrals are x^a over a constant, up to 1e-18 of themselves.
 constexpr double tiny = 1e-24;
+constexpr double log_tiny = -55;
+
+constexpr double no_end = std::numeric_limits<double>::infinity();
+
+double log_or_none(double x) { return x > 0 ? logarithm(x) : -no_end; }
 
 double near_0(double a, double p, Number constant) { return real_power(p * constant.value, 1 / a); }
 
 /// Of a density in proportion to x^(a - 1), `level` for a = 1.
 double density_at_0(double a, double level) {
     if (a == 1) return level;
-    return a < 1 ? std::numeric_limits<double>::infinity() : 0;
+    return a < 1 ? no_end : 0;
 }
 
-/// A probability, and how it rises.
+/// The logarithm of a probability, and how it rises.
 struct Rise {
-    double value;
+    double log;
     double slope;
 };
 
-/// The t at which a probability that rises with t is p. In log x and log(x / (1 - x)), densities of
-/// gamma and beta distributions are log-concave, so that the logarithm of the probability is
-/// concave, for which Newton's steps close in from below, wherever they begin; where numbers end,
-/// the interval is halved.
+/// The t at which a probability that rises with t has this logarithm. In log x and log(x / (1 - x)),
+/// densities of gamma and beta distributions are log-concave, so that the logarithm of the
+/// probability is concave, for which Newton's steps close in from below, wherever they begin; where
+/// numbers end, the interval is halved.
 template <class Function>
-double solve(const Function& probability, double p, double t) {
+double solve(const Function& probability, double log_p, double t) {
     double low = -745;
     double high = 745;
     for (int step = 0; step < 200; ++step) {
-        const auto [value, slope] = probability(t);
-        (value < p ? low : high) = t;
-        const bool ends = !(value > 0 && slope > 0);
-        const double next = ends ? low : t + value / slope * logarithm(p / value);
+        const auto [log, slope] = probability(t);
+        (log < log_p ? low : high) = t;
+        const bool ends = !(std::isfinite(log) && slope > 0);
+        const double next = ends ? low : t + (log_p - log) / slope;
         if (std::abs(next - t) < 1e-9 && !ends) return next;
         t = next > low && next < high ? next : 0.5 * (low + high);
     }
     return t;
+}
+
+/// Watches the factors of a continued fraction until they are 1, up to what roundings make of them.
+class Convergence {
+  public:
+    bool reached(double factor) {
+        const double off = std::abs(factor - 1);
+        const bool end = !(off > 1e-16) || (off < 1e-15 && off >= last_);
+        last_ = off;
+        return end;
+    }
+
+  private:
+    double last_ = no_end;
+};
+
+DoubleDouble log_of(const DoubleDouble& x) {
+    return logarithm_parts(x.high) + DoubleDouble{x.low / x.high, 0};
+}
+
+/// Down to the smallest doubles.
+double exp_of(const DoubleDouble& x) {
+    const double power = x.high > 709 ? no_end : exponential(x.high < -700 ? x.high + 100 : x.high);
+    return (power + power * x.low) * (x.high < -700 ? exponential(-100) : 1);
 }
 
 /// The cube of a normal variable, nearly: Wilson and Hilferty's.
@@ -68,14 +99,61 @@ double gamma_ratio(double x, double delta) {
     return 1 / boost::math::tgamma_delta_ratio(Number(x), Number(delta), no_errors).value;
 }
 
+DoubleDouble log_share(double a, const DoubleDouble& ratio) {
+    return DoubleDouble{a, 0} * log_of(ratio);
+}
+
+namespace {
+
+/// log(x^a exp(-x) / Gamma(a + 1)).
+DoubleDouble gamma_log_power(double a, double x) {
+    return log_share(a, quotient({x, 0}, {a, 0})) + exact_sum(a, -x) +
+           DoubleDouble{-log_excess(a), 0};
+}
+
+/// Where Boost's powers lose digits: large parameters, outside Temme's expansion.
+bool far_out(double a, double x) {
+    return a > 200 && x > 0 && (x - a) * (x - a) > 19 * a && x < no_end;
+}
+
+/// Q for x > a, and P for x < a, by the continued fraction and the series of powers.
+double gamma_tail(double a, double x) {
+    const double power = exp_of(gamma_log_power(a, x));
+    double sum = 1;
+    if (x < a) {
+        double term = 1;
+        for (double n = a + 1; term > 1e-17 * sum; ++n) sum += term *= x / n;
+        return power * sum;
+    }
+    // Lentz's way from the top, for 1 / (x + 1 - a - 1 (1 - a) / (x + 3 - a - ...)).
+    double b = x + 1 - a;
+    double c = no_end;
+    double d = 1 / b;
+    sum = d;
+    Convergence factors;
+    for (double i = 1, step = 0; !factors.reached(step); ++i) {
+        b += 2;
+        d = 1 / (b - i * (i - a) * d);
+        c = b - i * (i - a) / c;
+        step = c * d;
+        sum *= step;
+    }
+    return power * a * sum;
+}
+
+}  // namespace
+
 double gamma_below(double a, double x) {
+    if (far_out(a, x)) return x < a ? gamma_tail(a, x) : 1 - gamma_tail(a, x);
     return boost::math::gamma_p(Number(a), Number(x), no_errors).value;
 }
 double gamma_above(double a, double x) {
+    if (far_out(a, x)) return x > a ? gamma_tail(a, x) : 1 - gamma_tail(a, x);
     return boost::math::gamma_q(Number(a), Number(x), no_errors).value;
 }
 double gamma_density(double a, double x) {
     if (x <= 0) return density_at_0(a, 1);
+    if (a > 200) return a / x * exp_of(gamma_log_power(a, x));
     return boost::math::gamma_p_derivative(Number(a), Number(x), no_errors).value;
 }
 
@@ -89,9 +167,10 @@ double gamma_quantile(double a, double p) {
     }
     const auto below = [a](double t) {
         const double x = exponential(t);
-        return Rise{gamma_below(a, x), x * gamma_density(a, x)};
+        const double value = gamma_below(a, x);
+        return Rise{log_or_none(value), x * gamma_density(a, x) / value};
     };
-    return exponential(solve(below, p, logarithm(start)));
+    return exponential(solve(below, logarithm(p), logarithm(start)));
 }
 
 double gamma_upper_quantile(double a, double q) {
@@ -101,20 +180,124 @@ double gamma_upper_quantile(double a, double q) {
     const double start = std::min(most, gamma_start(a, -normal_quantile(q)));
     const auto above = [a](double t) {
         const double x = exponential(-t);
-        return Rise{gamma_above(a, x), x * gamma_density(a, x)};
+        const double value = gamma_above(a, x);
+        return Rise{log_or_none(value), x * gamma_density(a, x) / value};
     };
-    return exponential(-solve(above, q, -logarithm(start)));
+    return exponential(-solve(above, -log, -logarithm(start)));
 }
 
+namespace {
+
+/// x and 1 - x.
+struct Parts {
+    DoubleDouble x;
+    DoubleDouble rest;
+};
+
+Parts parts_of(double x) { return {{x, 0}, exact_sum(1, -x)}; }
+
+/// x, or by 1 - x where that is nearer to 0.
+Parts parts_of(const Shares& at) {
+    if (at.x < at.rest) return parts_of(at.x);
+    const auto [x, rest] = parts_of(at.rest);
+    return {rest, x};
+}
+
+/// I_x(a, b) over and over, for the same a and b.
+class BetaFunction {
+  public:
+    BetaFunction(double a, double b)
+        : a_(a),
+          b_(b),
+          sum_(exact_sum(a, b)),
+          front_(log_excess(sum_.high) - log_excess(a) - log_excess(b)) {}
+
+    /// log(x^a (1 - x)^b / B(a, b)), from what is 0 where x = a / (a + b).
+    DoubleDouble log_power(const Parts& at) const {
+        return log_share(a_, quotient(sum_ * at.x, {a_, 0})) +
+               log_share(b_, quotient(sum_ * at.rest, {b_, 0})) +
+               DoubleDouble{front_ + logarithm(a_ * b_ / sum_.high), 0};
+    }
+
+    /// log(a B(a, b)): for small x, I_x = x^a / (a B(a, b)).
+    double log_constant() const {
+        const DoubleDouble log =
+            log_share(a_, quotient({a_, 0}, sum_)) + log_share(b_, quotient({b_, 0}, sum_));
+        return log.high + (log.low - (front_ + logarithm(b_ / sum_.high)));
+    }
+
+    /// Whether I_x is the one of both tails to begin with.
+    bool lower_first(const Parts& at) const { return at.x.high * (sum_.high + 0.6) <= a_ + 0.3; }
+
+    double below(const Parts& at) const {
+        return lower_first(at) ? exp_of(log_power(at)) / fraction(at)
+                               : 1 - mirrored().below({at.rest, at.x});
+    }
+    double above(const Parts& at) const { return mirrored().below({at.rest, at.x}); }
+
+    /// Of log I_x in log(x / (1 - x)).
+    Rise rise(const Parts& at) const {
+        const DoubleDouble log = log_power(at);
+        if (lower_first(at)) {
+            const double under = fraction(at);
+            return {log.high + (log.low - logarithm(under)), under};
+        }
+        const double value = below(at);
+        return {log_or_none(value), exp_of(log) / value};
+    }
+
+  private:
+    BetaFunction mirrored() const {
+        BetaFunction other = *this;
+        std::swap(other.a_, other.b_);
+        return other;
+    }
+
+    /// x^a (1 - x)^b / B(a, b) over I_x, from the first to the last term.
+    double fraction(const Parts& at) const {
+        const double x = at.x.high;
+        const double y = at.rest.high;
+        const double sum = sum_.high;
+        const DoubleDouble a_y = DoubleDouble{a_, 0} * at.rest;
+        const DoubleDouble b_x = DoubleDouble{-b_, 0} * at.x;
+        const double off = (a_y + b_x).high;  // 0 where x = a / (a + b)
+        double value = a_ * (off + 1) / (a_ + 1);
+        double c = value;
+        double d = 0;
+        Convergence factors;
+        for (double m = 1, step = 0; !factors.reached(step); ++m) {
+            const double odd = a_ + 2 * m - 1;
+            const double top = (a_ + m - 1) / odd * ((sum + m - 1) / odd) * m * (b_ - m) * x * x;
+            const double bottom =
+                m + m * (b_ - m) * x / odd + (a_ + m) * (off + 1 + m * (1 + y)) / (odd + 2);
+            d = 1 / (bottom + top * d);
+            c = bottom + top / c;
+            step = c * d;
+            value *= step;
+        }
+        return value;
+    }
+
+    double a_;
+    double b_;
+    DoubleDouble sum_;
+    double front_;
+};
+
+}  // namespace
+
 double beta_below(double a, double b, double x) {
-    return boost::math::ibeta(Number(a), Number(b), Number(x), no_errors).value;
+    if (x <= 0 || x >= 1) return x <= 0 ? 0 : 1;
+    return BetaFunction(a, b).below(parts_of(x));
 }
 double beta_above(double a, double b, double x) {
-    return boost::math::ibetac(Number(a), Number(b), Number(x), no_errors).value;
+    if (x <= 0 || x >= 1) return x <= 0 ? 1 : 0;
+    return BetaFunction(a, b).above(parts_of(x));
 }
 double beta_density(double a, double b, double x) {
     if (x <= 0) return density_at_0(a, b);
-    return boost::math::ibeta_derivative(Number(a), Number(b), Number(x), no_errors).value;
+    const Parts at = parts_of(x);
+    return exp_of(BetaFunction(a, b).log_power(at)) / x / at.rest.high;
 }
 
 namespace {
@@ -133,16 +316,17 @@ Shares beta_quantile(double a, double b, double p) {
         const auto [rest, x] = beta_quantile(b, a, 1 - p);
         return {x, rest};
     }
-    const double near = near_0(a, p, a * boost::math::beta(Number(a), Number(b), no_errors));
-    if (near < tiny) return {near, 1};
-    const auto below = [=](double t) {
-        const auto [x, rest] = shares_of(t);
-        return x < 0.5 ? Rise{beta_below(a, b, x), x * rest * beta_density(a, b, x)}
-                       : Rise{beta_above(b, a, rest), x * rest * beta_density(b, a, rest)};
-    };
+    if (p <= 0) return {0, 1};
+    if (p == 0.5 && a == b) return {0.5, 0.5};
+    const BetaFunction function(a, b);
+    const double log = logarithm(p);
+    const double constant = function.log_constant();
+    const double near = (log + constant) / a;
+    if (near < log_tiny) return {real_power(p, 1 / a) * exponential(constant / a), 1};
+    const auto below = [&](double t) { return function.rise(parts_of(shares_of(t))); };
     const double middle = logarithm(a / b) + normal_quantile(p) * std::sqrt(1 / a + 1 / b);
-    const double start = a < 1 && near < 0.5 ? logarithm(near) : middle;
-    return shares_of(solve(below, p, std::clamp(start, -700.0, 700.0)));
+    const double start = a < 1 && near < -0.7 ? near : middle;
+    return shares_of(solve(below, log, std::clamp(start, -700.0, 700.0)));
 }
 
 }  // namespace stipple

@@ -12,7 +12,7 @@ Moments sized(std::size_t d) {
 }
 
 double skewness_of(double variance, double third) {
-    return variance > 0 ? third / variance / std::sqrt(variance) : 0;
+    return variance == 0 ? 0 : third / variance / std::sqrt(variance);
 }
 
 }  // namespace

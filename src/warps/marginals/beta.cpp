@@ -11,8 +11,7 @@
 // Cost    O(1) a coordinate; about 1.5 us on one core.
 // Promise x in [low, high], at the ends only for xi = 0 and 1, and not where the density is
 //         infinite there; quantiles within 1e-13 of themselves in both tails. The same bits on
-//         every machine for the same release of Boost, whose functions are computed through
-//         math/functions.
+//         every machine.
 // Beware  for b below 1 much may be nearer to high than numbers can tell: with b = 0.5, 1e-8 of
 //         all. Where that matters, take high = 0 and low below it.
 
@@ -28,6 +27,7 @@ Warp unit() {
             .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
             .options = Schema(parameter("beta", "a"), parameter("beta", "b"),
                               parameter("beta", "low"), parameter("beta", "high")),
+            .stream_version = 2,
             .mapping = family_mapping};
 }
 

@@ -23,6 +23,7 @@ Warp unit() {
             .related = {"erlang", "chi-squared"},
             .strata = "xi is the probability below x, as it is: small xi is near 0",
             .options = Schema(parameter("gamma", "shape"), parameter("gamma", "scale")),
+            .stream_version = 2,
             .mapping = family_mapping};
 }
 

@@ -12,7 +12,7 @@
 // Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the
 //         same order. The first and the last are endless; 0 is taken as 2^-54 and 1 as 1 - 2^-55.
 // Cost    O(1) a coordinate; about 15 ns on one core.
-// Promise x within 1e-13 of itself. The same bits on every machine.
+// Promise x within 1e-15 (1 + |log x|) of itself. The same bits on every machine.
 
 #include "warps/marginal_mapping.hpp"
 

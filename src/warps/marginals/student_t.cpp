@@ -25,6 +25,7 @@ Warp unit() {
             .strata = "xi is the probability below x, as it is: small xi is far below",
             .options = Schema(parameter("student-t", "degrees"), parameter("student-t", "location"),
                               parameter("student-t", "scale")),
+            .stream_version = 2,
             .mapping = family_mapping};
 }
 

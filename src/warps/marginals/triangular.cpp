@@ -24,6 +24,7 @@ Warp unit() {
             .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
             .options = Schema(parameter("triangular", "low"), parameter("triangular", "mode"),
                               parameter("triangular", "high")),
+            .stream_version = 2,
             .mapping = family_mapping};
 }
 

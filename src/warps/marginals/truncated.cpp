@@ -15,8 +15,8 @@
 // Cost    that of the distribution, and about 15 ns a coordinate on one core.
 // Promise x in [a, b]. Of continuous distributions the part must have a probability above 1e-290,
 //         and of discrete ones it is cut exactly. The same bits on every machine.
-// Beware  in an interval of a share s of the probability beyond its ends, x is rounded to steps of
-//         1e-16 / s of its width.
+// Beware  digits are those of the interval: x is off by 1e-15 of its width also near its ends, and
+//         where the interval has a share s of the probability beyond them, by 1e-16 / s of it.
 
 #include <algorithm>
 #include <limits>
@@ -81,6 +81,7 @@ Warp unit() {
             .related = {"truncated-normal", "clipped", "bounded"},
             .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
             .options = Schema(of, low, high),
+            .stream_version = 2,
             .mapping = make};
 }
 

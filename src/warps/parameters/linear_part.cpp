@@ -61,16 +61,36 @@ void LinearPart::move_inside(std::span<double> row) const {
         }
 }
 
-std::optional<LinearPart> take_linear_part(const std::vector<std::string>& names,
-                                           const std::vector<UniformRange>& ranges,
+namespace {
+
+/// Those of an affine constraint in no more variables than a polytope can have.
+std::optional<std::vector<HalfSpace>> half_spaces(const Expression& constraint) {
+    constexpr std::size_t most = 12;
+    VariableNames own = constraint.variables();
+    if (own.size() > most) return std::nullopt;
+    for (std::size_t i = 0; i < own.size(); ++i) own[i].second = i;
+    auto all = affine_inequalities(constraint.plain(), own, own.size());
+    for (std::size_t i = 0; all && i < all->size(); ++i) {
+        HalfSpace& half = (*all)[i];
+        std::vector<double> normal(constraint.dimension());
+        for (std::size_t j = 0; j < own.size(); ++j)
+            normal[constraint.variables()[j].second] += half.normal[j];
+        half.normal = std::move(normal);
+        half.text = constraint.text();
+    }
+    return all;
+}
+
+}  // namespace
+
+std::optional<LinearPart> take_linear_part(const std::vector<UniformRange>& ranges,
                                            std::vector<Expression>& constraints) {
-    const std::size_t d = names.size();
-    const VariableNames variables = named_variables(names);
+    const std::size_t d = ranges.size();
     std::vector<HalfSpace> cuts;
     std::vector<Expression> taken, left;
     std::vector<bool> joined(d);
     for (const Expression& constraint : constraints) {
-        const auto some = affine_inequalities(constraint.text(), variables, d);
+        const auto some = half_spaces(constraint);
         std::vector<bool> used(d);
         for (std::size_t i = 0; some && i < some->size(); ++i)
             for (std::size_t k = 0; k < d; ++k) used[k] = used[k] || (*some)[i].normal[k] != 0;

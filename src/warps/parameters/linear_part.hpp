@@ -55,8 +55,7 @@ using UniformRange = std::optional<std::pair<double, double>>;
 
 /// Takes the constraints that belong to a polytope out of a list; nothing if there are none, or if
 /// their polytope is too large. @throws Error(usage) if no parameters satisfy them
-std::optional<LinearPart> take_linear_part(const std::vector<std::string>& names,
-                                           const std::vector<UniformRange>& ranges,
+std::optional<LinearPart> take_linear_part(const std::vector<UniformRange>& ranges,
                                            std::vector<Expression>& constraints);
 
 }  // namespace stipple::parameters

@@ -94,7 +94,7 @@ struct Entry {
     }
 };
 
-Entry entry_of(const Place& place, const std::vector<std::string>& before) {
+Entry entry_of(const Place& place, const FormulaNames& before) {
     if (!place.value().is_string()) return {.number = place.number()};
     return place.naming(
         [&] { return Entry{.formula = Expression("", place.value().get<std::string>(), before)}; });
@@ -111,7 +111,7 @@ void check_size(const Place& values, std::size_t count) {
 /// What the keys of one parameter give, with the names of those before it.
 class ParameterReader {
   public:
-    ParameterReader(const Place& place, const std::vector<std::string>& before)
+    ParameterReader(const Place& place, const FormulaNames& before)
         : place_(place), before_(before) {}
 
     Parameter read() {
@@ -141,11 +141,13 @@ class ParameterReader {
         if (!place_.has("name")) place_.refuse("the name is missing");
         const Place at = place_.at("name");
         std::string name = at.text("expected a name, such as \"length\"");
-        if (std::ranges::find(before_, name) != before_.end())
-            at.refuse(fmt::format("{} stands twice", shown(name)));
+        if (before_.find(name)) at.refuse(fmt::format("{} stands twice", shown(name)));
         check_word(at, name);
         if (name == "set" || name == "pdf" || name == "weight")
             at.refuse(fmt::format("a column {} of a file means something else", name));
+        if (name == "e" || name == "pi")
+            at.refuse(fmt::format("{} is a number in formulas, which would mean that", shown(name)),
+                      "take a longer name");
         return name;
     }
 
@@ -338,7 +340,7 @@ class ParameterReader {
     }
 
     const Place& place_;
-    const std::vector<std::string>& before_;
+    const FormulaNames& before_;
 };
 
 /// What joins parameters: one of both.
@@ -509,10 +511,10 @@ ParameterSpace parse_parameters(std::string_view json, const std::string& source
                     "expected an object, {\"parameters\": [...]}");
     if (!root.has("parameters")) root.refuse("the key parameters is missing");
     std::vector<Parameter> parameters;
-    std::vector<std::string> names;
+    FormulaNames names;
     for (const Place& place : root.at("parameters").list("expected a list of objects")) {
         parameters.push_back(ParameterReader(place, names).read());
-        names.push_back(parameters.back().name);
+        names.add(parameters.back().name, parameters.back().levels);
     }
     Joint joint;
     if (root.has("correlation"))

@@ -51,7 +51,7 @@ ParameterSpace::ParameterSpace(std::vector<Parameter> parameters, std::optional<
         const bool alone = !copula_ || !copula_->joins(ranges.size());
         ranges.push_back(alone ? uniform_range(parameter) : std::nullopt);
     }
-    if (!reordering_) linear_ = take_linear_part(names(), ranges, others_);
+    if (!reordering_) linear_ = take_linear_part(ranges, others_);
 }
 
 std::vector<std::string> ParameterSpace::names() const {

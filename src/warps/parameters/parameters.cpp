@@ -20,6 +20,7 @@
 // Beware  constraints that are not linear, or join what is not uniform, leave a density that is known
 //         up to a factor: it, and cells of known probability, are refused.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -157,13 +158,14 @@ class ParameterDomain final : public NamedDomain {
                 "in ranges");
     }
 
-    /// Around some images, where the distributions depend on each other.
+    /// Around some images, fewer of many parameters, where the distributions depend on each other.
     Box box_of_images() const {
         const std::size_t d = dimension();
+        const std::size_t count = std::clamp<std::size_t>(0x100000 / d, 64, 4096);
         const Rng rng(1, 0);
         std::vector<double> rows;
         std::vector<double> cube(d), row(d);
-        for (std::size_t i = 0; i < 4096; ++i) {
+        for (std::size_t i = 0; i < count; ++i) {
             for (std::size_t k = 0; k < d; ++k) cube[k] = rng.uniform(i * d + k);
             static_cast<void>(space_.from_cube(cube, row));
             rows.insert(rows.end(), row.begin(), row.end());
@@ -267,6 +269,7 @@ Warp unit() {
             .strata = "without a copula, xi as it is",
             .traits = {.drops = true, .reorders = true, .discrete = true},
             .options = Schema(file, json, unit_cube),
+            .stream_version = 2,
             .mapping = make};
 }
 

@@ -13,8 +13,7 @@
 // Strata  xi_i is the probability below x_i given those before it, as it is.
 // Cost    O(1) a coordinate; about 1.5 us on one core.
 // Promise coordinates above 0 that sum to 1 within k 2^-52, each within 1e-12 of itself and not
-//         below 1e-300. The same bits on every machine for the same release of Boost, whose
-//         functions are computed through math/functions.
+//         below 1e-300. The same bits on every machine.
 // Source  M. Rosenblatt, Annals of Mathematical Statistics 23 (1952) 470-472,
 //         doi:10.1214/aoms/1177729394.
 
@@ -25,6 +24,8 @@
 
 #include "core/error.hpp"
 #include "core/spec.hpp"
+#include "math/arithmetic/quotient.hpp"
+#include "math/functions/distributions.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/incomplete_functions.hpp"
 #include "math/functions/logarithm.hpp"
@@ -57,8 +58,9 @@ class DirichletDomain final : public NamedDomain {
           after_(sums_from(alpha_)),
           area_(std::sqrt(static_cast<double>(alpha_.size()))) {
         for (std::size_t i = 1; i < alpha_.size(); ++i) area_ /= static_cast<double>(i);
-        log_scale_ = log_gamma(after_[0]) - 0.5 * logarithm(static_cast<double>(alpha_.size()));
-        for (const double a : alpha_) log_scale_ -= log_gamma(a);
+        log_scale_ = log_excess(after_[0]) -
+                     logarithm(after_[0] * std::sqrt(static_cast<double>(alpha_.size())));
+        for (const double a : alpha_) log_scale_ += logarithm(a) - log_excess(a);
     }
 
     double measure() const override { return area_; }
@@ -75,13 +77,21 @@ class DirichletDomain final : public NamedDomain {
     }
     double density(std::span<const double> point) const override {
         if (!contains(point)) return 0;
-        double log = log_scale_;
+        DoubleDouble log{log_scale_, 0};
         for (std::size_t i = 0; i < alpha_.size(); ++i) {
-            if (alpha_[i] == 1) continue;
-            if (point[i] == 0) return alpha_[i] > 1 ? 0 : std::numeric_limits<double>::infinity();
-            log += (alpha_[i] - 1) * logarithm(point[i]);
+            const double a = alpha_[i];
+            if (point[i] == 0 && a != 1) return a > 1 ? 0 : std::numeric_limits<double>::infinity();
+            if (point[i] == 0) {
+                log = log + logarithm_parts(after_[0]);
+                continue;
+            }
+            // x^(a-1) / Gamma(a), by (x / mean)^a, where Gamma(a) = a^(a-1) exp(log_excess(a) - a).
+            const DoubleDouble mean = quotient({a, 0}, {after_[0], 0});
+            const auto [high, low] = logarithm_parts(point[i]);
+            log = log + log_share(a, quotient({point[i], 0}, mean)) + DoubleDouble{-high, -low};
         }
-        return log > 709 ? std::numeric_limits<double>::infinity() : exponential(log);
+        return log.high > 709 ? std::numeric_limits<double>::infinity()
+                              : exponential(log.high) * (1 + log.low);
     }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         const std::vector<double> rest = sums_from(point);
@@ -164,6 +174,7 @@ Warp unit() {
             .related = {"compositions", "proportions", "stick-breaking"},
             .strata = "xi_i is the probability below x_i given those before it, as it is",
             .options = Schema(alpha),
+            .stream_version = 2,
             .mapping = make};
 }
 

@@ -171,6 +171,75 @@ TEST(Expression, SaysAtWhichColumnWhatIsExpected) {
         EXPECT_NE(refused(text), "") << text;
 }
 
+// Which would be compared with 0 or 1.
+TEST(Expression, RefusesChainsOfComparisons) {
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {"0.2 < x < 0.5",
+         "column 9: '<': one comparison is compared with another; write 0.2 < x && x < 0.5"},
+        {"(x + 1 >= 2*y >= 3) ? 1 : 2",
+         "column 15: '>=': one comparison is compared with another; write x + 1 >= 2*y && 2*y >= "
+         "3"},
+        {"x == y == 1 && y > 0",
+         "column 8: '==': one comparison is compared with another; write x == y && y == 1"},
+        {"max(x, x < y <= (1 + 1))",
+         "column 14: '<=': one comparison is compared with another; write x < y && y <= (1 + 1)"}};
+    for (const auto& [text, message] : cases)
+        EXPECT_EQ(refused(text), "usage: --density: '" + text + "', " + message);
+    EXPECT_EQ(value("(x < y) < 2"), 1);  // which is meant
+    EXPECT_EQ(value("x < y && y < 1 || x > 2 ? 1 > 0 : 3 < 2"), 1);
+    EXPECT_EQ(value("max(x < y, y < x)"), 1);
+}
+
+namespace {
+
+FormulaNames experiment() {
+    FormulaNames names;
+    names.add("cross section");
+    names.add("material", {"oak", "steel", "oak & ash"});
+    names.add("load");
+    names.add("log", {"on", "off"});
+    return names;
+}
+
+double named_value(const std::string& text, const std::vector<double>& point) {
+    return Expression("", text, experiment()).at(point);
+}
+
+std::string named_error(const std::string& text) {
+    return error_of([&] { Expression("", text, experiment()); });
+}
+
+}  // namespace
+
+TEST(Expression, NamesAndWordsInQuotes) {
+    EXPECT_EQ(named_value("\"cross section\" * 2 + load", {3, 0, 5, 0}), 11);
+    EXPECT_EQ(named_value("'cross section'^2", {3, 0, 5, 0}), 9);
+    for (const double k : {0.0, 1.0, 2.0}) {
+        EXPECT_EQ(named_value("material == \"steel\"", {0, k, 0, 0}), k == 1);
+        EXPECT_EQ(named_value("'oak & ash'!=material", {0, k, 0, 0}), k != 2);
+        EXPECT_EQ(named_value("\"material\" == \"oak\" ? 7 : 8", {0, k, 0, 0}), k == 0 ? 7 : 8);
+    }
+    EXPECT_EQ(named_value("\"log\" == 'off' && log(1) == 0", {0, 0, 0, 1}), 1);
+    EXPECT_EQ(Expression("", "'cross section' < 3", experiment()).text(), "'cross section'<3");
+}
+
+TEST(Expression, SaysWhichNamesAndWordsThereAre) {
+    EXPECT_EQ(named_error("material == 'stele'"),
+              "usage: --: 'material == 'stele'', column 13: 'stele': expected a level of material "
+              "| did you mean 'steel'?");
+    EXPECT_EQ(named_error("load < 'steel'"),
+              "usage: --: 'load < 'steel'', column 8: 'steel': expected a name, or a level beside "
+              "== or != | known: cross section, material, load, log");
+    EXPECT_EQ(named_error("load < \"steel"),
+              "usage: --: 'load < \"steel', column 8: '\"': expected another one behind");
+    EXPECT_EQ(named_error("load 'cross section'"),
+              "usage: --: 'load 'cross section'', column 6: ''cross section'': expected an "
+              "operator before it");
+    EXPECT_NE(named_error("@0 < 1"), "");
+    EXPECT_NE(named_error("material == steel").find("\"cross section\", material, load"),
+              std::string::npos);
+}
+
 TEST(Expression, QuotesTheWholeWordThatItDoesNotKnow) {
     for (const std::string word : {"foo0bar", "f9", "Az_0", "zZ"})
         EXPECT_NE(refused("x + " + word + " * y").find("'" + word + "'"), std::string::npos)

@@ -65,16 +65,18 @@ Case log_uniform(double low, double high) {
             [=](const Big& x) { return Big(log(high / x) / log(Big(high) / low)); }};
 }
 Case triangular(double a, double c, double b) {
-    const auto left = [=](const Big& x) {
-        return Big((x - a) * (x - a) / ((Big(b) - a) * (Big(c) - a)));
+    const Big width = Big(b) - a;
+    const Big rise = Big(c) - a;
+    const Big fall = Big(b) - c;
+    const auto below = [=](const Big& x) {
+        return x < c ? Big((x - a) * (x - a) / (width * rise))
+                     : Big((rise + (x - c) * (2 * Big(b) - x - c) / fall) / width);
     };
-    const auto right = [=](const Big& x) {
-        return Big((b - x) * (b - x) / ((Big(b) - a) * (Big(b) - c)));
+    const auto above = [=](const Big& x) {
+        return x < c ? Big((fall + (c - x) * (c + x - 2 * Big(a)) / rise) / width)
+                     : Big((b - x) * (b - x) / (width * fall));
     };
-    return {"triangular",
-            {{"low", a}, {"mode", c}, {"high", b}},
-            [=](const Big& x) { return x < c ? left(x) : Big(1 - right(x)); },
-            [=](const Big& x) { return x < c ? Big(1 - left(x)) : right(x); }};
+    return {"triangular", {{"low", a}, {"mode", c}, {"high", b}}, below, above};
 }
 Case normal(double mean, double deviation) {
     return {"normal",
@@ -295,6 +297,49 @@ TEST(Marginal, MomentsAreThoseOfTheIntegrals) {
         EXPECT_NEAR(m.variance / variance, 1, tolerance) << named(one);
         EXPECT_NEAR(m.skewness, skewness, 10 * tolerance * (1 + std::abs(skewness))) << named(one);
     }
+}
+
+// From formulas with 200 digits (mpmath): where closed forms would cancel, and beside such places.
+TEST(Marginal, MomentsKeepTheirDigits) {
+    const auto near = [](double value, double right) {
+        EXPECT_NEAR(value, right, 1e-11 * std::abs(right)) << right;
+    };
+    const auto skewness = [](std::string_view family, const NamedNumbers& numbers) {
+        return make_marginal(family, numbers)->moments().skewness;
+    };
+    near(skewness("log-uniform", {{"low", 1}, {"high", 1.000001}}), 3.4640998828030986e-7);
+    near(skewness("log-uniform", {{"low", 1}, {"high", 54.5}}), 1.2683836392985325);
+    near(skewness("log-uniform", {{"low", 1}, {"high", 54.7}}), 1.2693767423784538);
+    near(skewness("log-uniform", {{"low", 1e-150}, {"high", 1e150}}), 24.725673431295983);
+    near(skewness("weibull", {{"shape", 0.05}}), 11290345890.687891);
+    near(skewness("weibull", {{"shape", 10}}), -0.63763713390314441);
+    near(skewness("weibull", {{"shape", 11}}), -0.6771019561959292);
+    near(skewness("weibull", {{"shape", 1000}}), -1.1335927306601352);
+    near(skewness("poisson", {{"mean", 1e8}}), 1e-4);
+    near(skewness("binomial", {{"trials", 1e8}, {"probability", 0.25}}),
+         0.5 / std::sqrt(1e8 * 3 / 16));
+}
+
+// For the mode at the low end, F(x) = 1 - (1 - x)^2 = 2 x - x^2, from either tail.
+TEST(Marginal, TriangularKeepsItsDigitsBesideAModeAtAnEnd) {
+    const auto law = [](double mode) { return make_marginal("triangular", {{"mode", mode}}); };
+    for (const double p : {1e-300, 1e-30, 1e-16, 1e-9}) {
+        EXPECT_DOUBLE_EQ(law(0)->quantile(p), p / 2 * (1 + p / 4));
+        EXPECT_DOUBLE_EQ(law(0)->probability(p), 2 * p - p * p);
+        EXPECT_DOUBLE_EQ(law(0)->quantile(p, Tail::upper), 1 - std::sqrt(p));
+    }
+    const MarginalPtr below = make_marginal("triangular", {{"low", -1}, {"mode", 0}, {"high", 0}});
+    EXPECT_DOUBLE_EQ(below->quantile(1e-30, Tail::upper), -5e-31);
+    EXPECT_DOUBLE_EQ(below->probability(-1e-30, Tail::upper), 2e-30);
+}
+
+// Of Cauchy's distribution, P(T > t) = 1 / (pi t) for large t, and its density 1 / (pi t^2).
+TEST(Marginal, StudentIsRightWhereSquaresOverflow) {
+    const MarginalPtr cauchy = make_marginal("student-t", {{"degrees", 1}});
+    for (const double t : {1e100, 1e160, 1e250})
+        EXPECT_NEAR(cauchy->probability(t, Tail::upper) * M_PI * t, 1, 1e-13);
+    EXPECT_NEAR(cauchy->density(1e100) * M_PI * 1e200, 1, 1e-13);
+    EXPECT_NEAR(cauchy->probability(-cauchy->quantile(1e-250, Tail::upper)) / 1e-250, 1, 1e-13);
 }
 
 // Student's t has a mean from above 1 degree on, a variance above 2, a skewness above 3.

@@ -78,6 +78,33 @@ TEST(Truncated, HalfNormalHasItsMoments) {
     EXPECT_NEAR(skewness, std::sqrt(2.0) * (4 - M_PI) / std::pow(M_PI - 2, 1.5), 1e-8);
 }
 
+// For nu degrees of freedom, E T^n is infinite from n = nu on. Those that exist, by incomplete beta
+// functions to 50 digits.
+TEST(Truncated, HeavyTailsHaveNoMomentsThatTheyDoNotHave) {
+    const auto moments = [](double degrees, double low, double high) {
+        return truncated(student_t_law(degrees, 0, 1), low, high)->moments();
+    };
+    const auto none = [](double x) { return !std::isfinite(x); };
+    EXPECT_TRUE(none(moments(1, 1, endless).mean));
+    EXPECT_TRUE(none(moments(1, -endless, 3).mean));
+    EXPECT_NEAR(moments(2, 1, endless).mean, 2.7320508075688773, 1e-9);
+    EXPECT_TRUE(none(moments(2, 1, endless).variance));
+    EXPECT_NEAR(moments(3, 0, endless).variance, 1.7841457962919, 1e-9);
+    EXPECT_TRUE(none(moments(3, 0, endless).skewness));
+    const auto [mean, variance, skewness] = moments(1, -2, 5);  // cut at both ends, all exist
+    EXPECT_NEAR(mean, 0.33231722159350, 1e-11);
+    EXPECT_NEAR(variance, 1.71152065881957, 1e-11);
+    EXPECT_NEAR(skewness, 0.96360791588232, 1e-10);
+}
+
+// Beyond 30 deviations, where quantiles end long before p = 1e-300; gamma of shape 1e6.
+TEST(Truncated, MomentsFarOut) {
+    const auto [mean, variance, skewness] = truncated(normal_law(0, 1), 30, endless)->moments();
+    EXPECT_NEAR(mean, 30.033259667433677, 1e-11);
+    EXPECT_NEAR(variance, 0.0011037715118900912, 1e-13);
+    EXPECT_NEAR(skewness, 1.9934171521426809, 1e-9);
+}
+
 TEST(Truncated, OfWhatHasEndsAnywayTheNearerCount) {
     const MarginalPtr law = truncated(uniform_law(0, 1), -5, 0.5);
     EXPECT_EQ(law->support(), (std::pair{0.0, 0.5}));

@@ -66,6 +66,50 @@ TEST(IncompleteFunctions, BetaQuantilesKeepTheDigitsOfBothParts) {
     expect_near_relative(rest, std::pow(std::numbers::pi / 2 * 0x1p-40, 2), 1e-13);
 }
 
+// By continued fractions to 60 digits (mpmath). Probabilities of x as it is: its rounding alone would
+// change them by up to 1e-12 of themselves.
+TEST(IncompleteFunctions, LargeParametersKeepTheirDigits) {
+    struct Case {
+        double a, b, x, below, above;
+    };
+    for (const auto& [a, b, x, below, above] :
+         {Case{10, 1e6, 1e-5, 0.54208217098508464, 0.45791782901491536},
+          {10, 1e6, 6e-4, 1, 6.2412702457524237e-242},
+          {515, 515, 0.3, 3.1187199815383358e-41, 1},
+          {1e5, 1e5, 0.49, 1.8571347290404196e-19, 1},
+          {0.05, 1e6, 1e-9, 0.72717921181701621, 0.27282078818298379},
+          {1e6, 0.05, 0.9999, 2.3710795456083779e-47, 1},
+          {3000, 300, 0.85, 1.5993328298851402e-24, 1}}) {
+        expect_near_relative(beta_below(a, b, x), below, 3e-14);
+        expect_near_relative(beta_above(a, b, x), above, 3e-14);
+    }
+    EXPECT_EQ(beta_below(1e6, 1e6, 0.48), 0);  // 2.6e-698
+    expect_near_relative(gamma_above(1e5, 112176), 1.0975951485640748e-300, 3e-14);
+    expect_near_relative(gamma_below(1e5, 90000), 1.9782570322356405e-235, 3e-14);
+    expect_near_relative(gamma_below(1e6, 963408), 9.7545090485935119e-301, 3e-14);
+    expect_near_relative(gamma_above(1e6, 1021424), 1.0049740974398115e-100, 3e-14);
+    expect_near_relative(gamma_above(1e6, 1000100), 0.46004117156827642, 3e-14);
+}
+
+// B(a, b) is far below the smallest double for all of these.
+TEST(IncompleteFunctions, BetaQuantilesOfLargeParameters) {
+    struct Case {
+        double a, b, p, x;
+    };
+    for (const auto& [a, b, p, x] : {Case{515, 515, 0.25, 0.48949044864362393},
+                                     {515, 515, 0.75, 0.51050955135637607},
+                                     {515, 515, 1e-300, 0.070949241535224748},
+                                     {300, 3000, 0.5, 0.090826448309160031},
+                                     {1e4, 200, 0.25, 0.97948408874593217},
+                                     {1e4, 200, 1e-100, 0.93612155198087039},
+                                     {1e6, 1e6, 1e-20, 0.496725302964574}}) {
+        expect_near_relative(beta_quantile(a, b, p).x, x, 2e-15);
+        if (p > 0.1) expect_near_relative(beta_quantile(b, a, 1 - p).rest, x, 2e-15);
+    }
+    EXPECT_EQ(beta_quantile(515, 515, 0).x, 0);
+    EXPECT_EQ(beta_quantile(515, 515, 1).x, 1);
+}
+
 TEST(PortableDouble, FunctionsAreThoseOfTheProject) {
     for (const double x : {0.3, 1.0, 7.5, 200.0}) {
         EXPECT_EQ(exp(PortableDouble(x)).value, exponential(x));

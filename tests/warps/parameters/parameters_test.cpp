@@ -140,7 +140,7 @@ TEST(Parameters, AreInversesOfTheirDistributions) {
         R"({"parameters":[{"name":"a","range":[1,100],"scale":"log"},)"
         R"({"name":"b","distribution":"normal","mean":5,"truncate":[4,9]},)"
         R"({"name":"c","integers":[3,5]},{"name":"d","levels":["x","y z"],"probabilities":[3,1]},)"
-        R"({"name":"e","levels":[7,2.5],"probabilities":[0.25,0.75]}]})");
+        R"({"name":"f","levels":[7,2.5],"probabilities":[0.25,0.75]}]})");
     const auto low = image_of(*map, {0.5, 0, 0, 0.74, 0.7});
     EXPECT_NEAR(low[0], 10, 1e-14);
     EXPECT_EQ(low[1], 4);
@@ -152,7 +152,7 @@ TEST(Parameters, AreInversesOfTheirDistributions) {
     EXPECT_EQ(high[2], 5);
     EXPECT_EQ(high[3], 1);
     EXPECT_EQ(high[4], 7);
-    EXPECT_THAT(map->domain()->names(), ::testing::ElementsAre("a", "b", "c", "d", "e"));
+    EXPECT_THAT(map->domain()->names(), ::testing::ElementsAre("a", "b", "c", "d", "f"));
     ASSERT_EQ(map->domain()->levels().size(), 1U);
     EXPECT_THAT(map->domain()->levels()[0].second, ::testing::ElementsAre("x", "y z"));
     EXPECT_GT(p_of_random(*map, 20000), 1e-4);
@@ -192,7 +192,7 @@ TEST(Parameters, FollowNumbersThatWereMeasured) {
                                    R"({"name":"b","values":[3,1,7],"interpolation":"linear"},)"
                                    R"({"name":"c","values":[5]},)"
                                    R"({"name":"d","values":[0.5,0.25],"interpolation":"steps"},)"
-                                   R"({"name":"e","range":[0,"1+a"]}]})");
+                                   R"({"name":"f","range":[0,"1+a"]}]})");
     EXPECT_EQ(image_of(*map, {0.2, 0.25, 0.1, 0.49, 0.5}),
               (std::vector<double>{0, 2, 5, 0.25, 0.5}));
     EXPECT_EQ(image_of(*map, {0.74, 0.75, 0.9, 0.5, 0.5}),
@@ -352,6 +352,38 @@ TEST(Parameters, ConstraintsOnWhatIsNotUniformAreTried) {
     EXPECT_DOUBLE_EQ(truncated->domain()->measure(), 0.5);
 }
 
+TEST(Parameters, FormulasNameParametersAndLevelsInQuotes) {
+    const auto map =
+        parameters_of(R"({"parameters":[{"name":"cross section","range":[0,4]},)"
+                      R"({"name":"material","levels":["mild steel","oak"]},)"
+                      R"({"name":"load","range":[0,"'cross section' + 1"]}],)"
+                      R"("constraints":["material == \"mild steel\" || load < 'cross section'"]})");
+    const PointSet image = warped(*map, make("sobol", points(1024, 3)));
+    std::size_t steel = 0;
+    for (std::size_t i = 0; i < image.count(); ++i) {
+        EXPECT_TRUE(image[i][1] == 0 || image[i][2] < image[i][0]);
+        EXPECT_LE(image[i][2], image[i][0] + 1);
+        steel += image[i][1] == 0 ? 1 : 0;
+    }
+    EXPECT_EQ(steel, 512U);
+    EXPECT_LT(image.count(), 1024U);
+    EXPECT_EQ(parse_spec(map->domain()->spec()).name, "parameters");
+}
+
+// Each is its number and one more than the one before: sums of uniform numbers; and constraints in
+// two of them. Work that grows with the square of their number would take minutes.
+TEST(Parameters, ChainsOfFormulasTakeTimeInProportion) {
+    constexpr int n = 5000;
+    std::string json = R"({"parameters":[{"name":"x0","range":[0,1]})";
+    for (int k = 1; k < n; ++k)
+        json += fmt::format(R"(,{{"name":"x{0}","range":["x{1}","x{1}+1"]}})", k, k - 1);
+    json += R"(],"constraints":["x0^2<2")";
+    for (int k = 1; k < n; ++k) json += fmt::format(R"(,"x{}^2 >= x{}^2")", k, k - 1);
+    const auto map = parameters_of(json + "]}");
+    const auto image = image_of(*map, std::vector<double>(n, 0.5));
+    for (int k = 0; k < n; ++k) ASSERT_EQ(image[static_cast<std::size_t>(k)], 0.5 * (k + 1));
+}
+
 struct Wrong {
     const char* json;
     const char* says;
@@ -380,6 +412,14 @@ TEST(Parameters, SayWhatIsWrongAndWhere) {
          "$.parameters[1].name: 'a' stands twice"},
         {R"({"parameters":[{"name":"a\u0007","range":[0,1]}]})", "cannot be a name"},
         {R"({"parameters":[{"name":"12","range":[0,1]}]})", "cannot be a name"},
+        {R"({"parameters":[{"name":"e","range":[0,1]}]})",
+         "$.parameters[0].name: 'e' is a number in formulas, which would mean that"},
+        {R"({"parameters":[{"name":"pi","range":[0,1]}]})", "'pi' is a number in formulas"},
+        {R"({"parameters":[{"name":"a","range":[0,1]}],"constraints":["0.2<a<0.5"]})",
+         "$.constraints[0]: '0.2<a<0.5', column 6: '<': one comparison is compared with another; "
+         "write 0.2<a && a <0.5"},
+        {R"({"parameters":[{"name":"m","levels":["x","y"]}],"constraints":["m=='z'"]})",
+         "$.constraints[0]: 'm=='z'', column 4: 'z': expected a level of m"},
         {R"({"parameters":[{"name":"a","distribution":"norml"}]})",
          "$.parameters[0].distribution: there is no distribution 'norml'"},
         {R"({"parameters":[{"name":"a","distribution":"normal","sd":1}]})", "'sd' is not known"},
