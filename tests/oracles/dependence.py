@@ -106,10 +106,10 @@ def correlation(a, b, r):
         z = np.arange(-14, 14, step)
         w = step * norm.pdf(z) * (a.x(z) - a.mean)
         return sum(size * (w @ norm.cdf((r * z - at) / s)) for at, size in zip(b.at, b.size)) / scale
-    u = np.arange(-14 * 16, 14 * 16 + 1) / 16
+    u = np.arange(-12 * 8, 12 * 8 + 1) / 8
     u, v = np.meshgrid(u, u)
     c, d = np.sqrt((1 + r) / 2), np.sqrt((1 - r) / 2)
-    w = norm.pdf(u) * norm.pdf(v) / 256
+    w = norm.pdf(u) * norm.pdf(v) / 64
     return np.sum(w * (a.x(c * u + d * v) - a.mean) * (b.x(c * u - d * v) - b.mean)) / scale
 
 
@@ -144,11 +144,11 @@ def compare_points(cases, kind, ranks):
             if ranks and isinstance(a, Smooth) and isinstance(b, Smooth):
                 continue
             low, high = end_of(a, b, -1), end_of(a, b, 1)
-            for share in (0.05, 0.6, 0.98):
+            for share in (0.05, 0.9):
                 r = float(low + share * (high - low))
                 if abs(r) < 1e-3:
                     continue
-                score = optimize.brentq(lambda x: correlation(a, b, x) - r, -0.99999, 0.99999, xtol=1e-12)
+                score = optimize.brentq(lambda x: correlation(a, b, x) - r, -0.99999, 0.99999, xtol=1e-10)
                 file = parameters(folder, a, b, kind, r)
                 ours = np.array(cases.points("generate", "random", "-n", 400, "--parameters", file))
                 of_b = score * z + np.sqrt(1 - score * score) * y
