@@ -2,6 +2,7 @@
 #include "generators/stratified/latin_hypercube_search/enumeration.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "generators/search_run.hpp"
 
@@ -30,7 +31,8 @@ class Designs {
     Designs(const Objective& objective, const Design& start)
         : design_(start),
           criterion_(make_criterion(objective, start, rules_)),
-          changes_(half_of_plain_changes(start.points)),
+          changes_(start.dimension == 1 ? std::vector<std::uint8_t>()
+                                        : half_of_plain_changes(start.points)),
           done_(start.dimension),
           back_(start.dimension) {}
 
@@ -72,6 +74,9 @@ class Designs {
 }  // namespace
 
 double designs_to_try(const Design& start) {
+    constexpr std::size_t most_points = 11;  // whose changes take 20 MB
+    if (start.dimension == 1) return 1;
+    if (start.points > most_points) return std::numeric_limits<double>::infinity();
     double orders = 1;
     for (std::size_t i = 3; i <= start.points; ++i) orders *= static_cast<double>(i);
     double all = 1;
@@ -82,6 +87,7 @@ double designs_to_try(const Design& start) {
 Result best_of_all(const Objective& objective, const Design& start, const RunContext& run) {
     constexpr std::uint64_t some = 1 << 14;
     const auto all = static_cast<std::uint64_t>(designs_to_try(start));
+    run.need_memory(criterion_memory(objective, start), "trying all Latin hypercubes");
     Designs designs(objective, start);
     Result best{.design = start, .optimal = true};
     Score least = designs.score();

@@ -7,7 +7,7 @@
 // levels, back and forth as the digits of a reflected Gray code. So from design to design it takes one
 // exchange.
 //
-// Cost    (n! / 2)^(d - 1) designs, O(n^2) each.
+// Cost    (n! / 2)^(d - 1) designs, O(n^2) each; n! / 2 bytes.
 // Source  D. E. Knuth, The Art of Computer Programming 4A (2011), 7.2.1.1 algorithm H, 7.2.1.2
 //         algorithm P.
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace stipple::latin_hypercube_search {
 
-/// (n! / 2)^(d - 1), possibly infinite.
+/// (n! / 2)^(d - 1); infinite for more than 11 points of two coordinates or more.
 double designs_to_try(const Design& start);
 
 /// The best design, or the best so far where the run is stopped and keeps it. @throws Error(cancelled)

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "generators/stratified/latin_hypercube_search/annealing.hpp"
+#include "generators/stratified/latin_hypercube_search/enumeration.hpp"
 #include "generators/stratified/latin_hypercube_search/lattice_start.hpp"
 #include "generators/stratified/latin_hypercube_search/support.hpp"
 #include "support/units.hpp"
@@ -67,6 +68,8 @@ TEST(LatinSearch, TriesAllDesignsOfFewPoints) {
                 << static_cast<int>(kind) << " " << n;
         }
     EXPECT_FALSE(best_design({{}, {}, random_design(5, 3, 1), 1, 1000}, "", {}).optimal);
+    EXPECT_FALSE(latin_hypercube_search::designs_to_try(random_design(12, 2, 1)) < 1e300);
+    EXPECT_TRUE(best_design({{}, {}, random_design(500, 1, 1), 1, 1}, "", {}).optimal);
 }
 
 TEST(LatinSearch, IsNeverWorseWithMoreTrials) {
