@@ -100,7 +100,7 @@ void note_doubled(const TriangleMesh& mesh, const std::string& name, const RunCo
     const auto doubled = std::ranges::unique(digits).size();
     if (doubled > 0)
         run.notify(
-            fmt::format("{}: {} triangles have the corners of others; a place of several "
+            fmt::format("{}: triangles that have the corners of others: {}; a place of several "
                         "triangles gets as many times the points",
                         name, doubled));
 }
