@@ -324,7 +324,7 @@ TEST(Warp, DensitiesOfPointsGoAlong) {
                 "stipple warp disk n.json --coordinates 1,2 -f json | "
                 "stipple warp disk --coordinates 1,2 --inverse - -f csv"),
            last("stipple convert n.json --column 4 -f csv"));
-    for (const char* refused : {"rejection p.csv", "owen p.csv"})
+    for (const char* refused : {"rejection --density '1+x*y' p.csv", "owen p.csv"})
         expect_refusal(box.shell(std::string("stipple warp ") + refused), 3,
                        "the points have a column of densities");
     good(box.shell("stipple warp owen p.csv --column x,y -o o.csv"));
