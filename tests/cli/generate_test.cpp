@@ -299,6 +299,7 @@ TEST(Warp, DensitiesOfPointsGoAlong) {
     const Sandbox box;
     box.write("p.csv", "x,y,pdf\n0.5,0.5,1\n0.25,0.5,0.5\n0.75,0.1,1.5\n");
     box.write("w.csv", "x,y,weight\n0.5,0.5,1\n0.25,0.5,2\n");
+    box.write("q.csv", "x,y,z,pdf\n0.5,0.5,0.1,1\n");
     box.write("both.csv", "x,y,pdf,weight\n0.25,0.5,0.5,2\n");
     const auto last = [&](const std::string& line) {
         std::vector<double> numbers;
@@ -324,7 +325,7 @@ TEST(Warp, DensitiesOfPointsGoAlong) {
                 "stipple warp disk n.json --coordinates 1,2 -f json | "
                 "stipple warp disk --coordinates 1,2 --inverse - -f csv"),
            last("stipple convert n.json --column 4 -f csv"));
-    for (const char* refused : {"rejection --density '1+x*y' p.csv", "owen p.csv"})
+    for (const char* refused : {"rejection --density '1+x*y' q.csv", "owen p.csv"})
         expect_refusal(box.shell(std::string("stipple warp ") + refused), 3,
                        "the points have a column of densities");
     good(box.shell("stipple warp owen p.csv --column x,y -o o.csv"));
