@@ -77,8 +77,10 @@ class FarthestPoint {
   public:
     FarthestPoint(const Planar& planar, const std::vector<double>& rows, const RunContext& run)
         : n_(rows.size() / 2), sites_(planar.sides, planar.torus, n_), corners_(n_), circles_(n_) {
-        for (std::size_t i = 0; i < n_; ++i)
+        for (std::size_t i = 0; i < n_; ++i) {
+            if (i % 1024 == 0) run.check_stop();
             sites_.insert(i, sites_.inside({rows[2 * i], rows[2 * i + 1]}));
+        }
         std::vector<std::size_t> crowded;  // in the place of another
         for (std::size_t i = 0; i < n_; ++i) {
             if (i % 1024 == 0) run.check_stop();

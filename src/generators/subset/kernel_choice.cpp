@@ -316,9 +316,13 @@ Rows choose_by_kernel(const Kernel& kernel, const Columns& points, std::size_t n
 
 double choice_memory(double points) { return 48 * points; }
 
-Columns columns_of(const Columns& points, const Rows& rows) {
+Columns columns_of(const Columns& points, const Rows& rows, const RunContext& run) {
+    constexpr std::size_t often = 16384;
     std::vector<double> numbers(rows.size() * points.width());
-    for (std::size_t s = 0; s < rows.size(); ++s) points.row(rows[s], &numbers[s * points.width()]);
+    for (std::size_t s = 0; s < rows.size(); ++s) {
+        if (s % often == 0) run.check_stop();
+        points.row(rows[s], &numbers[s * points.width()]);
+    }
     return {numbers, points.width()};
 }
 

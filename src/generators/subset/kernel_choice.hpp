@@ -37,6 +37,7 @@ Rows choose_by_kernel(const kernels::Kernel& kernel, const kernels::Columns& poi
 double choice_memory(double points);
 
 /// The columns of some points.
-kernels::Columns columns_of(const kernels::Columns& points, const Rows& rows);
+kernels::Columns columns_of(const kernels::Columns& points, const Rows& rows,
+                            const RunContext& run);
 
 }  // namespace stipple::generators::subset

@@ -25,7 +25,7 @@ class Trade {
           run_(run),
           n_(first.size()),
           rows_(joined(first, second)),
-          points_(columns_of(points, rows_)),
+          points_(columns_of(points, rows_, run)),
           differences_(2 * n_),
           diagonals_(2 * n_),
           values_(2 * n_),

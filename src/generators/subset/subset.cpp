@@ -282,9 +282,9 @@ Found found_of(const Task& task, const std::vector<Rows>& sets, const RunContext
             values.push_back(star_discrepancy(task.points, rows, silent(run)));
             continue;
         }
-        const double squared =
-            kernels::squared_from_mean(*task.kernel, columns_of(task.columns, rows), silent(run))
-                .squared;
+        const double squared = kernels::squared_from_mean(
+                                   *task.kernel, columns_of(task.columns, rows, run), silent(run))
+                                   .squared;
         values.push_back({squared, squared});
     }
     const std::string name = task.star ? "star_discrepancy" : "squared";

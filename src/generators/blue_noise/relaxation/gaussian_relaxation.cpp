@@ -161,9 +161,11 @@ class Kernels {
     [[nodiscard]] std::span<double> places() { return places_; }
     [[nodiscard]] std::size_t cells() const { return starts_.size() - 1; }
 
-    void sort() {
+    void sort(const RunContext& run) {
+        constexpr std::size_t often = 65536;
         std::ranges::fill(starts_, 0U);
         for (std::size_t i = 0; i < n_; ++i) {
+            if (i % often == 0) run.check_stop();
             std::size_t cell = 0;
             for (std::size_t k = d_; k-- > 0;) {
                 const auto c = static_cast<std::size_t>(places_[i * d_ + k] / widths_[k]);
@@ -174,11 +176,16 @@ class Kernels {
         }
         for (std::size_t c = 0; c < cells(); ++c) starts_[c + 1] += starts_[c];
         std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
-        for (std::size_t i = 0; i < n_; ++i)
+        for (std::size_t i = 0; i < n_; ++i) {
+            if (i % often == 0) run.check_stop();
             sorted_[next[cell_of_[i]]++] = static_cast<std::uint32_t>(i);
+        }
         for (std::size_t k = 0; k < d_; ++k) {
             by_cell_[k].resize(n_);
-            for (std::size_t s = 0; s < n_; ++s) by_cell_[k][s] = places_[sorted_[s] * d_ + k];
+            for (std::size_t s = 0; s < n_; ++s) {
+                if (s % often == 0) run.check_stop();
+                by_cell_[k][s] = places_[sorted_[s] * d_ + k];
+            }
         }
     }
 
@@ -304,7 +311,7 @@ class Kernels {
 
 /// Forces on all points.
 void all_forces(Kernels& kernels, std::span<double> forces, const RunContext& run) {
-    kernels.sort();
+    kernels.sort(run);
     constexpr std::uint64_t size = 64;  // cells
     for_each_block(silent(run), kernels.cells(), size, [&](const Block& block) {
         Workspace work;
