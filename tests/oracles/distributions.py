@@ -505,7 +505,7 @@ def check_quantiles(cases):
     for law in CONTINUOUS:
         for u, (ours, density) in with_densities(cases, law, NUMBERS):
             x = F(ours)
-            at_end = abs(ours) <= 1e-299 or ours in (law.numbers.get("low"), law.numbers.get("high"))
+            at_end = not 1e-299 < abs(ours) < 1e308 or ours in (law.numbers.get("low"), law.numbers.get("high"))
             right = F(0) if at_end else law.density(x)
             if not (mp.isfinite(right) and right > 0):
                 continue  # at an end, or beyond the smallest numbers
@@ -520,7 +520,7 @@ def check_probabilities(cases):
     """Probabilities of continuous laws, the way back: 1e-13, up to roundings of x"""
     for law in CONTINUOUS:
         numbers = [u for u in NUMBERS if u < 0.9]
-        at = [(u, row[0]) for u, row in zip(numbers, warped(cases, law, numbers)) if abs(row[0]) > 1e-299]
+        at = [(u, row[0]) for u, row in zip(numbers, warped(cases, law, numbers)) if 1e-299 < abs(row[0]) < 1e308]
         if not at:
             continue
         back = warped(cases, law, [x for _, x in at], "--inverse")
@@ -561,7 +561,12 @@ def check_moments(cases):
     """Exact moments: 1e-9, or missing where there are none"""
     for law in CONTINUOUS + CUT + DISCRETE:
         made = cases.run("generate", "random", "-n", 4, "-d", 1, "-w", law.spec(), "-f", "json")
-        exact = cases.results("moments", "-", text=made)["exact"]
+        try:
+            exact = cases.results("moments", "-", text=made)["exact"]
+        except RuntimeError as error:
+            if "beyond the largest double" not in str(error):
+                raise
+            continue  # the points' own moments are refused
         names = ("mean", "variance", "skewness")
         right = law.moments()
         for name, number in zip(names, right):
@@ -591,7 +596,10 @@ def check_places(cases):
             continue
         rows = cases.points("warp", "dirichlet", "--alpha", f"{a!r},{b!r}", "--with-pdf", "-", text=text)
         for u, (x, rest, density) in zip(numbers, rows):
+            if x <= 1e-299:
+                continue
             off = (law.shares(F(x))[0] - F(u)) / law.density(F(x))
             cases.compare(f"dirichlet {a}, {b}, u = {u}", x, F(x) - off, 1e-12)
             right = law.density(F(x)) / mp.sqrt(2)
-            cases.compare(f"dirichlet {a}, {b}, density at {x}", density, right, 1e-12 + float(rounding(law, F(x))))
+            cases.compare(f"dirichlet {a}, {b}, density at {x}", density, right,
+                          1e-12 + float(rounding(law, F(x))) + EPSILON * max(a, b))  # that of the other coordinate
