@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <boost/math/distributions/non_central_chi_squared.hpp>
 #include <cmath>
-#include <numbers>
 
 #include "math/functions/incomplete_functions.hpp"
 #include "math/functions/logarithm.hpp"
@@ -27,18 +26,6 @@ double detectable_noncentrality(double freedom, double level) {
                Number, detail::NoErrors>::find_non_centrality(freedom, critical, Number(0.1))
         .value;
 }
-
-double log_excess(double n) {
-    if (n < 1e-300) return 0;
-    double rise = 0;  // that of n + 1 is more by 1 - n ln(1 + 1 / n)
-    for (; n < 30; ++n) rise += 1 - n * log_1p(1 / n);
-    // Stirling's series; the next term is below 1e-15.
-    const double s = 1 / (n * n);
-    const double series = 1.0 / 12 - s * (1.0 / 360 - s * (1.0 / 1260 - s * (1.0 / 1680)));
-    return 0.5 * logarithm(2 * std::numbers::pi * n) + series / n - rise;
-}
-
-double log_factorial(double n) { return n > 0 ? n * logarithm(n) - n + log_excess(n) : 0; }
 
 double student_quantile(double above, double freedom) {
     // P(T > t) = I_x(freedom / 2, 1 / 2) / 2 with x = freedom / (freedom + t^2), for t >= 0.

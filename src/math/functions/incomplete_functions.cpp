@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "math/arithmetic/quotient.hpp"
-#include "math/functions/distributions.hpp"
 #include "math/functions/exponential.hpp"
+#include "math/functions/log_excess.hpp"
 #include "math/functions/logarithm.hpp"
 #include "math/functions/normal_distribution.hpp"
 #include "math/functions/portable_double.hpp"
