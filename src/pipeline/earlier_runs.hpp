@@ -9,7 +9,7 @@
 
 #include "core/point_set.hpp"
 #include "pipeline/chain.hpp"
-#include "pipeline/generated.hpp"
+#include "pipeline/sets_to_make.hpp"
 
 namespace stipple {
 

@@ -16,6 +16,7 @@
 #include "core/spec.hpp"
 #include "generators/generator.hpp"
 #include "pipeline/chain.hpp"
+#include "pipeline/sets_to_make.hpp"
 
 namespace stipple {
 
@@ -35,17 +36,6 @@ bool in_batches(const NextRows& next, std::size_t batch, std::size_t width, cons
 /// All points of a request, in memory, without notes, bounds and provenance.
 PointSet make_points(const Generator& generator, const Request& request, const Values& options,
                      const RunContext& run);
-
-/// What sets are asked for.
-struct SetsToMake {
-    const Generator* generator = nullptr;
-    Values options = {};
-    /// Its seed is that of the first set; the next ones have seed + 1, ... Bounds may be those of the
-    /// coordinates that no warp takes.
-    Request request = {};
-    std::uint64_t sets = 1;
-    std::vector<Spec> warps = {};
-};
 
 /// Some coordinates of points, which go from the unit cube to a box.
 struct Scaling {

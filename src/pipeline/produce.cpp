@@ -545,7 +545,8 @@ bool takes_whole_sets(const Spec& warp, std::size_t dimension, const RunContext&
 
 PointSet warped_set(const PointSet& set, const Spec& warp, bool inverse, const RunContext& run) {
     const bool densities = !set.densities.empty();
-    return warped(set, Warping(warp, inverse, set.domain, {}, run, {}, densities), run);
+    const ChainSet of{.bases = digit_bases(set.provenance)};
+    return warped(set, Warping(warp, inverse, set.domain, {}, run, of, densities), run);
 }
 
 void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, const Target& target,

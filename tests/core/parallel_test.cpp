@@ -53,10 +53,16 @@ TEST(Parallel, SilentRunsReportNothingAndUnstoppedOnesGoOn) {
 }
 
 TEST(Parallel, OnlyLongWorkIsWorthThreads) {
-    const RunContext run{.threads = 8, .max_memory = 9};
+    constexpr std::uint64_t memory = 9 << 20;
+    const RunContext run{.threads = 8, .max_memory = memory};
     EXPECT_EQ(worth_threads(run, 1).thread_count(), 8);
     EXPECT_EQ(worth_threads(run, 1e-4).thread_count(), 1);
-    EXPECT_EQ(worth_threads(run, 1e-4).max_memory, 9);
+    EXPECT_EQ(worth_threads(run, 1e-4).max_memory, memory);
+}
+
+TEST(Parallel, EachThreadTakesAMebibyte) {
+    EXPECT_EQ((RunContext{.threads = 8, .max_memory = 3 << 20}.thread_count()), 3);
+    EXPECT_EQ((RunContext{.threads = 8, .max_memory = 9}.thread_count()), 1);
 }
 
 }  // namespace stipple::testing::parallel_test

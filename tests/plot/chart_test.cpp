@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "plot/drawing/letters.hpp"
 #include "plot/report_charts.hpp"
 #include "plot/spectral_table.hpp"
 #include "report/document.hpp"

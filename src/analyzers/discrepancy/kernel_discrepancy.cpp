@@ -159,11 +159,12 @@ PointSet on_cube(const PointSet& points) {
         }
     }
     if (!straight)
-        fail_with_hint(ErrorKind::input,
-                       "--kernel gaussian and matern take domains of independent coordinates; "
-                       "warp --inverse takes points back to the cube",
-                       "--kernel periodic is of the unit cube and of boxes, not of {}",
-                       domain.title());
+        fail_with_hint(
+            ErrorKind::input,
+            "--kernel gaussian and matern take domains of independent coordinates; "
+            "warp --inverse takes points back to the cube",
+            "kernel-discrepancy takes points of the unit cube or a box; these live on {}",
+            domain.title());
     return cube;
 }
 

@@ -204,7 +204,7 @@ Effects of_any_design(std::string& chosen, const Inputs& in, const Response& out
 std::string why_none(const std::string& taken, const Response& out) {
     const auto y = picked(out.y, succeeded(out.y));
     if (y.empty()) return "all runs failed";
-    if (taken == "morris" || !is_constant(y)) return {};
+    if (taken == "morris" || y.size() < 2 || !is_constant(y)) return {};
     return fmt::format("{} in all runs, but for rounding at most: there is no variance to share",
                        format_number(y.front()));
 }

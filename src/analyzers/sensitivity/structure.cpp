@@ -15,12 +15,23 @@ namespace {
 
 constexpr double most_work = 1e8;  ///< numbers that are looked at, a second or less
 
-/// Different values of coordinate j.
-std::size_t levels_of(const PointSet& points, std::size_t j) {
+struct Levels {
+    std::size_t count = 0;  ///< different values
+    double chance = 0;      ///< that two rows which are drawn have the same one
+};
+
+Levels levels_of(const PointSet& points, std::size_t j) {
     std::vector<double> values(points.count());
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = points[i][j];
     std::ranges::sort(values);
-    return values.size() - std::ranges::unique(values).size();
+    Levels levels;
+    for (auto first = values.begin(); first != values.end(); ++levels.count) {
+        const auto last = std::upper_bound(first, values.end(), *first);
+        const double share = static_cast<double>(last - first) / static_cast<double>(values.size());
+        levels.chance += share * share;
+        first = last;
+    }
+    return levels;
 }
 
 }  // namespace
@@ -29,9 +40,20 @@ double share_of_neighbors(const PointSet& points, const RunContext& run) {
     const std::size_t n = points.count();
     const std::size_t k = points.dimension();
     if (k < 2 || static_cast<double>(n) * static_cast<double>(k) > most_work / 30) return 0;
+    std::vector<Levels> levels(k);
     double grid = 1;
-    for (std::size_t j = 0; j < k; ++j) grid *= static_cast<double>(levels_of(points, j));
+    for (std::size_t j = 0; j < k; ++j) {
+        levels[j] = levels_of(points, j);
+        grid *= static_cast<double>(levels[j].count);
+    }
     if (std::fmod(static_cast<double>(n), grid) == 0) return 0;
+    double neighbors = 0;  // of a row, by chance
+    for (std::size_t j = 0; j < k; ++j) {
+        double equal = static_cast<double>(n - 1);
+        for (std::size_t c = 0; c < k; ++c)
+            if (c != j) equal *= levels[c].chance;
+        neighbors += equal;
+    }
     // Sums of scrambled coordinates: two rows without coordinate j are equal where theirs are.
     const auto code = [&](std::size_t i, std::size_t j) {
         return SplitMix64(std::bit_cast<std::uint64_t>(points[i][j] + 0.0) + j).next();
@@ -52,7 +74,11 @@ double share_of_neighbors(const PointSet& points, const RunContext& run) {
                 found[a] = found[b] = true;
         }
     }
-    return static_cast<double>(std::ranges::count(found, true)) / static_cast<double>(n);
+    const double chance = -std::expm1(-neighbors);
+    const double share =
+        static_cast<double>(std::ranges::count(found, true)) / static_cast<double>(n);
+    const double error = std::sqrt(chance * (1 - chance) / static_cast<double>(n));
+    return share - chance > std::max(0.25, 4 * error) ? share : 0;
 }
 
 void note_dependence(const Inputs& in, const RunContext& run) {
@@ -64,7 +90,7 @@ void note_dependence(const Inputs& in, const RunContext& run) {
     std::vector<double> squares(k);
     std::vector<std::size_t> levels(k);
     for (std::size_t i = 0; i < ranks.size(); ++i) squares[i % k] += std::pow(ranks[i] - 0.5, 2);
-    for (std::size_t j = 0; j < k; ++j) levels[j] = levels_of(in.values, j);
+    for (std::size_t j = 0; j < k; ++j) levels[j] = levels_of(in.values, j).count;
     double largest = 0, correlation = 0;
     std::pair<std::size_t, std::size_t> at;
     for (std::size_t a = 0; a < k; ++a)

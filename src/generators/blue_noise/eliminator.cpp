@@ -289,7 +289,7 @@ CrowdExtent crowd_extent(std::span<const double> rows, std::size_t directions,
         volumes.push_back(volume);
     }
     const double points = static_cast<double>(inner) - 1.0 / 3;  // the median of such a ball
-    constexpr double inside = 0.35;                              // far from any rim, as a rule
+    constexpr double inside = 0.4;                               // far from any rim, as a rule
     return {d, quantile(std::move(volumes), inside) * static_cast<double>(others.size()) / points};
 }
 

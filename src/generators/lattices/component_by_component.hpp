@@ -32,8 +32,8 @@ double squared_lattice_error(std::uint64_t n, std::span<const std::uint64_t> vec
                              std::span<const double> weights);
 
 /// The vector that grows from z_1 = 1 by the component, prime to n and at most n / 2, with the
-/// least e^2 of those that are not there yet, if there are any; the smallest of those that are
-/// equally good. One component a weight.
+/// least e^2 of those that are in it least often; the smallest of those that are equally good. One
+/// component a weight.
 std::vector<std::uint64_t> component_by_component(std::uint64_t n, std::span<const double> weights,
                                                   const RunContext& run);
 

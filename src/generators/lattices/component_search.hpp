@@ -93,14 +93,18 @@ std::uint64_t best_component(std::uint64_t end, const Nearly& nearly, double mar
     return nominees[static_cast<std::size_t>(first - errors.begin())];
 }
 
-/// Makes E infinite for the candidates that the vector has, since equal components make equal
-/// coordinates, unless no other is left.
+/// Makes E infinite for the candidates that the vector has more often than others, since equal
+/// components make equal coordinates.
 inline void leave_out(std::span<const std::uint64_t> vector, std::vector<double>& error) {
     constexpr double never = std::numeric_limits<double>::infinity();
-    std::vector<double> others = error;
+    std::vector<std::size_t> uses(error.size());
     for (const std::uint64_t z : vector)
-        if (z < others.size()) others[z] = never;
-    if (std::ranges::any_of(others, [](double e) { return e < never; })) error = std::move(others);
+        if (z < uses.size()) ++uses[z];
+    std::size_t least = vector.size();
+    for (std::size_t z = 0; z < error.size(); ++z)
+        if (error[z] < never) least = std::min(least, uses[z]);
+    for (std::size_t z = 0; z < error.size(); ++z)
+        if (uses[z] > least) error[z] = never;
 }
 
 /// The vector that grows from 1, one component a weight.

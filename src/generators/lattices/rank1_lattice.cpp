@@ -8,7 +8,7 @@
 //
 //     cbc        component by component, each making the worst-case error in the weighted Korobov
 //                space of smoothness 2 (component_by_component.hpp) least, no two being the same
-//                as long as there are others;
+//                as long as there are others, then no three;
 //     korobov    (1, a, a^2, ...) mod n with a given multiplier a, or the best in that space;
 //     fibonacci  (1, F_(k-1)) for n = F_k, the best there are in two dimensions;
 //     vector     given.

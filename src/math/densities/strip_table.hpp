@@ -16,7 +16,8 @@
 //         logarithm of a strip's patches for a point.
 // Beware  f is looked at on a grid of 512 x 512 places, and when that has been refined to the
 //         tolerance, in 2^17 others, until these show no mass that the table lacks. What holds a disk
-//         of 1/256 of the box's extents is seen; what is smaller, if a place is on it.
+//         of 1/256 of the box's extents is seen, its mass right to 3 %; what is smaller, if a place is
+//         on it.
 // Promise a patch in which f was seen to be 0 inside holds no mass, so that no point lands beyond a
 //         jump to 0 that the patch was seen to hold. x rises in xi0; y in xi1 for a given x.
 #pragma once

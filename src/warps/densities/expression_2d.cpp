@@ -37,7 +37,8 @@ constexpr Param<Text> density{
      .help =
          "Formula in x and y (stipple help formulas), not negative, of any integral: 'x + y', "
          "'x + y < 1 ? 1 : 0'. It is looked at in 393 216 places at least: what holds a disk as "
-         "wide as 1/256 of the ranges is seen; smaller features are if a place is on them"}};
+         "wide as 1/256 of the ranges is seen, its mass right to 3 %; smaller ones are if a place "
+         "is on them"}};
 constexpr Param<Text> bounds{{.name = "bounds",
                               .fallback = "0..1,0..1",
                               .help = "Ranges of x and y: lo..hi,lo..hi, or one for both"}};

@@ -268,8 +268,9 @@ TEST(KernelDiscrepancy, RefusesDomainsWhoseMeansItDoesNotKnow) {
     const PointSet disk = with_domain(points_of({{0.1, 0.2}, {-0.3, 0.4}}), "disk");
     for (const char* kernel : {"periodic", "gaussian", "matern"})
         EXPECT_TRUE(refusal(disk, {{"kernel", kernel}}).starts_with("input: ")) << kernel;
-    EXPECT_TRUE(refusal(with_domain(points_of({{0.5}}), "normal"), {})
-                    .starts_with("input: --kernel periodic is of the unit cube and of boxes"));
+    EXPECT_TRUE(
+        refusal(with_domain(points_of({{0.5}}), "normal"), {})
+            .starts_with("input: kernel-discrepancy takes points of the unit cube or a box"));
 }
 
 // Distances of 0, 1, 3 and 7: 1, 2, 3, 4, 6, 7. Without the last, 1, 2, 3.

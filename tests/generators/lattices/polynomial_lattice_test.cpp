@@ -60,8 +60,12 @@ std::vector<std::uint64_t> by_trying_all(std::uint64_t modulus,
     for (std::size_t k = 0; k < weights.size(); ++k) {
         std::uint64_t best = 0;
         double least = 1e300;
+        std::vector<std::uint64_t> candidates;  // those that are there least often
+        for (std::ptrdiff_t times = 0; candidates.empty(); ++times)
+            for (std::uint64_t q = 1; q < n; ++q)
+                if (std::ranges::count(vector, q) == times) candidates.push_back(q);
         vector.push_back(0);
-        for (std::uint64_t q = 1; q < n; ++q) {
+        for (const std::uint64_t q : candidates) {
             vector.back() = q;
             const PointSet set = make("polynomial-lattice", {.count = n}, given(modulus, vector));
             const double error = error_of_points(set, weights);

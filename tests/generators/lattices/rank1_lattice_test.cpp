@@ -33,17 +33,17 @@ double by_definition(std::uint64_t n, const Vector& z, const std::vector<double>
     return sum / static_cast<double>(n) - 1;
 }
 
-/// Oracle: all components tried one after the other, those that are there already only if there are
-/// no others; the first of those within rounding.
+/// Oracle: all components that are there least often, tried one after the other; the first of those
+/// within rounding.
 Vector by_trial(std::uint64_t n, const std::vector<double>& weights) {
     Vector z{1};
     while (z.size() < weights.size()) {
         double least = 1e300;
         std::uint64_t best = 0;
         Vector candidates;
-        for (const bool again : {false, true})
-            for (std::uint64_t c = 1; 2 * c <= n && (!again || candidates.empty()); ++c)
-                if (std::gcd(c, n) == 1 && (again || std::ranges::count(z, c) == 0))
+        for (std::ptrdiff_t times = 0; n > 1 && candidates.empty(); ++times)
+            for (std::uint64_t c = 1; 2 * c <= n; ++c)
+                if (std::gcd(c, n) == 1 && std::ranges::count(z, c) == times)
                     candidates.push_back(c);
         z.push_back(0);
         for (const std::uint64_t c : candidates) {

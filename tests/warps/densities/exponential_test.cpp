@@ -79,9 +79,9 @@ TEST(ExponentialWarp, DomainSaysWhatItIs) {
 
 TEST(ExponentialWarp, RefusesRatesOutOfRange) {
     EXPECT_EQ(error_of([] { mapping("exponential:rate=0"); }),
-              "usage: --rate: 0 is outside [1e-300, 1e+300]");
+              "usage: --rate: 0 is outside [1e-150, 1e+150]");
     EXPECT_EQ(error_of([] { mapping("exponential:rate=[1,-2]"); }),
-              "usage: --rate: -2 is outside [1e-300, 1e+300]");
+              "usage: --rate: -2 is outside [1e-150, 1e+150]");
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping("exponential"), {-1, 2});
               }),

@@ -82,4 +82,11 @@ struct Rules {
     }
 };
 
+/// What a search finds.
+struct Result {
+    Design design;
+    bool stopped = false;  ///< before the trials were used up, since the run keeps the best
+    bool optimal = false;  ///< no design is better
+};
+
 }  // namespace stipple::latin_hypercube_search

@@ -12,7 +12,7 @@
 //         algorithm P.
 #pragma once
 
-#include "generators/stratified/latin_hypercube_search/search.hpp"
+#include "generators/stratified/latin_hypercube_search/criteria.hpp"
 
 namespace stipple::latin_hypercube_search {
 

@@ -33,12 +33,6 @@ struct Search {
     double trials = 1e6;
 };
 
-struct Result {
-    Design design;
-    bool stopped = false;  ///< before the trials were used up, since the run keeps the best
-    bool optimal = false;  ///< no design is better
-};
-
 /// Reports progress with the best value behind `words`. @throws Error(limit, cancelled)
 Result best_design(const Search& search, const std::string& words, const RunContext& run);
 
