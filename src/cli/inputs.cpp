@@ -88,8 +88,8 @@ std::unique_ptr<io::PointStream> open_file(const std::string& path, const Argume
     return io::open_points(path, options, run, format);
 }
 
-/// What some columns of a table are on, as options tell or its own provenance does: for its analyzer, who
-/// knows which columns.
+/// Records the domain of the table's inputs, from --parameters, --bounds or --domain; the analyzer
+/// finds out which columns these are.
 void take_told(PointSet& table, const Arguments& arguments, const RunContext& run) {
     if (arguments.has("rescale"))
         fail(ErrorKind::usage, "--rescale: these are rows of a table, not points");

@@ -126,7 +126,7 @@ Recipe recipe_of(const Original& original, Session& session) {
     // As strictly as a command line, though what they say was worked out.
     Values known = generator.options.defaults();
     for (const auto& [name, text] : meta.options) generator.options.set(known, name, text);
-    // What only writes side files is no part of it.
+    // Options that only write side files do not affect the points.
     std::erase_if(recipe.typed.settings, [&](const auto& setting) {
         return std::ranges::find(generator.writes, setting.first) != generator.writes.end();
     });

@@ -75,9 +75,9 @@ struct Effects {
     double variance = none;
     std::vector<IndexKind> kinds = {};
     std::vector<PairIndex> pairs = {};
-    Report details = {};            ///< further numbers, of the method's own
-    std::string no_intervals = {};  ///< why there are none; empty: there are, or none are expected
-    std::vector<std::string> missing = {};  ///< why an input has no indices; may be empty
+    Report details = {};                    ///< further numbers, of the method's own
+    std::string no_intervals = {};          ///< the reason, if intervals are left out; else empty
+    std::vector<std::string> missing = {};  ///< for each input, why it has no indices; may be empty
 };
 
 /// Whether a design has the rows that a method needs; where not, why.

@@ -13,7 +13,7 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// The coordinate in which two rows differ: k where there is none, k + 1 where there are several.
+/// The coordinate in which two rows differ; k if they are equal, k + 1 if several differ.
 std::size_t moved(std::span<const double> from, std::span<const double> to) {
     const std::size_t k = from.size();
     std::size_t found = k;

@@ -129,7 +129,7 @@ class Pursuit {
         along_.push_back(along);
     }
 
-    /// Of the fit as it is: see the header.
+    /// Selection criterion of the current fit (see the header).
     [[nodiscard]] double error() const {
         const auto n = static_cast<double>(n_);
         const auto terms = static_cast<double>(chosen_.size());

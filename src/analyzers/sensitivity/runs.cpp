@@ -79,7 +79,8 @@ struct Known {
     Names names;
 };
 
-/// What a provenance knows of so many inputs: of a domain that is told by hand only their order.
+/// Names and domain of the inputs by the provenance; of a domain given by hand, their order alone is
+/// known.
 Known known_inputs(const Provenance& told, std::size_t inputs, const RunContext& run) {
     const bool made = !told.generator.empty();
     if (told.domain.empty() || (told.domain == "unit-cube" && !made)) return {};
@@ -210,7 +211,7 @@ Response response_of(const Columns& from, std::size_t c) {
 }
 
 /// The first point at which column c of a table differs from column j of another one, by more than
-/// `rounding` of the latter's range and of the number; the number of points where there is none.
+/// `rounding` of the latter's range and of the number; the number of points if there is no such row.
 std::size_t first_difference(const PointSet& table, std::size_t c, const PointSet& design,
                              std::size_t j, double rounding) {
     double room = 0;

@@ -169,7 +169,8 @@ Plan plan_of(const Inputs& in, const std::string& asked, const Setting& setting,
     return {};
 }
 
-/// By chaos or, where a polynomial predicts too little, by ranks. Tells the method, and why.
+/// Indices by chaos or, if no polynomial predicts well enough, by ranks; reports the method and the
+/// reason.
 Effects of_any_design(std::string& chosen, const Inputs& in, const Response& out,
                       const Setting& setting, const RunContext& run) {
     constexpr double enough = 0.8;
@@ -286,7 +287,7 @@ Report report_of(const Effects& effects, const std::string& name, const Inputs& 
     return report;
 }
 
-/// Of an output without indices.
+/// Report of an output that has no indices.
 Report report_of_none(const Response& out, const std::string& why) {
     Report report;
     report.add("failed", out.y.size() - succeeded(out.y).size());

@@ -111,7 +111,7 @@ void note_dependence(const Inputs& in, const RunContext& run) {
                 at = {a, b};
             }
         }
-    // Of independent inputs it is exceeded once in 10^4 designs.
+    // Independent inputs exceed this once in 10^4 designs.
     if (largest <= std::sqrt(2 * std::log(1e4 * pairs))) return;
     run.notify(
         fmt::format("the inputs {} and {} depend on each other: their rank correlation is "
