@@ -497,6 +497,8 @@ TEST(Plot, WritesPdf) {
 // so, in every form; none takes long or prints what is no number.
 TEST(Plot, EndsForEveryPairOfCoordinates) {
     const Sandbox box;
+    // Sanitizers need more address space than any limit.
+    const std::string limits = sanitized() ? "ulimit -t 60; " : "ulimit -t 20 -v 4000000; ";
     const std::vector<std::pair<std::string, std::string>> pairs = {
         {"1", "1.0000000000000002"},
         {"1e15", "1000000000000000.125"},
@@ -517,7 +519,7 @@ TEST(Plot, EndsForEveryPairOfCoordinates) {
                                                   : "x,y,z,w\n" + a + ",1,2," + b + "\n" + b +
                                                         ",2,3," + a + "\n");
                     const Outcome outcome =
-                        box.shell("ulimit -t 20 -v 4000000; stipple plot p.csv -o " + file + chart);
+                        box.shell(limits + "stipple plot p.csv -o " + file + chart);
                     ASSERT_EQ(outcome.code, 0) << a << " " << b << " " << d << outcome.err;
                     const std::string picture = box.read(file);
                     ASSERT_LT(picture.size(), 200'000U) << a << " " << b << " " << d;
