@@ -171,7 +171,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     const auto floor = [least](double value) { return std::max(value, least); };
     const auto moments = planar_moments(density, floor, planar, run);
     // For points that have lost their cells.
-    const auto rescue = random_places(rows.size() / 2, planar, density, Rng(plan.seed, 1));
+    const auto rescue = random_places(rows.size() / 2, planar, density, Rng(plan.seed, 1), run);
     run.tick(0, 1);
     EqualCells cells(planar, moments, rows, run);
     const auto steps = static_cast<std::uint64_t>(options[iterations]);

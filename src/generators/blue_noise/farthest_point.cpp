@@ -49,7 +49,9 @@ constexpr Param<Choice> initial{.name = planar::initial.name,
 /// The largest of n numbers that change one at a time.
 class Tournament {
   public:
-    explicit Tournament(std::size_t n) : leaves_(std::bit_ceil(n)), best_(2 * leaves_, 0.0) {}
+    Tournament(std::size_t n, const RunContext& run) : leaves_(std::bit_ceil(n)) {
+        grow(best_, 2 * leaves_, run);
+    }
 
     void set(std::size_t i, double value) {
         std::size_t node = leaves_ + i;
@@ -76,7 +78,8 @@ class Tournament {
 class FarthestPoint {
   public:
     FarthestPoint(const Planar& planar, const std::vector<double>& rows, const RunContext& run)
-        : n_(rows.size() / 2), sites_(planar.sides, planar.torus, n_), corners_(n_), circles_(n_) {
+        : n_(rows.size() / 2), sites_(planar.sides, planar.torus, n_), circles_(n_, run) {
+        grow(corners_, n_, run);
         for (std::size_t i = 0; i < n_; ++i) {
             if (i % 1024 == 0) run.check_stop();
             sites_.insert(i, sites_.inside({rows[2 * i], rows[2 * i + 1]}));

@@ -48,8 +48,9 @@ std::vector<double> jittered_rows(std::uint64_t n, const Rng& rng, const RunCont
 
 /// Moves points of the unit square to where the density has them, and into the rectangle.
 void place_all(const Planar& planar, const std::optional<DensityMap>& density,
-               std::vector<double>& rows) {
+               std::vector<double>& rows, const RunContext& run) {
     for (std::size_t i = 0; i < rows.size(); i += 2) {
+        if (i % 65536 == 0) run.check_stop();
         std::array<double, 2> at{rows[i], rows[i + 1]};
         if (density) at = density->place(at[0], at[1]);
         rows[i] = at[0] * planar.sides.x;
@@ -86,9 +87,9 @@ std::vector<double> starting_rows(const Plan& plan, const Values& options, const
         fail(ErrorKind::limit, "--count: {} points are too many; at most 2^32 - 2", plan.count);
     const Rng rng(plan.seed);
     if (options[planar::initial] == "random")
-        return random_places(plan.count, planar, density, rng);
+        return random_places(plan.count, planar, density, rng, run);
     auto rows = jittered_rows(plan.count, rng, run);
-    place_all(planar, density, rows);
+    place_all(planar, density, rows, run);
     return rows;
 }
 
@@ -156,10 +157,12 @@ std::vector<std::uint32_t> along_strips(const std::vector<double>& rows, const P
 }
 
 std::vector<double> random_places(std::uint64_t n, const Planar& planar,
-                                  const std::optional<DensityMap>& density, const Rng& rng) {
-    std::vector<double> rows(2 * n);
+                                  const std::optional<DensityMap>& density, const Rng& rng,
+                                  const RunContext& run) {
+    std::vector<double> rows;
+    grow(rows, 2 * n, run);
     rng.fill(0, rows);
-    place_all(planar, density, rows);
+    place_all(planar, density, rows, run);
     return rows;
 }
 

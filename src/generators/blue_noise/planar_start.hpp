@@ -9,6 +9,7 @@
 // --from      points of a file, in the box.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <span>
@@ -79,9 +80,22 @@ std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& de
 std::vector<std::uint32_t> along_strips(const std::vector<double>& rows, const Planar& planar,
                                         const RunContext& run);
 
+/// Makes `values` n zeros, in steps between which the run can be stopped: a system takes long to
+/// provide much memory at its first touch.
+template <class T>
+void grow(std::vector<T>& values, std::size_t n, const RunContext& run) {
+    constexpr std::size_t step = (std::size_t{4} << 20) / sizeof(T);
+    values.reserve(n);
+    while (values.size() < n) {
+        run.check_stop();
+        values.resize(std::min(n, values.size() + step));
+    }
+}
+
 /// Random places of the rectangle, in proportion to the density: x, y in [0, side).
 std::vector<double> random_places(std::uint64_t n, const Planar& planar,
-                                  const std::optional<DensityMap>& density, const Rng& rng);
+                                  const std::optional<DensityMap>& density, const Rng& rng,
+                                  const RunContext& run);
 
 /// The sites at their places in the box of the plan.
 /// @param order number of each site's point; none: the site's own

@@ -110,14 +110,6 @@ std::vector<std::uint32_t> copies_among(const std::vector<double>& rows, std::si
     return copies;
 }
 
-PointSet points_of_file(const Values& options, const RunContext& run) {
-    PointSet points = io::read_given(from.name, options[from], {}, run);
-    if (points.dimension() > most_directions)
-        fail(ErrorKind::input, "{}: {} coordinates a point; sample-elimination takes up to {}",
-             options[from], points.dimension(), most_directions);
-    return points;
-}
-
 Plan plan_for_file(const Request& request, const Values& options) {
     if (options.given(ratio))
         fail(ErrorKind::usage,
@@ -126,19 +118,19 @@ Plan plan_for_file(const Request& request, const Values& options) {
     if (options.given(density_option))
         fail(ErrorKind::usage,
              "--density is followed by random points; those of --from are as dense as they are");
-    const PointSet points = points_of_file(options, {});
-    const std::size_t d = points.dimension();
-    require_dimension(request, points, options[from]);
+    const std::size_t d = io::width_of_given(from.name, options[from]);
+    if (d > most_directions)
+        fail(ErrorKind::input, "{}: {} coordinates a point; sample-elimination takes up to {}",
+             options[from], d, most_directions);
+    require_dimension(request, d, options[from]);
     Request complete = request;
     complete.dimension = d;
-    if (!request.count) complete.count = std::max<std::uint64_t>(1, points.count() / 5);
-    if (*complete.count > points.count())
-        fail(ErrorKind::usage, "--count: {} points cannot be chosen from the {} in {}",
-             *complete.count, points.count(), options[from]);
     if (options[manifold] > static_cast<std::int64_t>(d))
         fail(ErrorKind::usage, "--manifold-dimension: {} is above the {} coordinates of a point",
              options[manifold], d);
-    return plan_in_box(complete, options);
+    Plan plan = plan_in_box(complete, options);
+    if (!request.count) plan.count = 0;  // a fifth of the file's points
+    return plan;
 }
 
 Plan plan(const Request& request, const Values& options) {
@@ -163,7 +155,7 @@ void check_inside(const PointSet& points, const Box& box, const std::string& fil
 }
 
 Crowd crowd_of_file(const Plan& plan, const Values& options, const RunContext& run) {
-    const PointSet points = points_of_file(options, run);
+    const PointSet points = io::read_given(from.name, options[from], {}, run);
     BoxSpace space = space_of(plan, options[torus_option]);
     if (plan.bounds || space.torus) {
         check_inside(points, space.box, options[from]);
@@ -304,16 +296,20 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& outside
     const bool file = options.given(from);
     Crowd crowd = file ? crowd_of_file(plan, options, run) : random_crowd(plan, options, run);
     const std::size_t d = plan.dimension;
-    crowd.extent = file ? extent_of_file(crowd, plan.count, options, run)
+    const std::uint64_t all = crowd.rows.size() / d;
+    const std::uint64_t count =
+        file ? chosen_count(plan.count, std::max<std::uint64_t>(1, all / 5), all, options[from])
+             : plan.count;
+    crowd.extent = file ? extent_of_file(crowd, count, options, run)
                         : CrowdExtent{d, volume_of(crowd.space.box)};
-    if (!(radius_for(crowd, plan.count) > 0))
+    if (!(radius_for(crowd, count) > 0))
         fail_with_hint(ErrorKind::input,
                        "--measure, with --manifold-dimension, tells what they are on",
                        "the points of {} lie in a box of no volume", options[from]);
     const bool progressive = options[order] == "progressive";
-    std::vector<std::uint32_t> chosen(crowd.rows.size() / d);
+    std::vector<std::uint32_t> chosen(all);
     std::iota(chosen.begin(), chosen.end(), 0U);
-    thin(crowd, chosen, plan.count, run.stage(0, progressive ? 0.7 : 1));
+    thin(crowd, chosen, count, run.stage(0, progressive ? 0.7 : 1));
     if (progressive) arrange(crowd, chosen, run.stage(0.7, 1));
 
     std::vector<double> rows;

@@ -128,7 +128,7 @@ Request fitted(Request request, const Values& options) {
     if (options.given(initial))
         fail(ErrorKind::usage, "--initial and --from are two ways to start; give one");
     const PointSet points = given_points(options, {});
-    require_dimension(request, points, options[from]);
+    require_dimension(request, points.dimension(), options[from]);
     request.dimension = points.dimension();
     if (!request.count) request.count = points.count();
     if (*request.count < points.count())

@@ -182,7 +182,7 @@ Plan plan_extended(const Request& request, const Values& options) {
         fail(ErrorKind::usage, "--extend: how many points to add? --add says it");
     if (!options.given(add) && request.dimension) return default_plan(request);  // all is told
     const PointSet points = given_points({}, options, {});
-    require_dimension(request, points, options[extend]);
+    require_dimension(request, points.dimension(), options[extend]);
     const std::uint64_t count = options.given(add)
                                     ? points.count() + static_cast<std::uint64_t>(options[add])
                                     : *request.count;
@@ -302,7 +302,7 @@ std::unique_ptr<Sequence> points_of(std::shared_ptr<const LatinPlaces> places,
 PointSet points_to_extend(const Plan& plan, const Values& options, const RunContext& run) {
     if (!options.given(extend)) return {};
     PointSet given = given_points(plan, options, run);
-    require_dimension({.dimension = plan.dimension}, given, options[extend]);
+    require_dimension({.dimension = plan.dimension}, given.dimension(), options[extend]);
     require_more(plan.count, given, options);
     std::size_t most = 0;
     for (std::size_t k = 0; k < plan.dimension; ++k)

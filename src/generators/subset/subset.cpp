@@ -129,33 +129,32 @@ void check_split(std::uint64_t all, std::uint64_t sets, const std::string& whose
              sets);
 }
 
-PointSet points_of_file(const Values& options, const RunContext& run) {
-    PointSet points = io::read_given(from.name, options[from], {}, run);
-    if (is_stein(options) && points.dimension() % 2 != 0)
-        fail(ErrorKind::input,
-             "{}: rows of {} number{}; --by stein takes d coordinates and d scores", options[from],
-             points.dimension(), points.dimension() == 1 ? "" : "s");
-    return points;
+/// Number of points to choose among those of --from, all of them if they are split.
+std::uint64_t count_of_file(std::uint64_t asked, std::uint64_t all, const Values& options) {
+    const auto sets = static_cast<std::uint64_t>(options[split]);
+    if (sets == 1)
+        return chosen_count(asked, std::max<std::uint64_t>(1, all / 16), all, options[from]);
+    const std::uint64_t count = asked > 0 ? asked : all;
+    check_split(all, sets, " of " + options[from]);
+    if (count != all)
+        fail(ErrorKind::usage,
+             "--count: {}, but --split writes all {} points of {}; leave --count out", count, all,
+             options[from]);
+    return count;
 }
 
+/// Reads the first rows of the file alone, so that the count may remain open.
 Plan plan_for_file(const Request& request, const Values& options) {
-    const PointSet points = points_of_file(options, {});
-    const auto sets = static_cast<std::uint64_t>(options[split]);
-    const std::size_t d = points.dimension();
+    const std::size_t d = io::width_of_given(from.name, options[from]);
     if (request.dimension.value_or(d) != d)
         fail(ErrorKind::usage, "--dimension: {}, but {} has rows of {} numbers", *request.dimension,
              options[from], d);
-    const std::uint64_t all = points.count();
-    const Plan plan =
-        default_plan(request, sets > 1 ? all : std::max<std::uint64_t>(1, all / 16), d);
-    if (sets > 1) check_split(all, sets, " of " + options[from]);
-    if (sets > 1 && plan.count != all)
-        fail(ErrorKind::usage,
-             "--count: {}, but --split writes all {} points of {}; leave --count out", plan.count,
-             all, options[from]);
-    if (plan.count > all)
-        fail(ErrorKind::usage, "--count: {} points cannot be chosen from the {} in {}", plan.count,
-             all, options[from]);
+    if (is_stein(options) && d % 2 != 0)
+        fail(ErrorKind::input,
+             "{}: rows of {} number{}; --by stein takes d coordinates and d scores", options[from],
+             d, d == 1 ? "" : "s");
+    Plan plan = default_plan(request, 1, d);
+    if (!request.count) plan.count = 0;
     return plan;
 }
 
@@ -197,7 +196,7 @@ PointSet points_for(const Plan& plan, const Values& options, const RunContext& r
                         fmt::format("choosing from {:.4g} points", count));
     };
     if (options.given(from)) {
-        PointSet points = points_of_file(options, run);
+        PointSet points = io::read_given(from.name, options[from], {}, run);
         needed(static_cast<double>(points.count()));
         if (!is_stein(options))
             require_in_cube(points, options[from], "--by stein takes points anywhere");
@@ -308,16 +307,18 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& outside
     run.tick(0, 1);
     const PointSet points = points_for(plan, options, run);
     const auto sets = static_cast<std::size_t>(options[split]);
+    const std::uint64_t count =
+        options.given(from) ? count_of_file(plan.count, points.count(), options) : plan.count;
     const Task task{.points = points,
                     .columns = {points.flat(), points.dimension()},
                     .kernel = kernel_of(options, points.dimension()),
                     .sets = sets,
-                    .n = static_cast<std::size_t>(plan.count) / sets,
+                    .n = static_cast<std::size_t>(count) / sets,
                     .star = options[by] == "star",
                     .seed = plan.seed,
                     .effort = options[effort]};
     const std::vector<Rows> chosen = choose(task, run.stage(0, 0.99));
-    PointSet result(plan.count, points.dimension());
+    PointSet result(count, points.dimension());
     std::size_t at = 0;
     for (const Rows& rows : chosen)
         for (const std::size_t i : rows) std::ranges::copy(points[i], result[at++].begin());
