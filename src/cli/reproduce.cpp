@@ -185,12 +185,13 @@ std::string changed_rules(const Provenance& meta) {
 
 /// Files that may be opened while a provenance is followed: those that the command line names. A file
 /// that the points were made from may stand there under another name.
-std::unique_ptr<FileRules> rules_for(const Original& original, const Arguments& arguments) {
+std::unique_ptr<FileRules> rules_for(const Original& original, const Arguments& arguments,
+                                     const RunContext& run) {
     std::map<std::string, std::string> readable = {{original.path, original.path}};
     std::map<std::string, std::string> by_fingerprint;
     for (const std::string& file : arguments.all("input")) {
         readable.emplace(file, file);
-        by_fingerprint.emplace(format_fingerprint(fingerprint(read_file(file))), file);
+        by_fingerprint.emplace(format_fingerprint(file_fingerprint(file, run)), file);
     }
     for (const auto& [file, fingerprint_then] : original.meta.inputs) {
         if (fingerprint_then == not_kept)
@@ -487,7 +488,7 @@ int reproduce(const Arguments& arguments, Session& session) {
     const std::string changed =
         reading_provenance(original, [&] { return changed_rules(original.meta); });
     if (!changed.empty()) return say(original, {}, changed, arguments);
-    const auto rules = rules_for(original, arguments);
+    const auto rules = rules_for(original, arguments, session.run());
     std::optional<Reproducer> reproducer;
     const Verdict verdict = reading_provenance(original, [&] {
         reproducer.emplace(original, recipe_of(original, session), session);

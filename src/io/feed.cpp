@@ -133,14 +133,19 @@ std::string Feed::read_all() {
     taken_ = front_.size();
     if (ends_in_front()) return bytes;
     // A byte more than a file seems to have shows its end.
-    const std::size_t rest = size_ > bytes.size() ? size_ - bytes.size() + 1 : front_size;
-    for (std::size_t more = rest;; more = bytes.size()) {
-        const std::size_t before = bytes.size();
-        run_.need_memory(static_cast<double>(before + more), "the bytes of " + name_);
-        bytes.resize(before + more);
-        const std::size_t got = fetch(std::span(bytes).subspan(before));
-        bytes.resize(before + got);
-        if (got < more) return bytes;
+    std::size_t room = size_ > bytes.size() ? size_ + 1 : bytes.size() + front_size;
+    constexpr std::size_t step = std::size_t{4} << 20;  // between two looks at the stop token
+    for (;; room = 2 * bytes.size()) {
+        run_.need_memory(static_cast<double>(room), "the bytes of " + name_);
+        bytes.reserve(room);
+        while (bytes.size() < room) {
+            const std::size_t before = bytes.size();
+            const std::size_t wanted = std::min(step, room - before);
+            bytes.resize(before + wanted);
+            const std::size_t got = fetch(std::span(bytes).subspan(before));
+            bytes.resize(before + got);
+            if (got < wanted) return bytes;
+        }
     }
 }
 

@@ -595,13 +595,14 @@ std::vector<std::string> files_of(const Schema& schema, const Values& values,
     return files;
 }
 
-std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const std::string> files) {
+std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const std::string> files,
+                                                              const RunContext& run) {
     std::vector<std::pair<std::string, std::string>> all;
     for (const std::string& file : files) {
         // What is read from a pipe can be read once; what is not there, its reader complains of.
         const bool kept = is_regular_file(status_of(file));
         all.emplace_back(
-            file, kept ? format_fingerprint(fingerprint(read_file(file))) : std::string(not_kept));
+            file, kept ? format_fingerprint(file_fingerprint(file, run)) : std::string(not_kept));
     }
     return all;
 }

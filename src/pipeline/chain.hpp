@@ -190,7 +190,8 @@ std::vector<std::string> files_of(const Schema& schema, const Values& values,
 inline constexpr std::string_view not_kept = "not kept";
 
 /// Files with the fingerprints of their bytes. @throws Error(io)
-std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const std::string> files);
+std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const std::string> files,
+                                                              const RunContext& run);
 
 /// The domain that a text means: unit-cube, box:bounds=[lo..hi,...], a warp's spec, or several with
 /// coordinates joined by " x ". @throws Error(usage)

@@ -169,7 +169,7 @@ GeneratedSets::GeneratedSets(SetsToMake asked, const RunContext& run)
     if (generator_.settle) generator_.settle(asked_.options);
     auto files = files_of(generator_.options, asked_.options, generator_.writes);
     files.insert(files.end(), chain_->files().begin(), chain_->files().end());
-    inputs_ = fingerprints(files);
+    inputs_ = fingerprints(files, run);
     if (const auto& bounds = asked_.request.bounds; bounds && !generator_.traits.boxed) {
         scaling_.emplace();
         for (const auto& [k, at] : chain_->kept()) {

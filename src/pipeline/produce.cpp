@@ -247,7 +247,7 @@ struct Warping {
             fail(ErrorKind::usage,
                  "--with-{}: the inverse gives points of the unit cube, density 1",
                  target.columns.names().front());
-        inputs = fingerprints(chain->files());
+        inputs = fingerprints(chain->files(), run);
         cube = fmt::format("the unit cube [0, 1]^{}", taken.size());
         if (!spec.coordinates.empty()) cube += " in coordinates " + format_coordinates(taken);
     }

@@ -2,13 +2,16 @@
 #include "core/bytes/file_bytes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <system_error>
 #include <utility>
 
+#include "core/bytes/fingerprint.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 
@@ -58,10 +61,34 @@ std::filesystem::file_status status_of(const std::string& path) {
     return status;
 }
 
-std::string read_file(const std::string& path) {
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
-        std::fopen(FileRules::readable(path).c_str(), "rb"), &std::fclose);
+namespace {
+
+using FilePtr = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+FilePtr open_file(const std::string& path) {
+    FilePtr file(std::fopen(FileRules::readable(path).c_str(), "rb"), &std::fclose);
     if (!file) refuse_file(path, errno);
+    return file;
+}
+
+}  // namespace
+
+std::uint64_t file_fingerprint(const std::string& path, const RunContext& run) {
+    const FilePtr file = open_file(path);
+    std::array<char, std::size_t{1} << 16> bytes;
+    std::optional<std::uint64_t> hash;
+    std::size_t got = 0;
+    do {
+        run.check_stop();
+        got = std::fread(bytes.data(), 1, bytes.size(), file.get());
+        hash = fingerprint({bytes.data(), got}, hash);
+    } while (got == bytes.size());
+    if (std::ferror(file.get()) != 0) refuse_file(path, errno);
+    return *hash;
+}
+
+std::string read_file(const std::string& path) {
+    const FilePtr file = open_file(path);
     std::string bytes;
     constexpr std::size_t step = std::size_t{1} << 16;
     for (std::size_t got = step; got == step;) {

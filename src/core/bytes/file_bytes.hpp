@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "stipple/run.hpp"
+
 namespace stipple {
 
 /// @param error errno: what went wrong with the file. @throws Error(io) "NAME: what"; Error(limit)
@@ -21,6 +23,10 @@ std::filesystem::file_status status_of(const std::string& path);
 /// Reads the file at once. @throws Error(io): missing, a directory, unreadable; Error(limit): larger
 /// than 1 GiB, or what limit_whole_files() said.
 std::string read_file(const std::string& path);
+
+/// Fingerprint (core/bytes/fingerprint.hpp) of the file's bytes, of which few are in memory at a time.
+/// @throws Error(io) as read_file(); Error(cancelled)
+std::uint64_t file_fingerprint(const std::string& path, const RunContext& run);
 
 /// From now on read_file() takes no more bytes than that, nor than 1 GiB.
 void limit_whole_files(std::uint64_t bytes);

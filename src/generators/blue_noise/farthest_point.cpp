@@ -32,6 +32,7 @@
 #include <bit>
 #include <limits>
 
+#include "core/machine/first_touch.hpp"
 #include "generators/blue_noise/planar_start.hpp"
 #include "generators/generator.hpp"
 #include "math/neighbors/periodic_voronoi.hpp"
@@ -78,7 +79,9 @@ class Tournament {
 class FarthestPoint {
   public:
     FarthestPoint(const Planar& planar, const std::vector<double>& rows, const RunContext& run)
-        : n_(rows.size() / 2), sites_(planar.sides, planar.torus, n_), circles_(n_, run) {
+        : n_(rows.size() / 2),
+          sites_(planar.sides, planar.torus, n_, false, run),
+          circles_(n_, run) {
         grow(corners_, n_, run);
         for (std::size_t i = 0; i < n_; ++i) {
             if (i % 1024 == 0) run.check_stop();

@@ -50,7 +50,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     const auto moments = planar_moments(density, square, planar, run);
     const auto order = along_strips(rows, planar, run);  // site i is point order[i]
     const std::size_t n = order.size();
-    PeriodicVoronoi sites(planar.sides, planar.torus, n, moments.has_value());
+    PeriodicVoronoi sites(planar.sides, planar.torus, n, moments.has_value(), run);
     for (std::size_t i = 0; i < n; ++i)
         sites.insert(i, {rows[2 * order[i]], rows[2 * order[i] + 1]});
     std::vector<Vec2> next(n);

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "core/error.hpp"
+#include "core/machine/first_touch.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
 #include "math/functions/powers.hpp"

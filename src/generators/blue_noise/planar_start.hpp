@@ -9,7 +9,6 @@
 // --from      points of a file, in the box.
 #pragma once
 
-#include <algorithm>
 #include <functional>
 #include <optional>
 #include <span>
@@ -79,18 +78,6 @@ std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& de
 /// The order of the points along strips of the rectangle: what is near in it is near in memory.
 std::vector<std::uint32_t> along_strips(const std::vector<double>& rows, const Planar& planar,
                                         const RunContext& run);
-
-/// Makes `values` n zeros, in steps between which the run can be stopped: a system takes long to
-/// provide much memory at its first touch.
-template <class T>
-void grow(std::vector<T>& values, std::size_t n, const RunContext& run) {
-    constexpr std::size_t step = (std::size_t{4} << 20) / sizeof(T);
-    values.reserve(n);
-    while (values.size() < n) {
-        run.check_stop();
-        values.resize(std::min(n, values.size() + step));
-    }
-}
 
 /// Random places of the rectangle, in proportion to the density: x, y in [0, side).
 std::vector<double> random_places(std::uint64_t n, const Planar& planar,

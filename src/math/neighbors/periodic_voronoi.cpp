@@ -5,6 +5,8 @@
 #include <cassert>
 #include <tuple>
 
+#include "core/machine/first_touch.hpp"
+
 namespace stipple {
 namespace {
 
@@ -135,8 +137,10 @@ void VoronoiCell::enclose(std::vector<CellCorner>& planes) {
     measure_reach();
 }
 
-PeriodicVoronoi::PeriodicVoronoi(Vec2 sides, bool torus, std::size_t expected, bool uneven)
-    : sides_(sides), torus_(torus), sites_(expected) {
+PeriodicVoronoi::PeriodicVoronoi(Vec2 sides, bool torus, std::size_t expected, bool uneven,
+                                 const RunContext& run)
+    : sides_(sides), torus_(torus) {
+    grow(sites_, expected, run);
     // A ring of cells around a site's own is to hold its neighbours mostly, and little else.
     const double sites_a_cell = uneven ? 0.5 : 2;
     const double cells = std::max(1.0, static_cast<double>(expected) / sites_a_cell);
@@ -150,8 +154,9 @@ PeriodicVoronoi::PeriodicVoronoi(Vec2 sides, bool torus, std::size_t expected, b
     heads_.assign(static_cast<std::size_t>(columns_ * rows_), none);
 }
 
-PeriodicVoronoi::PeriodicVoronoi(Vec2 sides, bool torus, std::span<const double> rows, bool uneven)
-    : PeriodicVoronoi(sides, torus, rows.size() / 2, uneven) {
+PeriodicVoronoi::PeriodicVoronoi(Vec2 sides, bool torus, std::span<const double> rows, bool uneven,
+                                 const RunContext& run)
+    : PeriodicVoronoi(sides, torus, rows.size() / 2, uneven, run) {
     for (std::size_t i = 0; i < sites_.size(); ++i) insert(i, {rows[2 * i], rows[2 * i + 1]});
 }
 

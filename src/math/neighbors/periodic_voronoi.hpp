@@ -31,6 +31,7 @@
 #include <vector>
 
 #include "core/domain.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 
@@ -106,10 +107,12 @@ class PeriodicVoronoi {
   public:
     /// A rectangle [0, x] x [0, y] without sites; `expected` of them will be in it, evenly unless
     /// `uneven`.
-    PeriodicVoronoi(Vec2 sides, bool torus, std::size_t expected, bool uneven = false);
+    PeriodicVoronoi(Vec2 sides, bool torus, std::size_t expected, bool uneven = false,
+                    const RunContext& run = {});
 
     /// The sites are rows (x, y), numbered from 0.
-    PeriodicVoronoi(Vec2 sides, bool torus, std::span<const double> rows, bool uneven = false);
+    PeriodicVoronoi(Vec2 sides, bool torus, std::span<const double> rows, bool uneven = false,
+                    const RunContext& run = {});
 
     [[nodiscard]] Vec2 sides() const { return sides_; }
     [[nodiscard]] bool torus() const { return torus_; }
