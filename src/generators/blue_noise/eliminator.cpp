@@ -90,6 +90,7 @@ class LayeredPoints {
         std::vector<double> some;
         Layer layer{.first = originals_.size(), .largest = 0, .points = {}};
         for (const std::uint32_t i : members) {
+            if (some.size() % (65536 * D) == 0) run.check_stop();
             const auto row = rows.begin() + static_cast<std::ptrdiff_t>(i * D);
             some.insert(some.end(), row, row + D);
             layer.largest = std::max(layer.largest, radii_[i]);

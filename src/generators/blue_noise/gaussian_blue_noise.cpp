@@ -24,6 +24,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/machine/first_touch.hpp"
 #include "core/rng.hpp"
 #include "generators/blue_noise/relaxation/density_relaxation.hpp"
 #include "generators/blue_noise/relaxation/gaussian_relaxation.hpp"
@@ -68,7 +69,9 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     const auto extents = proportions_of(plan);
     const std::int64_t usual = map ? usual_steps_to_density : usual_steps;
     const std::int64_t steps = options.given(iterations) ? options[iterations] : usual;
-    PointSet points(plan.count, plan.dimension);
+    std::vector<double> rows;
+    grow(rows, plan.count * plan.dimension, run);
+    PointSet points(std::move(rows), plan.dimension);
     Rng(plan.seed).fill(0, points.flat());
     if (map) {
         for (std::size_t i = 0; i < points.count(); ++i)

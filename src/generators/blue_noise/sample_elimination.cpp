@@ -34,6 +34,7 @@
 #include <functional>
 #include <numeric>
 
+#include "core/machine/first_touch.hpp"
 #include "core/text.hpp"
 #include "generators/blue_noise/eliminator.hpp"
 #include "generators/box_space.hpp"
@@ -176,8 +177,8 @@ Crowd random_crowd(const Plan& plan, const Values& options, const RunContext& ru
                     fmt::format("choosing from {:.4g} points", wanted));
     if (wanted >= 0xffff'fff0) fail(ErrorKind::limit, "{:.4g} points are more than 2^32", wanted);
     const auto count = static_cast<std::size_t>(wanted);
-    Crowd crowd{std::vector<double>(count * plan.dimension),
-                space_of(plan, !options[bounded_option])};
+    Crowd crowd{{}, space_of(plan, !options[bounded_option])};
+    grow(crowd.rows, count * plan.dimension, run);
     DrawStream draws{Rng(plan.seed)};
     for (std::size_t i = 0; i < count; ++i) {
         if (i % 65536 == 0) run.check_stop();

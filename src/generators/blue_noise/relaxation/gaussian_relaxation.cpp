@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/machine/first_touch.hpp"
 #include "core/machine/wide.hpp"
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
@@ -349,7 +350,8 @@ void relax_gaussian(std::span<double> rows, std::size_t dimension, std::uint64_t
                                  0.039788735772973836};
     const double length = stable[dimension - 1];
     const std::span<double> places = kernels.places();
-    std::vector<double> forces(rows.size());
+    std::vector<double> forces;
+    grow(forces, rows.size(), run);
     Descent descent(rows.size());
     for (std::uint64_t step = 0; step < steps; ++step) {
         run.tick(step, steps);
