@@ -15,7 +15,7 @@ void check_torus(const Values& options) {
 }
 
 double unit_ball_volume(std::size_t dimension) {
-    double ball = dimension % 2 == 0 ? std::numbers::pi : 2;  // of 2 or 1 dimensions
+    double ball = dimension % 2 == 0 ? std::numbers::pi : 2;  // volume in 2 or 1 dimensions
     for (std::size_t d = dimension % 2 == 0 ? 4 : 3; d <= dimension; d += 2)
         ball *= 2 * std::numbers::pi / static_cast<double>(d);
     return ball;
@@ -81,7 +81,7 @@ Plan plan_in_box(const Request& request, const Values& options) {
 }
 
 std::vector<double> proportions_of(const Plan& plan) {
-    constexpr double alike = 1 + 1e-9;  // squares far from the origin have sides with rounding
+    constexpr double alike = 1 + 1e-9;  // sides of squares far from the origin are rounded
     if (!plan.bounds) return {};
     std::vector<double> sides;
     for (std::size_t k = 0; k < plan.bounds->dimension(); ++k)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What generators of sets with distances in a box share: the box, closed to a torus or not, and the
-// options that say so.
+// Common parts of generators whose sets keep distances in a box: the box, bounded or closed to a
+// torus, and the options for it.
 #pragma once
 
 #include <array>
@@ -21,71 +21,74 @@ inline constexpr Param<bool> torus_option{
 inline constexpr Param<bool> bounded_option{.name = "bounded",
                                             .help = "Distances end at the faces"};
 
-/// @throws Error(usage): --torus and --bounded
+/// @throws Error(usage) if both --torus and --bounded are given
 void check_torus(const Values& options);
 
-/// Points to r^d in a large box, d = 0 ... 6, when points thrown at random with a least distance r
-/// leave no place for another: the saturation densities of random sequential addition (S. Torquato,
-/// O. U. Uche, F. H. Stillinger, Phys. Rev. E 74 (2006) 061308, doi:10.1103/PhysRevE.74.061308).
+/// Mean number of points in a cube of side r, in d = 0, ..., 6 dimensions, once random points of
+/// minimum distance r leave no room for another: the saturation densities of random sequential
+/// addition (S. Torquato, O. U. Uche, F. H. Stillinger, Phys. Rev. E 74 (2006) 061308,
+/// doi:10.1103/PhysRevE.74.061308).
 inline constexpr std::array<double, 7> saturated_density{0,      0.7476, 0.6966, 0.7336,
                                                          0.8430, 1.0377, 1.3598};
 
 /// Volume of the ball of radius 1.
 double unit_ball_volume(std::size_t dimension);
 
-/// A box with distances; they go across opposite faces on the torus.
+/// A box and its metric; on the torus, distances go across opposite faces.
 struct BoxSpace {
     Box box;
     bool torus = true;
 
-    /// The least number that no distance in it is above.
+    /// Supremum of the distances between two points.
     [[nodiscard]] double largest_distance() const;
 
-    /// The largest absolute value of a coordinate.
+    /// Largest absolute value of a coordinate.
     [[nodiscard]] double largest_coordinate() const;
 
-    /// About how many points there are when `density` of them fill the cube of side `radius`, which
-    /// they keep as their distance; walls let some more in.
+    /// Approximate number of points of minimum distance `radius` if a cube of that side holds
+    /// `density` of them; walls allow a few more.
     [[nodiscard]] double expected_points(double density, double radius) const;
 
-    /// @throws Error(limit) when `name` is so small a radius that rounding moves points by more
-    /// than a thousandth of it.
+    /// @throws Error(limit) naming `name` if rounding may move points by more than a thousandth of
+    /// `radius`
     void check_resolution(double radius, std::string_view name) const;
 };
 
 /// The plan's box, or the unit cube.
 BoxSpace space_of(const Plan& plan, bool torus);
 
-/// The plan for a request whose box may say the dimension.
-/// @throws Error(usage): a box of another dimension
+/// Plan for a request whose box may determine the dimension.
+/// @throws Error(usage) if the box has another dimension
 Plan plan_in_bounds(const Request& request);
 
-/// The same for distances. @throws Error(usage): --torus and --bounded, or a box whose distances
-/// cannot be squared
+/// The same for generators that use distances.
+/// @throws Error(usage) if --torus and --bounded are given, or float64 cannot square the box's
+/// distances
 Plan plan_in_box(const Request& request, const Values& options);
 
-/// Sides of the plan's box in proportion, the shortest 1; none where all are alike, as those of the
-/// unit cube.
+/// Side lengths of the plan's box relative to the shortest; empty if all are equal, as in the unit
+/// cube.
 std::vector<double> proportions_of(const Plan& plan);
 
-/// Of the longest side to the shortest, for those.
+/// Largest allowed ratio of two sides in plan_in_proportion.
 inline constexpr double largest_proportion = 1000;
 
-/// The plan of a generator that knows its box by its proportions. @throws Error(usage): a box of
-/// another dimension, or with a side longer than largest_proportion times another.
+/// Plan of a generator that uses only the proportions of its box.
+/// @throws Error(usage) if the box has another dimension or a ratio of sides above
+/// largest_proportion
 Plan plan_in_proportion(const Request& request);
 
-/// Traits of sets that are made as a whole in a rectangle.
+/// Traits of generators that make a whole set in a rectangle.
 inline const GeneratorTraits planar_traits{
     .min_dimension = 2, .max_dimension = 2, .sequence = false, .prefix = false, .boxed = true};
 
 /// Moves points of the unit cube into the plan's box, which becomes their domain.
 void put_in_box(const Plan& plan, PointSet& points);
 
-/// The points, on their box, from index plan.start on.
+/// Point set from `rows` without the first plan.start points; its domain is the plan's box.
 PointSet set_in_box(std::vector<double> rows, const Plan& plan);
 
-/// Largest dimension that code for distances is compiled for.
+/// Largest dimension for which code with distances is compiled.
 inline constexpr std::size_t most_directions = 6;
 
 }  // namespace stipple

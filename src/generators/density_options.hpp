@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The options of generators whose points follow a density (media/density_map.hpp), and how they do.
+// Options of generators whose points follow a density (media/density_map.hpp), and how points do
+// so.
 #pragma once
 
 #include <cstddef>
@@ -21,24 +22,24 @@ inline constexpr Param<Path> density_option{
 inline constexpr Param<bool> invert_option{
     .name = "invert", .help = "Points where --density is dark, as ink on paper"};
 
-/// @throws Error(usage) where there is nothing to invert.
+/// @throws Error(usage) if --invert is given without a density
 void check_invert(const Values& options);
 
-/// @throws Error(usage) also where points have other than two coordinates.
+/// The same. @throws Error(usage) also if there is a density and the dimension is not 2
 void check_density(const Values& options, std::size_t dimension);
 
-/// The density of --density; nothing where it is not given, or the unit has no such option.
+/// Density of --density; nullopt if it is not given or the unit has no such option.
 /// @throws as check_invert, read_density
 std::optional<DensityMap> given_density(const Values& options, const RunContext& run);
 
-/// Moves a uniform point of a rectangle to where the density has it.
-/// @return 1 / sqrt(density there), the mean density being 1: as far apart as such points are
+/// Maps a uniform point of the box, in place, so that it follows the density.
+/// @return 1 / sqrt(density at the new point), for a mean density of 1: the local spacing of points
 double follow(const DensityMap& map, const Box& box, double* point);
 
-/// Puts these options, where they are given, into the points' provenance.
+/// Records the given ones of these options in the points' provenance.
 void note_density(const Values& options, PointSet& points);
 
-/// The option, if one is given, by which points are not spread evenly; else nullptr.
+/// Name of a given option that makes the points uneven; nullptr if there is none.
 const char* shaping_option(const Values& options);
 
 }  // namespace stipple

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What generators that start from the points of a file ask of them.
+// Checks on the points of a file, for generators that start from them.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace stipple {
 
-/// @throws Error(usage) where another dimension is asked for than the file's points have
+/// @throws Error(usage) if the request's dimension is not that of the file's points
 void require_dimension(const Request& request, std::size_t dimension, const std::string& file);
 
 /// Number of points to choose among the `all` of a file: `asked`, or if that is 0 the usual number.
@@ -20,7 +20,7 @@ void require_dimension(const Request& request, std::size_t dimension, const std:
 std::uint64_t chosen_count(std::uint64_t asked, std::uint64_t usual, std::uint64_t all,
                            const std::string& file);
 
-/// @throws Error(input) naming the first point outside the unit cube
+/// @throws Error(input) naming the first point outside the unit cube, if any
 void require_in_cube(const PointSet& points, const std::string& file, const std::string& hint = {});
 
 }  // namespace stipple

@@ -27,7 +27,7 @@ BinaryMatrices binary(const std::vector<DigitMatrix>& matrices) {
     return packed;
 }
 
-/// Indices that differ in their t low digits only, t being the most with b^t <= 1024.
+/// Blocks of b^t indices that differ only in their t lowest digits, t the largest with b^t <= 1024.
 struct LowDigits {
     explicit LowDigits(std::uint32_t base) : block(base), count(1) {
         for (; block * base <= largest_digit_table; block *= base) ++count;
@@ -38,7 +38,7 @@ struct LowDigits {
             reversed.push_back(static_cast<std::uint32_t>(turned));
         }
     }
-    /// Whether these digits meet the first t rows of the matrix only.
+    /// Whether these digits of the index affect only the first t digits of the coordinate.
     [[nodiscard]] bool stay_on_top_of(const DigitMatrix& matrix) const {
         for (std::size_t r = count; r < matrix.rows; ++r)
             for (std::size_t c = 0; c < std::min(count, matrix.columns); ++c)
@@ -48,11 +48,12 @@ struct LowDigits {
 
     std::size_t block;
     std::size_t count;
-    std::vector<std::uint32_t> reversed;  ///< of m < block: its t digits from last to first
+    std::vector<std::uint32_t> reversed;  ///< t digits of m < block in reverse order
 };
 
-/// Nested scrambling in an odd base. Where the matrices are triangular, points of a block share all
-/// digits but the first t, so the images of all that these can be are made at once, and picked.
+/// Nested scrambling in an odd base. If the matrices are triangular, points of a block share all
+/// digits except the first t, so the images of all b^t possible values are computed at once and
+/// looked up.
 class OwenNet {
   public:
     OwenNet(BaseNet net, const std::vector<DigitMatrix>& matrices, std::uint32_t base,
@@ -77,7 +78,7 @@ class OwenNet {
     }
 
   private:
-    /// The k-th coordinate of points of one block.
+    /// Scrambles coordinate k of points that are in one block.
     void scramble(std::size_t k, std::size_t count, double* out) const {
         const std::size_t d = scrambles_.size();
         if (!by_block_[k] || count < low_.block / 8) {
@@ -88,7 +89,8 @@ class OwenNet {
         std::vector<double> images(low_.block);
         const std::uint64_t shared = reversed_digits(*out, base_) / low_.block;
         scrambles_[k].fill(shared * low_.block, low_.block, images.data(), 1);
-        // Coordinates are 2^-50 apart at least, and rounded by 2^-54.
+        // The sum truncates to the right digits: coordinates are at least 2^-50 apart, rounded by
+        // 2^-54.
         const auto block = static_cast<double>(low_.block);
         for (std::size_t i = 0; i < count; ++i)
             out[i * d] =
@@ -102,14 +104,14 @@ class OwenNet {
     std::vector<bool> by_block_;
 };
 
-/// With zeros below, or without the rows below.
+/// Pads the matrix with zero rows, or drops its last rows.
 DigitMatrix resized(DigitMatrix matrix, std::size_t rows) {
     matrix.rows = rows;
     matrix.digits.resize(rows * matrix.columns);
     return matrix;
 }
 
-/// The scramble's matrix times the coordinate's, modulo the base.
+/// Product of the scramble's matrix and the coordinate's, modulo the base.
 DigitMatrix product(const BaseMatrix& left, const DigitMatrix& right, std::uint32_t base) {
     DigitMatrix result(right.rows, right.columns);
     for (std::size_t r = 0; r < right.rows; ++r)
@@ -159,7 +161,7 @@ void check_net_end(const Request& request, const Plan& plan, std::uint32_t base,
 std::unique_ptr<Sequence> net_sequence(std::uint32_t base, std::vector<DigitMatrix> matrices,
                                        const Plan& plan, const Values& options) {
     if (base == 2) {
-        Values all = options;  // in the order of the indices, unless the unit has that option
+        Values all = options;  // natural order, unless the unit has the option
         if (all.try_find(binary_order.name) == nullptr)
             all.put(binary_order.name, std::string(binary_order.fallback), false);
         return binary_sequence(binary(matrices), plan, all);
@@ -193,10 +195,10 @@ std::unique_ptr<Sequence> plain_sequence(BinaryNet net) {
     });
 }
 
-/// Points a block at a time: Owen's scrambling takes the fractions of one coordinate.
+/// Words in a block of points: Owen's scrambling works on one coordinate of many points at a time.
 constexpr std::size_t block_words = 2048;
 
-/// Scrambles the k-th coordinate of some points.
+/// Scrambles coordinate k of the points of a block.
 void scramble_column(const BinaryOwen& owen, std::span<const std::uint64_t> block, std::size_t d,
                      std::size_t k, double* out) {
     std::array<std::uint64_t, block_words> column;
@@ -266,7 +268,7 @@ std::vector<std::string> binary_notes(const Request& request, const Plan& plan, 
 
 std::vector<std::string> net_notes(std::uint64_t base, const Request& request, const Plan& plan) {
     const std::uint64_t start = request.start;
-    std::uint64_t power = 1;  // the largest of the base that is not above the count
+    std::uint64_t power = 1;  // largest power of the base up to the count
     while (plan.count / power >= base) power *= base;
     const std::uint64_t below = plan.count / power * power;
     if (below == plan.count) {
@@ -277,7 +279,7 @@ std::vector<std::string> net_notes(std::uint64_t base, const Request& request, c
                         "{} or {}",
                         plan.count, start, power, before, before + power)};
     }
-    // What starts elsewhere is a piece of a set that is made in several runs.
+    // A later start usually continues a set that is made in several runs.
     if (start > 0) return {};
     return {fmt::format("{} points do not form a net; take a {}power of {}: {} or {}", plan.count,
                         base == 2 ? "" : "multiple of a ", base == 2 ? "two" : std::to_string(base),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The sequence that generating matrices stand for, by the fastest way that their base allows, and
-// scrambled if wished: to the same numbers that the scramble of that name makes of its points.
+// Sequence of given generating matrices, by the fastest method for their base and optionally
+// scrambled. The numbers are those that the scramble of that name makes of the unscrambled points.
 #pragma once
 
 #include <cstdint>
@@ -16,31 +16,32 @@
 
 namespace stipple {
 
-/// Digits of the indices and behind the point in a prime base.
+/// Number of digits of indices and of coordinates in a prime base.
 std::size_t net_digits(std::uint32_t base);
 
-/// The value of an option --base. @throws Error(usage) if it is not a prime.
+/// Value of an option --base. @throws Error(usage) if it is not prime
 std::uint32_t prime_base(std::int64_t base);
 
-/// Holds that the points are among the base^net_digits(base) that `who` has. @throws Error(usage)
+/// Checks that the points are among the first base^net_digits(base), all that `who` has.
+/// @throws Error(usage)
 void check_net_end(const Request& request, const Plan& plan, std::uint32_t base,
                    std::string_view who);
 
-/// @param matrices a coordinate each, of one shape, of at most 64 columns.
-/// @param options have binary_scramble among them.
+/// @param matrices one per coordinate, all of one shape, with at most 64 columns
+/// @param options must include binary_scramble
 std::unique_ptr<Sequence> net_sequence(std::uint32_t base, std::vector<DigitMatrix> matrices,
                                        const Plan& plan, const Values& options);
 
-/// Coordinates of higher order: row r of the k-th is row r / alpha of matrix alpha k + r mod alpha.
-/// What is left over of the matrices when alpha does not divide their number is left out.
+/// Generating matrices of higher order: row r of the k-th is row r / alpha of matrix alpha k + r
+/// mod alpha. Drops the last matrices if alpha does not divide their number.
 std::vector<DigitMatrix> interlace(std::vector<DigitMatrix> matrices, std::size_t alpha);
 
-/// What LatNet Builder says on the line of the interlacing factor; the next one has the number of
-/// components, factor times dimension.
+/// Comment of LatNet Builder on the line of the interlacing factor. The next line holds the number
+/// of components, factor times dimension.
 inline constexpr std::string_view interlacing_comment = "Interlacing factor";
 
-// What the digital sequences in base 2 have in common: the order of their points, their
-// scramblings, and the counts at which they are nets.
+// Common parts of the digital sequences in base 2: the order of their points, their scrambles, and
+// the counts at which they are nets.
 
 /// Columns of a sequence's generating matrices, and digits of its indices.
 inline constexpr int binary_digits = 52;
@@ -61,20 +62,20 @@ inline constexpr Param<Choice> binary_scramble{
         "Randomize digits by the seed: add random ones to all points alike, multiply by a "
         "random triangular matrix, or scramble nested and uniformly (Owen)"};
 
-/// The sequence of these matrices, ordered and scrambled as the options say.
+/// Sequence of these matrices, ordered and scrambled according to the options.
 std::unique_ptr<Sequence> binary_sequence(BinaryMatrices matrices, const Plan& plan,
                                           const Values& options);
 
-/// The sequence of these matrices with nested uniform scrambling.
+/// Sequence of these matrices with nested uniform scrambling.
 std::unique_ptr<Sequence> owen_sequence(const BinaryMatrices& matrices, std::uint64_t seed);
 
 /// For Generator::uses_seed.
 bool binary_uses_seed(const Values& options);
 
-/// For Generator::notes: a sentence where the request misses the nets that the sequence is made of.
+/// For Generator::notes: returns a sentence if start and count do not select a net.
 std::vector<std::string> binary_notes(const Request& request, const Plan& plan, const Values&);
 
-/// The same in another base, where a few nets together are as good as one.
+/// The same for any base b; k b^m points with k < b, a union of nets, count as a net, too.
 std::vector<std::string> net_notes(std::uint64_t base, const Request& request, const Plan& plan);
 
 }  // namespace stipple

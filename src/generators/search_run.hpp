@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How searches with a budget report progress, and end when they are stopped.
+// Progress of searches with a budget, and what they return when they are stopped.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,13 +15,14 @@
 
 namespace stipple {
 
-/// The run, which goes on when a stop is requested if it keeps the best: searches look for that.
+/// Ignores stop requests if the run keeps the best: such searches check best_is_wanted()
+/// themselves.
 inline RunContext until_best_is_wanted(const RunContext& run) {
     return run.keeps_best ? unstopped(run) : run;
 }
 
-/// Does the work; false if a stop cut it short and the best so far will do.
-/// @throws what the work throws, also when it is cut short and the best will not do
+/// Runs `work`; returns false if a stop request cut it short and the best so far is wanted.
+/// @throws whatever `work` throws, including the cancellation unless the best is wanted
 template <class Work>
 bool unless_best_is_wanted(const RunContext& run, const Work& work) {
     try {
@@ -33,7 +34,7 @@ bool unless_best_is_wanted(const RunContext& run, const Work& work) {
     return true;
 }
 
-/// Reports that so much of the budget is used up, the value just found, and the best so far.
+/// Reports the fraction of the budget used, the latest value and the best so far.
 inline void report_search(const RunContext& run, double share, const std::string& words,
                           double value, double best) {
     constexpr std::uint64_t parts = 10'000;

@@ -4,11 +4,11 @@
 //
 //     R_j = R_0 2^(-j / 4),   j = 0, 1, ...
 //
-// With each radius the points that are left are gone through; one that is at least R_j from all
-// that came before comes next. So the first m points keep a distance of R_j, and nothing of the
-// box that holds a point is farther than 2^(1/4) R_j from them.
+// For each radius in turn, remaining points are visited in order; a point at least R_j from all
+// chosen points is chosen next. So the points chosen up to radius R_j keep that distance, and every
+// point is within 2^(1/4) R_j of one of them.
 //
-// Cost    O(n log(R_0 / r)) time for n points of least distance r.
+// Cost    O(n log(R_0 / r)) time for n points of minimum distance r.
 #pragma once
 
 #include <span>
@@ -19,8 +19,8 @@
 
 namespace stipple {
 
-/// Rows in that order; those of one radius stay in the order that they have.
-/// @param radius that no two points are nearer than
+/// Rows in that order; those chosen at the same radius keep their relative order.
+/// @param radius lower bound of the distances between points
 Rows spread_out(std::span<const double> rows, const BoxSpace& space, double radius,
                 const RunContext& run);
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Disks of very different radii in a rectangle, to find those near a place.
+// Spatial index of disks of very different radii in a rectangle.
 //
-//     class c:  2^(c-1) s <= r < 2^c s,    s the least radius,    in cells of sides of at least 2^c
-//     s
+//     class c:  2^(c-1) s <= r < 2^c s,    s the minimum radius
 //
-// Cells have no memory of their own: a disk stands in a list that the hash of its cell names, so
-// that a few tiny disks in a large box cost no more than others.
+// Disks of class c are in cells with sides of at least 2^c s. Cells take no memory of their own:
+// the hash of a cell selects the list of its disks, so that a few tiny disks in a large box cost
+// no more than others.
 //
-// Cost    a place asks some nine cells of each class that has disks; 36 to 60 bytes a disk.
-// Promise finds every disk whose centre is within the reach; maybe others, and some twice.
+// Cost    a query visits about nine cells of each class that has disks; 36 to 60 bytes a disk.
+// Promise finds every disk that may be too near; possibly others, and some twice.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ struct Disk {
 
 class VariedIndex {
   public:
-    /// @param expected number of disks; more are no harm
+    /// @param expected number of disks; the index grows if there are more
     VariedIndex(const BoxSpace& space, double least_radius, std::size_t expected)
         : low_{space.box.low[0], space.box.low[1]},
           sides_{space.box.extent(0), space.box.extent(1)},
@@ -62,14 +62,14 @@ class VariedIndex {
         link(static_cast<std::uint32_t>(disks_.size() - 1));
     }
 
-    /// Whether two disks are nearer than the smaller radius, by the squared distance of
+    /// Whether two disks are nearer than the smaller radius, by squared_distance() of
     /// math/neighbors/spaced_points.hpp.
     [[nodiscard]] bool too_near(const Disk& a, const Disk& b) const {
         const double r = std::min(a.radius, b.radius);
         return squared_distance<2>(a.at.data(), b.at.data(), sides_, torus_) < r * r;
     }
 
-    /// Distance of two coordinates.
+    /// Distance along axis k.
     [[nodiscard]] double apart(std::size_t k, double x, double y) const {
         const double d = std::abs(x - y);
         return torus_ ? std::min(d, sides_[k] - d) : d;
@@ -77,8 +77,8 @@ class VariedIndex {
     [[nodiscard]] double side(std::size_t k) const { return sides_[k]; }
     [[nodiscard]] bool torus() const { return torus_; }
 
-    /// Calls visit(disk) for those that a disk of at most `radius` with its centre in [low, high]
-    /// may be too near to; stops where it returns true, and returns that.
+    /// Calls visit(disk) for every disk that may be too near to a disk of at most `radius` centred
+    /// in [low, high]; returns true as soon as a call does.
     template <class Visit>
     bool any_near(const std::array<double, 2>& low, const std::array<double, 2>& high,
                   double radius, const Visit& visit) const {
@@ -98,7 +98,7 @@ class VariedIndex {
         return false;
     }
 
-    /// Whether a disk would be too near to one that is there.
+    /// Whether a disk would be too near to one in the index.
     [[nodiscard]] bool blocks(const Disk& disk) const {
         return any_near(disk.at, disk.at, disk.radius,
                         [&](const Disk& other) { return too_near(disk, other); });
@@ -108,9 +108,9 @@ class VariedIndex {
     static constexpr std::uint32_t none = 0xffff'ffff;
 
     struct Class {
-        double reach = 0;  ///< no radius of the class is above it
+        double reach = 0;  ///< upper bound of the radii in the class
         std::array<std::int64_t, 2> count{};
-        std::array<double, 2> scale{};  ///< cells to a length
+        std::array<double, 2> scale{};  ///< cells per unit of length
         std::size_t disks = 0;
     };
     struct Cells {
@@ -118,7 +118,7 @@ class VariedIndex {
         std::int64_t count;
     };
 
-    /// The last class has all that is larger, too.
+    /// The last class also holds all larger radii.
     [[nodiscard]] std::size_t class_of(double radius) const {
         int exponent = 0;
         std::frexp(std::min(radius / least_, 1e300), &exponent);
@@ -127,12 +127,12 @@ class VariedIndex {
 
     [[nodiscard]] std::int64_t cell(std::size_t c, std::size_t k, double x) const {
         const double at = std::floor((x - low_[k]) * classes_[c].scale[k]);
-        // What is far outside only has to stay outside.
+        // A coordinate far outside only has to stay outside.
         const auto count = static_cast<double>(classes_[c].count[k]);
         return static_cast<std::int64_t>(std::clamp(at, -2 * count - 2, 3 * count + 2));
     }
 
-    /// Cells that [low, high] may meet, each once; below 0 and from the count on across the faces.
+    /// Cells that may meet [low, high], each once; on the torus the range may exceed [0, count).
     [[nodiscard]] Cells cells(std::size_t c, std::size_t k, double low, double high) const {
         const std::int64_t count = classes_[c].count[k];
         const double slack = 1e-9 / classes_[c].scale[k];
@@ -187,8 +187,8 @@ class VariedIndex {
     std::size_t last_class_;
     std::vector<Class> classes_;
     std::vector<Disk> disks_;
-    std::vector<std::uint32_t> next_;   ///< in the list of its cell
-    std::vector<std::uint32_t> heads_;  ///< of lists, a power of two
+    std::vector<std::uint32_t> next_;   ///< next disk in the list of its cell
+    std::vector<std::uint32_t> heads_;  ///< first disk of each list; a power of two
 };
 
 }  // namespace stipple
