@@ -5,21 +5,23 @@
 //
 //     m = max(1, c i),    c = --candidates.
 //
-// In up to 3 dimensions no more than a few of the m are ever made. The box is cut into cells, each
-// with a bound: nowhere in it the nearest point is farther away. Some cells of the highest bounds
-// are open: first it is drawn how many of the m fall into them, a binomial number, and those are
-// made. While the best of them does not reach the highest bound of the other cells, that cell is
-// opened, too, and gets its binomial number of the candidates that are left. The rest cannot win,
-// and is never made. Cells are halved, and their bounds worked out anew, when their turn comes.
+// In up to 3 dimensions only a few of the m candidates are ever made. The box is divided into
+// cells, each with an upper bound of the distance from any place in it to the nearest point. Some
+// cells of the highest bounds are open. First the number of candidates that fall into these is
+// drawn, a binomial number, and those candidates are made. While the best of them does not reach
+// the highest bound of the other cells, that cell is opened too, and gets its binomial number of
+// the remaining candidates. The others cannot win and are never made. Cells are halved, and their
+// bounds recomputed, when their turn comes.
 //
-// In more dimensions cells leave out too little, and all candidates are made.
+// In more dimensions cells exclude too little, so all candidates are made.
 //
-// Shape   d = 1, ..., 32; distances are those in the box of --bounds, across its faces too (torus)
-//         or not.
-// Cost    10^5 points in 2-D take 6 s on one core and 0.14 GB, most of the time waiting for
-//         memory; slowly more a point with their number and with c, and some ten times as much in
-//         3-D. c n^3 steps in more dimensions: 20 s for 10^4 points in 5-D with c = 1.
-// Promise the law of the points is exactly that of Mitchell's method with all m candidates made.
+// Shape   d = 1, ..., 32; distances are those in the box of --bounds, across its faces (torus) or
+//         bounded.
+// Cost    10^5 points in 2-D take 6 s on one core and 0.14 GB, most of the time waiting for memory;
+//         the time per point grows slowly with their number and with c, and is about ten times as
+//         long in 3-D. c n^3 steps in more dimensions: 20 s for 10^4 points in 5-D with c = 1.
+// Promise the distribution of the points is exactly that of Mitchell's method, with all m
+//         candidates made. Point i does not depend on the number of points.
 //         Point i does not depend on the number of points.
 // Source  D. P. Mitchell, Comput. Graph. (SIGGRAPH) 25 (1991) 157-164, doi:10.1145/122718.122736.
 
@@ -54,19 +56,19 @@ constexpr Param<double> candidates{
     .unit = "per point",
     .help = "Candidates for a point, as a multiple of the number of points before it"};
 
-/// Uniform numbers for one point: they depend on the seed and its index alone.
+/// Stream of uniform numbers for one point, a function of the seed and the point's index.
 class PointDraws {
   public:
     PointDraws(const Rng& rng, std::uint64_t point) : stream_(rng.bits(point)) {}
     double next() { return to_unit(stream_.next()); }
 
-    /// How many of m throws hit what has the chance p each.
+    /// Draws a binomial number: hits among m trials of probability p.
     std::uint64_t binomial(std::uint64_t m, double p) {
         if (p >= 1) return m;
-        // In parts, where the chance of no hit at all would be lost below the smallest double.
+        // Split in two, as the probability of no hit at all could underflow.
         if (m > 1 && static_cast<double>(m) * p > 16)
             return binomial(m / 2, p) + binomial(m - m / 2, p);
-        double chance = power(1 - p, m);  // of k hits, going up from 0
+        double chance = power(1 - p, m);  // of k hits, from k = 0 on
         double u = next();
         std::uint64_t k = 0;
         for (; k < m && u >= chance; ++k) {
@@ -87,7 +89,7 @@ class PointDraws {
     SplitMix64 stream_;
 };
 
-/// A cell that waits for its turn.
+/// Heap entry of a cell that is not open.
 struct Waiting {
     double bound;
     std::uint32_t cell;
@@ -96,8 +98,9 @@ struct Waiting {
     }
 };
 
-/// The box in cells with bounds. The highest ones are open: candidates are thrown into all of them
-/// at once, and so many are kept open that a few fall there. All others are in a heap.
+/// The box divided into cells with bounds. Open cells, those of the highest bounds, receive
+/// candidates together; enough are open that a few candidates fall into them. The others are in a
+/// heap.
 template <std::size_t D>
 class LazySearch {
   public:
@@ -126,12 +129,12 @@ class LazySearch {
         tile_cells_.resize(1);
     }
 
-    /// Adds a point.
+    /// Adds the next point: the best of its candidates.
     void add() {
         PointDraws draws(rng_, points_.count());
         best_ = -1;
         all_ = std::max(1.0, std::floor(factor_ * static_cast<double>(points_.count())));
-        // As high as peaks of the distance rise above the level that the best candidate reaches.
+        // Cells become as small as the peaks of the distance above the best candidate's level.
         constexpr double fine = 64;
         open_size_ = std::min(0.25, fine * factor_ * nth_root(all_, D + 1) / all_);
         while (!heap_.empty() && all_ * open_share_ < eager) pull();
@@ -154,28 +157,28 @@ class LazySearch {
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     static constexpr std::uint32_t most_halvings = 50;
     static constexpr std::uint32_t closed = 0xffff'ffff;
-    static constexpr double eager = 64;  ///< candidates that are to fall into open cells, at least
+    static constexpr double eager = 64;  ///< minimum of the expected candidates in open cells
 
     struct Cell {
         Point low;
-        double bound;                 ///< no point of the cell is farther from all points
-        std::uint32_t depth = 0;      ///< halvings that made it; its share of the box is 2^-depth
-        std::uint32_t points = 0;     ///< when the bound was worked out
-        std::uint32_t slot = closed;  ///< where in the list of open cells
+        double bound;                 ///< of distances from the cell to the nearest point
+        std::uint32_t depth = 0;      ///< number of halvings; the cell is 2^-depth of the box
+        std::uint32_t points = 0;     ///< number of points when the bound was computed
+        std::uint32_t slot = closed;  ///< index in the list of open cells of its depth
     };
 
-    /// A cell that candidates are thrown into.
+    /// An open cell: candidates are drawn in it.
     struct Open {
         Point low;
         double bound;
         std::uint32_t cell;
         std::uint32_t depth;
-        std::uint32_t size = 0;             ///< of the points below
-        std::array<Point, D + 1> points{};  ///< near it, seen from `low`: most candidates lose here
+        std::uint32_t size = 0;             ///< number of `points` in use
+        std::array<Point, D + 1> points{};  ///< nearby, from `low`: most candidates lose here
     };
 
-    /// Takes the highest cell of the heap: bounds it anew, halves it, or opens it, which gives
-    /// true.
+    /// Updates the bound of the highest cell of the heap; if it is unchanged, halves or opens the
+    /// cell. Returns whether it was opened.
     bool pull() {
         const std::uint32_t id = heap_.top().cell;
         heap_.pop();
@@ -218,8 +221,8 @@ class LazySearch {
         open_share_ -= shares_[cell.depth];
     }
 
-    /// Takes the highest cell of the heap on, and throws into it what falls there of `left`
-    /// candidates that are in no cell open before; how many.
+    /// Processes the highest cell of the heap. If that opens it, makes those of the `left`
+    /// candidates outside the cells open before that fall into it; returns their number.
     std::uint64_t go_on(std::uint64_t left, PointDraws& draws) {
         const double rest = 1 - open_share_;
         if (!pull()) return 0;
@@ -231,7 +234,7 @@ class LazySearch {
         return hits;
     }
 
-    /// The cell at a place of all open ones laid side by side.
+    /// Open cell at `place` when all open cells are laid end to end, as fractions of the box.
     [[nodiscard]] const Open& open_cell(double place) const {
         std::uint32_t last = 0;
         for (std::uint32_t depth = 0; depth <= most_halvings; ++depth) {
@@ -245,8 +248,8 @@ class LazySearch {
         return list[std::min(index, list.size() - 1)];
     }
 
-    /// Bounds open cells anew that the new point is near to, or where candidates lost; closes or
-    /// halves them.
+    /// Updates the bounds of open cells near the new point, or in which candidates lost; closes or
+    /// halves some.
     void tidy() {
         if (points_.count() > 2 * tiles_.size()) make_tiles();
         const double level = crowded_ || heap_.empty() ? best_ : heap_.top().bound;
@@ -272,7 +275,8 @@ class LazySearch {
         list.resize(kept);
     }
 
-    /// Bounds an open cell anew; whether that closes it.
+    /// Updates the bound of an open cell and closes it if the bound is below `level`; returns
+    /// whether it did.
     bool closes(std::uint32_t id, double level) {
         Cell& cell = cells_[id];
         const double before = cell.bound;
@@ -295,7 +299,7 @@ class LazySearch {
                 open(half);
     }
 
-    /// Makes about as many tiles as there are points.
+    /// Replaces the tiles by about as many as there are points.
     void make_tiles() {
         double longest = 0;
         for (const double side : sides_[0]) longest = std::max(longest, side);
@@ -317,25 +321,25 @@ class LazySearch {
         return c;
     }
 
-    /// Bounds a cell anew by all points that may be nearest somewhere in it.
+    /// Updates a cell's bound from all points that may be nearest to a place in it.
     void bound(Cell& cell) {
         if (cell.points == points_.count()) return;
         cell.points = static_cast<std::uint32_t>(points_.count());
         gather(center(cell), reach_of(cell));
         if (covering_.empty()) return;
-        constexpr double safety = 1 + 1e-12;  // far above what rounding does
+        constexpr double safety = 1 + 1e-12;  // far above rounding errors
         cell.bound =
             std::min(cell.bound, std::sqrt(covering_.squared(halves_[cell.depth])) * safety);
     }
 
-    /// Farther from the cell's centre no point is the nearest one of a place in it.
+    /// Distance from the cell's centre beyond which no point is nearest to a place in the cell.
     [[nodiscard]] double reach_of(const Cell& cell) const {
         double squared = 0;
         for (const double half : halves_[cell.depth]) squared += half * half;
         return cell.bound + std::sqrt(squared);
     }
 
-    /// All points within the reach of the middle.
+    /// Collects all points within `reach` of `middle`, relative to it.
     void gather(const Point& middle, double reach) {
         covering_.clear();
         points_.visit(middle.data(), reach, [&](std::size_t, double, const double* q) {
@@ -344,7 +348,7 @@ class LazySearch {
         });
     }
 
-    /// Gives an open cell the points that its bound rests on.
+    /// Stores in an open cell the points that determine its bound.
     void note_points(Open& open) {
         Cell& cell = cells_[open.cell];
         open.bound = cell.bound;
@@ -359,7 +363,7 @@ class LazySearch {
         });
     }
 
-    /// The way from p to the nearest image of q.
+    /// Vector from p to the nearest image of q.
     [[nodiscard]] Point shift(const Point& p, const double* q) const {
         Point way;
         for (std::size_t k = 0; k < D; ++k) {
@@ -373,7 +377,7 @@ class LazySearch {
         return way;
     }
 
-    /// The cell's number becomes that of one half.
+    /// Splits a cell; one half keeps its number.
     std::array<std::uint32_t, 2> halves(std::uint32_t id) {
         const auto other = static_cast<std::uint32_t>(cells_.size());
         cells_.push_back(cells_[id]);
@@ -388,9 +392,9 @@ class LazySearch {
         return {id, other};
     }
 
-    /// Makes a candidate in the cell, and keeps it if it is the best so far.
+    /// Draws a candidate in the cell and keeps it if it is the best so far.
     void try_candidate(const Open& open, PointDraws& draws) {
-        Point place;  // seen from the cell's corner
+        Point place;  // relative to the cell's corner
         Point p;
         for (std::size_t k = 0; k < D; ++k) do {
                 place[k] = draws.next() * sides_[open.depth][k];
@@ -415,8 +419,8 @@ class LazySearch {
         winner_ = p;
     }
 
-    /// Distance of the nearest point, which is at most `bound`; or some number up to the best
-    /// distance so far, if that is not reached.
+    /// Distance from p to its nearest point, which is at most `bound`; 0 if that is nearer than the
+    /// best distance so far.
     [[nodiscard]] double distance_of(const Point& p, double bound) const {
         if (best_ > 0 && points_.any_nearer(p.data(), best_)) return 0;
         const double guess = bound < infinity ? bound : space_.largest_distance();
@@ -428,26 +432,26 @@ class LazySearch {
     Rng rng_;
     GrowingPoints<D> points_;
     std::array<Point, most_halvings + 1> sides_{};     ///< of cells, by depth
-    std::array<Point, most_halvings + 1> halves_{};    ///< of those sides
-    std::array<double, most_halvings + 1> shares_{1};  ///< of the box, by depth
+    std::array<Point, most_halvings + 1> halves_{};    ///< half of sides_
+    std::array<double, most_halvings + 1> shares_{1};  ///< fraction of the box, by depth
     std::vector<Cell> cells_;
     std::priority_queue<Waiting> heap_;
     std::array<std::vector<Open>, most_halvings + 1> open_;  ///< by depth
-    bool crowded_ = false;                                   ///< more is open than need be
-    double open_share_ = 0;                                  ///< of the box; exact
+    bool crowded_ = false;                                   ///< more cells are open than necessary
+    double open_share_ = 0;                                  ///< open fraction of the box; exact
     std::uint32_t newest_ = 0;                               ///< cell opened last
-    GridFrame<D> tiles_;                                     ///< to find open cells by
-    std::vector<std::vector<std::uint32_t>> tile_cells_;     ///< some closed meanwhile
-    std::vector<std::uint32_t> missed_;                      ///< where candidates lost
+    GridFrame<D> tiles_;                                     ///< to find open cells by place
+    std::vector<std::vector<std::uint32_t>> tile_cells_;     ///< by tile; some closed since
+    std::vector<std::uint32_t> missed_;                      ///< cells in which candidates lost
     CoveringBound<D> covering_;
-    double open_size_ = 1;  ///< candidates in a cell that may be opened
-    double all_ = 1;        ///< candidates for the point that is being looked for
+    double open_size_ = 1;  ///< cells with more expected candidates are halved, not opened
+    double all_ = 1;        ///< number of candidates for the current point
     double best_ = 0;       ///< distance of the best of them so far
     Point winner_{};
 };
 
-/// What cells take for a point with one candidate, by dimension; half as much more for each tenfold
-/// of candidates. Measured for 3000 to 300 000 points.
+/// Bytes per point that cells take with c = 1, by dimension; half as much again for each factor of
+/// ten in c. Measured for 3000 to 300 000 points.
 constexpr std::array<double, 3> cell_bytes{700, 1500, 5800};
 
 /// In more dimensions cells take longer than all candidates, for fewer than 10^4.5 points.
@@ -471,11 +475,11 @@ std::vector<double> lazily(const BoxSpace& space, const Plan& plan, double facto
     return search.rows();
 }
 
-constexpr std::size_t together = 32;  ///< points that are looked at at once
+constexpr std::size_t together = 32;  ///< points tested at once
 constexpr double out_of_reach = 1e300;
 
-/// The least squared distance of p to some points; or `enough`, as soon as one is as near as that.
-/// @param along coordinates, up to a multiple of `together`
+/// Least squared distance from p to the points; `enough` as soon as a point is as near as that.
+/// @param along coordinates of the points, padded to a multiple of `together`
 STIPPLE_WIDE double least_squared(std::span<const std::vector<double>> along,
                                   std::span<const double> turns, const double* p, double enough) {
     std::array<double, together> least;
@@ -501,7 +505,7 @@ STIPPLE_WIDE double least_squared(std::span<const std::vector<double>> along,
     return std::ranges::min(least);
 }
 
-/// Of `all` candidates the one farthest from the points so far.
+/// Returns the one of `all` candidates that is farthest from the points so far.
 std::vector<double> farthest(const BoxSpace& space, std::span<const std::vector<double>> along,
                              std::span<const double> turns, std::uint64_t all, SplitMix64 stream,
                              const RunContext& run) {
@@ -521,20 +525,20 @@ std::vector<double> farthest(const BoxSpace& space, std::span<const std::vector<
     return winner;
 }
 
-/// The first points, all of whose candidates are made. A place loses as soon as a point is met that
-/// is as near as one of the best so far.
+/// Makes all candidates of the first `wanted` points. A candidate is dropped at the first point
+/// that is as near as the nearest one of the best candidate.
 std::vector<double> all_candidates(const BoxSpace& space, std::uint64_t seed, double factor,
                                    std::uint64_t wanted, const RunContext& run) {
     const std::size_t d = space.box.dimension();
     run.need_memory(static_cast<double>(wanted) * 2 * sizeof(double) * static_cast<double>(d),
                     fmt::format("{} points", wanted));
-    std::vector<double> turns;  // sides of the torus; else infinite
+    std::vector<double> turns;  // sides of the torus, or infinite if bounded
     for (std::size_t k = 0; k < d; ++k)
         turns.push_back(space.torus ? space.box.extent(k)
                                     : std::numeric_limits<double>::infinity());
     const Rng rng(seed);
     std::vector<double> rows;
-    std::vector<std::vector<double>> along(d);  // coordinates of the points; far ones behind them
+    std::vector<std::vector<double>> along(d);  // coordinates of the points, padded with far ones
     for (std::uint64_t i = 0; i < wanted; ++i) {
         if (i % 16 == 0) run.tick(i, wanted);
         const double all = std::max(1.0, std::floor(factor * static_cast<double>(i)));

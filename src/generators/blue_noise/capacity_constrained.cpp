@@ -6,26 +6,27 @@
 //     minimise over x  sum over i of integral of |y - x_i|^2 rho(y) dy over cell i,
 //     with weights w such that  integral of rho over cell i = total / n  for all i.
 //
-// In turn, the weights are found for the points where they are (equal_cells.hpp), and
-// the points move to the centroids of their cells, both of which lower the cost. Left alone the
-// points become crystals of hexagons: so every tenth iteration, but for the last nine, hexagons
-// beside hexagons are shaken by up to half a spacing. Hexagons are told by the bond order of a
-// point's k neighbours at angles theta_j,
+// Alternately, the weights are found for the present points (equal_cells.hpp) and the points move
+// to the centroids of their cells; both lower the cost. Undisturbed, points form crystals of
+// hexagons. So every tenth iteration, except the last nine, shakes hexagons beside hexagons by up
+// to half a spacing. A point is one of them if the bond order of its k neighbours at angles theta_j
+// is high,
 //
 //     | sum_j exp(6 i theta_j) | / k  >  3/4    for the point and two of its neighbours or more.
 //
-// Where the density is 0 there are no points: those whose centroid is there move to the nearest
-// pixel that is not, before the last weights are found.
+// Points whose centroid has a density of 0 move to the nearest pixel of positive density before the
+// last weights are found.
 //
-// Shape   d = 2; any rectangle, torus or bounded. So that no cell is without mass, a density is
-//         raised to at least 10^-3 of its mean, or where less, a tenth of a point's mass in all.
+// Shape   d = 2; any rectangle, torus or bounded. So that every cell has mass, a density is raised
+//         to at least 10^-3 of its mean, or less if that would add more than a tenth of a point's
+//         mass.
 // Cost    4 us a point and iteration at n = 4096 on one core, 7 us at 10^5; with a density of
 //         strong contrasts up to ten times that. 300 bytes a point.
-// Promise masses are equal within 10^-6 of them, or the user is told; the same bits for any number
-//         of threads.
+// Promise masses are equal within 10^-6 of their mean, or the user is told; the same bits for any
+//         number of threads.
 // Source  F. de Goes, K. Breeden, V. Ostromoukhov, M. Desbrun, "Blue noise through optimal
-//         transport", ACM Trans. Graph. 31, 6 (2012) 171, doi:10.1145/2366145.2366190. There
-//         regular regions are told by their even costs of transport instead.
+//         transport", ACM Trans. Graph. 31, 6 (2012) 171, doi:10.1145/2366145.2366190. There,
+//         regular regions are detected by their even costs of transport instead.
 
 #include <algorithm>
 #include <cmath>
@@ -46,9 +47,9 @@ constexpr auto iterations = planar::iterations_option(60, "How often every point
 constexpr Param<bool> crystals{.name = "crystals",
                                .help = "Leave hexagons that form as they are; do not shake them"};
 
-constexpr double rough = 1e-2;   // equal enough for points that go on moving
-constexpr std::size_t few = 20;  // Newton steps for them; mostly one or two do
-constexpr double fine = 1e-8;    // what Newton's last step reaches anyway
+constexpr double rough = 1e-2;   // sufficient while points still move
+constexpr std::size_t few = 20;  // Newton steps then; mostly one or two suffice
+constexpr double fine = 1e-8;    // reached by Newton's last step anyway
 constexpr double promised = 1e-6;
 constexpr std::uint64_t rest = 10;  // iterations between shakes
 
@@ -63,7 +64,7 @@ Vec2 sixfold(const Vec2& d) {
     return times(times(square, square), square);
 }
 
-/// Points with six neighbours nearly as hexagons have them, two of which are such points, too.
+/// Marks points with nearly hexagonal neighbours, two of which are such points, too.
 std::vector<bool> hexagons(const EqualCells& cells) {
     struct Order {
         Vec2 sum;
@@ -97,7 +98,7 @@ void shake(EqualCells& cells, const Rng& rng) {
     for (std::size_t i = 0; i < cells.count(); ++i) {
         const CellMoments& cell = cells.moments()[i];
         if (!regular[i] || !(cell.mass > 0)) continue;
-        // A hexagon of area A has a second moment of 0.16 A about its centre, per mass.
+        // The second moment per mass of a hexagon of area A about its centre is 0.16 A.
         const double spacing = 2.5 * std::sqrt(cell.second / cell.mass);
         const Vec2 at = cells[i];
         cells.move(i, {at.x + spacing * (rng.uniform(2 * i) - 0.5),
@@ -105,8 +106,8 @@ void shake(EqualCells& cells, const Rng& rng) {
     }
 }
 
-/// The place of the density's nearest pixel that is not 0 that is nearest to a place, inside by a
-/// tenth of its side and up to a tenth more, so that no two points meet.
+/// Nearest place in a pixel of positive density, a random 10 to 20 % of the pixel's sides away from
+/// its edges, so that no two points coincide.
 Vec2 nearest_dark(const DensityMap& density, const Planar& planar, Vec2 at, const Rng& rng,
                   std::uint64_t draw) {
     const auto columns = static_cast<std::int64_t>(density.width());
@@ -132,7 +133,7 @@ Vec2 nearest_dark(const DensityMap& density, const Planar& planar, Vec2 at, cons
             best = to;
         }
     };
-    // Rings of pixels, until all others are farther.
+    // Searches rings of pixels until all others are farther.
     for (std::int64_t ring = 0; ring < std::max(columns, rows); ++ring) {
         const double reach = static_cast<double>(ring - 1) * std::min(side.x, side.y);
         if (reach > 0 && reach * reach > least) break;
@@ -146,7 +147,7 @@ Vec2 nearest_dark(const DensityMap& density, const Planar& planar, Vec2 at, cons
     return best;
 }
 
-/// Moves sites to where the density is not 0. Whether there were some.
+/// Moves sites out of pixels of density 0; returns whether there were any.
 bool leave_white(EqualCells& cells, const DensityMap& density, const Planar& planar,
                  const Rng& rng) {
     bool moved = false;
@@ -170,7 +171,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     const double least = std::min(1e-3, 0.2 / static_cast<double>(rows.size()));
     const auto floor = [least](double value) { return std::max(value, least); };
     const auto moments = planar_moments(density, floor, planar, run);
-    // For points that have lost their cells.
+    // Places for points that lose their cells.
     const auto rescue = random_places(rows.size() / 2, planar, density, Rng(plan.seed, 1), run);
     run.tick(0, 1);
     EqualCells cells(planar, moments, rows, run);
@@ -186,7 +187,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     const Rng nudges(plan.seed, 2 + steps);
     if (density) leave_white(cells, *density, planar, nudges);
     double off = cells.equalize(fine, rescue);
-    // Sites that lost their cells have moved.
+    // The step before may have moved sites that had lost their cells.
     for (int i = 0; density && i < 8 && leave_white(cells, *density, planar, nudges); ++i)
         off = cells.equalize(fine, rescue);
     if (off > promised)

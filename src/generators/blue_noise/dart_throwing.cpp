@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
 //
-// Dart throwing: points uniform in the box, one after the other; one that is nearer than the radius
-// to an earlier one is thrown away.
+// Dart throwing: uniform random points of the box, one after the other, except those that are
+// nearer than the radius to an earlier one.
 //
-// --radius R  the radius stays; the set is as large as it is when --misses darts in a row were
-//             thrown away. With --count too, exactly so many points, or none.
-// --count N   the radius relaxes: it starts as the largest distance of the box, and after --misses
-//             darts in a row without a place it is multiplied by --shrink. The first i points keep
-//             the radius at which point i was placed, so that every prefix is well spread.
-// --density   in the plane, darts fall in proportion to it. The densest place has the radius r, any
-//             other one r(x) = r sqrt(largest density / density(x)); two points keep the smaller
-//             of their radii.
+// --radius R  the radius is fixed; the set ends when --misses darts in a row were rejected. With
+//             --count too, exactly so many points, or an error.
+// --count N   the radius shrinks: it starts as the largest distance of the box and is multiplied by
+//             --shrink after every --misses darts in a row that were rejected. The first i points
+//             keep the radius at which point i was placed, so that every prefix is well spread.
+// --density   in the plane, darts are distributed by it. The radius is r at the largest density,
+//             and r(x) = r sqrt(largest density / density(x)) elsewhere; two points keep the
+//             smaller of their radii.
 //
-// Shape   d = 1, ..., 6; distances hold in the box of --bounds, across its faces too (torus) or
-//         not.
-// Cost    about --misses darts a point while the radius relaxes, fewer in tight places;
-//         5 us a point in 2-D by default, with a density 12 us. 60 and 120 bytes a point in 2-D.
+// Shape   d = 1, ..., 6; distances are those in the box of --bounds, across its faces (torus) or
+//         bounded.
+// Cost    up to about --misses darts a point while the radius shrinks; 5 us a point in 2-D by
+//         default, with a density 12 us. 60 and 120 bytes a point in 2-D.
 // Promise sum_k d_k^2 >= radius^2 for every pair, in float64, from the coordinates as stored;
 //         d_k = |x_k - y_k|, on the torus min(d_k, side_k - d_k). The provenance has the radius,
-//         the last one where it relaxes. Point i does not depend on the number of points.
-// Beware  not maximal: with K misses, places are left for one dart in about K.
+//         the last one if it shrinks. Point i does not depend on the number of points.
+// Beware  not maximal: with K misses, about one dart in K would still find a place.
 // Source  R. L. Cook, ACM Trans. Graph. 5 (1986) 51-72, doi:10.1145/7529.8927 (darts);
 //         M. McCool, E. Fiume, Graphics Interface (1992) 94-105 (relaxing radius).
 
@@ -76,7 +76,7 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-/// Darts that are uniform in a box and keep one radius.
+/// Darts uniform in a box, with one radius for all.
 template <std::size_t D>
 class EvenDarts {
   public:
@@ -101,7 +101,7 @@ class EvenDarts {
     GrowingPoints<D> points_;
 };
 
-/// Darts that fall as a density says; two keep the smaller of their radii, r where it is largest.
+/// Darts distributed by a density; r is the radius at its maximum. Two keep the smaller radius.
 class DenseDarts {
   public:
     DenseDarts(const BoxSpace& space, const DensityMap& map, std::uint64_t seed)
@@ -126,7 +126,7 @@ class DenseDarts {
     static constexpr double memory(double points) { return 120 * points; }
 
   private:
-    /// Sorts the points by radii that will be theirs for a while, or larger.
+    /// Indexes the points by their radii for this r, valid as upper bounds while r shrinks.
     void index(double r) {
         indexed_ = r;
         disks_.emplace(space_, r, times_.size());
@@ -147,20 +147,20 @@ class DenseDarts {
     double least_;
     DrawStream draw_;
     std::vector<double> rows_;
-    std::vector<double> times_;  ///< a point's radius to that of the densest place
+    std::vector<double> times_;  ///< radius of each point as a multiple of r
     std::optional<VariedIndex> disks_;
-    double indexed_ = 0;  ///< the radius of the densest place, there
+    double indexed_ = 0;  ///< the r for which the index was made
 };
 
-/// @throws Error(limit) when the points do not fit the memory, or the indices.
+/// @throws Error(limit) if the points exceed the memory limit or 32-bit indices
 void check_size(double points, double memory, const RunContext& run) {
     const std::string what = fmt::format("{:.4g} points", points);
     run.need_memory(memory, what);
     if (points >= 0xffff'fff0) fail(ErrorKind::limit, "{} are more than 2^32", what);
 }
 
-/// Throws darts until there are enough points, for a --radius without a count until it misses too
-/// often. The points with the radius that they keep; about `expected` of them.
+/// Throws darts until there are enough points or, without a count, until too many in a row miss.
+/// Returns the points and the radius that they keep; `expected` is about their number.
 template <class Darts>
 std::pair<std::vector<double>, double> throw_all(Darts darts, const BoxSpace& space,
                                                  const Plan& plan, const Values& options,
@@ -170,7 +170,7 @@ std::pair<std::vector<double>, double> throw_all(Darts darts, const BoxSpace& sp
     const std::int64_t patience = options[misses];
     const bool stays = options.given(radius);
     double r = stays ? options[radius] : space.largest_distance();
-    std::int64_t missed = 0;  // in a row
+    std::int64_t missed = 0;  // darts in a row
     for (std::uint64_t thrown = 1; wanted == 0 || darts.count() < wanted; ++thrown) {
         if (thrown % 4096 == 0) run.tick(std::min<std::uint64_t>(darts.count(), total), total);
         missed = darts.add(r) ? 0 : missed + 1;

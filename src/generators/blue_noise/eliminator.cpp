@@ -19,13 +19,13 @@ namespace stipple {
 namespace {
 
 constexpr double beta = 0.65;
-constexpr double unit = 0x1p40;  ///< weights count multiples of its inverse
+constexpr double unit = 0x1p40;  ///< weights are integers in units of its inverse
 
-/// Terms of the weights.
+/// Term of a pair in the weights.
 struct Kernel {
-    double nearest;  ///< r_min / r_max: a distance below 2 r_min counts as that
+    double nearest;  ///< r_min / r_max: distances below 2 r_min count as 2 r_min
 
-    /// @param inverse of the distance that the pair's term ends at.
+    /// @param inverse of the distance from which on the term is 0
     [[nodiscard]] std::uint64_t operator()(double squared_distance, double inverse) const {
         const double t = 1 - std::max(std::sqrt(squared_distance) * inverse, nearest);
         const double t2 = t * t;
@@ -34,12 +34,12 @@ struct Kernel {
     }
 };
 
-/// Points, numbered anew, of which the near ones can be found. They lie in layers, in which no
-/// radius is more than twice another, so that a layer's grid fits all of its points.
+/// Points with neighbour queries, renumbered and sorted into layers. In a layer no radius is more
+/// than twice another, so that one grid suits all of its points.
 template <std::size_t D>
 class LayeredPoints {
   public:
-    /// @param shares as eliminate takes them
+    /// @param shares as for eliminate()
     LayeredPoints(std::span<const double> rows, const BoxSpace& space, double r_max,
                   std::span<const double> shares, const RunContext& run) {
         const std::size_t count = rows.size() / D;
@@ -60,15 +60,15 @@ class LayeredPoints {
     [[nodiscard]] std::size_t count() const { return originals_.size(); }
     [[nodiscard]] std::uint32_t original(std::size_t s) const { return originals_[s]; }
 
-    /// Calls visit(t, squared distance, inverse of the distance at which the pair's term ends) for
-    /// all points with a term, s itself among them.
+    /// Calls visit(t, squared distance, inverse of the distance from which on the term is 0) for
+    /// all points t with a term, including s.
     template <class Visit>
     void visit(std::size_t s, Visit&& visit) const {
         const Layer& layer = layers_[layer_of_[s]];
         this->visit((*layer.points)[s - layer.first], radii_[s], visit);
     }
 
-    /// The same for the others, when point s has been taken out.
+    /// Removes point s, then calls visit() for the others in the same way.
     template <class Visit>
     void visit_without(std::size_t s, Visit&& visit) {
         Layer& layer = layers_[layer_of_[s]];
@@ -80,8 +80,8 @@ class LayeredPoints {
 
   private:
     struct Layer {
-        std::size_t first;  ///< number of its first point
-        double largest;     ///< radius
+        std::size_t first;  ///< index of its first point
+        double largest;     ///< largest radius
         std::optional<SortedPoints<D>> points;
     };
 
@@ -95,7 +95,7 @@ class LayeredPoints {
             some.insert(some.end(), row, row + D);
             layer.largest = std::max(layer.largest, radii_[i]);
         }
-        // Points of small radii may all be in a small part of the box.
+        // The number of cells is limited, as small radii may occur in a small part of the box only.
         const GridFrame<D> frame(space.box, space.torus, layer.largest,
                                  1024 + 8 * static_cast<double>(members.size()));
         layer.points.emplace(frame, some, run);
@@ -119,7 +119,7 @@ class LayeredPoints {
     std::vector<std::uint8_t> layer_of_;
 };
 
-/// A weight that a point once had.
+/// Heap entry, possibly outdated.
 struct Candidate {
     std::uint64_t weight;
     std::uint32_t original;
@@ -203,16 +203,16 @@ namespace {
 
 constexpr std::size_t most_points = 65'536;
 constexpr std::size_t most_balls = 256;
-constexpr std::size_t fewest = 24;  ///< points that tell anything
+constexpr std::size_t fewest = 24;  ///< minimum number of points for an estimate
 
-/// Squares of distances from a point: to its k-th neighbour, and how much larger the mean is of the
-/// 4k nearest than of the k nearest.
+/// Squared distance from a point to its k-th neighbour, and the ratio of the mean squared distances
+/// of its 4k and its k nearest neighbours.
 struct Ball {
     double square;
     double growth;
 };
 
-/// One of each of `some` equal stretches of the numbers below `all`.
+/// One random index from each of `some` equal ranges of [0, all).
 std::vector<std::size_t> spread_numbers(std::size_t all, std::size_t some) {
     const Rng rng(0, 0);
     std::vector<std::size_t> numbers;
@@ -258,9 +258,9 @@ std::vector<Ball> balls_of(std::span<const double> rows, std::size_t directions,
     return balls;
 }
 
-/// The d for which 16^(1/d), the growth of a square, is nearest.
+/// Dimension d for which 16^(1/d), the growth of a squared distance, is nearest to `growth`.
 std::size_t dimension_for(double growth, std::size_t most) {
-    // 16^(1 / (d + 1/2))
+    // Limits between d and d + 1: 16^(1 / (d + 1/2)).
     constexpr std::array<double, 5> between = {6.3496, 3.0314, 2.2082, 1.8517, 1.6556};
     std::size_t d = 1;
     while (d < most && growth < between[d - 1]) ++d;
@@ -289,8 +289,8 @@ CrowdExtent crowd_extent(std::span<const double> rows, std::size_t directions,
         for (std::size_t k = 0; k < d / 2; ++k) volume *= ball.square;
         volumes.push_back(volume);
     }
-    const double points = static_cast<double>(inner) - 1.0 / 3;  // the median of such a ball
-    constexpr double inside = 0.4;                               // far from any rim, as a rule
+    const double points = static_cast<double>(inner) - 1.0 / 3;  // median in a ball
+    constexpr double inside = 0.4;                               // quantile, mostly far from rims
     return {d, quantile(std::move(volumes), inside) * static_cast<double>(others.size()) / points};
 }
 

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT
 //
-// Farthest-point optimisation: one point after the other is taken away and put back to the centre
-// of the largest circle that the others leave empty,
+// Farthest-point optimisation: one point after the other is removed and put back at the centre of
+// the largest empty circle of the others,
 //
 //     x_i  <-  argmax over x of  min over j != i of |x - x_j|,
 //
-// which never lowers the set's least distance, and raises it close to that of hexagons, while the
-// points stay irregular.
+// which never lowers the minimum distance of the set, and raises it close to that of hexagons,
+// while the points stay irregular.
 //
-// The circles are those about the corners of Voronoi cells: each cell is kept with its farthest
-// corner, in a tree that knows the farthest of all. A move cuts the cells around the two places
-// anew, some 14 of them. Between walls (--bounded) cells end there, and so do the places for
-// a circle's centre: it may lie on a wall or in a corner, and as points are the farthest apart
-// then, many come to.
+// These circles are centred at corners of Voronoi cells: each cell is stored with its farthest
+// corner, in a tree that finds the farthest of all. A move recomputes the cells around the old and
+// the new place, some 14 of them. Between walls (--bounded) cells end at the walls, and so do the
+// possible centres. Centres may be on a wall or in a corner, and as distances are largest there,
+// many are.
 //
-// Once points are spread the largest circle is mostly the one that the point leaves itself, and all
-// points creep to better places together. There a move goes beyond the centre by 0.8 of its length,
-// as in successive over-relaxation, where the point gets no nearer to others by it than it was:
-// this reaches a least distance of 0.93 (hexagons: 1) in 50 iterations, instead of 400.
+// Once points are spread, the largest circle is mostly the one that the point itself has left, and
+// all points creep to better places together. Then a move overshoots the centre by 0.8 of its
+// length, as in successive over-relaxation, unless that brings the point nearer to others than it
+// was. This reaches a minimum distance of 0.93 (hexagons: 1) in 50 iterations, instead of 400.
 //
-// Shape   d = 2; any rectangle, torus or bounded. No density: we know of no variant for one that
-//         we could check against its paper.
+// Shape   d = 2; any rectangle, torus or bounded. No density: we know of no variant for one that we
+//         could check against its paper.
 // Cost    20 us a move, n moves an iteration; 130 bytes a point.
-// Promise the least distance never falls. A run ends early when an iteration moves no point to a
+// Promise the minimum distance never falls. A run ends early if an iteration moves no point to a
 //         place that is better by a part in 10^9.
 // Source  T. Schloemer, D. Heck, O. Deussen, "Farthest-point optimized point sets with maximized
 //         minimum distance", High Performance Graphics (2011), 135-142,
@@ -47,7 +47,7 @@ constexpr Param<Choice> initial{.name = planar::initial.name,
                                 .choices = planar::initial.choices,
                                 .help = "Points to start from; they are moved in their order"};
 
-/// The largest of n numbers that change one at a time.
+/// Maximum of n numbers that change one at a time.
 class Tournament {
   public:
     Tournament(std::size_t n, const RunContext& run) : leaves_(std::bit_ceil(n)) {
@@ -64,7 +64,7 @@ class Tournament {
         }
     }
 
-    /// The first of the largest.
+    /// Index of the largest number, the first one of equals.
     [[nodiscard]] std::size_t winner() const {
         std::size_t node = 1;
         while (node < leaves_) node = 2 * node + (best_[2 * node] < best_[node]);
@@ -73,7 +73,7 @@ class Tournament {
 
   private:
     std::size_t leaves_;
-    std::vector<double> best_;  ///< of the two below, from index 1 on
+    std::vector<double> best_;  ///< maximum of both children, from index 1 on
 };
 
 class FarthestPoint {
@@ -87,7 +87,7 @@ class FarthestPoint {
             if (i % 1024 == 0) run.check_stop();
             sites_.insert(i, sites_.inside({rows[2 * i], rows[2 * i + 1]}));
         }
-        std::vector<std::size_t> crowded;  // in the place of another
+        std::vector<std::size_t> crowded;  // at the same place as another point
         for (std::size_t i = 0; i < n_; ++i) {
             if (i % 1024 == 0) run.check_stop();
             refresh(i);
@@ -101,7 +101,7 @@ class FarthestPoint {
         }
     }
 
-    /// Whether the point has found a better place.
+    /// Moves the point to the largest gap; returns whether that is better than its old place.
     bool improve(std::size_t i) {
         const Vec2 was = sites_[i];
         sites_.cut_cell(i, cell_);
@@ -130,7 +130,7 @@ class FarthestPoint {
         for (const std::uint32_t j : around) refresh(j);
     }
 
-    /// The sites beyond the edges of the cell cut last, that of site i.
+    /// Neighbours of site i, whose cell was cut last.
     std::vector<std::uint32_t> neighbors(std::size_t i) const {
         std::vector<std::uint32_t> around;
         for (const CellCorner& edge : cell_.corners())
@@ -140,8 +140,8 @@ class FarthestPoint {
         return around;
     }
 
-    /// Squared distance of the site of the cell cut last from its nearest neighbour; infinite where
-    /// there are walls only.
+    /// Squared distance from the site of the cell cut last to its nearest neighbour; infinite if
+    /// there are only walls.
     [[nodiscard]] double squared_nearest() const {
         double least = std::numeric_limits<double>::infinity();
         for (const auto& [at, neighbor, site] : cell_.corners())
@@ -152,7 +152,7 @@ class FarthestPoint {
 
     struct Place {
         Vec2 at;
-        double squared;  ///< distance from the nearest site
+        double squared;  ///< squared distance to the nearest site
     };
     [[nodiscard]] Place farthest_place() const {
         const std::size_t i = circles_.winner();
@@ -160,8 +160,8 @@ class FarthestPoint {
         return {sites_.inside({sites_[i].x + x, sites_[i].y + y}), x * x + y * y};
     }
 
-    /// Where the gap that a point has left is the largest, as it mostly is once points are spread,
-    /// goes beyond its centre, if that is no nearer to others than the point was.
+    /// If the largest gap is the one that the point has left, inserts the point beyond the gap's
+    /// centre, unless that is nearer to others than the point was. Returns whether it was inserted.
     bool overshoot(std::size_t i, Vec2 was, Vec2 to, double nearest) {
         constexpr double beyond = 0.8;  // of the step; 0 takes eight times as many iterations
         const Vec2 step = sites_.shortest(was, to);
@@ -175,8 +175,8 @@ class FarthestPoint {
 
     std::size_t n_;
     PeriodicVoronoi sites_;
-    std::vector<Vec2> corners_;  ///< the farthest of each cell, seen from its site
-    Tournament circles_;         ///< their squared distances
+    std::vector<Vec2> corners_;  ///< farthest corner of each cell, relative to its site
+    Tournament circles_;         ///< squared distances of these corners
     VoronoiCell cell_;
 };
 

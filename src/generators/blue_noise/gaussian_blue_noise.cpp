@@ -4,22 +4,23 @@
 //
 //     E = sum over pairs i < j of  exp(-(n / V)^(2/d) |x_i - x_j|^2 / 2)
 //
-// by --iterations accelerated gradient steps (gaussian_relaxation.hpp). Points convolved with
-// Gaussians of standard deviation sqrt(1/2) (V / n)^(1/d), whose squares E adds up, come as near to
-// a constant as they can: what is below the frequency (n / V)^(1/d) / 2 vanishes from the spectrum.
+// by --iterations accelerated gradient steps (gaussian_relaxation.hpp). Up to constants, E is the
+// integral of the square of the points convolved with Gaussians of standard deviation sqrt(1/2)
+// (V / n)^(1/d). At its minimum these sums are nearly constant, so the spectrum vanishes below the
+// frequency (n / V)^(1/d) / 2.
 //
-// With a --density kernels are as wide as points are to be apart, and the density itself pulls as
-// much as the points push (density_relaxation.hpp).
+// With a --density, kernels are as wide as the local spacing of points, and the density attracts as
+// much as the points repel (density_relaxation.hpp).
 //
 // Shape   d = 1 ... 4, distances on the torus, which is the unit cube or a box with no side a
 //         thousand times another; a density in 2-D.
 // Cost    O(n) a step: 4096 points in 2-D and 1000 steps take 5 s of processor time; some 10 and
 //         100 times as much in 3-D and 4-D, and 10 times as much with a density.
 // Promise the same bits for any number of threads.
-// Beware  in a box whose shortest side is below (V / n)^(1/d) points line up, farther apart than
+// Beware  in a box whose shortest side is below (V / n)^(1/d), points line up farther apart than
 //         Gaussians reach, and stay as random as they were.
 // Source  A. G. M. Ahmed, J. Ren, P. Wonka, "Gaussian blue noise", ACM Trans. Graph. 41(6), 260
-//         (2022), doi:10.1145/3550454.3555519; its sigma of 1 is this one.
+//         (2022), doi:10.1145/3550454.3555519, with sigma = 1.
 
 #include <algorithm>
 
@@ -37,7 +38,7 @@ namespace stipple::generators::gaussian_blue_noise {
 namespace {
 
 constexpr std::int64_t usual_steps = 1000;
-constexpr std::int64_t usual_steps_to_density = 300;  // each takes some ten times as long
+constexpr std::int64_t usual_steps_to_density = 300;  // each takes about ten times as long
 
 constexpr Param<std::int64_t> iterations{
     .name = "iterations",

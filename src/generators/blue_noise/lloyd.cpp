@@ -5,10 +5,10 @@
 //     x_i  <-  integral of x rho(x)^2 dx / integral of rho(x)^2 dx,    both over the cell of x_i,
 //
 // which lowers the energy  E = sum over i of integral of |x - x_i|^2 rho(x)^2 dx over cell i  until
-// every point is the centroid of its cell. rho is the number of points per area that --density asks
-// for, else constant; it is squared since sets of least energy have points per area in proportion
-// to the root of the density that is integrated. Without a density the points settle into hexagons
-// with defects between them: few iterations leave them irregular, many make crystals.
+// every point is the centroid of its cell. rho is the density that --density asks for, or constant.
+// It is squared because the points of a set of least energy have a density proportional to the root
+// of the integrated one. Without a density the points settle into hexagons with defects between
+// them: few iterations leave them irregular, many make crystals.
 //
 // Shape   d = 2; any rectangle, its opposite sides joined (torus) or walls.
 // Cost    1.3 us a point and iteration on one core, with a density 2 us and more; 100 bytes a
@@ -33,7 +33,7 @@ using planar::from;
 
 constexpr auto iterations = planar::iterations_option(50, "How often every point moves");
 
-/// The centroid of a site's cell; none where it has no cell.
+/// Centroid of a site's cell; nullopt if it has no cell.
 std::optional<Vec2> centroid(const PeriodicVoronoi& sites, std::size_t i,
                              const std::optional<DensityMoments>& density, VoronoiCell& cell) {
     sites.cut_cell(i, cell);

@@ -23,10 +23,10 @@ Planar planar_of(const Plan& plan, bool torus) {
         .low = {box.low[0], box.low[1]}, .sides = {box.extent(0), box.extent(1)}, .torus = torus};
 }
 
-/// A point for each of n strata of equal area, columns of them, some of one more: uniform in the
-/// stratum and the next ones, twice as wide and as high, and beyond the last from the first on.
-/// Points in their own strata would still show the columns after hundreds of iterations, as peaks
-/// of the spectrum at (sqrt(n), 0) and (0, sqrt(n)).
+/// One point for each of n strata of equal area, in floor(sqrt(n)) columns. The point is uniform in
+/// a box twice as wide and as high as its stratum, with the same lower corner, wrapped around at
+/// the sides. Points confined to their own strata would still show the columns after hundreds of
+/// iterations, as peaks of the spectrum at (sqrt(n), 0) and (0, sqrt(n)).
 std::vector<double> jittered_rows(std::uint64_t n, const Rng& rng, const RunContext& run) {
     const std::uint64_t columns = std::max<std::uint64_t>(floor_root(n, 2), 1);
     const auto all = static_cast<double>(n);
@@ -47,7 +47,7 @@ std::vector<double> jittered_rows(std::uint64_t n, const Rng& rng, const RunCont
     return rows;
 }
 
-/// Moves points of the unit square to where the density has them, and into the rectangle.
+/// Maps points of the unit square to the density, and scales them to the rectangle.
 void place_all(const Planar& planar, const std::optional<DensityMap>& density,
                std::vector<double>& rows, const RunContext& run) {
     for (std::size_t i = 0; i < rows.size(); i += 2) {
@@ -59,7 +59,7 @@ void place_all(const Planar& planar, const std::optional<DensityMap>& density,
     }
 }
 
-/// Points of a file, seen from the lower corner of the box.
+/// Points of a file, relative to the lower corner of the box.
 std::vector<double> rows_of_file(const std::string& path, const Planar& planar,
                                  const RunContext& run) {
     const PointSet points = io::read_given(planar::from.name, path, {}, run);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// What the generators that improve a set of points of a rectangle share: its walls, the points they
-// start from, and the density.
+// Common parts of the generators that improve a set of points in a rectangle: its walls, the
+// initial points and the density.
 //
-// random      uniform points, or of the density.
-// jittered    one point for each of n strata of equal area (mass), in it or beside it: evener than
-//             random, and without the strata's rows and columns.
+// random      uniform points, or points distributed by the density.
+// jittered    one point for each of n strata of equal area (mass), in it or beside it: more even
+//             than random, and without the strata's rows and columns.
 // --from      points of a file, in the box.
 #pragma once
 
@@ -42,21 +42,21 @@ constexpr Param<std::int64_t> iterations_option(std::int64_t usual, std::string_
             .help = help};
 }
 
-/// For Generator::uses_seed, of those that need no random numbers but to begin with.
+/// For Generator::uses_seed of generators that need random numbers for the initial points only.
 inline bool uses_seed(const Values& options) { return !options.given(from); }
 }  // namespace planar
 
-/// The rectangle of a plan; points are worked on from its lower corner.
+/// Rectangle of a plan; points are relative to its lower corner while they are improved.
 struct Planar {
     Vec2 low;
     Vec2 sides;
     bool torus = true;
 };
 
-/// The plan of a set in two dimensions, its box checked; the count is 0 with --from.
+/// Plan of a set in two dimensions, with its box checked; the count is 0 with --from.
 Plan planar_plan(const Request& request, const Values& options);
 
-/// Points to start from, and what they are to follow.
+/// Initial points, and the density that they should follow.
 struct PlanarStart {
     Planar planar;
     std::optional<DensityMap> density;
@@ -65,27 +65,28 @@ struct PlanarStart {
     [[nodiscard]] std::size_t count() const { return rows.size() / 2; }
 };
 
-/// The start that the options ask for.
-/// @param bytes that a point takes, of what messages call `who`. @throws Error(limit) too
+/// Initial points that the options ask for.
+/// @param bytes per point, for the memory limit; messages name `who`
+/// @throws Error(limit), and what reading the files throws
 PlanarStart planar_start(const Plan& plan, const Values& options, double bytes,
                          std::string_view who, const RunContext& run);
 
-/// Moments of a function of the density over cells, scaled to a mean of 1.
+/// Moments over cells of function(density), scaled to a mean of 1; nullopt without a density.
 std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& density,
                                              const std::function<double(double)>& function,
                                              const Planar& planar, const RunContext& run);
 
-/// The order of the points along strips of the rectangle: what is near in it is near in memory.
+/// Order of the points along strips of the rectangle: neighbours are close in memory.
 std::vector<std::uint32_t> along_strips(const std::vector<double>& rows, const Planar& planar,
                                         const RunContext& run);
 
-/// Random places of the rectangle, in proportion to the density: x, y in [0, side).
+/// Random points of the rectangle that follow the density, if any: x, y in [0, side).
 std::vector<double> random_places(std::uint64_t n, const Planar& planar,
                                   const std::optional<DensityMap>& density, const Rng& rng,
                                   const RunContext& run);
 
-/// The sites at their places in the box of the plan.
-/// @param order number of each site's point; none: the site's own
+/// Point set at the sites, moved into the plan's box.
+/// @param order index of each site's point; empty: the site's own
 PointSet planar_points(const Plan& plan, const Planar& planar, const PeriodicVoronoi& sites,
                        std::span<const std::uint32_t> order = {});
 

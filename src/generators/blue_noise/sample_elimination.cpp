@@ -1,32 +1,33 @@
 // SPDX-License-Identifier: MIT
 //
-// Weighted sample elimination (eliminator.hpp): of M points those are taken out, one by
-// one, that are crowded most, until N are left.
+// Weighted sample elimination (eliminator.hpp): of M points, the most crowded ones are removed one
+// by one, until N are left.
 //
 //     M = --ratio N points, uniform in the box, or the points of a file (--from), in any box.
 //
-// The largest distance that counts is that of N points in their densest packing, 2 r_max: on an
+// Only distances below 2 r_max count, the distance in the densest packing of N points: on an
 // interval, 2 r_max = L / N; in the plane r_max^2 = A / (2 sqrt(3) N), in space
 // r_max^3 = V / (4 sqrt(2) N), in d > 3 dimensions r_max^d = V / (N C_d), C_d the volume of the
-// unit ball. The points of a file may fill a part of their box, or lie on a surface:
+// unit ball. The points of a file may fill a part of their box, or be on a surface:
 // --manifold-dimension 2 --measure 12.566 takes d and A from the unit sphere, while distances stay
-// those in space. Where nobody says what they fill, they do (crowd_extent() in eliminator.hpp), and
-// a note tells what was found. Of equal points of a file all but one go before any other point.
+// those in space. Without these options, d and A are estimated from the points (crowd_extent() in
+// eliminator.hpp), and a note reports them. Of equal points of a file, all but one are removed
+// before any other point.
 //
-// --density: in the plane, the M points are random in proportion to it, and r_max of a point is
-// that of the whole divided by the root of the density at the point, whose mean is 1.
+// --density: in the plane, the M points are distributed by it, and a point's r_max is divided by
+// the root of the density at the point, whose mean is 1.
 //
-// --order random       the points that are left, in the order in which they came
-// --order progressive  of those that are left, half are eliminated in the same way, with r_max of
-//                      so many points, and go to the end, the first to go last; of the others half
-//                      again, and so on. Every prefix is well spread.
+// --order random       the remaining points, in their original order
+// --order progressive  half of the remaining points are eliminated in the same way, with r_max for
+//                      the number then left, and go to the end, the first one last; then half of
+//                      the others, and so on. Every prefix is well spread.
 //
-// Shape   d = 1, ..., 6; distances are those in the box of --bounds, across its faces too (torus)
-//         or not. With --from they are bounded unless --torus is given; the box is --bounds, or on
+// Shape   d = 1, ..., 6; distances are those in the box of --bounds, across its faces (torus) or
+//         bounded. With --from they are bounded unless --torus is given; the box is --bounds, or on
 //         the torus the unit cube, or else the smallest one around the points.
 // Cost    2-D: 15 us a point of the result at the ratio 5, with a density 22; 450 and 650 bytes. A
 //         file is read three times.
-// Promise exactly N points; always the point of greatest weight goes, of equal ones the first.
+// Promise exactly N points; always the point of greatest weight is removed, the first of equals.
 // Source  C. Yuksel, Comput. Graph. Forum 34 (2015) 25-32, doi:10.1111/cgf.12538.
 
 #include <algorithm>
@@ -80,17 +81,17 @@ constexpr Param<double> measure{
         "Length of that curve, area of the surface...; else that of the box, or what their "
         "distances say where they fill less"};
 
-/// All points to choose from, and what they are in.
+/// All points to choose from, and the space that they are in.
 struct Crowd {
     std::vector<double> rows;
     BoxSpace space;
-    std::vector<double> shares = {};  ///< of the largest radius that are each point's own
+    std::vector<double> shares = {};  ///< radius of each point as a multiple of r_max
     CrowdExtent extent = {};
-    /// How many of the points before each are the same; empty: none are.
+    /// Number of equal points before each point; empty: all differ.
     std::vector<std::uint32_t> copies = {};
 };
 
-/// For each point how many before it are the same.
+/// For each point, the number of equal points before it; empty if all differ.
 std::vector<std::uint32_t> copies_among(const std::vector<double>& rows, std::size_t d) {
     const auto row = [&](std::uint32_t i) { return std::span(rows).subspan(i * d, d); };
     std::vector<std::uint32_t> sorted(rows.size() / d);
@@ -146,7 +147,7 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-/// @throws Error(input) naming the first point beyond the box
+/// @throws Error(input) naming the first point outside the box, if any
 void check_inside(const PointSet& points, const Box& box, const std::string& file) {
     for (std::size_t i = 0; i < points.count(); ++i)
         for (std::size_t k = 0; k < points.dimension(); ++k)
@@ -190,7 +191,7 @@ Crowd random_crowd(const Plan& plan, const Values& options, const RunContext& ru
     return crowd;
 }
 
-/// The rows of different points.
+/// Rows of the distinct points.
 std::vector<double> different_rows(const Crowd& crowd) {
     const std::size_t d = crowd.space.box.dimension();
     std::vector<double> rows;
@@ -202,7 +203,7 @@ std::vector<double> different_rows(const Crowd& crowd) {
     return rows;
 }
 
-/// What a file's points fill: as it is said, their box if they fill it, or what they say.
+/// Extent of a file's points: from the options, or their box if they fill it, or estimated.
 CrowdExtent extent_of_file(const Crowd& crowd, std::uint64_t kept, const Values& options,
                            const RunContext& run) {
     constexpr double most_of_it = 0.88;
@@ -235,8 +236,8 @@ double radius_for(const Crowd& crowd, std::uint64_t kept) {
     return packing_radius(static_cast<double>(kept), crowd.extent.dimension, crowd.extent.measure);
 }
 
-/// Takes out copies of other points, until `kept` points are left or no copies; those that go, in
-/// order: of the points that there are most of first.
+/// Removes copies of other points until `kept` points or no copies are left. Returns those removed,
+/// in order: copies of the most frequent points first.
 std::vector<std::uint32_t> take_copies(const Crowd& crowd, std::vector<std::uint32_t>& points,
                                        std::uint64_t kept) {
     std::vector<std::uint32_t> gone;
@@ -251,7 +252,7 @@ std::vector<std::uint32_t> take_copies(const Crowd& crowd, std::vector<std::uint
     return gone;
 }
 
-/// Eliminates points, by the numbers of their rows, until `kept` are left; those that go, in order.
+/// Eliminates points (row numbers) until `kept` are left. Returns those removed, in order.
 std::vector<std::uint32_t> thin(const Crowd& crowd, std::vector<std::uint32_t>& points,
                                 std::uint64_t kept, const RunContext& run) {
     const std::size_t d = crowd.space.box.dimension();
@@ -278,9 +279,9 @@ std::vector<std::uint32_t> thin(const Crowd& crowd, std::vector<std::uint32_t>& 
     return names;
 }
 
-/// Puts them into an order with spread prefixes.
+/// Reorders the points so that every prefix is well spread.
 void arrange(const Crowd& crowd, std::vector<std::uint32_t>& points, const RunContext& run) {
-    std::vector<std::uint32_t> tail;  // from the last point on
+    std::vector<std::uint32_t> tail;  // in reverse order
     const auto done = [all = static_cast<double>(points.size())](std::size_t left) {
         return 1 - static_cast<double>(left) / all;
     };

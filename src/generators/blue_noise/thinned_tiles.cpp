@@ -14,7 +14,7 @@
 namespace stipple {
 namespace {
 
-/// A point that may stay. Scores are not negative, so their bits stand in the same order.
+/// A point that may be kept. Scores are not negative, so their bits sort in the same order.
 struct ScoredPoint {
     std::uint64_t score;
     std::uint64_t tile;
@@ -22,7 +22,7 @@ struct ScoredPoint {
     auto operator<=>(const ScoredPoint&) const = default;
 };
 
-/// Scores with bits in [low, low + 2^width).
+/// Scores whose bits are in [low, low + 2^width).
 struct Window {
     std::uint64_t low = 0;
     int width = 63;
@@ -51,8 +51,8 @@ class TilesInWindow {
     [[nodiscard]] std::uint64_t tiles() const { return tiling_.tiles(); }
     [[nodiscard]] std::uint64_t ranks() const { return tile_.size(); }
 
-    /// Calls use(candidate, x, y) by rank for those of the tile whose score is at most `most`, and
-    /// for others.
+    /// Calls use(candidate, x, y) by rank for the points of the tile with a score of at most
+    /// `most`, and possibly for others.
     template <class Use>
     void visit(std::uint64_t tile, std::uint64_t most, const Use& use) const {
         const double top = largest_[tile];
@@ -81,7 +81,7 @@ class TilesInWindow {
                 static_cast<double>(tile / tiling_.columns)};
     }
 
-    /// u of the tile: 2^64 / p and 2^64 / p^2 are its steps, p^3 = p + 1.
+    /// u of the tile; the factors are 2^64 / p and 2^64 / p^2, p^3 = p + 1.
     [[nodiscard]] double offset(std::uint64_t tile) const {
         return to_unit(shift_ + 0xc13fa9a902a6328f * (tile % tiling_.columns) +
                        0x91e10da5c79e7b1c * (tile / tiling_.columns));
@@ -91,10 +91,10 @@ class TilesInWindow {
     Tiling tiling_;
     std::shared_ptr<const DensityMap> density_;
     std::uint64_t shift_;
-    std::vector<double> largest_;  ///< density in each tile
+    std::vector<double> largest_;  ///< largest density in each tile
 };
 
-/// Tiles that are gone through at a time.
+/// Number of tiles in a block.
 std::uint64_t block_of(const TilesInWindow& candidates) {
     return std::max<std::uint64_t>(1, (std::uint64_t{1} << 17) / candidates.ranks());
 }
@@ -102,7 +102,7 @@ std::uint64_t block_of(const TilesInWindow& candidates) {
 constexpr int bin_bits = 12;
 using Bins = std::array<std::uint64_t, 1 << bin_bits>;
 
-/// How many scores are in each part of a window, and how many before it.
+/// Number of scores in each bin of a window, and below the window.
 struct Histogram {
     std::uint64_t before = 0;
     Bins bins{};
@@ -111,7 +111,7 @@ struct Histogram {
 Histogram histogram_of(const TilesInWindow& candidates, const Window& window,
                        const RunContext& run) {
     Histogram all;
-    std::mutex adding;  // whole numbers, so in any order
+    std::mutex adding;  // sums of integers: any order will do
     for_each_block(run, candidates.tiles(), block_of(candidates), [&](const Block& block) {
         Histogram part;
         for (std::uint64_t t = block.first; t < block.last; ++t)
@@ -128,7 +128,8 @@ Histogram histogram_of(const TilesInWindow& candidates, const Window& window,
     return all;
 }
 
-/// The part of the window where the score of number `wanted` (from 0) is. Nothing: it is not there.
+/// Bin of the window with the score of index `wanted` (from 0), and its size `held`; nullopt if
+/// that score is outside the window.
 std::optional<Window> narrowed(const Window& window, const Histogram& found, std::uint64_t wanted,
                                std::uint64_t& held) {
     if (wanted < found.before) return {};
@@ -142,12 +143,13 @@ std::optional<Window> narrowed(const Window& window, const Histogram& found, std
     return {};
 }
 
-/// A window that holds score number `wanted` and at most some ten thousand others, ties apart.
+/// Window with the score of index `wanted` and at most 2^16 in all, except for ties; nullopt if
+/// there are too few scores.
 std::optional<Window> window_of(const TilesInWindow& candidates, std::uint64_t wanted,
                                 const RunContext& run) {
     constexpr std::uint64_t few = 1 << 16;
     const double mean = static_cast<double>(wanted + 1) / static_cast<double>(candidates.tiles());
-    // About where it has to be, from half the score to twice; else anywhere.
+    // First from half to twice the mean, where the score usually is; then anywhere.
     Window window{std::bit_cast<std::uint64_t>(mean) - (std::uint64_t{1} << 52), 53};
     while (true) {
         std::uint64_t held = 0;
@@ -184,7 +186,7 @@ class ThinnedTiles {
     }
 
   private:
-    /// Finds the last candidate that stays; counts those that stay in starts_[tile + 1].
+    /// Finds the last point that is kept; counts the kept points of each tile in starts_[tile + 1].
     void cut_at(const Window& window, std::uint64_t count, const RunContext& run) {
         std::vector<ScoredPoint> near;
         std::mutex adding;

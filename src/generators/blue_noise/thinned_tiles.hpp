@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
 //
-// Tiles of ranked points, thinned to a density by their ranks: a point of rank r (0, 1, ...) at x,
-// in tile c, has the score
+// Tiles of ranked points, thinned to a density by rank. A point of rank r (0, 1, ...) at x in tile
+// c has the score
 //
 //     (r + u_c) / rho(x),    u_c = frac(column / p + row / p^2 + a part of the seed),  p^3 = p + 1,
 //
-// and the n points with the lowest scores stay: about rho(x) s per tile, s the score of the last.
-// u, even over the tiles, rounds the number of a tile's points up in one and down in the next; so
-// large regions get their share also where rho is too low for a point in every tile.
+// and the n points with the lowest scores are kept: about rho(x) s per tile, s the n-th score. As
+// the u_c are spread evenly over the tiles, the number of a tile's points is rounded up in one and
+// down in the next; so large regions get their share even if rho is too low for a point in every
+// tile.
 //
-// Shape   of points with the score of the last those stay whose tile, then rank, is lower.
-// Cost    3 looks at each candidate, a point with a rank below s times the largest density in its
-//         tile; 2 to 3 ns a look and core. 16 bytes a tile.
-// Promise nothing is kept where the density is 0.
+// Shape   of points with the n-th score, those of lower tile, then of lower rank, are kept.
+// Cost    3 visits to each candidate, a point with a rank below s times the largest density in its
+//         tile; 2 to 3 ns a visit and core. 16 bytes a tile.
+// Promise no point is kept where the density is 0.
 // Source  J. Kopf, D. Cohen-Or, O. Deussen, D. Lischinski, "Recursive Wang tiles for real-time blue
 //         noise", ACM Trans. Graph. 25(3) (2006) 509-518, doi:10.1145/1141911.1141916: ranks as
-//         thresholds. There tiles are of many kinds, and subdivide.
+//         thresholds. There, tiles are of many kinds, and subdivide.
 #pragma once
 
 #include <cstdint>
@@ -28,16 +29,17 @@
 
 namespace stipple {
 
-/// How often a tile is repeated along the sides of the unit square.
+/// Repetitions of a tile along the sides of the unit square.
 struct Tiling {
     std::uint64_t columns = 1;
     std::uint64_t rows = 1;
     [[nodiscard]] std::uint64_t tiles() const { return columns * rows; }
 };
 
-/// The points tile by tile, in rows from y = 0 on, and in a tile by their ranks.
-/// @param tile points of [0, 1)^2 in the order of their ranks
-/// @return nothing where fewer than `count` points have a density above 0. @throws Error(limit)
+/// Sequence of the kept points, tile by tile in rows from y = 0 on, and by rank within a tile.
+/// @param tile points of [0, 1)^2 by rank
+/// @return nullptr if fewer than `count` points have a density above 0
+/// @throws Error(limit)
 std::unique_ptr<Sequence> thinned_tiles(const std::vector<Vec2>& tile, const Tiling& tiling,
                                         std::shared_ptr<const DensityMap> density,
                                         std::uint64_t count, std::uint64_t seed,

@@ -4,42 +4,41 @@
 //
 //     K x K tiles,  K = least with K^2 T >= n,  of  t = ceil(n / K^2) points,   T = --tile-points.
 //
-// The tile is toroidal Gaussian blue noise (gaussian_relaxation.hpp) whose points have ranks: the
-// first m of them are well spread, for every m. They are ranked from the last to the first: each
-// time the point goes that feels most of those left,
+// The tile is toroidal Gaussian blue noise (gaussian_relaxation.hpp) with ranked points: the first
+// m of them are well spread, for every m. Ranks are given from the last to the first: each time,
+// the most crowded of the remaining points is removed,
 //
 //     argmax over i of  sum over j of exp(-|x_i - x_j|^2 / (2 sigma^2)),
 //
-// as void-and-cluster takes cells away; sigma is 0.47 of the mean distance of all points, and
-// doubles when a quarter is left. Coordinates are multiples of 2^-28, so that those of repeated
-// tiles are exact sums.
+// as void-and-cluster removes cells; sigma is 0.47 of the mean distance of all points, and doubles
+// when a quarter is left. Coordinates are multiples of 2^-28, so that those of repeated tiles are
+// exact sums.
 //
-// Points i of the set stand by rank: those of rank 0 in all tiles, row after row; then those of
-// rank 1, ...; of the last rank n - K^2 (t - 1) are there, spread evenly over the tiles: m of K^2,
-// the j-th in tile floor(j K^2 / m).
+// Points of the set are ordered by rank: those of rank 0 in all tiles, row by row; then those of
+// rank 1, and so on. The last rank has only m = n - K^2 (t - 1) points, spread evenly over the
+// tiles: the j-th is in tile floor(j K^2 / m).
 //
-// --bounds    K x L tiles in a box that is no square: just as many as needed, nearly squares. The
-//             tile is made even with the sides that it has in the box, so the set is even there,
-//             and a torus, whatever the proportions. Points stay in [0, 1)^2 until they are
+// --bounds    K x L tiles in a box that is not a square: just as many as needed, nearly squares.
+//             The tile is made even with the sides that it has in the box, so the set is even
+//             there, and a torus, whatever the proportions. Points stay in [0, 1)^2 until they are
 //             scaled.
 // --density   tiles of t = ceil((n + 2 sqrt(n)) top / K^2) points, top the largest density over its
-//             mean. Ranks are thresholds (thinned_tiles.hpp): of all points with
-//             a density above 0 the n stay whose (rank + u) / density is the least, 0 <= u < 1 one
-//             number a tile. The few more than n top keep where the density is the largest from
-//             running out of points; where they do nevertheless, as in a picture as fine as the
-//             points, the tiles become more. These points stand by tile. A constant density is as
-//             none.
+//             mean. Ranks are thresholds (thinned_tiles.hpp): of all points with a density above 0,
+//             the n with the least (rank + u) / density are kept, 0 <= u < 1 one number per tile.
+//             The few points beyond n top keep the places of largest density from running out of
+//             points; if they still do, as in a picture as fine as the points, there are more
+//             tiles. These points are ordered by tile. A constant density has no effect.
 //
-// Shape   2-D. A sequence: point i is a function of i, n and the seed; no memory but for the tile,
-//         and, with a density, 16 bytes for each time that it is repeated.
-// Cost    O(t (iterations + t)) once, 1.5 seconds for t = 4096; then 2 ns a point and core. With
-//         a density some 8 ns a point and core, times top.
-// Promise exactly n points. No two are nearer than the nearest of the tile's torus, in the size it
-//         is repeated with; without a density a tile of 4096 points keeps them 0.5 / sqrt(n) apart
-//         and more (times the root of a box's area).
-// Beware  the set is periodic as far as it is not thinned: its spectrum has peaks at multiples
-//         of K, which larger tiles move together and down. Where a density leaves a point or two in
-//         every tile they stand in rows; larger tiles have more.
+// Shape   2-D. A sequence: point i is a function of i, n and the seed; memory for the tile only,
+//         and with a density 16 bytes for each repetition of it.
+// Cost    O(t (iterations + t)) once, 1.5 seconds for t = 4096; then 2 ns a point and core. With a
+//         density some 8 ns a point and core, times top.
+// Promise exactly n points. No two are nearer than the nearest of the tile's torus, at its size in
+//         the set; without a density, a tile of 4096 points keeps them at least 0.5 / sqrt(n) apart
+//         (times the root of a box's area).
+// Beware  the set is periodic except where it is thinned: its spectrum has peaks at multiples of K,
+//         which are lower and closer together for larger tiles. If a density leaves only a point or
+//         two in every tile, they form rows; larger tiles keep more.
 // Source  one tile for all: M. F. Cohen, J. Shade, S. Hiller, O. Deussen, "Wang tiles for image and
 //         texture generation", ACM Trans. Graph. 22(3) (2003) 287-294,
 //         doi:10.1145/882262.882265, of which this is the case of a single tile. Ranks for a
@@ -87,7 +86,7 @@ double difference(double a, double b) {
     return std::min(t, 1 - t);
 }
 
-/// The points of the torus, those taken last in front.
+/// Ranks the points of the torus: those removed last come first.
 std::vector<Vec2> ranked(std::vector<Vec2> points, Vec2 sides, const RunContext& run) {
     const Vec2 torus{std::sqrt(sides.x / sides.y), std::sqrt(sides.y / sides.x)};  // of area 1
     const auto felt = [&](const Vec2& p, const Vec2& q, double sharpness) {
@@ -97,7 +96,7 @@ std::vector<Vec2> ranked(std::vector<Vec2> points, Vec2 sides, const RunContext&
     };
     std::vector<double> energies(points.size());
     std::size_t widen = points.size();
-    // 1 / (2 sigma^2): to begin with, sigma is 0.47 of the mean distance.
+    // 4 / (2 sigma^2) for the first sigma, 0.47 of the mean distance; the first round divides by 4.
     double sharpness = 4 * 0.5 * static_cast<double>(points.size()) / (0.47 * 0.47);
     for (std::size_t left = points.size(); left > 0; --left) {
         run.tick(points.size() - left, points.size());
@@ -131,7 +130,7 @@ STIPPLE_WIDE void place_row(double* row, std::size_t count, double column, doubl
     }
 }
 
-/// Points of one rank in one row of tiles; returns their number.
+/// Writes points of one rank in one row of tiles; returns their number.
 std::uint64_t fill_row(const std::vector<Vec2>& tile, const Tiling& tiling, std::uint64_t first,
                        std::uint64_t most, double* out) {
     const std::uint64_t row = first / tiling.columns;
@@ -145,7 +144,7 @@ std::uint64_t fill_row(const std::vector<Vec2>& tile, const Tiling& tiling, std:
     return count;
 }
 
-/// The points of all ranks but the last in all tiles; of the last as many as are left.
+/// Points of all ranks in all tiles; of the last rank, only as many as are needed.
 std::unique_ptr<Sequence> repeated(const std::vector<Vec2>& tile, const Tiling& tiling,
                                    std::uint64_t count) {
     const std::uint64_t whole = tiling.tiles() * (tile.size() - 1);
@@ -168,7 +167,7 @@ std::unique_ptr<Sequence> repeated(const std::vector<Vec2>& tile, const Tiling& 
     });
 }
 
-/// At least so many tiles, few more, and nearly squares where `sides` are those of the box.
+/// Tiling of at least `least` tiles, few more, nearly squares in a box with these sides.
 Tiling tiling_of(std::uint64_t least, Vec2 sides) {
     const double longer = std::max(sides.x, sides.y) / std::min(sides.x, sides.y);
     auto across =
@@ -183,7 +182,7 @@ Tiling tiling_of(std::uint64_t least, Vec2 sides) {
     return sides.x > sides.y ? Tiling{along(across), across} : Tiling{across, along(across)};
 }
 
-/// The tile for so many repetitions: points of [0, 1)^2, those of the lowest rank in front.
+/// Makes the tile for a tiling: points of [0, 1)^2 by rank.
 std::vector<Vec2> tile_for(std::size_t count, const Tiling& tiling, Vec2 sides, const Plan& plan,
                            const Values& options, const RunContext& run) {
     constexpr double grain = 0x1p28;

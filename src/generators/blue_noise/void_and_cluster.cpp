@@ -4,18 +4,18 @@
 //
 //     point i = (c_i + 1/2) / (W, H),    c_i the cell of rank i    (math/neighbors/void_and_cluster.hpp)
 //
-// --bounds     distances hold in the box: cells need not be squares there.
-// --density    the picture as the ranks dither it: the n cells with the smallest
-//              (rank + 1/2) / (mean density of the cell), in that order.
-// --mask-image the ranks as a dither mask, 16 bits of grey: floor((rank + 1/2) 65536 / (W H)). A
-//              pixel of a picture, its grey in [0, 65536), is white where it is above the mask.
+// --bounds      distances are those in the box, in which cells need not be squares.
+// --density     the picture as dithered by the ranks: the n cells with the smallest
+//               (rank + 1/2) / (mean density of the cell), in that order.
+// --mask-image  the ranks as a dither mask, 16 bits of grey: floor((rank + 1/2) 65536 / (W H)). A
+//               pixel of a picture, its grey in [0, 65536), becomes white if it is above the mask.
 //
-// Shape   2-D, n <= W H. Without --size: the smallest square of a power of two with at least 16
-//         cells a point; with a density 4, a point where it is largest. In a box that is no square
-//         so many along its shorter side, and along the longer as many as make cells squares.
+// Shape   2-D, n <= W H. Without --size: the smallest square whose side is a power of two with at
+//         least 16 cells a point; with a density, 4 a point at its maximum. In a box that is not a
+//         square, the shorter side has that many cells, the longer as many as make cells squares.
 // Promise point i does not depend on n when --size is given and --density is not.
-// Beware  points lie on cells: their spectrum repeats with periods W and H. --cell random mends
-//         that, and costs some evenness. Where n density(c) > W H no further point fits.
+// Beware  points lie on cells: their spectrum repeats with periods W and H. --cell random avoids
+//         that, at some cost in evenness. Where n density(c) > W H, no further point fits.
 // Source  R. Ulichney, "The void-and-cluster method for dither array generation", Proc. SPIE 1913
 //         (1993) 332-343, doi:10.1117/12.152707.
 
@@ -51,7 +51,8 @@ struct Torus {
     std::size_t height;
     [[nodiscard]] std::size_t cells() const { return width * height; }
 
-    /// Width over height of a cell, 1 on a box of equal sides (which has no proportions).
+    /// Width over height of a cell in the box; 1 for a box of equal sides, which has no
+    /// proportions.
     [[nodiscard]] double stretch(const std::vector<double>& proportions) const {
         if (proportions.empty()) return 1;
         return proportions[0] / static_cast<double>(width) /
@@ -71,7 +72,8 @@ Torus torus_of(const std::vector<std::int64_t>& extents, const std::string& text
     return {static_cast<std::size_t>(extents[0]), static_cast<std::size_t>(extents[1])};
 }
 
-/// So many cells for each of `points`, squares in a box of these proportions. @throws Error(limit)
+/// Torus with at least `cells` cells per point, squares in a box of these proportions.
+/// @throws Error(limit)
 Torus torus_for(double points, double cells, const std::vector<double>& proportions) {
     const double longer = proportions.empty() ? 1 : std::ranges::max(proportions);
     const auto along = [&](std::size_t side) {
@@ -107,7 +109,7 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-/// 16 bits of a rank, the top row first.
+/// PNG of the ranks in 16 bits, top row first.
 std::string mask_png(const Torus& torus, const std::vector<std::uint32_t>& order) {
     std::vector<std::uint16_t> samples(order.size());
     for (std::size_t rank = 0; rank < order.size(); ++rank) {
@@ -119,8 +121,8 @@ std::string mask_png(const Torus& torus, const std::vector<std::uint32_t>& order
                       png_bytes_of_samples(samples, 16), {});
 }
 
-/// How much of each of `parts` equal stretches is in stretch `number` of `all`: calls
-/// visit(part, share) where it is some of it, in units of 1 / (parts all).
+/// Calls visit(part, overlap) for each of `parts` equal parts of the unit interval that overlaps
+/// part `number` of `all` equal ones. The overlap is in units of 1 / (parts all).
 template <class Visit>
 void for_overlaps(std::uint64_t number, std::uint64_t all, std::uint64_t parts,
                   const Visit& visit) {
@@ -141,7 +143,7 @@ double mean_density(const DensityMap& map, const Torus& torus, std::uint32_t num
     return sum / static_cast<double>(map.width() * map.height());
 }
 
-/// The `count` cells that dithering fills first.
+/// The first `count` cells that dithering fills.
 std::vector<std::uint32_t> dithered(const Torus& torus, const std::vector<std::uint32_t>& order,
                                     const DensityMap& map, std::size_t count,
                                     const std::string& file) {

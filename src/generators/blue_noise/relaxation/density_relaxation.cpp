@@ -16,13 +16,13 @@ namespace stipple {
 namespace {
 
 constexpr double reach = 5;        // exp(-12.5) = 3.7e-6
-constexpr double leaf_mass = 0.5;  // of a point
+constexpr double leaf_mass = 0.5;  // points
 constexpr double window_mass = 2;  // points
-constexpr int deepest = 24;        // levels of the quadtree
+constexpr int deepest = 24;        // level of the quadtree
 
 using PlaneSides = std::array<double, 2>;
 
-/// PlaneSides of the torus of area `count`, in proportion to `extents`; of a square without any.
+/// Sides of the torus of area `count`, proportional to `extents`, or equal if empty.
 PlaneSides sides_of(std::size_t count, std::span<const double> extents) {
     const double side = std::sqrt(static_cast<double>(count));
     if (extents.empty()) return {side, side};
@@ -30,15 +30,15 @@ PlaneSides sides_of(std::size_t count, std::span<const double> extents) {
     return {side * stretch, side / stretch};
 }
 
-/// What acts on a point: another point, or what a leaf holds of the density.
+/// Source of a force: another point, or the density in a leaf.
 struct Body {
     double x;
     double y;
-    double square;  ///< of sigma
+    double square;  ///< sigma^2
     double mass;
 };
 
-/// Bodies by coordinate.
+/// Bodies, one array for each member.
 struct Bodies {
     std::vector<double> x, y, squares, masses;
 
@@ -55,7 +55,7 @@ struct Bodies {
     }
 };
 
-/// Bodies near a point.
+/// Bodies near a point, including images.
 struct NearBodies {
     std::size_t count = 0;
     Bodies bodies = Bodies(0);
@@ -72,13 +72,13 @@ struct NearBodies {
         count += size;
     }
 
-    /// Adds bodies of mass 0 up to a multiple of the sum_lanes.
+    /// Adds bodies of mass 0 up to a multiple of sum_lanes.
     void pad() {
         for (; count % sum_lanes != 0; ++count) bodies.put(count, {0, 0, 1, 0});
     }
 };
 
-/// The force on a body of sigma^2 = a at (x, y).
+/// Force on a body of sigma^2 = a at (x, y).
 STIPPLE_WIDE std::array<double, 2> force_at(double x, double y, double a, const NearBodies& near) {
     const double* xs = near.bodies.x.data();
     const double* ys = near.bodies.y.data();
@@ -122,12 +122,12 @@ class Octave {
         for (const Body& body : bodies) sorted_.put(next[cell_of(body)]++, body);
     }
 
-    /// Adds all within reach of a body of sigma^2 = a at (x, y), on all images.
+    /// Adds all bodies within reach of one of sigma^2 = a at (x, y), including images.
     void gather(double x, double y, double a, NearBodies& near) const {
         const double far = reach * std::sqrt((a + most_) / 2);
         const auto row_of = [&](double c) { return static_cast<std::int64_t>(c / widths_[1]); };
         for (std::int64_t row = row_of(y - far) - 1; row <= row_of(y + far) + 1; ++row) {
-            // Rows of cells that lie far off in y are met in a shorter stretch of x.
+            // The farther a row of cells is in y, the shorter its part within reach.
             const double below = static_cast<double>(row) * widths_[1] - y;
             const double gap = std::max({0.0, below, -below - widths_[1]});
             if (gap >= far) continue;
@@ -166,14 +166,14 @@ class Octave {
     }
 
     PlaneSides sides_;
-    double most_;                         ///< sigma^2 of all bodies is at most this
+    double most_;                         ///< upper bound of sigma^2 of all bodies
     std::array<std::size_t, 2> along_{};  ///< cells along each side
-    PlaneSides widths_{};                 ///< of a cell
+    PlaneSides widths_{};                 ///< sides of a cell
     std::vector<std::uint32_t> starts_;
     Bodies sorted_;
 };
 
-/// Bodies by octaves of sigma^2.
+/// Sorts bodies into octaves of sigma^2.
 std::vector<Octave> octaves(const PlaneSides& sides, const std::vector<Body>& bodies) {
     constexpr int lowest = -60;
     constexpr int highest = 60;
@@ -188,7 +188,7 @@ std::vector<Octave> octaves(const PlaneSides& sides, const std::vector<Body>& bo
     return result;
 }
 
-/// Mass of rectangles under a map, exact up to rounding.
+/// Integrals of a density over rectangles, exact up to rounding.
 class Masses {
   public:
     explicit Masses(const DensityMap& map)
@@ -208,7 +208,7 @@ class Masses {
     }
 
   private:
-    /// Mass of [0, x) x [0, y), of a density that repeats beyond the unit square.
+    /// Mass of [0, x) x [0, y) for the density repeated beyond the unit square.
     [[nodiscard]] double below(double x, double y) const {
         const double across = std::floor(x);
         const double up = std::floor(y);
@@ -236,7 +236,7 @@ class Masses {
     std::vector<double> sums_;
 };
 
-/// Squares of the density that hold at most leaf_mass points each.
+/// Rectangles of the density that hold at most leaf_mass points each.
 class Quadtree {
   public:
     Quadtree(const DensityMap& map, double count, const PlaneSides& sides, const RunContext& run)
@@ -245,7 +245,7 @@ class Quadtree {
           sides_(sides),
           longest_(std::max(sides[0], sides[1])),
           run_(run) {
-        // In a long box several roots side by side, each near to a square.
+        // A long box has several roots side by side, each nearly square.
         const double columns = std::max(1.0, std::floor(sides[0] / sides[1] + 0.5));
         const double rows = std::max(1.0, std::floor(sides[1] / sides[0] + 0.5));
         for (double j = 0; j < rows; ++j)
@@ -255,8 +255,8 @@ class Quadtree {
 
     [[nodiscard]] const std::vector<Body>& leaves() const { return leaves_; }
 
-    /// sigma^2 at a point of the unit square: the share of a point in the square of the box about
-    /// it that holds window_mass points.
+    /// sigma^2 at a point of the unit square: the area per point in the square of the box around it
+    /// that holds window_mass points.
     [[nodiscard]] double square_at(double x, double y) const {
         double low = 0;
         double high = 0.5;
@@ -279,7 +279,7 @@ class Quadtree {
     void split(const Part& s, int depth) {
         run_.check_stop();
         const double mass = count_ * masses_.of(s.x, s.x + s.width, s.y, s.y + s.height);
-        constexpr double nothing = 1e-9;  // what rounding may leave of an empty square
+        constexpr double nothing = 1e-9;  // above the rounding errors of an empty square
         if (mass < nothing) return;
         if (mass > leaf_mass && depth < deepest) {
             const double width = s.width / 2;
@@ -324,7 +324,7 @@ void all_forces(const std::vector<Body>& points, const std::vector<Octave>& dens
 }  // namespace
 
 double density_relaxation_bytes(std::uint64_t count, const DensityMap& map) {
-    // Points with what moves them; up to 12 leaves a point, of which a third are inner nodes.
+    // Points with forces and steps; up to 12 tree nodes a point, a third of them inner nodes.
     return static_cast<double>(count) * (130 + 12 * 100) +
            8 * static_cast<double>(map.values().size());
 }

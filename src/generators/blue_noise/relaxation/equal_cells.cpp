@@ -15,7 +15,7 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
     return sum;
 }
 
-/// out = L x for the Laplacian of the bonds.
+/// out = L x for the Laplacian L of the bonds.
 void apply(std::span<const EqualCells::Bond> bonds, const std::vector<double>& x,
            std::vector<double>& out) {
     std::ranges::fill(out, 0.0);
@@ -91,7 +91,7 @@ double EqualCells::least_mass() const {
 }
 
 std::vector<double> EqualCells::newton_step() const {
-    constexpr double accuracy = 1e-5;  // of the residual, against the masses' error
+    constexpr double accuracy = 1e-5;  // of the residual, relative to the error of the masses
     const std::size_t n = count();
     std::vector<double> step(n), residual(n), direction(n), image(n), scale(n, 1e-300);
     for (const auto& [a, b, conductance] : bonds_) {
@@ -109,7 +109,7 @@ std::vector<double> EqualCells::newton_step() const {
         for (std::size_t i = 0; i < n; ++i) direction[i] = image[i] + back * direction[i];
         apply(bonds_, direction, image);
         const double curvature = dot(direction, image);
-        if (!(curvature > 0)) break;  // the residual has become rounding
+        if (!(curvature > 0)) break;  // only rounding errors are left
         const double along = now / curvature;
         for (std::size_t i = 0; i < n; ++i) {
             step[i] += along * direction[i];

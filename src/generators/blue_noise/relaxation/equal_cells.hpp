@@ -9,12 +9,12 @@
 //
 //     dm_i / dw_j = -(integral of rho along the edge of i and j) / (2 |x_i - x_j|),
 //
-// whose systems are solved by conjugate gradients. A step is halved until no cell has less than
-// half of the least mass there was, and the masses' error falls by the share of the step; then the
-// method converges from wherever all masses are positive.
+// whose systems are solved by conjugate gradients. A step is halved until every cell has at least
+// half of the previous minimum mass, and the error of the masses falls by half of the fraction of
+// the step; then the method converges from any weights for which all masses are positive.
 //
-// Cost    a Newton step: 2 us a cell to cut, and 50 ns a cell and iteration of the gradients, some
-//         n^(1/2) of them.
+// Cost    a Newton step: 2 us a cell to cut it, and 50 ns a cell and iteration of the gradients,
+//         about n^(1/2) iterations.
 // Promise the same bits for any number of threads.
 // Source  F. Aurenhammer, F. Hoffmann, B. Aronov, Algorithmica 20 (1998) 61-76 (the weights);
 //         J. Kitagawa, Q. Merigot, B. Thibert, J. Eur. Math. Soc. 21 (2019) 2603-2651,
@@ -34,21 +34,21 @@ namespace stipple {
 
 class EqualCells {
   public:
-    /// Two neighbours; the flow of mass between them per difference of their weights.
+    /// Two neighbours, and the flow of mass between them per difference of their weights.
     struct Bond {
         std::uint32_t a;
         std::uint32_t b;
         double conductance;
     };
 
-    /// Sites at `rows`; the density, which must outlive the cells, is 1 if there is none.
+    /// Cells of sites at `rows`. The density must outlive the cells; without one it is 1.
     EqualCells(const Planar& planar, const std::optional<DensityMoments>& density,
                const std::vector<double>& rows, const RunContext& run);
 
-    /// Finds the weights, from the present ones on; those of sites that have lost their cells are
-    /// 0 again, and so all others. Sites that have no mass even then are put to places of `rescue`
-    /// (n rows). Returns the largest |m_i n / total - 1|, above `tolerance` only after so many
-    /// steps, or where rounding keeps it there.
+    /// Finds the weights, starting from the present ones, or from 0 if a site has lost its cell.
+    /// Sites that have no mass even then move to their places in `rescue` (n rows). Returns the
+    /// largest |m_i n / total - 1|, which is above `tolerance` only after `steps` steps or because
+    /// of rounding.
     double equalize(double tolerance, std::span<const double> rescue, std::size_t steps = 1000);
 
     /// Moves every site to the centroid of its cell.
@@ -60,7 +60,7 @@ class EqualCells {
     [[nodiscard]] const PeriodicVoronoi& sites() const { return sites_; }
     [[nodiscard]] std::span<const double> weights() const { return weights_; }
 
-    /// Of the cells about their sites, for the weights found last.
+    /// Moments of the cells about their sites, for the weights found last.
     [[nodiscard]] std::span<const CellMoments> moments() const { return moments_; }
     [[nodiscard]] std::span<const Bond> bonds() const { return bonds_; }
 
@@ -77,7 +77,7 @@ class EqualCells {
     const std::optional<DensityMoments>& density_;
     RunContext run_;
     PeriodicVoronoi sites_;
-    double share_;  ///< the mass that each cell is to have
+    double share_;  ///< mass that each cell should have
     std::vector<double> weights_;
     std::vector<CellMoments> moments_;
     std::vector<Bond> bonds_;

@@ -14,8 +14,8 @@
 namespace stipple {
 namespace {
 
-constexpr double kernel_reach = 6;  // exp(-18) = 1.5e-8
-constexpr double cell_side = 1.75;  // about; the fastest
+constexpr double kernel_reach = 6;  // exp(-6^2 / 2) = 1.5e-8
+constexpr double cell_side = 1.75;  // approximate; the fastest
 constexpr double nowhere = 1e6;
 
 /// count^(1/dimension) by Newton's method, from above.
@@ -34,7 +34,7 @@ double side_length(double count, std::size_t dimension) {
 
 using Sides = std::array<double, relaxation_dimensions>;
 
-/// Sides of the torus of volume `count`, in proportion to `extents`; of a cube without any.
+/// Sides of the torus of volume `count`, proportional to `extents`, or equal if empty.
 Sides sides_of(std::size_t count, std::size_t dimension, std::span<const double> extents) {
     Sides sides{};
     sides.fill(side_length(static_cast<double>(count), dimension));
@@ -47,7 +47,7 @@ Sides sides_of(std::size_t count, std::size_t dimension, std::span<const double>
     return sides;
 }
 
-/// Places that may be near to the points of a cell, by coordinate, padded with places that are not.
+/// Coordinates of points that may be near the points of a cell, padded with far ones.
 struct Candidates {
     std::array<std::vector<double>, relaxation_dimensions> places = {};
     std::vector<double> weights = {};
@@ -63,7 +63,7 @@ STIPPLE_WIDE void add_squares(const double* places, double x, double* weights, s
     }
 }
 
-/// Squared distances become kernels.
+/// Replaces squared distances by kernels.
 STIPPLE_WIDE void to_kernels(double* weights, std::size_t count) {
     for (std::size_t j = 0; j < count; ++j) {
         const double kernel = exponential(-0.5 * weights[j]);
@@ -80,8 +80,7 @@ STIPPLE_WIDE double pull(const double* places, double x, const double* weights, 
     return sum_of_lanes(parts);
 }
 
-/// Adds, for the distances along one axis to all images of places, the kernels and the kernels
-/// times the way.
+/// Adds the kernels, and the kernels times the distances, of all images of `places` along one axis.
 STIPPLE_WIDE void add_images(const double* places, double x, double side, int images,
                              std::size_t count, double* kernels, double* pulls) {
     for (int image = -images; image <= images; ++image)
@@ -95,7 +94,7 @@ STIPPLE_WIDE void add_images(const double* places, double x, double side, int im
 
 using Factors = std::array<const double*, relaxation_dimensions>;
 
-/// sum over j of the products of the j-th numbers
+/// sum over j of the product of the j-th factors
 STIPPLE_WIDE double sum_of_products(const Factors& factors, std::size_t dimension,
                                     std::size_t count) {
     double parts[sum_lanes] = {};
@@ -108,7 +107,7 @@ STIPPLE_WIDE double sum_of_products(const Factors& factors, std::size_t dimensio
     return sum_of_lanes(parts);
 }
 
-/// `x` moved by whole sides into [0, side), mostly one or none.
+/// `x` shifted by whole sides into [0, side), usually by at most one.
 double wrapped(double x, double side) {
     if (x < 0) x += side;
     if (x >= side) x -= side;
@@ -117,7 +116,7 @@ double wrapped(double x, double side) {
     return x >= 0 && x < side ? x : 0;
 }
 
-/// Sums over images along each axis, for the pairs of one point; zeros behind the last.
+/// Sums over images along each axis, for the pairs of one point; padded with zeros.
 struct AxisSums {
     std::array<std::vector<double>, relaxation_dimensions> kernels = {};
     std::array<std::vector<double>, relaxation_dimensions> pulls = {};
@@ -130,7 +129,7 @@ struct AxisSums {
     }
 };
 
-/// What one thread needs to work on a cell.
+/// Buffers of one thread.
 struct Workspace {
     Candidates near;
     AxisSums sums;
@@ -190,7 +189,7 @@ class Kernels {
         }
     }
 
-    /// Works out the forces on the points of a cell.
+    /// Computes the forces on the points of a cell.
     void forces_in(std::size_t cell, Workspace& work, std::span<double> forces) const {
         if (starts_[cell] == starts_[cell + 1]) return;
         if (by_axes_) return forces_by_axes(cell, work.sums, forces);
@@ -211,8 +210,8 @@ class Kernels {
   private:
     using Offsets = std::array<std::int64_t, relaxation_dimensions>;
 
-    /// On a small torus of many images: the kernel of two points, over all of these, is the product
-    /// of the sums along each axis.
+    /// The same on a small torus with many images: the kernel of two points, summed over all
+    /// images, is the product of the sums along each axis.
     void forces_by_axes(std::size_t cell, AxisSums& sums, std::span<double> forces) const {
         const std::size_t count = (n_ + sum_lanes - 1) / sum_lanes * sum_lanes;
         for (std::uint32_t s = starts_[cell]; s < starts_[cell + 1]; ++s) {
@@ -232,7 +231,7 @@ class Kernels {
         }
     }
 
-    /// Collects the points of all cells that come within reach of this one, on all images.
+    /// Collects the points of all cells within reach of this one, including images.
     void gather(std::size_t cell, Candidates& near) const {
         for (auto& places : near.places) places.clear();
         Offsets center{};
@@ -256,7 +255,7 @@ class Kernels {
         if (near.weights.size() < near.size()) near.weights.resize(near.size());
     }
 
-    /// Collects the row of cells along the first coordinate at the offsets in the others.
+    /// Adds the row of cells along the first axis at the given offsets along the others.
     void add_row(const Offsets& center, const Offsets& offset, std::int64_t most,
                  Candidates& near) const {
         double left = kernel_reach * kernel_reach;
@@ -301,26 +300,26 @@ class Kernels {
     std::size_t n_;
     Sides sides_;
     std::array<std::size_t, relaxation_dimensions> along_{};  ///< cells along each side
-    Sides widths_{};                                          ///< of a cell
+    Sides widths_{};                                          ///< sides of a cell
     std::vector<double> places_;
-    bool by_axes_;  ///< images are summed along each
-    std::array<std::vector<double>, relaxation_dimensions> by_cell_;  ///< coordinates, sorted
+    bool by_axes_;  ///< sums over images are taken axis by axis
+    std::array<std::vector<double>, relaxation_dimensions> by_cell_;  ///< coordinates by cell
     std::vector<std::uint32_t> cell_of_;
     std::vector<std::uint32_t> sorted_;
     std::vector<std::uint32_t> starts_;
 };
 
-/// Forces on all points.
+/// Computes the forces on all points.
 void all_forces(Kernels& kernels, std::span<double> forces, const RunContext& run) {
     kernels.sort(run);
-    constexpr std::uint64_t size = 64;  // cells
+    constexpr std::uint64_t size = 64;  // cells in a block
     for_each_block(silent(run), kernels.cells(), size, [&](const Block& block) {
         Workspace work;
         for (std::uint64_t c = block.first; c < block.last; ++c) kernels.forces_in(c, work, forces);
     });
 }
 
-/// The run for one step.
+/// The run for one step, on one thread if the step is short.
 RunContext for_step(const RunContext& run, std::size_t count, std::size_t dimension) {
     constexpr double seconds[] = {1e-7, 5e-7, 1e-5, 1e-4};
     return worth_threads(run, static_cast<double>(count) * seconds[dimension - 1]);
