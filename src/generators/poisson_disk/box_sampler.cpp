@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// maximal_disks (generators/poisson_disk/maximal_disks.hpp) in any dimension and any box: also in
-// those of fewer than five cells along a direction.
+// maximal_disks (generators/poisson_disk/maximal_disks.hpp) in any dimension and any box, including
+// boxes of fewer than five cells along a direction.
 //
-// Tiles know the points that reach into them, and go through all of them for each cell. Gaps are
-// cells in the beginning, and are cut down round by round (generators/poisson_disk/gaps.hpp).
+// Each tile stores the points that reach into it, and visits all of them for each cell. Gaps are
+// whole cells at first, and are cut down round by round (generators/poisson_disk/gaps.hpp).
 //
 // Shape   D = 2 ... 6.
 // Cost    O(n) time; see maximal_disks.hpp. The samplers of plane and space are 2.6 and 4.6 times
-//         as fast, and have their place beside this one for that.
+//         as fast, which is why they exist.
 
 #include <type_traits>
 
@@ -34,7 +34,7 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
     void take(std::span<const Addition<D>> additions) {
         for (const Addition<D>& a : additions) {
             Near p{this->in_cell(*grid_, a.at, a.cell), a.at, a.cell};
-            double squared = 0;  // distance from the tile, in radii
+            double squared = 0;  // squared distance from the tile, in radii
             for (std::size_t k = 0; k < D; ++k) {
                 p.place[k] += a.cell[k];
                 const double out = std::max({-p.place[k], p.place[k] - this->size(k), 0.0});
@@ -49,7 +49,7 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
         this->pending = {};
     }
 
-    /// Points that reach into a cell, from its corner in radii.
+    /// Collects the points that reach into a cell, relative to its corner, in radii.
     template <class Real>
     void gather(const Cell& cell, NearDisks<D, Real>& near) const {
         near.clear();
@@ -67,7 +67,7 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
         near.close();
     }
 
-    /// Calls visit(point, its cell) for all points, as long as that is true.
+    /// Calls visit(point, its cell) for all points until a call returns false.
     template <class Visit>
     void for_about(const Cell&, const Visit& visit) const {
         for (const Near& p : near_)
@@ -75,11 +75,11 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
     }
 
   private:
-    static constexpr double reaching = 1 + 1e-9;  ///< squared, with room for rounding
+    static constexpr double reaching = 1 + 1e-9;  ///< square of a radius, with room for rounding
 
     /// A point that reaches into the tile.
     struct Near {
-        Point place;  ///< in cells, from the tile's first
+        Point place;  ///< from the tile's first cell, in cells
         Point at;
         Cell cell;
     };
@@ -114,10 +114,10 @@ class BoxSampler {
     }
 
   private:
-    /// Gaps of this level and beyond are too small for floats.
+    /// Floats are too coarse for gaps of this level and beyond.
     static constexpr std::uint8_t deep = 7;
 
-    /// Every cell is one.
+    /// Makes every cell a gap.
     static void make_gaps(T& tile) {
         Cell cell{};
         while (true) {
@@ -149,7 +149,7 @@ class BoxSampler {
         }
     }
 
-    /// Darts on what is open of a gap; what is left of it goes to the workspace.
+    /// Throws darts at the open sub-cells of a gap; adds what is left of the gap to the workspace.
     template <class Real>
     void throw_at(const T& tile, const Gap<D>& gap, const PoissonCounts& counts, std::uint64_t key,
                   Workspace& work, const NearDisks<D, Real>& near,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Gaps: cubes within a cell in which something may be uncovered. A gap, like a cell, is cut into
-// P^D sub-cells, and a word has a bit for each of them: bit sum_k i_k P^k for the one with index
-// i_k along direction k. Gaps shrink to what is open of them, or are split, until nothing is.
+// Gaps: cubes within a cell that may be partly uncovered. A gap, like a cell, is divided into P^D
+// sub-cells, and a word has a bit for each of them: bit sum_k i_k P^k for the one with index i_k
+// along direction k. Gaps shrink to their open sub-cells, or are split, until nothing is open.
 //
 // Shape   P = 8 (D = 2), 4 (3), 2 (4 ... 6).
 #pragma once
@@ -20,20 +20,20 @@
 
 namespace stipple::poisson_disk {
 
-/// A bit for each sub-cell.
+/// One bit for each sub-cell.
 using SubcellBits = std::uint64_t;
 
-/// Sub-cells along each direction.
+/// Number of sub-cells along each direction.
 template <std::size_t D>
 inline constexpr std::size_t subcells = D == 2   ? 8
                                         : D == 3 ? 4
                                                  : 2;
 
-/// All of them.
+/// Number of sub-cells in a gap.
 template <std::size_t D>
 inline constexpr std::size_t all_subcells = power(subcells<D>, D);
 
-/// Where in a byte its n-th one is, at 8 byte + n.
+/// Position of the n-th set bit of a byte, at index 8 byte + n.
 inline constexpr auto nth_in_byte = [] {
     std::array<std::uint8_t, 2048> table{};
     for (std::size_t byte = 0; byte < 256; ++byte)
@@ -42,14 +42,14 @@ inline constexpr auto nth_in_byte = [] {
     return table;
 }();
 
-/// The number of the n-th one among the bits, of which there are more than n.
+/// Position of the n-th set bit, counted from 0; there must be more than n.
 inline std::size_t nth_bit(SubcellBits bits, std::size_t n) {
-    constexpr SubcellBits each = 0x0101010101010101U;  // byte
+    constexpr SubcellBits each = 0x0101010101010101U;  // 1 in each byte
     constexpr SubcellBits high = 0x8080808080808080U;
     SubcellBits counts = bits - (bits >> 1 & 0x5555555555555555U);
     counts = (counts & 0x3333333333333333U) + (counts >> 2 & 0x3333333333333333U);
     const SubcellBits up_to = ((counts + (counts >> 4)) & 0x0f0f0f0f0f0f0f0fU) * each;
-    const SubcellBits passed = ((n * each | high) - up_to) & high;  // bytes before the one with it
+    const SubcellBits passed = ((n * each | high) - up_to) & high;  // bytes before its own
     const std::size_t shift = (passed >> 7) * each >> 56 << 3;
     const std::size_t before = (up_to << 8) >> shift & 0xff;
     return shift + nth_in_byte[(bits >> shift & 0xff) * 8 + n - before];
@@ -57,15 +57,15 @@ inline std::size_t nth_bit(SubcellBits bits, std::size_t n) {
 
 template <std::size_t D>
 struct Gap {
-    std::array<double, D> corner;  ///< the lowest, from that of the cell, in cells
-    std::uint16_t place;           ///< the cell's number in its tile
+    std::array<double, D> corner;  ///< lowest corner, from that of the cell, in cells
+    std::uint16_t place;           ///< number of the cell in its tile
     std::uint8_t level;            ///< the side is 2^-level of the cell's
 
     [[nodiscard]] double side() const { return 1 / static_cast<double>(std::uint64_t{1} << level); }
     [[nodiscard]] double subcell_side() const { return side() / double{subcells<D>}; }
 };
 
-/// The smallest box of sub-cells around those with a bit: its lowest corner and its longest side.
+/// Smallest box of sub-cells around all set bits: its lowest corner and its longest side.
 template <std::size_t D>
 struct Extent {
     std::array<std::size_t, D> low;
@@ -74,7 +74,7 @@ struct Extent {
     explicit Extent(SubcellBits bits) {
         constexpr std::size_t p = subcells<D>;
         for (std::size_t k = 0, stride = 1; k < D; ++k, stride *= p) {
-            SubcellBits fold = bits;  // onto direction k
+            SubcellBits fold = bits;  // projected onto direction k
             for (std::size_t other = 0, by = 1; other < D; ++other, by *= p)
                 for (std::size_t half = p / 2; other != k && half > 0; half /= 2)
                     fold |= fold >> (half * by);
@@ -86,11 +86,11 @@ struct Extent {
     }
 };
 
-/// Adds the halves along every direction in which something is open.
+/// Splits a gap into halves along every direction, and adds those with open sub-cells.
 template <std::size_t D>
 void split(const Gap<D>& gap, SubcellBits open, std::vector<Gap<D>>& out) {
     constexpr std::size_t p = subcells<D>;
-    constexpr SubcellBits lowest = [] {  // of the halves
+    constexpr SubcellBits lowest = [] {  // sub-cells of the lowest child
         SubcellBits bits = 0;
         for (std::size_t i = 0; i < all_subcells<D>; ++i) {
             bool in = true;
@@ -112,8 +112,8 @@ void split(const Gap<D>& gap, SubcellBits open, std::vector<Gap<D>>& out) {
     }
 }
 
-/// Adds what is left of a gap, of which something is open: a smaller one where that fits. One that
-/// is open from end to end is split if it may be, and else stays as it is.
+/// Adds what is left of a gap with open sub-cells: a smaller gap if they fit into one. A gap that
+/// is open from end to end is split if it may be, and otherwise kept.
 template <std::size_t D>
 void narrow(const Gap<D>& gap, SubcellBits open, bool may_split, std::vector<Gap<D>>& out) {
     constexpr std::size_t p = subcells<D>;
@@ -131,7 +131,7 @@ void narrow(const Gap<D>& gap, SubcellBits open, bool may_split, std::vector<Gap
     out.push_back(smaller);
 }
 
-/// A random place in one of the open sub-cells, in cells from the corner of the gap's cell.
+/// Random place in one of the `count` open sub-cells, from the corner of the gap's cell, in cells.
 template <std::size_t D>
 std::array<double, D> place_in(const Gap<D>& gap, SubcellBits open, std::size_t count,
                                SplitMix64& mixer) {
@@ -144,7 +144,7 @@ std::array<double, D> place_in(const Gap<D>& gap, SubcellBits open, std::size_t 
     return place;
 }
 
-/// Random numbers that belong to a gap and a round, whoever asks for them.
+/// Random numbers of a gap in one round, a function of the round's key and the gap.
 template <std::size_t D>
 SplitMix64 stream_of(std::uint64_t key, const Gap<D>& gap) {
     std::uint64_t state = SplitMix64(key ^ (std::uint64_t{gap.place} << 8 | gap.level)).next();

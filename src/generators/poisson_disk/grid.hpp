@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The cells in which maximal disk sets are kept: boxes with a diagonal of at most a radius, so that
-// one holds one point at most, in tiles that are worked on as a whole.
+// Grid of the cells that hold a maximal disk set: boxes with a diagonal of at most a radius, so
+// that each holds at most one point. Cells are grouped into tiles, which are processed as a whole.
 //
-// "In radii" below means: in units of the radius, from the corner of a cell. Such numbers are
-// small, so that floats hold them well.
+// "In radii" below means: relative to the corner of a cell, in units of the radius. Such numbers
+// are small, so that floats are accurate enough.
 //
 // Shape   D directions, m_k cells along each, fewer than 2^32 in all.
 #pragma once
@@ -26,7 +26,7 @@ constexpr std::size_t power(std::size_t base, std::size_t exponent) {
     return exponent == 0 ? 1 : base * power(base, exponent - 1);
 }
 
-/// A cell of a tile, counted from the tile's first one on; beyond its faces, too.
+/// Cell by its offset from the first cell of a tile; possibly outside the tile.
 template <std::size_t D>
 using TileCell = std::array<int, D>;
 
@@ -35,8 +35,8 @@ struct Grid {
     using Point = std::array<double, D>;
     using Index = std::array<std::uint32_t, D>;
 
-    /// Cells for `cell_radius`, which is at most `radius`: a grid may serve several radii.
-    /// @param tile_side largest number of cells along a tile
+    /// Makes cells for `cell_radius`, which is at most `radius`: a grid may serve several radii.
+    /// @param tile_side maximum number of cells along a tile
     Grid(const BoxSpace& space, double disk_radius, double cell_radius, std::uint32_t tile_side)
         : torus(space.torus), radius(disk_radius) {
         const std::vector<double> along = cells_along(space.box, cell_radius);
@@ -55,12 +55,12 @@ struct Grid {
         }
     }
 
-    /// The first cell of a tile along direction k. Tiles are of about the same size.
+    /// First cell of a tile along direction k. Tiles have about the same size.
     [[nodiscard]] std::uint32_t first_cell(std::size_t k, std::uint64_t tile) const {
         return static_cast<std::uint32_t>(tile * cells[k] / tiles[k]);
     }
 
-    /// The first cell of a tile, and the one behind its last.
+    /// First cell of a tile, and the first one after it, along each direction.
     [[nodiscard]] std::pair<Index, Index> tile(std::size_t number) const {
         Index first{};
         Index last{};
@@ -71,7 +71,7 @@ struct Grid {
         return {first, last};
     }
 
-    /// In the numbers as they are stored.
+    /// Whether two points are too near, by their coordinates as stored.
     [[nodiscard]] bool too_near(const Point& p, const Point& q) const {
         return squared_distance<D>(p.data(), q.data(), sides, torus) < radius * radius;
     }
@@ -81,10 +81,10 @@ struct Grid {
     Point low{};
     Point high{};
     Point sides{};
-    Point widths{};  ///< of a cell
-    Point scales{};  ///< of a cell, in radii
+    Point widths{};  ///< sides of a cell
+    Point scales{};  ///< sides of a cell, in radii
     Index cells{};
-    TileCell<D> reach{};  ///< cells that a distance of the radius can lead across
+    TileCell<D> reach{};  ///< largest number of cells that a radius spans
     Index tiles{};
     std::size_t tile_count = 1;
     std::size_t cell_count = 1;
@@ -92,16 +92,16 @@ struct Grid {
 
 // The samplers that maximal_disks (generators/poisson_disk/maximal_disks.hpp) chooses from.
 
-/// What all samplers work with.
+/// Input of all samplers.
 template <std::size_t D>
 struct Task {
     const Grid<D>& grid;
-    double slack;            ///< of distances that doubles hold, in radii
+    double slack;            ///< rounding errors of distances in doubles, in radii
     std::uint64_t expected;  ///< number of points
     std::uint64_t seed;
 };
 
-/// Largest number of cells along a tile's side, as a power of two.
+/// Binary logarithm of the maximum number of cells along a tile's side.
 template <std::size_t D>
 inline constexpr unsigned box_tile_bits = D == 2   ? 4
                                           : D <= 4 ? 3
@@ -109,16 +109,15 @@ inline constexpr unsigned box_tile_bits = D == 2   ? 4
 inline constexpr unsigned plane_tile_bits = 6;
 inline constexpr unsigned space_tile_bits = 5;
 
-/// The points, in any box. @throws Error(cancelled)
+/// Makes the points, in any box. @throws Error(cancelled)
 template <std::size_t D>
 Rows box_sample(const Task<D>& task, const RunContext& run);
 
-/// The same where a radius leads across two cells, and there are five or more, along each
-/// direction.
+/// The same for grids of five or more cells along each direction, two of which a radius spans.
 Rows plane_sample(const Task<2>& task, const RunContext& run);
 Rows space_sample(const Task<3>& task, const RunContext& run);
 
-/// Bytes that a tile takes at most, without points.
+/// Maximum number of bytes for a tile, without its points.
 extern const double plane_tile_bytes;
 extern const double space_tile_bytes;
 

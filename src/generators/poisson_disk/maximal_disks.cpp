@@ -11,7 +11,7 @@
 namespace stipple::poisson_disk {
 namespace {
 
-/// Whether a radius leads across two cells along every direction, and there are five or more.
+/// Whether there are five or more cells along every direction, two of which a radius spans.
 bool is_fine(const BoxSpace& space, const std::vector<double>& cells, double radius) {
     bool fine = cells.size() <= 3;
     for (std::size_t k = 0; k < cells.size(); ++k) {
@@ -39,7 +39,7 @@ Rows sample(const BoxSpace& space, double radius, double cell_radius, std::uint6
     return box_sample(task, on);
 }
 
-/// Bytes that so many points take, in so many cells along each direction.
+/// Bytes for that many points, in cells whose numbers along each direction are `along`.
 double memory_for(const std::vector<double>& along, bool fine, double points) {
     const auto d = static_cast<double>(along.size());
     const unsigned bits = along.size() == 2 ? plane_tile_bits : space_tile_bits;
@@ -49,14 +49,14 @@ double memory_for(const std::vector<double>& along, bool fine, double points) {
         cells *= count;
         tiles *= std::ceil(count / (1U << bits));
     }
-    // A point, its copies; gaps, to begin with one a cell.
+    // A point and its copies; gaps, one for each cell at first.
     if (!fine) return points * (5 * 8 * d) + 2 * cells * (8 * d + 8);
-    // What tiles know; a point, its copy, pending darts or what others know of it; gaps.
+    // Tables of the tiles; a point, its copy, and pending darts or copies in other tiles; gaps.
     return along.size() == 2 ? tiles * plane_tile_bytes + 45 * points + 4 * cells
                              : tiles * space_tile_bytes + 140 * points;
 }
 
-/// @throws Error(limit) when the points for this radius do not fit the memory, or the indices.
+/// @throws Error(limit) if the points for this radius exceed the memory limit or 32-bit indices
 void check_size(const BoxSpace& space, double radius, double cell_radius, const RunContext& run) {
     const std::vector<double> along = cells_along(space.box, cell_radius);
     double cells = 1;

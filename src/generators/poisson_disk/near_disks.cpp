@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t lanes = 8;
 
-/// Lines of sub-cells in a gap.
+/// Number of lines of sub-cells in a gap.
 template <std::size_t D>
 constexpr std::size_t lines = power(subcells<D>, D - 1);
 
@@ -33,7 +33,7 @@ template <std::size_t D, class Real>
     return least[0] < 1 - slack ? Hit::yes : least[0] < 1 + slack ? Hit::unsure : Hit::no;
 }
 
-/// Where eight lines lie: their middles along all directions but the first.
+/// Middles of eight lines, along all directions except the first.
 template <std::size_t D, class Real>
 [[gnu::always_inline]] inline void place_lines(const SubcellGrid<D, Real>& grid, std::size_t first,
                                                Real (&middle)[D][lanes]) {
@@ -45,11 +45,12 @@ template <std::size_t D, class Real>
     }
 }
 
-/// Floats are used for gaps of some size alone, so that no disk is millions of sub-cells off.
+/// Limits x to integers. Floats are small: they serve large gaps only, so no disk is millions of
+/// sub-cells away.
 [[gnu::always_inline]] inline float within_int(float x) { return x; }
 [[gnu::always_inline]] inline double within_int(double x) { return std::clamp(x, -1e9, 1e9); }
 
-/// The first end of a sub-cell at x or beyond, in 0 ... P; the last one at x or before.
+/// First boundary of sub-cells at or after x, in 0 ... P; below, the last one at or before x.
 template <std::size_t D, class Real>
 [[gnu::always_inline]] inline std::int32_t next_end(Real x) {
     const auto whole = static_cast<std::int32_t>(within_int(x));
@@ -128,7 +129,7 @@ template <std::size_t D, class Real>
 
 }  // namespace
 
-// One of each for every dimension and number type, widened: templates cannot be.
+// Instances for every dimension and number type, as STIPPLE_WIDE does not apply to templates.
 #define STIPPLE_NEAR_DISKS(D, Real)                                                              \
     STIPPLE_WIDE Hit wide_hits(const NearDisks<D, Real>& near, const std::array<Real, D>& place, \
                                Real slack) {                                                     \

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// The few disks about a place, and which sub-cells of a gap they cover. Lengths are in radii, so
-// that a disk about p covers where sum_k (x_k - p_k)^2 < 1.
+// The few disks near a place, and the sub-cells of a gap that they cover. Lengths are in radii: a
+// disk around p covers x if sum_k (x_k - p_k)^2 < 1.
 //
-// Of a line of sub-cells along the first direction a disk covers those between two ends, which one
-// root gives:
+// On a line of sub-cells along the first direction, a disk covers those between two ends, which
+// take one square root:
 //
 //     |x_1 - p_1| < sqrt(1 - sum_{k > 1} y_k^2),    y_k from p_k to the farther face of the line.
 //
 // Shape   D = 2 ... 6.
 // Cost    eight lines, or eight disks, at a time.
-// Promise what is said to be covered is, by one disk alone, and what is said to be hit or not hit
-//         is: within `slack` of a rim nothing is covered and the answer is `unsure`.
+// Promise a sub-cell reported as covered is covered by a single disk, and a place reported as hit
+//         or not hit is so: within `slack` of a rim nothing is covered and the answer is `unsure`.
 #pragma once
 
 #include <algorithm>
@@ -25,10 +25,10 @@
 
 namespace stipple::poisson_disk {
 
-/// How near to a rim arithmetic in `Real` can go wrong, where places are a few radii from zero.
+/// Rounding errors of distances to a rim in floats, for places a few radii from zero.
 inline constexpr float float_slack = 4e-6F;
 
-/// Centres of disks, direction after direction, with eight far ones behind the last.
+/// Centres of disks, one direction after the other, padded with eight far ones.
 template <std::size_t D, class Real>
 class NearDisks {
   public:
@@ -42,7 +42,7 @@ class NearDisks {
         ++size_;
     }
 
-    /// To be called behind the last add().
+    /// Adds the padding; to be called after the last add().
     void close() {
         for (std::size_t k = 0; k < D; ++k)
             std::fill_n(at_.begin() + static_cast<std::ptrdiff_t>(k * room_ + size_), lanes,
@@ -75,13 +75,13 @@ enum class Hit : std::uint8_t { no, yes, unsure };
 template <std::size_t D, class Real>
 Hit hits(const NearDisks<D, Real>& near, const std::array<Real, D>& place, Real slack);
 
-/// The sub-cells of a gap, by its lowest corner and their sides.
+/// Sub-cells of a gap: its lowest corner, and the sides of a sub-cell, in radii.
 template <std::size_t D, class Real>
 struct SubcellGrid {
     std::array<Real, D> corner;
     std::array<Real, D> sides;
 
-    /// @param scales sides of a cell
+    /// @param scales sides of a cell, in radii
     SubcellGrid(const Gap<D>& gap, const std::array<double, D>& scales) {
         for (std::size_t k = 0; k < D; ++k) {
             corner[k] = static_cast<Real>(gap.corner[k] * scales[k]);
@@ -90,7 +90,8 @@ struct SubcellGrid {
     }
 };
 
-/// Sub-cells that no disk covers alone, and the disks that reach into the gap.
+/// Returns the sub-cells that no single disk covers, and collects the disks that reach into the
+/// gap.
 template <std::size_t D, class Real>
 SubcellBits uncovered(const NearDisks<D, Real>& near, const SubcellGrid<D, Real>& grid, Real slack,
                       NearDisks<D, Real>& reaching);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Darts that no older point rules out, until it is decided which of them stay: those of one round
-// on one tile, sorted into blocks of cells, so that those near a place are found.
+// Darts that no older point excludes, until it is decided which are kept: those of one round on one
+// tile, sorted into blocks of cells for neighbour queries.
 #pragma once
 
 #include <algorithm>
@@ -21,9 +21,9 @@ template <std::size_t D>
 struct PendingDart {
     std::array<double, D> at;
     std::uint32_t time;   ///< within the round
-    std::uint16_t place;  ///< of its cell in the tile
+    std::uint16_t place;  ///< number of its cell in the tile
 
-    /// Several threads may ask for the status, and set it: they all find the same.
+    /// Several threads may read and set the status: they all set the same.
     [[nodiscard]] Status status() const {
         return std::atomic_ref<Status>(status_).load(std::memory_order_relaxed);
     }
@@ -35,10 +35,10 @@ struct PendingDart {
         return time < other.time || (time == other.time && at < other.at);
     }
 
-    mutable Status status_ = Status::pending;  // there is no reference to a constant atomic
+    mutable Status status_ = Status::pending;  // atomic_ref takes no constant object
 };
 
-/// Cells of tiles with 2^side_bits along each direction, and blocks of 2^block_bits.
+/// Darts of a tile of 2^side_bits cells along each direction, in blocks of 2^block_bits.
 template <std::size_t D, unsigned side_bits, unsigned block_bits>
 class PendingDarts {
   public:
@@ -47,7 +47,7 @@ class PendingDarts {
 
     static constexpr int side = 1 << side_bits;
 
-    /// A cell's number in its tile.
+    /// Number of a cell in its tile.
     static std::uint16_t place_of(const Cell& cell) {
         std::uint32_t place = 0;
         for (std::size_t k = 0; k < D; ++k)
@@ -60,7 +60,7 @@ class PendingDarts {
         return cell;
     }
 
-    /// @param round its number
+    /// Replaces the darts by those of a round.
     void renew(std::uint64_t round, const std::vector<Dart>& darts) {
         round_ = round;
         first_.fill(0);
@@ -68,16 +68,16 @@ class PendingDarts {
         for (std::size_t i = 0; i < blocks; ++i)
             first_[i + 1] = static_cast<std::uint16_t>(first_[i + 1] + first_[i]);
         auto next = first_;
-        all_ = std::vector<Dart>(darts.size());  // no more room than that
+        all_ = std::vector<Dart>(darts.size());  // without spare capacity
         for (const Dart& d : darts) all_[next[block_of(d.place)]++] = d;
     }
 
     [[nodiscard]] const std::vector<Dart>& all() const { return all_; }
-    /// Whether they are those of that round.
+    /// Whether the darts are those of that round.
     [[nodiscard]] bool of(std::uint64_t round) const { return round_ == round; }
 
-    /// Calls visit(dart) for those in the blocks of the cells from low to high along each
-    /// direction, and maybe beyond the tile, until that is true; returns whether it ever was.
+    /// Calls visit(dart) for the darts in blocks that meet the cells from low to high along each
+    /// direction, which may be outside the tile. Returns true as soon as a call does.
     template <class Visit>
     bool any(Cell low, Cell high, const Visit& visit) const {
         for (std::size_t k = 0; k < D; ++k) {
@@ -118,7 +118,7 @@ class PendingDarts {
 
     std::uint64_t round_ = ~std::uint64_t{0};
     std::vector<Dart> all_;
-    std::array<std::uint16_t, blocks + 1> first_{};  ///< dart of a block
+    std::array<std::uint16_t, blocks + 1> first_{};  ///< first dart of each block
 };
 
 }  // namespace stipple::poisson_disk

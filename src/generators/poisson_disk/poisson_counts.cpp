@@ -9,7 +9,7 @@
 namespace stipple::poisson_disk {
 namespace {
 
-constexpr double most_at_once = 16;  ///< mean that inversion is used for; more is drawn in portions
+constexpr double most_at_once = 16;  ///< largest mean for inversion; larger ones are split
 
 constexpr auto inverses = [] {
     std::array<double, 64> table{};
@@ -17,9 +17,9 @@ constexpr auto inverses = [] {
     return table;
 }();
 
-/// A Poisson number by inversion: the first whose cumulated probability is above u.
+/// Poisson number by inversion: the first one whose cumulative probability is above u.
 std::uint64_t first_above(double u, double mean, double none) {
-    constexpr double nothing = 1e-20;  // probabilities that no double u can tell from 0
+    constexpr double nothing = 1e-20;  // probabilities below the resolution of u
     double chance = none;
     double sum = none;
     std::uint64_t k = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// How many darts of a round fall on a piece of a box: a Poisson number, drawn once for the piece.
+// Number of darts of a round on a piece of a box: a Poisson number, drawn once for the piece.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +12,10 @@
 
 namespace stipple::poisson_disk {
 
-/// For pieces of 0 ... most equal parts.
+/// Poisson numbers for pieces of 0 ... most equal parts.
 class PoissonCounts {
   public:
-    /// @param mean number of darts to a part; finite
+    /// @param mean number of darts per part; finite
     PoissonCounts(double mean, std::size_t most);
 
     [[nodiscard]] double mean(std::size_t parts) const {
@@ -38,7 +38,7 @@ class PoissonCounts {
     [[nodiscard]] std::uint64_t in_portions(double u, std::size_t parts, SplitMix64& mixer) const;
 
     double mean_;
-    std::vector<double> none_;  ///< probability of no dart on so many parts
+    std::vector<double> none_;  ///< probability of no dart, by the number of parts
 };
 
 }  // namespace stipple::poisson_disk

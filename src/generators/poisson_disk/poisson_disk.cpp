@@ -3,25 +3,26 @@
 // Poisson-disk set: points thrown at random, none nearer than a radius to any other, until no
 // further point fits (generators/poisson_disk/maximal_disks.hpp).
 //
-// --radius R   as many points as fit.
-// --n-approx N about N points: as many as fit with the radius that gives N in the mean.
-// --count N    exactly N points, as many as fit with some radius, which is searched for: the same
-//              darts leave fewer points for a larger radius, mostly, and hardly other points for
-//              one that hardly differs, so that a few tries, each as long as a run with --radius,
-//              come to exactly N. The radius that is noted is the least distance that the points
-//              have, and they are maximal for that, too. Where N is passed over other darts are
-//              tried; of eight in vain, which may happen with a few points only, the surplus of the
-//              best set is removed: then the set is not maximal, and the user is told.
+// --radius R     as many points as fit.
+// --n-approx N   about N points: as many as fit with the radius that gives N in the mean.
+// --count N      exactly N points, as many as fit with some radius, which is searched for. The same
+//                darts mostly leave fewer points for a larger radius, and nearly the same points
+//                for a similar one, so that a few tries, each as long as a run with --radius, find
+//                exactly N. The radius in the provenance is the minimum distance of the points, and
+//                they are maximal for it, too. If the tries skip N, other darts are used. If eight
+//                sets of darts fail, which may happen with a few points only, the surplus of the
+//                best set is removed: then the set is not maximal, and the user is told.
 //
-// In 2-D radii may change from place to place (generators/poisson_disk/varying/varied_disks.hpp);
-// two points then keep the smaller of their radii, and every place where points may lie is nearer
-// than the smaller of its radius and a point's to that point:
+// In 2-D radii may vary (generators/poisson_disk/varying/varied_disks.hpp). Two points keep the
+// smaller of their radii, and every place where points may be has a point nearer than the smaller
+// of its radius and the point's:
 //
-// --density    r(x) = radius * sqrt(largest density / density(x)), no points where it is 0.
-// --radius-map r(x) as given; scaled to a least radius with --radius, --count and --n-approx.
-// --mask       points only where it is not 0.
+// --density     r(x) = radius * sqrt(largest density / density(x)), no points where it is 0.
+// --radius-map  r(x) as given; scaled to a minimum radius with --radius, --count and --n-approx.
+// --mask        points only where it is not 0.
 //
-// Shape   d = 2 ... 6; distances hold in the box of --bounds, across its faces too (torus) or not.
+// Shape   d = 2 ... 6; distances are those in the box of --bounds, across its faces (torus) or
+//         bounded.
 // Cost    see maximal_disks.hpp; --count takes some ten runs.
 // Promise sum_k d_k^2 >= radius^2 for every pair, in float64, from the coordinates as stored;
 //         d_k = |x_k - y_k|, on the torus min(d_k, side_k - d_k). No place of the box is as far as
@@ -88,7 +89,7 @@ constexpr Param<Choice> order{.name = "order",
                                   "progressive: the first n points are well spread, too, for "
                                   "every n"};
 
-/// Whether there is more than one radius, or a place without points.
+/// Whether radii vary, or some places are without points.
 bool is_varied(const Values& options) {
     return options.given(density) || options.given(radius_map) || options.given(mask);
 }
@@ -111,7 +112,7 @@ Plan plan(const Request& request, const Values& options) {
         fail(ErrorKind::usage, "--radius {} contradicts --n-approx {}; give one of them",
              format_number(options[radius]), options[about]);
     if (!options.given(radius) && !options.given(about)) {
-        if (options.given(radius_map) && !request.count) plan.count = 0;  // as it is
+        if (options.given(radius_map) && !request.count) plan.count = 0;  // given by the map
         return plan;
     }
     if (request.count)
@@ -128,7 +129,7 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-/// Where expected_disks is the number that is wanted.
+/// Radius for which expected_disks is the wanted number.
 double typical_radius(const BoxSpace& space, double wanted) {
     double low = 0;
     double high = space.largest_distance();
@@ -141,7 +142,7 @@ double typical_radius(const BoxSpace& space, double wanted) {
 }
 
 /// Largest radius whose square is at most the squared distance of every pair; for a single point,
-/// that of the farthest place.
+/// the largest distance in the box.
 double least_distance(const Rows& rows, const BoxSpace& space, const RunContext& run) {
     const std::size_t d = space.box.dimension();
     if (rows.numbers().size() <= d) return space.largest_distance();
@@ -163,7 +164,7 @@ RadiusField read_field(const BoxSpace& space, const Values& options, const RunCo
     return {space.box, source, run};
 }
 
-/// The radius of a packing is the least one.
+/// The radius of the packing is the minimum one.
 Packing pack_varied(const BoxSpace& space, const RadiusField& field, const Plan& plan,
                     const Values& options, const RunContext& run) {
     const auto fill = [&](double r, double cells, std::uint64_t seed, const RunContext& part) {
@@ -182,7 +183,7 @@ Packing pack_varied(const BoxSpace& space, const RadiusField& field, const Plan&
     return search_radius(goal, plan.seed, fill, run);
 }
 
-/// One point, and the distance that no place has from it or more.
+/// A random point, with the largest distance in the box as its radius.
 Packing single(const BoxSpace& space, std::uint64_t seed) {
     std::vector<double> point(space.box.dimension());
     DrawStream(Rng(seed)).point(space.box, point.data());
@@ -198,7 +199,7 @@ Packing pack(const BoxSpace& space, const Plan& plan, const Values& options,
         return {maximal_disks(space, r, r, plan.seed, run), r};
     }
     if (plan.count == 1) return single(space, plan.seed);
-    // At the largest distance itself disks leave single places, which are hard to tell from none.
+    // For the largest distance itself, disks leave isolated places, which rounding may hide.
     const double most = space.largest_distance();
     const double typical = typical_radius(space, static_cast<double>(plan.count));
     const SearchGoal goal{plan.count, plan.dimension, std::min(typical, 0.99 * most), most};
@@ -210,7 +211,7 @@ Packing pack(const BoxSpace& space, const Plan& plan, const Values& options,
     return packing;
 }
 
-/// The points in an order that tells nothing of where they are.
+/// The points in an order that is independent of their positions.
 Rows shuffled(const Rows& rows, const Plan& plan, const RunContext& run) {
     constexpr std::uint64_t block = 4096;
     const std::size_t d = plan.dimension;

@@ -13,15 +13,14 @@
 namespace stipple::poisson_disk {
 namespace {
 
-/// Looks for the radius at which the darts of one seed leave exactly `count` points.
+/// Searches for the radius at which the darts of one seed leave exactly `count` points.
 class Search {
   public:
     Search(const SearchGoal& goal, const Pack& pack, const RunContext& run)
         : goal_(goal), pack_(pack), run_(run), dimension_(goal.dimension), count_(goal.count) {}
 
-    /// Sets of the streams of a seed are searched one after the other, until one comes to exactly
-    /// the count. If none does, the surplus of the one with the largest radius is removed, and the
-    /// user is told.
+    /// Tries the streams of a seed one after the other until one gives exactly the count. If none
+    /// does, removes the surplus of the set with the largest radius, and tells the user.
     Packing find(std::uint64_t seed) {
         constexpr std::uint64_t streams = 8;
         for (std::uint64_t stream = 0; stream < streams; ++stream)
@@ -51,9 +50,10 @@ class Search {
         return false;
     }
 
-    /// Number of points for the radius; keeps them if they are what is wanted, or the best so far.
+    /// Makes the points for a radius; keeps them if they are `count`, or the best so far. Returns
+    /// their number.
     std::uint64_t attempt(double r, std::uint64_t seed) {
-        constexpr double typical = 8;  // tries that it takes
+        constexpr double typical = 8;  // number of tries
         cells_ = std::min(cells_, r);
         const double part = (1 - done_) / typical;
         Rows rows = pack_(r, cells_, seed, run_.stage(done_, done_ + part));
@@ -64,7 +64,7 @@ class Search {
         return found;
     }
 
-    /// The radius that would take or give the rest in the mean, if that may be; else a middle one.
+    /// Radius that should lead to the count, if it is between the bounds; else a middle one.
     [[nodiscard]] double next(double r, std::uint64_t found) const {
         const double ratio = static_cast<double>(found) / static_cast<double>(count_);
         const double step = (ratio - 1) / static_cast<double>(dimension_);
@@ -73,7 +73,7 @@ class Search {
         return guess > low && guess < few_ ? guess : (low + few_) / 2;
     }
 
-    /// Removes the surplus, each point with the same chance.
+    /// Removes random points, all equally likely, down to the count.
     void trim(std::uint64_t seed) {
         const Rng rng(seed, ~std::uint64_t{0});
         const auto rows = best_.rows.numbers();
@@ -93,10 +93,10 @@ class Search {
     const RunContext& run_;
     std::size_t dimension_;
     std::uint64_t count_;
-    double cells_ = 0;   ///< radius that the cells are made for, the same for all tries
-    double enough_ = 0;  ///< the last radius that left enough points
-    double few_ = 0;     ///< the last that left too few
-    double done_ = 0;    ///< fraction of the work, as far as one can know
+    double cells_ = 0;   ///< radius that cells are made for, if possible the same for all tries
+    double enough_ = 0;  ///< last radius that left enough points
+    double few_ = 0;     ///< last radius that left too few
+    double done_ = 0;    ///< estimated fraction of the work
     Packing best_;
 };
 

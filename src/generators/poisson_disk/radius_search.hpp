@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Finds the radius at which a process leaves exactly as many points as are wanted: the same darts
-// leave fewer points for a larger radius, mostly, and hardly other points for one that hardly
-// differs, so that a few tries come to exactly the count. Where it is passed over other darts are
-// tried; of eight in vain the surplus of the best set is removed, and the user is told.
+// Searches for the radius at which a process leaves exactly the wanted number of points. The same
+// darts mostly leave fewer points for a larger radius, and nearly the same points for a similar
+// one, so a few tries find exactly the count. If they skip it, other darts are tried. If eight sets
+// of darts fail, the surplus of the best set is removed, and the user is told.
 #pragma once
 
 #include <cstdint>
@@ -14,18 +14,18 @@
 
 namespace stipple::poisson_disk {
 
-/// Points with a radius that they keep.
+/// Points and a radius that they keep.
 struct Packing {
     Rows rows = {};
     double radius = 0;
 };
 
-/// The points for a radius and a seed; cell_radius, at most the radius, is what the darts are
-/// thrown for: with the same one, sets for radii that hardly differ hardly differ themselves.
+/// Makes the points for a radius and a seed. Darts are thrown for cell_radius, at most the radius;
+/// for the same one, similar radii give similar sets.
 using Pack = std::function<Rows(double radius, double cell_radius, std::uint64_t seed,
                                 const RunContext& run)>;
 
-/// What is searched for.
+/// Goal of a search.
 struct SearchGoal {
     std::uint64_t count;
     std::size_t dimension;
@@ -33,7 +33,7 @@ struct SearchGoal {
     double largest;  ///< radius that leaves one point
 };
 
-/// Exactly as many points as wanted: a maximal set, unless the user is told otherwise.
+/// Returns exactly goal.count points: a maximal set, unless the user is told otherwise.
 Packing search_radius(const SearchGoal& goal, std::uint64_t seed, const Pack& pack,
                       const RunContext& run);
 

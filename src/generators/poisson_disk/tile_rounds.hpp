@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// What samplers that work tile by tile have in common: the rounds of darts, and how tiles learn of
-// each other's points.
+// Common parts of the samplers that work tile by tile: rounds of darts, and the exchange of points
+// between tiles.
 //
-// A tile is changed by one thread alone. In each round it first takes over the darts of the last
-// round that were accepted, its own and those near its faces; then darts are thrown at it, of which
-// those that no point rules out are pending. When all tiles have got so far, pending darts are
-// decided: one stays unless an earlier one that is too near to it stays, which is asked from dart
-// to dart, across tiles. That has one answer, whatever the order of asking, so that threads don't
-// matter.
+// Only one thread changes a tile. In each round the tile first takes over the accepted darts of the
+// last round, its own and those near its faces; then darts are thrown at it, and those that no
+// point excludes are pending. After that is done for all tiles, pending darts are decided: a dart
+// is kept unless an earlier one that is too near is kept, which is decided recursively, across
+// tiles. The result does not depend on the order of decisions, and so not on threads.
 #pragma once
 
 #include <array>
@@ -31,20 +30,21 @@
 
 namespace stipple::poisson_disk {
 
-/// A point that a tile takes over.
+/// Point that a tile takes over.
 template <std::size_t D>
 struct Addition {
     std::array<double, D> at;
-    TileCell<D> cell;  ///< from the tile's first on
-    bool own;          ///< whether it is one of the tile's points()
+    TileCell<D> cell;  ///< from the tile's first cell
+    bool own;          ///< whether it belongs to the tile's points()
 };
 
-/// What every tile has: its cells, neighbours, pending darts and points. A tile of a sampler
+/// Common part of all tiles: cells, neighbours, pending darts and points. The tile of a sampler
 /// derives from it and has
-///     take(additions)   adds points that were accepted, the own ones in the order of points();
-///     drop()            gives back its own memory, but that of the points;
-///     for_about(cell, visit)   calls visit(point, its cell) for points that may reach into a cell,
-///                       as long as that is true.
+///
+///     take(additions)         adds accepted points, its own ones in the order of points();
+///     drop()                  releases its memory, except for the points;
+///     for_about(cell, visit)  calls visit(point, its cell) for points that may reach into a cell,
+///                             until a call returns false.
 template <std::size_t D, unsigned side_bits, unsigned block_bits>
 class Tile {
   public:
@@ -70,7 +70,7 @@ class Tile {
     [[nodiscard]] int size(std::size_t k) const { return size_[k]; }
     [[nodiscard]] std::vector<double>& points() { return points_; }
 
-    /// Where a place of a cell is in the box, in cells; false if it is rounded up to a face.
+    /// Coordinates of a place in a cell, given in cells; false if one is rounded up to a face.
     [[nodiscard]] bool locate(const Grid<D>& grid, const Cell& cell, const Point& place,
                               Point& at) const {
         bool inside = true;
@@ -81,8 +81,8 @@ class Tile {
         return inside;
     }
 
-    /// Where in its cell a point near the tile is, in cells. @param cell of the point, from the
-    /// tile's first on; on the torus maybe beyond its faces
+    /// Place of a point in its cell, in cells.
+    /// @param cell of the point, from the tile's first; on the torus possibly beyond the box
     [[nodiscard]] Point in_cell(const Grid<D>& grid, const Point& p, const Cell& cell) const {
         Point place;
         for (std::size_t k = 0; k < D; ++k) {
@@ -95,42 +95,42 @@ class Tile {
         return place;
     }
 
-    /// A little more points than there mostly are, in the tile and `more` cells beyond each face.
+    /// Slightly more points than typical for the tile and `more` cells beyond each face.
     [[nodiscard]] std::size_t typical_points(const Grid<D>& grid, int more = 0) const {
         double mean = saturated_density[D];
         for (std::size_t k = 0; k < D; ++k) mean *= (size_[k] + 2 * more) * grid.scales[k];
         return static_cast<std::size_t>(mean + std::sqrt(mean) / 2 + 1);
     }
 
-    /// A tile from which a radius leads into this one, and the cells from here to its first one; on
-    /// a small torus more than one stands for the same tile, or for this one.
+    /// Another tile within a radius of this one, and the number of cells from this one's first cell
+    /// to its first. On a small torus, several may be images of the same tile, or of this one.
     struct Neighbour {
         std::uint32_t number;
         Cell steps;
-        unsigned faces = 0;  ///< of this tile that it lies beyond: bit 2 k or 2 k + 1
+        unsigned faces = 0;  ///< faces of this tile between both: bit 2 k or 2 k + 1
     };
     std::vector<Neighbour> neighbours;
     std::array<Pending, 2> pending;  ///< of even and odd rounds
-    std::vector<Gap<D>> gaps;        ///< where something may be uncovered, once they are known
+    std::vector<Gap<D>> gaps;        ///< where something may be uncovered, once known
 
   protected:
-    Index first_{};  ///< cell
+    Index first_{};  ///< in the grid
     Cell size_{};
     std::vector<double> points_;
 };
 
-/// What one thread needs to work on the gaps of a tile.
+/// Buffers for the work on the gaps of a tile, one set per thread.
 template <std::size_t D>
 struct GapWorkspace {
     std::vector<PendingDart<D>> pending;
-    std::vector<Gap<D>> gaps;  ///< what is left of them
+    std::vector<Gap<D>> gaps;  ///< what is left of the tile's gaps
     NearDisks<D, float> near;
     NearDisks<D, float> reaching;
     NearDisks<D, double> exactly_near;
     NearDisks<D, double> exactly_reaching;
 };
 
-/// Whether a place of a cell is too near to a point.
+/// Whether a place in a cell is too near to a point.
 template <class T, std::size_t D>
 bool hits_point(const T& tile, const Grid<D>& grid, const TileCell<D>& cell,
                 const std::array<double, D>& at) {
@@ -153,19 +153,19 @@ void add_pending(const T& tile, const Grid<D>& grid, const TileCell<D>& cell,
     if (hit == Hit::no || !hits_point(tile, grid, cell, dart.at)) pending.push_back(dart);
 }
 
-/// Draws darts on what is open of a gap: draw(place in its cell) for each. Adds what is left of the
-/// gap to `left`.
+/// Draws darts on the open sub-cells of a gap, and calls draw(place in its cell) for each. Adds
+/// what is left of the gap to `left`.
 template <std::size_t D, class Draw>
 void throw_at_gap(const Gap<D>& gap, SubcellBits open, const PoissonCounts& counts,
                   SplitMix64& mixer, std::vector<Gap<D>>& left, const Draw& draw) {
-    constexpr double enough = 2;  // darts after which a gap is better split
+    constexpr double enough = 2;  // mean number of darts from which on a gap is split
     const auto count = static_cast<std::size_t>(std::popcount(open));
     for (std::uint64_t darts = counts.draw(count, mixer); darts > 0; --darts)
         draw(place_in(gap, open, count, mixer));
     narrow(gap, open, counts.mean(count) >= enough, left);
 }
 
-/// @tparam T a tile @tparam Workspace a GapWorkspace, maybe with more
+/// @tparam T a sampler's tile @tparam Workspace GapWorkspace or derived from it
 template <class T, class Workspace>
 class TileRounds {
   public:
@@ -173,7 +173,7 @@ class TileRounds {
     using Cell = typename T::Cell;
     using Dart = PendingDart<D>;
 
-    /// Gaps of this level are the last ones.
+    /// Number of levels of gaps.
     static constexpr std::size_t levels = 56;
 
     TileRounds(const Task<D>& task, const RunContext& run)
@@ -182,7 +182,7 @@ class TileRounds {
         std::iota(open_.begin(), open_.end(), 0U);
     }
 
-    /// Makes the tiles: make(number).
+    /// Makes the tiles by make(number).
     template <class Make>
     void make_tiles(const Make& make) {
         for_open([&](T& tile, std::uint32_t number) {
@@ -212,9 +212,10 @@ class TileRounds {
         run_.tick(std::min(count, task_.expected), task_.expected);
     }
 
-    /// Rounds until no tile has gaps: draw(tile, counts, key, workspace, first), counts for gaps of
-    /// each level, `first` while gaps are not known yet. What is left of gaps goes to the workspace.
-    /// @param density of darts to r^D, `growth` times as many in each next round
+    /// Rounds until no tile has gaps: draw(tile, counts, key, workspace, first), where counts are
+    /// by the level of the gap, and `first` is true while gaps are not known yet. What is left of
+    /// gaps goes to the workspace.
+    /// @param density of darts per r^D, in each round `growth` times as many
     template <class Draw>
     void close_gaps(double density, double growth, const Draw& draw) {
         for (bool first = true; !open_.empty(); first = false, density *= growth) {
@@ -232,14 +233,14 @@ class TileRounds {
         }
     }
 
-    /// Darts to a sub-cell of a cell, when there are `density` to r^D, and cells are as large as they
-    /// may be.
+    /// Mean number of darts per sub-cell of a cell, for `density` darts per r^D and cells of
+    /// maximum size.
     static double to_a_subcell(double density) {
         return density / std::sqrt(static_cast<double>(power(D, D))) /
                static_cast<double>(all_subcells<D>);
     }
 
-    /// Sub-cells of a gap that no disk covers alone, as far as doubles tell.
+    /// Sub-cells of a gap that no single disk covers, to the accuracy of doubles.
     [[nodiscard]] SubcellBits exactly_open(const T& tile, const Gap<D>& gap,
                                            Workspace& work) const {
         const Grid<D>& grid = task_.grid;
@@ -257,7 +258,7 @@ class TileRounds {
                                     work.exactly_reaching);
     }
 
-    /// Whether no arithmetic could tell a gap of this size from none.
+    /// Whether a gap is too small for the arithmetic to resolve.
     [[nodiscard]] bool too_small(const Gap<D>& gap) const {
         bool small = gap.level + 1U >= levels;
         for (const double scale : task_.grid.scales)
@@ -265,7 +266,7 @@ class TileRounds {
         return small;
     }
 
-    /// The points of all tiles, one after the other; what tiles know goes before.
+    /// Points of all tiles, one tile after the other. Releases all other memory of the tiles first.
     Rows collect() {
         for (T& tile : tiles_) tile.drop();
         std::size_t numbers = 0;
@@ -295,7 +296,8 @@ class TileRounds {
                        [&](const Block& b) { work(tiles_[open_[b.first]], open_[b.first]); });
     }
 
-    /// Tiles along one direction from which a radius leads into one, and the cells to their first.
+    /// Tiles along direction k within a radius of tile `own`, and the cells from its first to
+    /// theirs.
     [[nodiscard]] std::vector<std::pair<std::uint32_t, int>> neighbours_along(
         std::size_t k, std::uint32_t own) const {
         const Grid<D>& grid = task_.grid;
@@ -347,7 +349,7 @@ class TileRounds {
         for (const auto& n : tile.neighbours) visit(tiles_[n.number], n.steps);
     }
 
-    /// Adds what was accepted in the last round, in the tile and near the faces of others.
+    /// Adds the darts accepted in the last round, in the tile and near it in others.
     void take_over(T& tile) {
         thread_local std::vector<Addition<D>> additions;
         additions.clear();
@@ -376,8 +378,8 @@ class TileRounds {
         tile.take(std::span<const Addition<D>>(additions));
     }
 
-    /// Stays, unless an earlier one that is too near to it stays. One that stays tells the later
-    /// ones near it to go, which need not look about themselves then.
+    /// Decides a dart: it is kept unless an earlier one that is too near is kept. A dart that is
+    /// kept rejects the later ones near it, which then need no search of their own.
     Status decide(T& tile, const Dart& d) {
         if (const Status known = d.status(); known != Status::pending) return known;
         std::array<const Dart*, 32> later;  // there are hardly ever more
@@ -394,12 +396,12 @@ class TileRounds {
         return d.status();
     }
 
-    /// Whether something is true of a dart that may be too near to one: is(tile, dart).
+    /// Whether is(tile, dart) is true for any dart of the round that may be too near to d.
     template <class Is>
     bool any_near(T& tile, const Dart& d, const Is& is) {
         const Cell own = T::cell_at(d.place);
         const auto& reach = task_.grid.reach;
-        unsigned faces = 0;  // that a radius leads across
+        unsigned faces = 0;  // faces within a radius
         for (std::size_t k = 0; k < D; ++k) {
             if (own[k] < reach[k]) faces |= 1U << 2 * k;
             if (own[k] >= tile.size(k) - reach[k]) faces |= 2U << 2 * k;

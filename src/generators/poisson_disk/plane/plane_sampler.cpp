@@ -3,11 +3,11 @@
 // maximal_disks (generators/poisson_disk/maximal_disks.hpp) in the plane, for boxes of five cells
 // or more along each direction.
 //
-// First darts are thrown at the sub-cells that no disk covers by itself; then at gaps, which are
-// cut down to their open sub-cells round by round. Darts of a tile are sorted by time, and tried
-// one after the other: one that keeps its distance is a point at once. Pending are only those
-// within two cells of the tile's edge, which a dart of another tile may come before, and those too
-// near to such a one.
+// First darts are thrown at the sub-cells that no single disk covers; then at gaps, which are cut
+// down to their open sub-cells round by round. The darts of a tile are sorted by time and tried one
+// after the other: one that keeps its distance becomes a point at once. Only two kinds become
+// pending: darts within two cells of the tile's edge, which an earlier dart of another tile may
+// exclude, and darts too near to a pending one.
 //
 // Cost    O(n) time; on one core 0.4 us a point. Memory: 75 bytes a point; more in boxes fewer
 //         than 64 cells wide.
@@ -38,24 +38,24 @@ using Cell = TileCell<2>;
 using Point = Grid<2>::Point;
 using Counts = std::vector<PoissonCounts>;
 
-/// A dart on a tile: its place in units of a cell, from the tile's first.
+/// A dart on a tile: its place in 2^-26 of a cell, from the tile's first cell.
 struct Dart {
     std::uint32_t x;
     std::uint32_t y;
     std::uint32_t time;    ///< within its round
-    std::uint32_t detail;  ///< index of the exact place, for those that have one
+    std::uint32_t detail;  ///< index of the exact place, if it has one
 };
 
-/// What one thread needs to work on a tile.
+/// Buffers for the work on a tile, one set per thread.
 struct PlaneWorkspace : GapWorkspace<2> {
     std::vector<Dart> darts;
-    std::vector<std::uint64_t> order;  ///< of the darts in time
-    std::vector<Point> places;         ///< of darts on gaps, in cells from the tile's first
-    std::array<std::uint64_t, plane_side + 4> waiting;  ///< cells with such; from two rows before
-                                                        ///< the first on
+    std::vector<std::uint64_t> order;  ///< darts in order of time
+    std::vector<Point> places;         ///< of darts on gaps, from the tile's first cell, in cells
+    std::array<std::uint64_t, plane_side + 4> waiting;  ///< cells with pending darts: a bit each,
+                                                        ///< in rows from two before the first on
 };
 
-/// Lists the darts in order of time, equal ones as they are.
+/// Sorts the indices of the darts by time; darts of equal times keep their order.
 void sort_by_time(PlaneWorkspace& work) {
     const std::size_t n = work.darts.size();
     constexpr unsigned most = 10;
@@ -108,7 +108,7 @@ class Thrower {
         work_.pending.push_back(dart);
     }
 
-    /// In cells from the tile's first. Digits that a dart has no room for are made of the others.
+    /// In cells, from the tile's first. Digits that a dart does not store follow from the others.
     [[nodiscard]] Point place_of(const Dart& d) const {
         if (!work_.places.empty()) return work_.places[d.detail];
         const std::uint64_t more = SplitMix64(std::uint64_t{d.x} << 32 | d.y).next();
@@ -116,7 +116,7 @@ class Thrower {
                 (d.y + static_cast<double>(more & 0xffffffff) * 0x1p-32) / cell_unit};
     }
 
-    /// Whether darts that are not known or decided yet have a say in this one.
+    /// Whether darts that are unknown or undecided may exclude this one.
     [[nodiscard]] bool waits(const Cell& cell, const Point& at) const {
         const auto [column, row] = cell;
         if (column < 2 || row < 2) return true;
@@ -157,12 +157,12 @@ STIPPLE_WIDE void try_in_order(const PlaneRules& rules, PlaneTile& tile, PlaneWo
                      static_cast<std::uint32_t>(which), 0});
 }
 
-/// Darts on the sub-cells that no disk covers alone.
+/// Draws darts on the sub-cells that no single disk covers.
 STIPPLE_WIDE void draw_on_subcells(const PlaneTile& tile, const PoissonCounts& counts,
                                    std::uint64_t key, std::vector<Dart>& darts) {
     for (int row = 0; row < tile.size(1); ++row) {
         const SubcellBits* covered = tile.covered(PlaneTile::number_of({0, row}));
-        std::array<std::uint8_t, plane_side> found;  // columns; listed without branches
+        std::array<std::uint8_t, plane_side> found;  // open columns, listed without branches
         std::size_t some = 0;
         for (int column = 0; column < tile.size(0); ++column) {
             found[some] = static_cast<std::uint8_t>(column);
@@ -179,7 +179,7 @@ STIPPLE_WIDE void draw_on_subcells(const PlaneTile& tile, const PoissonCounts& c
     }
 }
 
-/// Lists the points that may cover something of a gap, from its lowest corner, in radii.
+/// Collects the points that may cover some of a gap, from its lowest corner, in radii.
 STIPPLE_WIDE void gather(const PlaneTile& tile, const Gap<2>& gap, NearDisks<2, float>& near) {
     const auto [column, row] = PlaneTile::cell_at(gap.place);
     const double half = gap.side() / 2;
@@ -187,7 +187,7 @@ STIPPLE_WIDE void gather(const PlaneTile& tile, const Gap<2>& gap, NearDisks<2, 
     const double x = column + gap.corner[0];
     const double y = row + gap.corner[1];
     const FixedPosition corner = positions.position_of(x, y);
-    // Half the diagonal of a gap is at most `half` of the radius.
+    // Half the diagonal of a gap is at most `half` radii.
     const double reach = units_per_radius * (1 + half) + 2 * position_slack;
     near.clear();
     positions.for_near(
@@ -221,7 +221,7 @@ class PlaneSampler {
     }
 
     Rows sample() {
-        constexpr double disk = std::numbers::pi;  // of radius 1
+        constexpr double disk = std::numbers::pi;  // area for a radius of 1
         for (const double to_a_disk : {1.5, 1.5, 6.0, 20.0, 60.0, 200.0})
             throw_at_subcells(to_a_disk / disk);
         constexpr double growth = 4;
@@ -238,7 +238,7 @@ class PlaneSampler {
   private:
     using Rounds = TileRounds<PlaneTile, PlaneWorkspace>;
 
-    /// Gaps of this level and beyond are too small for fixed positions.
+    /// Fixed positions are too coarse for gaps of this level and beyond.
     static constexpr std::uint8_t deep = 7;
 
     void throw_at_subcells(double density) {
@@ -269,7 +269,7 @@ class PlaneSampler {
         try_all(tile, work);
     }
 
-    /// The first gaps: about what is open of cells as far as that is known.
+    /// Makes the first gaps: about the open parts of cells, as far as known.
     static void make_gaps(PlaneTile& tile) {
         for (int row = 0; row < tile.size(1); ++row) {
             const SubcellBits* covered = tile.covered(PlaneTile::number_of({0, row}));
@@ -280,7 +280,7 @@ class PlaneSampler {
         }
     }
 
-    /// Draws darts on what is open of a gap; what is left of it goes to the workspace.
+    /// Draws darts on the open sub-cells of a gap; adds what is left of the gap to the workspace.
     void draw_on_gap(const PlaneTile& tile, const Gap<2>& gap, const PoissonCounts& counts,
                      std::uint64_t key, PlaneWorkspace& work) const {
         const Cell cell = PlaneTile::cell_at(gap.place);
@@ -300,7 +300,7 @@ class PlaneSampler {
         });
     }
 
-    /// Sub-cells of a gap that no disk covers alone, as far as fixed positions tell.
+    /// Sub-cells of a gap that no single disk covers, to the accuracy of fixed positions.
     SubcellBits roughly_open(const PlaneTile& tile, const Gap<2>& gap, PlaneWorkspace& work) const {
         gather(tile, gap, work.near);
         SubcellGrid<2, float> from_corner(gap, grid_.scales);
@@ -311,7 +311,7 @@ class PlaneSampler {
 
     const Grid<2>& grid_;
     PlaneRules rules_;
-    std::unique_ptr<FixedPosition[]> positions_;  ///< of all tiles' cells, as the next two
+    std::unique_ptr<FixedPosition[]> positions_;  ///< cells of all tiles, as in the next two
     std::unique_ptr<SubcellBits[]> covered_;
     std::unique_ptr<std::uint16_t[]> indices_;
     Rounds rounds_;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Tiles of cells of the plane, each with all that is needed to throw darts at it one after the
-// other: its own points and what they cover, and those of two rows of cells about it.
+// Tiles of cells of the plane, with all that is needed to throw darts at them one after the other:
+// a tile's points and what they cover, and those of two rows of cells around it.
 //
-// Shape   cells that hold one point at most, a radius leading across two of them; five along each
-//         direction, or more. A tile may be its own neighbour on a torus.
+// Shape   cells that hold at most one point, two of which a radius spans; at least five cells along
+//         each direction. A tile may be its own neighbour on a torus.
 #pragma once
 
 #include <algorithm>
@@ -24,13 +24,13 @@
 
 namespace stipple::poisson_disk {
 
-// Where the points of a tile of cells in the plane are, in 16 bits along each direction, so that
-// the 25 cells about a place are looked at by ten loads, four cells at a time.
+// Positions of the points of a tile, in 16 bits along each direction, so that the 25 cells around a
+// place take ten loads of four cells each.
 //
-// Coordinates count 1/8192 of the radius and go around every 8 radii. All that is compared lies
+// Coordinates are in units of 1/8192 of the radius, modulo 8 radii. Positions that are compared are
 // within three cells, at most 2.2 radii, so that differences modulo 2^16 are right. A cell without
-// a point has what is 4 radii to the side of its middle, and so nearer than a radius to nothing
-// that is compared with it.
+// a point holds a position 4 radii beside its middle, which is farther than a radius from all that
+// it is compared with.
 //
 // Shape   rows of up to 64 cells, with two more at each end.
 // Promise distances are off by less than `position_slack` units.
@@ -45,7 +45,7 @@ inline constexpr double position_slack = 2;
 
 using FourNumbers [[gnu::vector_size(16)]] = std::int32_t;
 
-/// Squared distances from one position to four that lie one behind the other.
+/// Squared distances from one position to four consecutive ones.
 [[gnu::always_inline]] inline FourNumbers four_squares(const FixedPosition* four,
                                                        FixedPosition from) {
     using Halves [[gnu::vector_size(16)]] = std::uint16_t;
@@ -54,22 +54,24 @@ using FourNumbers [[gnu::vector_size(16)]] = std::int32_t;
     off -= (Halves)(FourNumbers{} + std::bit_cast<std::int32_t>(from));
     const FourNumbers x = (FourNumbers)off << 16 >> 16;
     const FourNumbers y = (FourNumbers)off >> 16;
-    return x * x + y * y;  // y is small, so that this is below 2^31
+    return x * x + y * y;  // below 2^31, as y is small
 }
 
-/// The positions of a tile's cells.
+/// Positions of the points in a tile's cells.
 class FixedPositions {
   public:
     FixedPositions() = default;
 
-    static constexpr std::size_t halo = 2;  ///< cells of other tiles about those of the tile
+    static constexpr std::size_t halo = 2;  ///< width of the border of other tiles' cells
     static constexpr std::size_t stride = 64 + 2 * halo;
 
-    /// Positions that a tile of so many rows of cells needs.
+    /// Number of positions for a tile with that many rows of cells.
     static constexpr std::size_t needed(std::size_t rows) { return (rows + 2 * halo) * stride; }
 
-    /// @param origin of the tile's first cell; @param cell sides of a cell; both in units
-    /// @param rows of cells; @param room for the positions
+    /// @param origin of the tile's first cell, in units
+    /// @param cell sides of a cell, in units
+    /// @param rows number of rows of cells
+    /// @param room memory for needed(rows) positions
     FixedPositions(const std::array<double, 2>& origin, const std::array<double, 2>& cell,
                    std::size_t rows, FixedPosition* room)
         : origin_(origin), cell_(cell), positions_(room) {
@@ -83,12 +85,12 @@ class FixedPositions {
             }
     }
 
-    /// The position of a place, in cells from the tile's first.
+    /// Position of a place that is given in cells from the tile's first.
     [[nodiscard]] FixedPosition position_of(double x, double y) const {
         return {wrapped(origin_[0] + cell_[0] * x), wrapped(origin_[1] + cell_[1] * y)};
     }
 
-    /// A cell's position and those behind it.
+    /// Pointer to a cell's position, which those of the next cells follow.
     [[nodiscard]] const FixedPosition* from(std::size_t number) const {
         return positions_ + number;
     }
@@ -98,8 +100,9 @@ class FixedPositions {
     /// Number of a cell, counted from the first one of the halo.
     static constexpr std::size_t number(std::size_t x, std::size_t y) { return y * stride + x; }
 
-    /// Whether one of the points in the 25 cells from `first` on covers a place in their middle.
-    /// @param sure, possible squared distances below which it does, and from which on it does not
+    /// Whether a point in the 25 cells from `first` on covers a place in the middle one.
+    /// @param sure squared distances below it are hits
+    /// @param possible squared distances from it on are none
     [[nodiscard, gnu::always_inline]] Hit hit(std::size_t first, FixedPosition place,
                                               std::int32_t sure, std::int32_t possible) const {
         const FixedPosition* row = positions_ + first;
@@ -114,7 +117,7 @@ class FixedPositions {
         return nearest < sure ? Hit::yes : nearest < possible ? Hit::unsure : Hit::no;
     }
 
-    /// Calls visit(position) for those of the points in 25 cells that are nearer than that.
+    /// Calls visit(position) for the points in 25 cells whose squared distance is below `squared`.
     template <class Visit>
     [[gnu::always_inline]] void for_near(std::size_t first, FixedPosition place,
                                          std::int32_t squared, const Visit& visit) const {
@@ -130,7 +133,7 @@ class FixedPositions {
   private:
     static constexpr double half_turn = 32768;
 
-    /// Modulo 2^16; units are few, and none farther below 0 than the halo is wide.
+    /// Modulo 2^16; `units` is above -2^16, as the halo is narrow.
     static std::int16_t wrapped(double units) {
         return static_cast<std::int16_t>(
             static_cast<std::uint16_t>(static_cast<std::int64_t>(units + 2 * half_turn)));
@@ -141,14 +144,15 @@ class FixedPositions {
     FixedPosition* positions_ = nullptr;
 };
 
-// What a disk covers of the 5 x 5 cells about its own: a bit for each of 8 x 8 sub-cells, looked up
-// by where in its cell the centre lies, to one of Q^2 places. What has its bit set is covered for
-// every centre in that place. So whether a dart can stay is mostly known from one bit, and whether
-// a cell is covered from one word.
+// Coverage of the 5 x 5 cells around a disk's centre, with a bit for each of 8 x 8 sub-cells. It is
+// looked up by the place of the centre in its cell, one of Q^2. A bit is set if the sub-cell is
+// covered for every centre in that place. So one bit mostly decides whether a dart can be kept, and
+// one word whether a cell is covered.
 //
-// Shape   grids where a radius leads across two cells along both directions.
+// Shape   grids in which a radius spans two cells along both directions.
 // Cost    25 words a disk; 200 kB for a table.
-// Promise what has its bit set is covered by one disk alone, and not within float_slack of its rim.
+// Promise a sub-cell whose bit is set is covered by a single disk, and not within float_slack of
+//         its rim.
 
 class CoverageTable {
   public:
@@ -165,8 +169,8 @@ class CoverageTable {
             for (std::size_t row = 0; row < 5; ++row) rows_.push_back(row_of(place, row));
     }
 
-    /// Five rows of five cells, from two before the one with the centre on, along both directions.
-    /// @param digits of the place in the cell, 32 binary ones along each direction
+    /// Five rows of five cells, from two before the centre's cell on along both directions.
+    /// @param digits 32 binary digits of the centre in its cell, along each direction
     [[nodiscard]] const Row* about(const std::array<std::uint32_t, 2>& digits) const {
         const unsigned drop = 31 - place_bits_;
         const std::size_t place =
@@ -175,12 +179,11 @@ class CoverageTable {
     }
 
   private:
-    /// A table takes its time as well: cells for each place of a centre that make the next finer
-    /// one worth it.
+    /// Number of the grid's cells per place for which the next finer table is worth its time.
     static constexpr std::size_t worth = 128;
     static constexpr std::size_t most_places = 32;
 
-    /// What a disk covers of five cells along the first direction, wherever in a place it lies.
+    /// Coverage of five cells along the first direction, for a centre anywhere in a place.
     [[nodiscard]] Row row_of(std::size_t place, std::size_t row) const {
         const std::array<std::size_t, 2> at{place % places_, place / places_};
         const std::array<double, 2> there{-2, static_cast<double>(row) - 2};
@@ -200,7 +203,7 @@ class CoverageTable {
         return out;
     }
 
-    /// Sub-cells of a cell that a disk covers, whose centre is within `play` of `center` along each
+    /// Sub-cells of a cell that a disk covers for every centre within `play` of `center` along each
     /// direction.
     [[nodiscard]] SubcellBits covered(const Place& center, const Place& play) const {
         constexpr std::size_t p = subcells<2>;
@@ -221,29 +224,29 @@ class CoverageTable {
     }
 
     const Grid<2>& grid_;
-    Place sides_{};            ///< of a sub-cell, in radii
-    std::size_t places_ = 4;   ///< of a centre along a direction
-    unsigned place_bits_ = 2;  ///< their number's
-    std::vector<Row> rows_;    ///< for each place of a centre
+    Place sides_{};            ///< sides of a sub-cell, in radii
+    std::size_t places_ = 4;   ///< places of a centre along a direction
+    unsigned place_bits_ = 2;  ///< binary logarithm of places_
+    std::vector<Row> rows_;    ///< five for each place of a centre
 };
 
-/// Cells along each side of a tile.
+/// Maximum number of cells along each side of a tile.
 inline constexpr int plane_side = 1 << plane_tile_bits;
 
-/// Units of a dart's place to a cell.
+/// Units of a dart's place per cell.
 inline constexpr double cell_unit = 0x1p26;
 
-/// What all tiles share.
+/// Data that all tiles share.
 struct PlaneRules {
     PlaneRules(const Grid<2>& box_grid, double slack);
 
     const Grid<2>& grid;
     CoverageTable table;
-    std::int32_t sure;      ///< squared distance of positions that is below the radius for certain
-    std::int32_t possible;  ///< and from which on it is not
+    std::int32_t sure;      ///< squared distance of positions below which points are too near
+    std::int32_t possible;  ///< squared distance from which on they are not
 };
 
-/// What tiles keep of their cells.
+/// Memory for the cells of a tile.
 struct CellRoom {
     FixedPosition* positions;
     SubcellBits* covered;
@@ -253,7 +256,7 @@ struct CellRoom {
 class PlaneTile : public Tile<2, plane_tile_bits, 2> {
   public:
     PlaneTile() = default;
-    /// @param room for FixedPositions::needed(rows of the tile) of each
+    /// @param room for FixedPositions::needed(rows of the tile) elements of each
     PlaneTile(const PlaneRules& rules, std::size_t number, const CellRoom& room)
         : Tile(rules.grid, number), rules_(&rules), covered_(room.covered), index_(room.indices) {
         Point origin;
@@ -272,20 +275,21 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
                 covered_[number_of({x, y})] = ~SubcellBits{0};
     }
 
-    /// Number of a cell in what follows.
+    /// Index of a cell in the arrays.
     static std::size_t number_of(const Cell& cell) {
         return FixedPositions::number(static_cast<std::size_t>(cell[0] + int{halo}),
                                       static_cast<std::size_t>(cell[1] + int{halo}));
     }
 
-    /// Sub-cells covered by one disk, of a cell and those behind it in the row.
+    /// Coverage of a cell by single disks, which that of the next cells in the row follows.
     [[nodiscard]] const SubcellBits* covered(std::size_t number) const { return covered_ + number; }
 
     [[nodiscard]] bool taken(std::size_t number) const { return index_[number] != none; }
 
     [[nodiscard]] const FixedPositions& positions() const { return positions_; }
 
-    /// Calls visit(point, cell) for the points of the 25 cells about one, as long as that is true.
+    /// Calls visit(point, cell) for the points of the 25 cells around one until a call returns
+    /// false.
     template <class Visit>
     void for_about(const Cell& cell, const Visit& visit) const {
         for (int y = cell[1] - halo; y <= cell[1] + halo; ++y)
@@ -295,8 +299,8 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
             }
     }
 
-    /// Adds a point of this tile's own.
-    /// @param mask what it covers
+    /// Adds a point of the tile.
+    /// @param mask coverage by the point
     void add(const Cell& cell, FixedPosition position, const Point& at,
              const CoverageTable::Row* mask) {
         const std::size_t number = number_of(cell);
@@ -310,7 +314,7 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
         for (const Addition<2>& a : additions) take(a);
     }
 
-    /// Gives back its own memory, but that of the points.
+    /// Releases the tile's memory, except for the points.
     void drop() {
         halo_ = {};
         pending = {};
@@ -319,9 +323,9 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
   private:
     static constexpr int halo = FixedPositions::halo;
     static constexpr std::uint16_t none = 0xffff;
-    static constexpr std::size_t most_own = 0x4000;  ///< more than a tile has points of its own
+    static constexpr std::size_t most_own = 0x4000;  ///< above the number of points in a tile
 
-    /// The point of a cell that is taken, of the halo's too.
+    /// Point of a taken cell, in the tile or its halo.
     [[nodiscard]] Point point(std::size_t number) const {
         const std::size_t i = index_[number];
         const double* p = i < most_own ? &points_[2 * i] : &halo_[2 * (i - most_own)];
@@ -363,8 +367,8 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
     const PlaneRules* rules_ = nullptr;
     FixedPositions positions_;
     SubcellBits* covered_ = nullptr;
-    std::uint16_t* index_ = nullptr;  ///< of a cell's point; most_own or more for one of the halo
-    std::size_t own_ = 0;             ///< points of the tile that its cells know
+    std::uint16_t* index_ = nullptr;  ///< of a cell's point; from most_own on, in halo_
+    std::size_t own_ = 0;             ///< number of the tile's own points so far
     std::vector<double> halo_;        ///< points of other tiles
 };
 

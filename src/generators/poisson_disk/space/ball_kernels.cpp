@@ -11,11 +11,11 @@
 namespace stipple::poisson_disk {
 namespace {
 
-constexpr std::size_t layer = 16;  ///< sub-cells with one index along the third direction
+constexpr std::size_t layer = 16;  ///< number of sub-cells with the same third index
 
-/// Where the sub-cells of gaps of a size lie, from their middle: number x + 4 y of a layer.
+/// Positions of the sub-cells of a gap, from its middle; x + 4 y is the number in a layer.
 struct Pattern {
-    std::array<float, 3> side;  ///< of a sub-cell
+    std::array<float, 3> side;  ///< sides of a sub-cell
     std::array<float, layer> along_x;
     std::array<float, layer> along_y;
     std::array<float, 4> along_z;
@@ -31,20 +31,20 @@ struct Pattern {
     }
 };
 
-/// Squared distance to the far side of a sub-cell along one direction.
+/// Squared distance along one direction to the far side of a sub-cell.
 [[gnu::always_inline]] inline float far_square(float along, float from, float side) {
     const float far = std::abs(along - from) + side / 2;
     return far * far;
 }
 
-/// Open is where no ball has left more of its squared radius along the third direction than the
-/// other two take.
+/// Sub-cells that no single ball covers: the squared distance along the first two directions
+/// exceeds what the third leaves of the squared radius, for every ball.
 [[gnu::always_inline]] inline SubcellBits open_gap(const NearDisks<3, float>& near,
                                                    const Pattern& p,
                                                    const std::array<float, 3>& middle) {
-    constexpr std::size_t most = power(5, 3);  // balls
-    float across[most][layer];                 // what they take, to each sub-cell of a layer
-    float left[4][most];                       // what is left, of each layer
+    constexpr std::size_t most = power(5, 3);  // number of balls
+    float across[most][layer];                 // squared, along x and y, by sub-cell
+    float left[4][most];                       // of the squared radius, by layer
     for (std::size_t i = 0; i < near.size(); ++i) {
         const float x = near.along(0)[i] - middle[0];
         const float y = near.along(1)[i] - middle[1];
@@ -57,7 +57,7 @@ struct Pattern {
     }
     SubcellBits open = 0;
     for (std::size_t k = 0; k < 4; ++k) {
-        // Loops that were unrolled first would not become vectors, nor `least` stay in registers.
+        // Unrolled first, these loops would not be vectorised, nor `least` stay in registers.
         float least[layer];
         std::fill_n(least, layer, 1.0F);
         for (std::size_t i = 0; i < near.size(); ++i)
@@ -72,19 +72,19 @@ struct Pattern {
     return open;
 }
 
-/// Sixteen lines of sub-cells beside each other that a ball reaches, for each layer of them.
+/// Sixteen adjacent lines of sub-cells that a ball may reach, in each layer.
 struct LineCover {
     /// A ball reaches seven sub-cells to each side, and into an eighth.
     static constexpr int reach = 8;
     static constexpr std::size_t lines = 2 * reach;
     static constexpr int along = static_cast<int>(BallLines::along);
 
-    int first;                       ///< line, from the cell's corner
+    int first;                       ///< number of the first line, from the cell's corner
     std::array<float, lines> far_y;  ///< squared distances to the far sides of the lines
-    float x;  ///< of the centre, from `reach` sub-cells before the cell, in these
+    float x;  ///< of the centre, in sub-cells, from `reach` of them before the cell
     float per_side;
-    int word;        ///< with the first bit
-    unsigned shift;  ///< of that
+    int word;        ///< number of the word with the first bit
+    unsigned shift;  ///< position of that bit
 
     [[gnu::always_inline]] inline LineCover(const std::array<float, 3>& scales,
                                             const PlacedBall& ball) {
@@ -92,7 +92,7 @@ struct LineCover {
         first = std::min(static_cast<int>(ball.off[1] / side), 3) - (reach - 1);
         for (std::size_t l = 0; l < lines; ++l) {
             const float middle = static_cast<float>(static_cast<int>(l) + first) + 0.5F;
-            // Lines beyond the tile are far away.
+            // Moves lines beyond the tile far away.
             const float from_tile =
                 std::abs(middle + static_cast<float>(4 * ball.cell[1] - along / 2));
             const float beyond = std::max(from_tile - static_cast<float>(along / 2), 0.0F);
@@ -106,13 +106,13 @@ struct LineCover {
         shift = static_cast<unsigned>(bit & 31);
     }
 
-    /// Bits, from the first one on, of the sub-cells of a line that are not farther than that.
-    /// @param left what is left of the squared radius
+    /// Bits of the covered sub-cells of a line, from the first one on.
+    /// @param left what the third direction leaves of the squared radius
     [[nodiscard, gnu::always_inline]] inline std::int32_t of(std::size_t line, float left) const {
         const float half = std::sqrt(std::max(left - far_y[line], 0.0F)) * per_side;
         const auto from = static_cast<std::int32_t>(x - half) + 1;
         const auto to = static_cast<std::int32_t>(x + half);
-        return std::max((1 << to) - (1 << from), 0);  // to may be before from
+        return std::max((1 << to) - (1 << from), 0);  // `to` may be below `from`
     }
 };
 

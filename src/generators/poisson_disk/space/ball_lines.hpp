@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// What balls cover of a tile of cells in space, told for each quarter of a cell along each
-// direction: lines of such sub-cells along the first direction, a bit for each of 32 in a word,
-// words of lines beside each other one after the other.
+// Coverage of a tile of cells in space by balls, with one bit for each quarter of a cell along each
+// direction. A word has 32 such sub-cells of a line along the first direction; the words of
+// adjacent lines follow each other.
 //
-// A ball covers a sub-cell if it covers the corner that is farthest from its centre; of a line,
-// what is between two places, which a square root tells for many lines side by side.
+// A ball covers a sub-cell if it covers the corner farthest from its centre. On a line these are
+// the sub-cells between two places, which take a square root, for many lines side by side.
 //
 // Cost    0.25 us for a ball.
-// Promise what has its bit set is covered by one ball alone, and not within float_slack of its rim;
-//         all of that has its bit set.
+// Promise exactly those sub-cells have their bit set that a single ball covers, not within
+//         float_slack of its rim.
 #pragma once
 
 #include <array>
@@ -27,36 +27,37 @@ inline constexpr int space_side = 1 << space_tile_bits;
 
 struct BallLines {
     static constexpr std::size_t along = 4 * space_side;  ///< sub-cells along each direction
-    static constexpr std::size_t words = along / 32;      ///< of a line
+    static constexpr std::size_t words = along / 32;      ///< in a line
     static constexpr std::size_t layer = words * along;
-    static constexpr std::size_t pad = 16;  ///< before the first and behind the last, written, too
+    static constexpr std::size_t pad = 16;  ///< before the first and after the last, written, too
     static constexpr std::size_t room = along * layer + 2 * pad;
 
-    /// The first of some words, of lines with those numbers.
+    /// Index of the word with that number in the line (y, z).
     static constexpr std::size_t at(std::size_t word, std::size_t y, std::size_t z) {
         return pad + z * layer + word * along + y;
     }
 };
 
-/// A ball by its centre.
+/// A ball, by its centre.
 struct PlacedBall {
-    TileCell<3> cell;          ///< of the tile, or up to two beyond its faces
+    TileCell<3> cell;          ///< in the tile, or up to two beyond its faces
     std::array<float, 3> off;  ///< from that cell's corner, in radii
 };
 
-/// Adds what balls cover of a tile.
-/// @param scales sides of a cell, in radii: from 1/2 on @param lines BallLines::room words
+/// Adds the coverage by balls to a tile.
+/// @param scales sides of a cell, in radii, at least 1/2
+/// @param lines BallLines::room words
 void cover_lines(const std::array<float, 3>& scales, std::span<const PlacedBall> balls,
                  std::uint32_t* lines);
 
-/// Where the lines of a cell and seven beside it begin.
+/// First word of the lines through a cell; it holds seven other cells, too.
 inline const std::uint32_t* lines_of(const std::uint32_t* lines, const TileCell<3>& cell) {
     return lines + BallLines::at(static_cast<std::size_t>(cell[0]) / 8,
                                  4 * static_cast<std::size_t>(cell[1]),
                                  4 * static_cast<std::size_t>(cell[2]));
 }
 
-/// The sub-cells of a cell.
+/// Coverage of the sub-cells of a cell.
 inline SubcellBits subcells_of(const std::uint32_t* lines, const TileCell<3>& cell) {
     const unsigned shift = 4 * (static_cast<unsigned>(cell[0]) % 8);
     const std::uint32_t* from = lines_of(lines, cell);

@@ -3,10 +3,10 @@
 // maximal_disks (generators/poisson_disk/maximal_disks.hpp) in space, for boxes of five cells or
 // more along each direction.
 //
-// First darts are thrown at the sub-cells that no ball covers by itself (space/ball_lines.hpp).
-// What is left open of a sub-cell is mostly covered by several balls together, which shows when it
-// is cut into 64 smaller ones; those that are not are gaps (space/ball_kernels.hpp), at which darts
-// are thrown until none is left.
+// First darts are thrown at the sub-cells that no single ball covers (space/ball_lines.hpp). The
+// open part of a sub-cell is mostly covered by several balls together, which shows when it is
+// divided into 64 smaller ones. Sub-cells for which it does not are gaps (space/ball_kernels.hpp),
+// at which darts are thrown until none is left.
 //
 // Cost    O(n) time; on one core 2 us a point. Memory: 230 bytes a point.
 
@@ -25,29 +25,29 @@ using Point = Grid<3>::Point;
 using Quad = SpaceRules::Quad;
 using Counts = std::vector<PoissonCounts>;
 
-/// A dart on a sub-cell, as it is drawn.
+/// A dart on a sub-cell, as drawn.
 struct SubcellDart {
     using Digits [[gnu::vector_size(16)]] = std::int32_t;
-    Digits digits;         ///< in the cell, 2^-23 of its sides
-    std::uint64_t detail;  ///< what else is drawn for it
-    std::uint16_t place;   ///< of the cell
+    Digits digits;         ///< place in the cell, in 2^-23 of its sides
+    std::uint64_t detail;  ///< seed of its other random numbers
+    std::uint16_t place;   ///< number of the cell
     std::uint8_t subcell;
 };
 
-/// What one thread needs to work on a tile.
+/// Buffers for the work on a tile, one set per thread.
 struct SpaceWorkspace : GapWorkspace<3> {
-    std::vector<SubcellDart> drawn;  ///< on a layer of cells
+    std::vector<SubcellDart> drawn;  ///< darts on a layer of cells
     std::vector<Gap<3>> of_cell;
-    std::vector<SubcellBits> open;  ///< of these
+    std::vector<SubcellBits> open;  ///< open sub-cells of these gaps
 };
 
-/// Sub-cells that share a Poisson number: two lines of 32 in each of four layers. One sub-cell more
-/// or less changes all their darts, so that they are few: sets for radii that hardly differ are to
-/// be nearly the same.
+/// Number of sub-cells that share a Poisson number: two lines of 32 in each of four layers. One
+/// sub-cell more or less changes all their darts, so they are few: sets for similar radii should be
+/// nearly the same.
 constexpr std::size_t together = 4 * 64;
 
-/// Draws darts on those of them that no ball covers alone.
-/// @param first their first one in the tile, along each direction
+/// Draws darts on those of these sub-cells that no single ball covers.
+/// @param first indices of the first one in the tile, along each direction
 [[gnu::always_inline]] inline void draw_on_lines(const SpaceTile& tile,
                                                  const std::array<std::size_t, 3>& first,
                                                  const PoissonCounts& counts, std::uint64_t key,
@@ -82,7 +82,7 @@ constexpr std::size_t together = 4 * 64;
     }
 }
 
-/// Makes a dart on a sub-cell pending, unless it hit a ball.
+/// Makes a dart on a sub-cell pending, unless it hits a ball.
 [[gnu::always_inline]] inline void try_dart(const SpaceRules& rules, const SpaceTile& tile,
                                             const SubcellDart& dart, Quad to_radii,
                                             std::vector<PendingDart<3>>& pending) {
@@ -97,14 +97,14 @@ constexpr std::size_t together = 4 * 64;
     add_pending(tile, rules.grid, cell, place, hit, mixer.next(), pending);
 }
 
-/// Throws darts at the sub-cells that no ball covers alone.
+/// Throws darts at the sub-cells that no single ball covers.
 STIPPLE_WIDE void throw_at_subcells(const SpaceRules& rules, const SpaceTile& tile,
                                     const PoissonCounts& counts, std::uint64_t key,
                                     SpaceWorkspace& work) {
     const Quad to_radii = Quad{rules.scales[0], rules.scales[1], rules.scales[2], 0} *
                           static_cast<float>(SpaceRules::digit);
     for (std::size_t column = 0; column < space_side * BallLines::words; ++column) {
-        // What a dart hits is hard to foresee; where the next ones fall does not wait for that.
+        // Draws all darts of a layer first: hits are hard to predict, and drawing need not wait.
         work.drawn.clear();
         for (std::size_t y = 0; y < BallLines::along; y += 2)
             draw_on_lines(tile, {column % BallLines::words * 32, y, column / BallLines::words * 4},
@@ -114,7 +114,7 @@ STIPPLE_WIDE void throw_at_subcells(const SpaceRules& rules, const SpaceTile& ti
     }
 }
 
-/// The sub-cell of a place in a cell.
+/// Sub-cell of a place in a cell.
 std::size_t subcell_at(const Point& place) {
     std::size_t subcell = 0;
     for (std::size_t k = 3; k-- > 0;)
@@ -151,10 +151,10 @@ class SpaceSampler {
   private:
     using Rounds = TileRounds<SpaceTile, SpaceWorkspace>;
 
-    /// What is open of gaps of this level and beyond is looked at again in doubles.
+    /// Gaps of this level and beyond are checked again in doubles.
     static constexpr std::uint8_t deep = 11;
 
-    /// The first gaps are the sub-cells that no ball covers alone.
+    /// Throws darts at the first gaps: the sub-cells that no single ball covers.
     void throw_at_first_gaps(const SpaceTile& tile, const Counts& counts, std::uint64_t key,
                              SpaceWorkspace& work) const {
         work.open.resize(all_subcells<3>);
@@ -194,7 +194,8 @@ class SpaceSampler {
         }
     }
 
-    /// Darts on what is open of gaps of a cell; what is left of them goes to the workspace.
+    /// Throws darts at the open sub-cells of a cell's gaps; adds what is left of these to the
+    /// workspace.
     void throw_at_cell(const SpaceTile& tile, const Cell& cell, SubcellBits some,
                        const Counts& counts, std::uint64_t key, SpaceWorkspace& work) const {
         tile.gather(cell, some, work.near);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Tiles of cells in space, each with all that is needed to throw darts at it: its own points and
-// what they cover, and those of two layers of cells about it.
+// Tiles of cells in space, with all that is needed to throw darts at them: a tile's points and what
+// they cover, and those of two layers of cells around it.
 //
-// Shape   cells that hold one point at most, a radius leading across two of them; five along each
-//         direction, or more. Up to 32 cells along each side of a tile; a tile may be its own
-//         neighbour on a torus.
+// Shape   cells that hold at most one point, two of which a radius spans; at least five cells along
+//         each direction. Up to 32 cells along each side of a tile; a tile may be its own neighbour
+//         on a torus.
 #pragma once
 
 #include <algorithm>
@@ -21,16 +21,16 @@
 
 namespace stipple::poisson_disk {
 
-/// Cells along a tile with those about it.
+/// Number of cells along a tile with its halo.
 inline constexpr int space_across = space_side + 4;
 
-/// A bit for each cell of a tile and its halo, such that those of the 5 x 5 x 5 cells about one are
-/// five words: for every fourth cell along the first direction a strip along the others has, byte
-/// after byte, the eight cells from there on.
+/// One bit for each cell of a tile and its halo, such that those of the 5 x 5 x 5 cells around one
+/// are five words: for every fourth cell along the first direction there is a strip along the
+/// others, each byte of which has the eight cells from there on.
 class SpaceBits {
   public:
     static constexpr std::size_t layers = 5;
-    static constexpr std::size_t layer_bits = 40;  ///< from which on a layer has none
+    static constexpr std::size_t layer_bits = 40;  ///< number of bits in a layer
     using Layers = std::array<std::uint64_t, layers>;
 
     void set(const TileCell<3>& halo_cell) {
@@ -41,7 +41,7 @@ class SpaceBits {
         if (x >= 4) bytes_[(x / 4 - 1) * strip + byte] |= static_cast<std::uint8_t>(bit << 4);
     }
 
-    /// Those of the layer about a cell, from two before it on: bit x + 8 y.
+    /// Bits of layer z around a cell, from two cells before it on: bit x + 8 y.
     [[nodiscard]] std::uint64_t layer(const TileCell<3>& cell, std::size_t z) const {
         std::uint64_t word;
         const auto x = static_cast<std::size_t>(cell[0]);
@@ -60,12 +60,11 @@ class SpaceBits {
     std::array<std::uint8_t, space_side / 4 * strip + 8> bytes_{};
 };
 
-/// What all tiles share.
+/// Data that all tiles share.
 struct SpaceRules {
     using Quad [[gnu::vector_size(16)]] = float;
 
-    static constexpr double digit =
-        0x1p-23;  ///< of a cell, to which darts on sub-cells are drawn first
+    static constexpr double digit = 0x1p-23;  ///< of a cell: resolution of darts on sub-cells
 
     explicit SpaceRules(const Grid<3>& box_grid) : grid(box_grid) {
         for (std::size_t b = 0; b < about.size(); ++b) {
@@ -85,7 +84,7 @@ struct SpaceRules {
         }
     }
 
-    /// Whether a ball in a neighbour can reach into a sub-cell.
+    /// Whether a ball with its centre in neighbour b can reach into a sub-cell.
     [[nodiscard]] bool reaches(std::size_t b, std::size_t subcell) const {
         double squared = 0;
         for (std::size_t k = 0; k < 3; ++k, subcell /= 4) {
@@ -99,10 +98,10 @@ struct SpaceRules {
 
     const Grid<3>& grid;
     std::array<float, 3> scales{};
-    std::array<Quad, 200> about;  ///< corners of the 5 x 5 x 5 cells about one, in radii
+    std::array<Quad, 200> about;  ///< corners of the 5 x 5 x 5 cells around one, in radii
     std::array<int, 200> cells{};
     std::array<std::array<int, 3>, 200> steps{};
-    /// For each sub-cell from which neighbours a ball reaches into it.
+    /// For each sub-cell, the neighbours from which a ball can reach into it.
     std::array<SpaceBits::Layers, all_subcells<3>> masks{};
 };
 
@@ -124,7 +123,7 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
         points_.reserve(3 * own);
     }
 
-    /// Sub-cells that a point covers alone.
+    /// Coverage of sub-cells by single points.
     [[nodiscard]] const std::uint32_t* lines() const { return lines_.data(); }
     [[nodiscard]] bool taken(const Cell& cell) const { return taken_.has(cell); }
 
@@ -135,7 +134,7 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
         cover_lines(rules_->scales, balls, lines_.data());
     }
 
-    /// Points that reach into some sub-cells of a cell, and some more.
+    /// Collects points that reach into some sub-cells of a cell, and possibly others.
     void gather(const TileCell<3>& cell, SubcellBits some, NearDisks<3, float>& near) const {
         const std::uint16_t* numbers = &numbers_[number_of(cell)];
         const SpaceBits::Layers masks = reaching(some);
@@ -175,7 +174,7 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
         return least < 1 + float_slack ? Hit::unsure : Hit::no;
     }
 
-    /// Calls visit(point, cell) for the points of the cells about one, as long as that is true.
+    /// Calls visit(point, cell) for the points of the cells around one until a call returns false.
     template <class Visit>
     void for_about(const TileCell<3>& cell, const Visit& visit) const {
         for (std::size_t z = 0; z < SpaceBits::layers; ++z) {
@@ -200,14 +199,14 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
     }
 
   private:
-    /// A point by the last number of its place.
+    /// Point by the last number of its entry in places_.
     [[nodiscard]] Point exact(float known) const {
         const double* p = known < 0 ? &exact_[3 * static_cast<std::size_t>(-1 - known)]
                                     : &points_[3 * static_cast<std::size_t>(known)];
         return {p[0], p[1], p[2]};
     }
 
-    /// Adds a point; what it covers is left to be added.
+    /// Adds a point; the caller adds what it covers.
     PlacedBall add(const Addition<3>& a) {
         PlacedBall added{a.cell, {}};
         const Point place = in_cell(rules_->grid, a.at, a.cell);
@@ -221,7 +220,7 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
         return added;
     }
 
-    /// Nothing is covered of the tile's cells, everything beyond the last of them.
+    /// Marks the sub-cells of the tile as open, and those beyond its last cells as covered.
     void open_cells() {
         for (int z = 0; z < 4 * size_[2]; ++z)
             for (std::size_t word = 0; word < BallLines::words; ++word) {
@@ -249,9 +248,9 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
     const SpaceRules* rules_ = nullptr;
     std::vector<std::uint32_t> lines_;
     SpaceBits taken_;
-    std::vector<std::uint16_t> numbers_;  ///< of the points in cells, where taken
-    /// Of points, from the corners of their cells; and which it is of the own points, or
-    /// -1 - that of the others, all small whole numbers.
+    std::vector<std::uint16_t> numbers_;  ///< by cell: index in places_ of its point, if taken
+    /// Points from the corners of their cells, in radii; the last number is the index among the
+    /// tile's points, or -1 - the index in exact_. These are exact, as they are small integers.
     std::vector<SpaceRules::Quad> places_;
     std::vector<double> exact_;  ///< points of other tiles
     std::size_t own_ = 0;

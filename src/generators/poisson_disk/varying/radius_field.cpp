@@ -9,7 +9,7 @@
 namespace stipple::poisson_disk {
 namespace {
 
-/// Where one of `cells` equal cells ends and the next begins, the ends included.
+/// Boundaries of `cells` equal cells along axis k, both ends included.
 std::vector<double> lines_of(const Box& box, std::size_t k, std::size_t cells) {
     std::vector<double> lines;
     for (std::size_t i = 0; i < cells; ++i)
@@ -19,7 +19,7 @@ std::vector<double> lines_of(const Box& box, std::size_t k, std::size_t cells) {
     return lines;
 }
 
-/// Of each stretch between two lines the number of that between coarser ones which it lies in.
+/// For each interval between two lines, the number of the coarser interval that contains it.
 std::vector<std::size_t> owners(const std::vector<double>& lines,
                                 const std::vector<double>& coarser) {
     std::vector<std::size_t> owner;
@@ -29,7 +29,7 @@ std::vector<std::size_t> owners(const std::vector<double>& lines,
     return owner;
 }
 
-/// A grid of values seen through the finer lines of a field.
+/// Values of a grid, by the finer cells of a field.
 struct Seen {
     const double* values = nullptr;
     std::size_t width = 0;

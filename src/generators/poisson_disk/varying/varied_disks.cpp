@@ -23,12 +23,12 @@ namespace {
 using Point = std::array<double, 2>;
 using Node = RadiusField::Node;
 
-/// A part of the rectangle in which something may be uncovered yet.
+/// Part of the rectangle that may be uncovered.
 struct VariedGap {
     Point low;
     Point high;
-    std::uint64_t key;  ///< its own, whoever asks
-    Node node;          ///< of level 0: a part of this cell; else just this node
+    std::uint64_t key;  ///< seed of the gap's random numbers
+    Node node;          ///< on level 0, the cell that contains the gap; above, the gap itself
 };
 
 using Halves = boost::container::static_vector<VariedGap, 2>;
@@ -62,9 +62,9 @@ class VariedSampler {
     Rows sample() {
         const auto corners = field_.corners(field_.root());
         gaps_.push_back({corners[0], corners[1], keys_.bits(0), field_.root()});
-        double thrown = 0;  // darts to r^2
+        double thrown = 0;  // darts per r^2
         for (std::uint64_t round = 1; !gaps_.empty(); ++round) {
-            // Ever more, and so many that the fastest gap gets something at least.
+            // More in each round, and enough for the gap with the largest rate to get some.
             density_ =
                 round == 1 ? first_density : std::max(thrown * growth, most_darts / fastest_);
             thrown += density_;
@@ -78,10 +78,10 @@ class VariedSampler {
   private:
     static constexpr double first_density = 0.4;
     static constexpr double growth = 3;
-    static constexpr double most_darts = 1.5;  ///< mean on a gap
-    static constexpr std::size_t often = 256;  ///< gaps, or darts, between two questions for a stop
+    static constexpr double most_darts = 1.5;  ///< mean number on a gap
+    static constexpr std::size_t often = 256;  ///< gaps, or darts, between two checks for a stop
 
-    /// Darts on all gaps: pending ones, and the gaps for the next round.
+    /// Throws darts at all gaps: makes pending darts, and the gaps for the next round.
     void throw_at_gaps() {
         std::deque<VariedGap> before;
         before.swap(gaps_);
@@ -95,7 +95,7 @@ class VariedSampler {
         }
     }
 
-    /// Darts on a gap to a density of 1, where r is the least all over it.
+    /// Mean number of darts on a gap for a density of 1, if r has its minimum all over the gap.
     [[nodiscard]] double rate(const VariedGap& gap) const {
         const double unit = dart_scale_ * field_.least(gap.node);
         return (gap.high[0] - gap.low[0]) / unit * ((gap.high[1] - gap.low[1]) / unit);
@@ -106,7 +106,7 @@ class VariedSampler {
         gaps_.push_back(gap);
     }
 
-    /// Lists the disks that reach a gap.
+    /// Collects the disks that reach into a gap.
     void gather(const VariedGap& gap) {
         const double most = scale_ * field_.most(gap.node);
         index_.any_near(gap.low, gap.high, most, [&](const Disk& disk) {
@@ -115,14 +115,14 @@ class VariedSampler {
         });
     }
 
-    /// Adds to near_ those from the first up to the last that reach a gap.
+    /// Appends to near_ those of its disks first, ..., last - 1 that reach into a gap.
     void narrow(std::size_t first, std::size_t last, const VariedGap& gap) {
         const double most = scale_ * field_.most(gap.node);
         for (std::size_t i = first; i < last; ++i)
             if (reaches(near_[i], gap, most)) near_.push_back(near_[i]);
     }
 
-    /// Darts on a gap, or its halves, where only disks of near_ from the `first` on may reach it.
+    /// Throws darts at a gap or its halves. Only disks of near_ from `first` on may reach into it.
     void throw_at(const VariedGap& gap, std::size_t first) {
         const double least = field_.least(gap.node);
         if (least == RadiusField::closed) return;
@@ -143,7 +143,7 @@ class VariedSampler {
         }
     }
 
-    /// Halves of a gap, or what its node joins; none of one that is too small to matter.
+    /// Halves of a gap, or the children of its node; empty if the gap is too small to matter.
     [[nodiscard]] Halves halves_of(const VariedGap& gap) const {
         Halves halves;
         if (gap.node.level > 0) {
@@ -164,8 +164,8 @@ class VariedSampler {
         return halves;
     }
 
-    /// Darts of the gap: `mean` of them where f is the least all over it, fewer where it is
-    /// more.
+    /// Throws darts at a gap: `mean` in the mean if f has its minimum all over the gap, fewer where
+    /// f is larger.
     void throw_darts(const VariedGap& gap, std::size_t first, double mean, double least) {
         SplitMix64 mixer(round_key_ ^ gap.key);
         for (std::uint64_t left = counts_.draw(1, mixer); left > 0; --left) {
@@ -190,7 +190,7 @@ class VariedSampler {
                                    [&](const Disk& other) { return index_.too_near(disk, other); });
     }
 
-    /// Whether a dart on the gap could be too near, where no radius is above `most`.
+    /// Whether a disk may be too near to a dart on the gap, whose radius is at most `most`.
     [[nodiscard]] bool reaches(const Disk& disk, const VariedGap& gap, double most) const {
         const double r = std::min(disk.radius, most) + finest_;
         double sum = 0;
@@ -202,7 +202,7 @@ class VariedSampler {
         return sum < r * r;
     }
 
-    /// Whether no dart on the gap could keep the rule, where no radius is below `least`.
+    /// Whether a disk is too near to every dart on the gap, whose radius is at least `least`.
     [[nodiscard]] bool covers(const Disk& disk, const VariedGap& gap, double least) const {
         const double r = std::min(disk.radius, least);
         double sum = 0;
@@ -215,7 +215,7 @@ class VariedSampler {
         return sum < r * r;
     }
 
-    /// Pending darts come in the order of their times.
+    /// Decides the pending darts in the order of their times.
     void decide() {
         std::ranges::sort(pending_, {},
                           [](const TimedDart& d) { return std::tie(d.time, d.disk.at); });
@@ -238,9 +238,9 @@ class VariedSampler {
     const RunContext& run_;
     double expected_;
     VariedIndex index_;
-    double finest_ = 0;   ///< a length that nobody can tell from none
-    double density_ = 0;  ///< darts to r^2, r by dart_scale_
-    double fastest_ = 0;  ///< the largest rate of the gaps
+    double finest_ = 0;   ///< length below which gaps do not matter
+    double density_ = 0;  ///< darts per r^2, with r from dart_scale_
+    double fastest_ = 0;  ///< largest rate of a gap
     std::uint64_t round_key_ = 0;
     PoissonCounts counts_{most_darts, 1};
     std::deque<VariedGap> gaps_;
@@ -250,10 +250,10 @@ class VariedSampler {
     std::vector<TimedDart> pending_;
 };
 
-/// @throws Error(limit) when the least radius is too small for the coordinates, or the memory.
+/// @throws Error(limit) if the minimum radius is too small for the coordinates or the memory limit
 void check_size(const BoxSpace& space, const RadiusField& field, double scale,
                 const RunContext& run) {
-    constexpr double bytes = 300;  // to a point
+    constexpr double bytes = 300;  // per point
     const double radius = scale * field.least();
     space.check_resolution(radius, "a least radius");
     const double points = expected_varied(field, scale);
@@ -294,7 +294,7 @@ Rows spread_varied(std::span<const double> rows, const BoxSpace& space, const Ra
         std::erase_if(left, [&](const Disk& disk) {
             if (asked++ % often == 0) run.tick(chosen.size(), rows.size() / 2);
             const Disk scaled{disk.at, s * disk.radius};
-            // In the end, nothing that is left is too near.
+            // Once s <= scale, none of the remaining points is too near.
             if (s > scale && index.blocks(scaled)) return false;
             index.add(scaled);
             chosen.push_back(disk);
