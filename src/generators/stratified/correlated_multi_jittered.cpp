@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Correlated multi-jittered points in the plane (Kensler): multi-jittered points whose columns are
-// ordered all alike, and their rows too, which spreads them more evenly. With m columns,
+// Correlated multi-jittered points in the plane (Kensler): multi-jittered points with the same
+// order in all columns, and the same in all rows, which spreads them more evenly. With m columns,
 // r = ceil(n / m) rows, and random permutations sigma of the columns and tau of the rows, point s
 // is at
 //
@@ -9,8 +9,8 @@
 //
 // u and v uniform in [0, 1).
 //
-// m is the divisor of n that is nearest to sqrt(n) from below, if it is at least sqrt(n / 2);
-// otherwise floor(sqrt(n)), and then the last row is not full; or as --shape says.
+// m is the largest divisor of n in [sqrt(n / 2), sqrt(n)]; if there is none, floor(sqrt(n)), and
+// then the last row is not full; or as --shape says.
 //
 // Cost    O(n); point i is found without the others.
 // Promise exactly n points, one in each of n strips along y. For n = m r also one in each of n

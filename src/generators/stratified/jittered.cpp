@@ -3,7 +3,7 @@
 // Jittered (stratified) points: one in each of n cells of equal volume, uniform in it.
 //
 //     d = 1    n intervals
-//     d = 2    R = sqrt(n) rounded rows. Row r has the cells s_r, ..., s_{r+1} - 1, where
+//     d = 2    R = round(sqrt(n)) rows. Row r has the cells s_r, ..., s_{r+1} - 1, where
 //              s_r = floor(r n / R), side by side and equally wide; it reaches from y = s_r / n to
 //              s_{r+1} / n. So all cells have the area 1 / n, and for n = k^2 they are the k x k
 //              grid.
@@ -37,7 +37,7 @@ constexpr Param<Choice> cell{.name = "cell",
                              .choices = "random|center",
                              .help = "Where in its cell a point is"};
 
-/// Brings numbers from [0, 1) into their cells, or to the middles.
+/// Moves numbers from [0, 1) into their cells, or to the middles of these.
 void place(bool centered, const Strata& strata, double* x, std::size_t stride) {
     centered ? place_in_middles(strata, x, stride) : place_in_strata(strata, x, stride);
 }
@@ -65,11 +65,11 @@ void place_in_rows(std::uint64_t n, bool centered, std::uint64_t first, std::spa
     }
 }
 
-/// Points first, first + 1, ... of boxes, sides[k] of them along axis k.
+/// Points first, first + 1, ... in boxes, of which there are sides[k] along axis k.
 void place_in_boxes(std::span<const std::uint64_t> sides, bool centered, std::uint64_t first,
                     std::span<double> rows) {
     const std::size_t d = sides.size();
-    const std::size_t most = 1 + 4096 / d;  // so many at a time, axis after axis
+    const std::size_t most = 1 + 4096 / d;  // points at a time, axis after axis
     std::vector<double> low(most * d);
     for (std::size_t done = 0; done < rows.size() / d; done += most) {
         const std::size_t count = std::min(most, rows.size() / d - done);

@@ -17,10 +17,10 @@ namespace search = latin_hypercube_search;
 
 namespace {
 
-/// Random points of the cube, those that have an image; as many as are needed, or a little more.
+/// Random points of the cube that have an image, at least `need` of them.
 std::vector<double> points_with_image(const Plan& plan, std::size_t need, const RunContext& run) {
     constexpr std::uint64_t most = std::uint64_t{1} << 27;
-    constexpr std::uint64_t enough = std::uint64_t{1} << 20;  // where none is found
+    constexpr std::uint64_t enough = std::uint64_t{1} << 20;  // tries without success
     constexpr std::uint64_t block = 4096;
     constexpr std::size_t at_once = 64;
     const std::size_t d = plan.dimension;
@@ -49,8 +49,9 @@ std::vector<double> points_with_image(const Plan& plan, std::size_t need, const 
     return found;
 }
 
-/// The edges of strata that hold equal shares of the points that have an image, by 16 or more random
-/// points a stratum; the first and the last are the least and the largest coordinate of these.
+/// Edges of strata that hold equal fractions of the points with an image, estimated from at least
+/// 16 random ones per stratum. The first and the last edge are the least and the largest coordinate
+/// of these.
 std::vector<std::vector<double>> strata_of_images(const Plan& plan, const RunContext& run) {
     const std::size_t d = plan.dimension;
     const auto n = static_cast<std::size_t>(plan.count);
@@ -71,7 +72,7 @@ std::vector<std::vector<double>> strata_of_images(const Plan& plan, const RunCon
     return edges;
 }
 
-/// Axes with outcomes count as these.
+/// Along axes with discrete outcomes, puts points into the middles of strata and compares outcomes.
 void count_outcomes(const Destination& destination, LatinPlaces& places, search::Search& task) {
     const auto& axes = destination.axes;
     if (std::ranges::none_of(axes, &OutcomeAxis::discrete)) return;
@@ -86,9 +87,9 @@ void count_outcomes(const Destination& destination, LatinPlaces& places, search:
     }
 }
 
-/// How many points of the start do not satisfy the constraints, after exchanges that make them.
+/// Exchanges levels to satisfy the constraints; returns how many points of the start still do not.
 std::size_t unsatisfied(const Plan& plan, search::Search& task, const RunContext& run) {
-    constexpr std::uint64_t stream = 8;  // none of other parts
+    constexpr std::uint64_t stream = 8;  // used nowhere else
     search::Exchanges exchanges(task.start, task.rules);
     SplitMix64 draws(stratified_numbers(plan, stream).bits(0));
     const std::size_t wrong = exchanges.make_feasible(draws, run);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// A search for a Latin hypercube whose points become something else: parameters of which some are
-// discrete, and which constraints hold for.
+// Search for a Latin hypercube whose points become parameters, some of which may be discrete or
+// under constraints.
 //
-// Outcomes     points count as being where their outcomes are, those of categories all as far from
-//              each other, and are in the middles of their strata along such axes.
+// Outcomes     along discrete axes, distances are those of outcomes, all categories being equally
+//              far from each other, and points are in the middles of their strata.
 // Constraints  all points satisfy them. The search begins with exchanges of strata until they do.
-//              Where it finds none, as of x + y < 1, of which no Latin hypercube of strata of equal
-//              width is, each axis has strata that hold equal shares of the points of the cube that
-//              satisfy them, by 16 or more random ones a stratum.
+//              If that fails, as for x + y < 1, which no Latin hypercube with strata of equal width
+//              satisfies, the strata of each axis hold equal fractions of the points of the cube
+//              that satisfy them, estimated from at least 16 random ones per stratum.
 #pragma once
 
 #include <memory>
@@ -18,8 +18,8 @@
 
 namespace stipple::generators {
 
-/// The task under plan.destination, of which `places` tells where points are.
-/// @throws Error(usage), Error(input) where no start is found
+/// Adapts the search, whose points are at `places`, to plan.destination.
+/// @throws Error(usage), Error(input) if no start is found
 void aim_at_destination(const Plan& plan, const std::shared_ptr<LatinPlaces>& places,
                         latin_hypercube_search::Search& task, const RunContext& run);
 

@@ -15,7 +15,7 @@ std::size_t stratum_of(double x, std::size_t count) {
     return std::min(static_cast<std::size_t>(x * static_cast<double>(count)), count - 1);
 }
 
-/// How many given points each stratum holds.
+/// Number of given points in each stratum.
 std::vector<std::size_t> held(const PointSet& given, std::size_t coordinate, std::size_t count) {
     std::vector<std::size_t> points(count);
     for (std::size_t i = 0; i < given.count(); ++i)

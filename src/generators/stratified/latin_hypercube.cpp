@@ -5,21 +5,21 @@
 //
 //     strength 1   coordinate k of point i is in stratum pi_k(i), the pi_k being independent random
 //                  permutations (math/combinatorics/permutation.hpp)
-//     strength 2   for n = p^2, p prime, and d <= p + 1: a Latin hypercube in which besides, for
-//                  any two coordinates, each of the p x p squares holds exactly one point. It is
-//                  made from an orthogonal array (orthogonal_points.hpp).
+//     strength 2   for n = p^2, p prime, and d <= p + 1: a Latin hypercube in which also, for any
+//                  two coordinates, each of the p x p squares holds exactly one point. It is made from
+//                  an orthogonal array (orthogonal_points.hpp).
 //     --sliced, --nested   parts of the points are Latin hypercubes, too (latin_structure.hpp)
 //     --extend     new points in the strata that given ones leave empty (latin_extension.hpp)
-//     --optimize   the permutations are those that a search finds best by a criterion
+//     --optimize   the permutations are the best that a search finds for a criterion
 //                  (latin_hypercube_search); it keeps slices, nested and given points, and takes
 //                  named parameters into account (latin_destination.hpp)
 //
 // Cost    O(n d); point i is found without the others, in constant memory. A search takes some 20 s
-//         of one core by default, fewer for few points, and up to 64 n^2 bytes: 256 MB at n = 2000.
-// Promise each stratum holds one point in exact arithmetic, and floor(x n) says so too
+//         of one core by default, less for few points, and up to 64 n^2 bytes: 256 MB at n = 2000.
+// Promise each stratum holds one point in exact arithmetic, and so it does by floor(x n)
 //         (math/digital/stratum.hpp). A search's result is a function of the request and options,
-//         for any number of threads, and never worse with more effort; its value in the provenance
-//         is that of the middles, with a certificate where all designs were tried.
+//         for any number of threads, and never worse with more effort. Its value in the provenance
+//         is that of the middles of strata, with a certificate if all designs were tried.
 // Source  M. D. McKay, R. J. Beckman, W. J. Conover, Technometrics 21 (1979) 239-245,
 //         doi:10.1080/00401706.1979.10489755; B. Tang, J. Amer. Stat. Assoc. 88 (1993) 1392-1397,
 //         doi:10.1080/01621459.1993.10476423.
@@ -97,7 +97,7 @@ constexpr Param<Numbers> levels{
      .help = "For each axis the number m of values that floor(x m) will be made of, by which "
              "--optimize then counts distances; 0: x itself, such as 0,3,8"}};
 
-/// Points are in order, so that a coordinate's stretch of images is one of consecutive indices.
+/// Points are in order, so the images of a block are those of consecutive indices.
 StrataOf permuted_strata(const Plan& plan) {
     return [n = plan.count, keys = stratified_numbers(plan, 0)](
                std::size_t coordinate, std::span<const double> index, std::span<double> low) {
@@ -108,7 +108,7 @@ StrataOf permuted_strata(const Plan& plan) {
 
 constexpr const char* strong = "latin-hypercube of strength 2";
 
-/// @throws Error(usage) where options contradict each other
+/// @throws Error(usage) if options contradict each other
 void check_options(const Values& options) {
     const auto only_with = [](std::string_view name, bool given, bool fits, std::string_view what) {
         if (given && !fits) fail(ErrorKind::usage, "--{}: is of {}; give that too", name, what);
@@ -167,7 +167,7 @@ PointSet given_points(const Plan& plan, const Values& options, const RunContext&
     return points;
 }
 
-/// @throws Error(usage) where no points are added
+/// @throws Error(usage) if no points would be added
 void require_more(std::uint64_t count, const PointSet& given, const Values& options) {
     if (count <= given.count())
         fail(ErrorKind::usage, "--count: {} is not more than the {} points of {}", count,
@@ -180,7 +180,7 @@ Plan plan_extended(const Request& request, const Values& options) {
              "--bounds: the points of --extend stay as they are; scale all of them afterwards");
     if (!options.given(add) && !request.count)
         fail(ErrorKind::usage, "--extend: how many points to add? --add says it");
-    if (!options.given(add) && request.dimension) return default_plan(request);  // all is told
+    if (!options.given(add) && request.dimension) return default_plan(request);  // no file to read
     const PointSet points = given_points({}, options, {});
     require_dimension(request, points.dimension(), options[extend]);
     const std::uint64_t count = options.given(add)
@@ -284,7 +284,7 @@ search::Objective objective_of(const Values& options) {
             static_cast<int>(options[power])};
 }
 
-/// Points in the strata of a design, behind given ones.
+/// Given points, then points in the strata of a design.
 std::unique_ptr<Sequence> points_of(std::shared_ptr<const LatinPlaces> places,
                                     search::Design design, PointSet given) {
     return sequence_of([places = std::move(places), design = std::move(design),
@@ -298,7 +298,7 @@ std::unique_ptr<Sequence> points_of(std::shared_ptr<const LatinPlaces> places,
     });
 }
 
-/// What --extend begins with. @throws Error(usage), Error(input)
+/// Points that --extend starts from; empty without it. @throws Error(usage), Error(input)
 PointSet points_to_extend(const Plan& plan, const Values& options, const RunContext& run) {
     if (!options.given(extend)) return {};
     PointSet given = given_points(plan, options, run);
@@ -315,7 +315,7 @@ PointSet points_to_extend(const Plan& plan, const Values& options, const RunCont
     return given;
 }
 
-/// What is worked out as a whole: searched, or behind given points.
+/// Makes sets that are computed as a whole: by a search, or as an extension of given points.
 std::unique_ptr<Sequence> make_design(const Plan& plan, const Values& options,
                                       const RunContext& run) {
     const PointSet given = points_to_extend(plan, options, run);
@@ -337,7 +337,7 @@ std::unique_ptr<Sequence> make_design(const Plan& plan, const Values& options,
     task.objective = objective_of(options);
     task.trials = options[effort] * search::usual_trials(task.objective, task.start);
     const search::Result result = search::best_design(task, options[optimize], run);
-    // Of many points that takes a second, which none has after a stop.
+    // For many points the description takes a second, too long after a stop.
     constexpr double few = 2e7;
     const bool soon = static_cast<double>(plan.count * plan.count * plan.dimension) <= few;
     if (result.stopped)

@@ -6,11 +6,11 @@
 namespace stipple::generators {
 namespace {
 
-/// Streams of random numbers, behind that of the plain hypercube.
+/// Streams of random numbers, after that of the plain hypercube.
 constexpr std::uint64_t first_keys = 1;
 constexpr std::uint64_t second_keys = 2;
 
-/// The stratum of each index by `stratum`, a function of coordinate and index.
+/// Strata by `stratum`, a function of coordinate and index.
 StrataOf strata_by(std::uint64_t parts, auto stratum) {
     return [=](std::size_t coordinate, std::span<const double> index, std::span<double> low) {
         for (std::size_t j = 0; j < index.size(); ++j)

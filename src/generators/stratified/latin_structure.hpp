@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Latin hypercubes with parts that are Latin hypercubes themselves, of fewer strata, point by
-// point.
+// Latin hypercubes some of whose parts are Latin hypercubes of fewer strata, point by point.
 //
 //     sliced   n = m K points in K slices, one after the other. In coordinate k, point j of slice s
 //              is in the stratum  K c + phi_kc(s)  of n,  c = pi_ks(j)  being its stratum of m; pi
 //              and phi are independent random permutations, of m strata and of K slices.
 //     nested   the first N1 of n = N1 t points. In coordinate k they are in the strata
 //              t c + o_kc,  c = pi_k(i),  with random o in {0, ..., t - 1}; the other points are in
-//              the strata that are left, in random order.
+//              the remaining strata, in random order.
 //
 // Promise  whole and parts are Latin hypercubes for every seed.
 // Cost     O(1) a coordinate of a point, in constant memory.

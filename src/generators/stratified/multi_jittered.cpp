@@ -4,22 +4,22 @@
 // either axis, and one in each of n cells.
 //
 //     n = a b   the cells are the a x b grid, a columns and b rows. The strips of a column are
-//               given to its b points by a random permutation, another one in each column, and so
-//               are those of a row to its a points.
+//               assigned to its b points by a random permutation, a different one in each column;
+//               likewise the strips of a row to its a points.
 //     else      with a columns, b = floor(n / a) rows of a points and one more, of height q / n,
-//               for the q = n mod a points that are left. Column c takes the strips from
+//               for the remaining q = n mod a points. Column c takes the strips from
 //               floor(c n / a) to floor((c + 1) n / a), up to a random phase: room for b or b + 1
-//               points, so that q columns, evenly spread, have a point in the last row. All is then
-//               turned by a random whole number of strips along x (modulo n), which makes every
-//               point uniform.
+//               points, so that q columns, evenly spread, have a point in the last row. All points
+//               are then shifted by a random whole number of strips along x (modulo n), which makes
+//               every point uniform.
 //
-// a is the divisor of n that is nearest to sqrt(n) from below, if it is at least sqrt(n / 2);
-// otherwise floor(sqrt(n)); or as --shape says.
+// a is the largest divisor of n in [sqrt(n / 2), sqrt(n)]; floor(sqrt(n)) if there is none; or as
+// --shape says.
 //
 // Cost    O(n); point i is found without the others. Tables of n entries up to n = 2^20.
 // Promise one point in each strip, for every n; one in each cell of the grid, or, for other n, one
-//         in each cell of the full rows (of the columns turned back) and at most one in those of
-//         the last.
+//         in each cell of the full rows (of the columns shifted back) and at most one in those of
+//         the last row.
 // Source  K. Chiu, P. Shirley, C. Wang, "Multi-jittered sampling", Graphics Gems IV (1994),
 //         370-374 (n = a b). Other n: stipple's own.
 
@@ -60,7 +60,7 @@ class MultiJittered {
         std::uint64_t row;
     };
 
-    /// Number of points in the last row left of a column.
+    /// Number of points of the last row in the columns before this one.
     [[nodiscard]] std::uint64_t extra_before(std::uint64_t column) const {
         return (column * rest_ + phase_) / columns_;
     }
@@ -89,7 +89,7 @@ class MultiJittered {
 
     std::uint64_t count_;
     std::uint64_t columns_;
-    std::uint64_t rows_;  ///< full ones
+    std::uint64_t rows_;  ///< number of full rows
     std::uint64_t rest_;  ///< points in the last row, if it is not full
     std::uint64_t phase_ = 0;
     std::uint64_t turn_ = 0;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Points from orthogonal arrays: n = s^t points in d dimensions such that for any t coordinates,
+// Points from orthogonal arrays: n = s^t points in d dimensions such that, for any t coordinates,
 // each of the s x ... x s = n cells holds exactly one point.
 //
 //     bose   t = 2,  n = s^2, s prime, d <= s + 1
 //     bush   any t,  n = s^t, s prime, d <= s + 1
 //     cmj    t = d,  n = s^d, any s: multi-jittered in d dimensions
 //
-// With --substrata independent or correlated the points are a Latin hypercube besides: each of the
-// n strips along each axis holds one. How: orthogonal_points.hpp.
+// With --substrata independent or correlated, the points are also a Latin hypercube: each of the n
+// strips along each axis holds one (orthogonal_points.hpp).
 //
 // Cost    O(n d t); point i is found without the others.
 // Promise the counts above in exact arithmetic, also after rounding (math/digital/stratum.hpp).

@@ -43,7 +43,7 @@ class OrthogonalPoints {
     }
 
   private:
-    /// A row's level in a column, and the row's number among those with that level there.
+    /// Level of a row in a column, and the number of the row among those of that level.
     struct Entry {
         std::uint64_t level;
         std::uint64_t rest;
@@ -69,19 +69,19 @@ class OrthogonalPoints {
             return {level, row % before + row / before / s * before};
         }
         if (shape_.strength == 2) {
-            // Two columns determine the row; neighbours do it for each other, so that both
-            // together are a multi-jittered set in the plane.
+            // Two columns determine the row. Neighbours do so for each other, so that both together
+            // are a multi-jittered set in the plane.
             const std::size_t partner = (column ^ 1) <= s ? column ^ 1 : 0;
             return {level, value(partner, row)};
         }
-        // The other coefficients determine the one that the level depends on.
+        // Given the level, the other coefficients determine the one that is left out.
         return {level, column == 1 ? row % powers_[shape_.strength - 1] : row / s};
     }
 
     ArrayShape shape_;
     Substrata substrata_;
     std::vector<std::uint64_t> powers_;  ///< s^0, ..., s^t
-    PermutationFamily levels_;           ///< of the levels, one for each column
+    PermutationFamily levels_;           ///< of the levels, one per column
     PermutationFamily within_;           ///< of the points of a level
 };
 

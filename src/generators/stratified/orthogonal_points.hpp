@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// Orthogonal arrays of strength t with s levels, s^t rows and index 1, and points from them: among
-// the rows, each t columns show every t-tuple of levels exactly once.
+// Orthogonal arrays of strength t with s levels, s^t rows and index 1, and points from them: in any
+// t columns, each t-tuple of levels is in exactly one row.
 //
 //     polynomials  row i holds the base-s digits a_0, a_1, ..., a_(t-1) of i, s prime. Its columns
 //                  are the values mod s of  a_0 + a_1 x + ... + a_(t-1) x^(t-1)  at
 //                  x = 0, infinity (that is a_(t-1)), 1, 2, ..., s - 1: up to s + 1 columns
 //     digits       the digits themselves, any s, t columns: the whole grid
 //
-// The levels of a column are permuted at random. A level of s is a stratum of width 1/s. It is
-// divided further, so that all n points have their own strata of width 1/n along every coordinate:
+// The levels of a column are permuted at random. Each of the s levels is a stratum of width 1/s. It
+// is divided further, so that each of the n points has its own stratum of width 1/n along every
+// coordinate:
 //
-//     none         it is not
-//     independent  the points of a level are ordered at random, another way for every level
+//     none         no division
+//     independent  the points of a level are in random order, independently for every level
 //                  (Tang's Latin hypercubes; multi-jittered)
 //     shared       they are ordered by the levels of the other columns, permuted the same way for
 //                  every level (correlated multi-jittered)
@@ -45,11 +46,12 @@ struct ArrayShape {
 std::unique_ptr<Sequence> orthogonal_points(const Plan& plan, const StratifiedStyle& style,
                                             const ArrayShape& shape, Substrata substrata);
 
-/// The prime p with p^strength == count. @throws Error(usage) naming the two nearest counts.
+/// Prime p with p^strength == count. @throws Error(usage) naming the two nearest such counts
 std::uint64_t prime_root(std::uint64_t count, std::size_t strength, const std::string& who);
 
-/// The plan of points from arrays by polynomials; without a count, one near 1024 that has columns
-/// enough. @throws Error(usage)
+/// Plan for points from arrays by polynomials; the default count is near 1024 and has enough
+/// columns.
+/// @throws Error(usage)
 Plan plan_by_polynomials(const Request& request, std::size_t strength, const std::string& who);
 
 }  // namespace stipple::generators

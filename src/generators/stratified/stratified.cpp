@@ -14,26 +14,26 @@
 namespace stipple::generators {
 namespace {
 
-/// Streams of random numbers within a generator's seed.
+/// Streams of random numbers of a generator's seed.
 enum class StratifiedStream : std::uint64_t {
     order,
     first_of_unit,
-    first_of_offsets = std::uint64_t{1} << 31  ///< one a coordinate
+    first_of_offsets = std::uint64_t{1} << 31  ///< one per coordinate
 };
 
-// A block of points stays in the cache, and is long enough for what is made once a block and
-// coordinate.
+// Numbers in a block of points, which fit the cache; and its minimum points, so that the work per
+// block and coordinate pays off.
 constexpr std::size_t block_numbers = 4096;
 constexpr std::size_t least_block = 256;
 
-// Coordinates that are written to the rows together: a cache line of them.
+// Coordinates that are written to the rows at a time: a cache line of them.
 constexpr std::size_t together = 8;
 
 Rng numbers_of(const Plan& plan, StratifiedStream first, std::uint64_t stream) {
     return Rng(plan.seed, static_cast<std::uint64_t>(first) + stream);
 }
 
-/// Coordinates of points first, first + 1, ... in their strata.
+/// Puts coordinates of points first, first + 1, ... into their strata.
 void place(const Strata& strata, const Plan& plan, bool centered, std::size_t coordinate,
            std::uint64_t first, std::span<double> x) {
     if (centered) return place_in_middles(strata, x.data(), 1);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Points of which each coordinate has a stratum of its own: a part of [0, 1) between neighbouring
-// whole multiples of 1 / parts. Where in it the point is, is random, or the middle.
+// Points each of whose coordinates is in a given stratum: a part of [0, 1) between consecutive
+// multiples of 1 / parts. The position in the stratum is random, or the middle.
 //
-// The grid of cells that multi-jittered sets have is of a given shape, or as square as the count
-// lets it be.
+// The cells of multi-jittered sets are a grid of a given shape, or as square as the count allows.
 //
-// Promise as math/digital/stratum.hpp says.
+// Promise as for math/digital/stratum.hpp.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +30,7 @@ inline constexpr Param<Choice> order_option{.name = "order",
                                             .choices = "shuffled|cells",
                                             .help = "Order of the points: random, or cell by cell"};
 
-/// Of multi-jittered sets, whose cells are a grid.
+/// For multi-jittered sets, whose cells form a grid.
 inline constexpr Param<Extents> shape_option{
     {.name = "shape",
      .unit = "cells",
@@ -43,41 +42,41 @@ struct StratifiedStyle {
     bool shuffled;
 };
 
-/// What the two options above ask for.
+/// Style according to --centered and --order.
 inline StratifiedStyle style_of(const Values& options) {
     return {.centered = options[centered_option], .shuffled = options[order_option] == "shuffled"};
 }
 
-/// low[j] = number of the stratum of the `index[j]`-th point, along `coordinate`. Returns how many
-/// strata there are.
+/// Sets low[j] to the stratum of point `index[j]` along `coordinate`; returns the number of strata.
 using StrataOf = std::function<std::uint64_t(std::size_t coordinate, std::span<const double> index,
                                              std::span<double> low)>;
 
 std::unique_ptr<Sequence> stratified_sequence(const Plan& plan, const StratifiedStyle& style,
                                               StrataOf strata);
 
-/// A coordinate of point `index`, which is in a stratum of `parts`: where such a sequence has it.
+/// Coordinate of point `index` in a stratum of `parts`, the same as in stratified_sequence().
 double place_in_stratum(const Plan& plan, bool centered, std::size_t coordinate,
                         std::uint64_t index, double stratum, std::uint64_t parts);
 
 /// Random numbers for a unit's own use, stream 0, 1, ...
 Rng stratified_numbers(const Plan& plan, std::uint64_t stream);
 
-/// Number of columns for `count` points: the shape's; or the divisor of the count nearest to its
-/// root from below, if not less than sqrt(1/2) of it; or the root, rounded down.
+/// Number of columns for `count` points: that of --shape; or the largest divisor of the count that
+/// is in [sqrt(count / 2), sqrt(count)]; or floor(sqrt(count)) if there is none.
 std::uint64_t jitter_columns(std::uint64_t count, const Values& options);
 
-/// The plan for the product of the sides as count, and their number as dimension.
-/// @param cells what messages call them. @throws Error(usage) when the request contradicts it
+/// Plan with the product of the sides as count, and their number as dimension.
+/// @param cells name of the cells in messages
+/// @throws Error(usage) if the request contradicts it
 Plan plan_of_shape(const Request& request, const std::vector<std::int64_t>& sides,
                    std::string_view cells);
 
-/// Cells along each axis: as a shape says or, where it is empty, the root of the count along all.
+/// Number of cells along each axis: the shape, or if it is empty the same number along all axes.
 /// @throws Error(usage) as exact_root()
 std::vector<std::uint64_t> sides_of(const Plan& plan, const std::vector<std::int64_t>& shape,
                                     const std::string& who);
 
-/// The plan that count and shape imply. @throws Error(usage) when they contradict each other.
+/// Plan implied by count and --shape. @throws Error(usage) if they contradict each other
 Plan plan_jitter_grid(const Request& request, const Values& options);
 
 }  // namespace stipple::generators

@@ -164,8 +164,7 @@ class VariedSampler {
         return halves;
     }
 
-    /// Throws darts at a gap: `mean` in the mean if f has its minimum all over the gap, fewer where
-    /// f is larger.
+    /// Throws darts at a gap: `mean` on average if f has its minimum all over the gap, else fewer.
     void throw_darts(const VariedGap& gap, std::size_t first, double mean, double least) {
         SplitMix64 mixer(round_key_ ^ gap.key);
         for (std::uint64_t left = counts_.draw(1, mixer); left > 0; --left) {

@@ -13,10 +13,10 @@
 namespace stipple::latin_hypercube_search {
 namespace {
 
-constexpr double piece = 1024;         // trials between two changes of the share
-constexpr double gain = 0.02;          // of the temperature's logarithm, a trial that is made
-constexpr double polish_from = 0.8;    // of the trials; the rest goes for the design's own target
-constexpr double polish_share = 2e-3;  // that begins with
+constexpr double piece = 1024;         // trials between two changes of the accepted fraction
+constexpr double gain = 0.02;          // change of the temperature's logarithm per trial
+constexpr double polish_from = 0.8;    // of the trials; the rest aims beyond the design's own value
+constexpr double polish_share = 2e-3;  // accepted fraction at the start of that rest
 
 }  // namespace
 
@@ -30,7 +30,8 @@ Exchanges::Exchanges(Design design, const Rules& rules)
             row_at_[k * design_.points + static_cast<std::size_t>(design_.along(k)[i])] = i;
 }
 
-/// Of a's group, or one whose level is in the same coarse stratum; a itself where there is none.
+/// Row to exchange with: one of a's group, or one whose level is in the same coarse stratum; a
+/// itself if there is none.
 std::size_t Exchanges::partner(SplitMix64& draws, std::size_t k, std::size_t a) const {
     const auto other = [&](std::size_t first, std::size_t last, std::size_t but) {
         const std::size_t drawn = first + draws.below(last - first - 1);
@@ -176,7 +177,7 @@ Annealing::Annealing(const Objective& objective, const Design& start, const Rule
     temperature_ *= schedule.first_share;
 }
 
-/// Trials that going through all pairs stands for; of few points it does not matter.
+/// Cost of visiting all pairs, in trials; negligible for few points.
 double Annealing::pass() const {
     const std::size_t points = exchanges_.design().points;
     return points > 1000 ? static_cast<double>(points / 4) : 0;
@@ -246,7 +247,7 @@ void Annealing::advance(double trials, const RunContext& run) {
 }
 
 void Annealing::settle(const RunContext& run) {
-    criterion_.reset();  // before the next one takes its memory
+    criterion_.reset();  // frees its memory before the next one takes its own
     criterion_ = make_criterion(objective_, trail_.best(), rules_, run);
     score_ = criterion_->score();
 }

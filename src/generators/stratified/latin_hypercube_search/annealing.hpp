@@ -2,12 +2,13 @@
 //
 // Simulated annealing of a design by exchanges of two levels along one coordinate.
 //
-// Of exchanges that raise the energy by e, a share exp(-e / temperature) is made. The temperature
-// follows that share: it goes down a little with each one that is made, and up with each one that is
-// not, so that the share falls from a first value to a last one by a constant factor from trial to
-// trial, whatever energies are. Where the energy reaches its target, the next one is set (maximin).
+// An exchange that raises the energy by e is accepted with probability exp(-e / temperature). The
+// temperature regulates the fraction of accepted ones: it falls a little with each accepted
+// exchange, and rises with each rejected one, so that the fraction falls from a first value to a
+// last one by a constant factor from trial to trial, whatever the scale of energies. When the
+// energy reaches its target, the next target is set (maximin).
 //
-// Promise  a function of the start, the schedule and the draws; in any pieces.
+// Promise  a function of the start, the schedule and the draws, however the trials are split.
 #pragma once
 
 #include <memory>
@@ -22,35 +23,35 @@ struct Schedule {
     double trials = 1;
     double first_share = 0.05;
     double last_share = 5e-5;
-    double target = 0;  ///< of maximin at first; 0: one for a random design
+    double target = 0;  ///< first target of maximin; 0: suits a random design
 };
 
-/// A row and another one, which may be spare, that can exchange their levels of a coordinate.
+/// Exchange of the levels of two rows along a coordinate; b may be a spare row.
 struct Exchange {
     std::size_t coordinate;
     std::size_t a;
     std::size_t b;
 };
 
-/// A design that exchanges change as the rules allow.
+/// A design, changed by exchanges that the rules allow.
 class Exchanges {
   public:
     Exchanges(Design design, const Rules& rules);
 
-    /// A random one; false: the rules, but for what is feasible, do not let it be.
+    /// Draws a random exchange; false if the rules, apart from feasibility, forbid it.
     bool draw(SplitMix64& draws, Exchange& exchange) const;
 
-    /// Whether the points of an exchange would be feasible: how many of them are not.
+    /// Number of points of an exchange that would become infeasible.
     int infeasible(const Exchange& exchange);
 
     void make(const Exchange& exchange);
     [[nodiscard]] const Design& design() const { return design_; }
 
-    /// Exchanges levels until all points are feasible: how many are not, in the end.
+    /// Exchanges levels until all points are feasible; returns how many still are not.
     std::size_t make_feasible(SplitMix64& draws, const RunContext& run);
 
-    /// Makes random exchanges, as many for each level as `times`, and before them those that make all
-    /// points feasible. @throws Error(limit) where it finds none
+    /// Makes all points feasible, then makes random exchanges, `times` as many as there are levels.
+    /// @throws Error(limit) if some points stay infeasible
     void shuffle(SplitMix64& draws, std::size_t times, const RunContext& run = {});
 
   private:
@@ -62,20 +63,19 @@ class Exchanges {
 
     Design design_;
     const Rules& rules_;
-    std::vector<std::uint32_t> group_;  ///< of each row; empty: one for all
-    std::vector<std::uint32_t>
-        row_at_;              ///< of each level, coordinate after coordinate; with groups
-    std::vector<Level> row_;  ///< that is tried
+    std::vector<std::uint32_t> group_;   ///< of each row; empty: one group
+    std::vector<std::uint32_t> row_at_;  ///< row of each level, by coordinate; with groups
+    std::vector<Level> row_;             ///< levels that are checked
 };
 
-/// The best of the designs that exchanges lead to, by the way to it: no copy for each better one.
+/// Best of the designs that exchanges lead to, stored as the steps to it: no copy for each.
 class Trail {
   public:
     explicit Trail(Design start) : best_(std::move(start)) {}
 
     void made(const Exchange& exchange);
 
-    /// The design that all exchanges made is the best.
+    /// Marks the present design as the best.
     void mark(const Design& now);
 
     const Design& best();
@@ -83,28 +83,28 @@ class Trail {
   private:
     void go_to_mark();
 
-    Design best_;                  ///< before the steps
-    std::vector<Exchange> steps_;  ///< from it
-    std::size_t mark_ = 0;         ///< those that lead to the best
-    bool left_ = false;            ///< steps were too many: the next mark is a copy
+    Design best_;                  ///< design before the steps
+    std::vector<Exchange> steps_;  ///< exchanges since then
+    std::size_t mark_ = 0;         ///< number of steps that lead to the best
+    bool left_ = false;            ///< too many steps: the next mark is a copy
 };
 
 class Annealing {
   public:
-    /// @param objective, rules must stay
+    /// @param objective, rules must outlive it
     Annealing(const Objective& objective, const Design& start, const Rules& rules,
               const Schedule& schedule, SplitMix64 draws, const RunContext& run);
 
-    /// Makes so many more of the trials; fewer where there is no more to gain.
-    /// @throws Error(cancelled): of the best so far it has then taken note
+    /// Makes that many more of the trials, or fewer if there is no more to gain.
+    /// @throws Error(cancelled), having recorded the best so far if the run keeps it
     void advance(double trials, const RunContext& run);
 
-    /// The best design so far, of maximin among those that reached a target, and its score.
+    /// Best design so far and its score; of maximin, among the designs that reached a target.
     [[nodiscard]] const Design& best() { return trail_.best(); }
     [[nodiscard]] const Score& score() const { return score_; }
 
-    /// The end: the score is that of the best design by itself, without the rounding of exchanges.
-    /// @throws Error(cancelled): the score is then as it was
+    /// Final step: recomputes the score of the best design, without rounding errors of exchanges.
+    /// @throws Error(cancelled), leaving the score as it was
     void settle(const RunContext& run);
 
   private:
@@ -122,9 +122,9 @@ class Annealing {
     Trail trail_;
     std::unique_ptr<Criterion> criterion_;
     double done_ = 0;
-    double next_ = 0;  ///< the trial at which the share changes next
+    double next_ = 0;  ///< trial at which the accepted fraction changes next
     double share_;
-    double cooling_;  ///< of the share, from piece to piece
+    double cooling_;  ///< factor of the accepted fraction, from piece to piece
     bool polishing_ = false;
     bool over_ = false;
     double temperature_ = 0;

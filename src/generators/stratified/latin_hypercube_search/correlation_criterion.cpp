@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Sums of products of every two coordinates, in whole numbers: an exchange changes d - 1 of them.
+// Correlation criterion by integer sums of products of every two coordinates; an exchange changes
+// d - 1.
 #include <algorithm>
 #include <cmath>
 
@@ -9,15 +10,14 @@
 namespace stipple::latin_hypercube_search {
 namespace {
 
-/// Energies of correlations.
+/// Energy and score by correlations.
 class CorrelationCriterion final : public Criterion {
   public:
     CorrelationCriterion(const Design& design, const Rules& rules)
         : points_(design.points), dimension_(design.dimension), x_(design.rows * dimension_) {
         const std::size_t d = dimension_;
         for (std::size_t k = 0; k < d; ++k) {
-            double squares =
-                0;  // of all levels, which are those of the points unless there are spare ones
+            double squares = 0;  // of all levels, some of them in spare rows
             for (std::size_t l = 0; l < points_; ++l) {
                 const auto x =
                     static_cast<double>(twice_from_middle(static_cast<Level>(l), k, rules));
@@ -78,7 +78,7 @@ class CorrelationCriterion final : public Criterion {
                static_cast<std::int64_t>(points_);
     }
 
-    /// Of the product of two coordinates, when rows exchange what they have of the first.
+    /// Growth of the sum of products of coordinates k and l if rows a and b exchange coordinate k.
     [[nodiscard]] std::int64_t growth(std::size_t k, std::size_t l, std::size_t a,
                                       std::size_t b) const {
         const std::int64_t* of_a = &x_[a * dimension_];
@@ -100,9 +100,9 @@ class CorrelationCriterion final : public Criterion {
 
     std::size_t points_;
     std::size_t dimension_;
-    std::vector<std::int64_t> x_;         ///< row after row, twice from the middle
-    std::vector<std::int64_t> products_;  ///< of coordinates, over all points
-    std::vector<double> lengths_;         ///< of coordinates
+    std::vector<std::int64_t> x_;         ///< row after row, twice the distance from the middle
+    std::vector<std::int64_t> products_;  ///< sums over all points, for every two coordinates
+    std::vector<double> lengths_;         ///< Euclidean norm of each coordinate
 };
 
 }  // namespace

@@ -22,7 +22,7 @@ double pairs_of(std::size_t points) {
     return n * (n - 1) / 2;
 }
 
-/// Places of the points along all coordinates, row after row.
+/// Places of the points along all coordinates, point after point.
 std::vector<Level> placed(const Design& design, const Rules& rules) {
     std::vector<Level> x;
     for (std::size_t i = 0; i < design.points; ++i)
@@ -102,7 +102,7 @@ Found described_l2(const std::vector<Level>& x, std::size_t d, const RunContext&
             {"l2_centered_discrepancy", format_number(std::sqrt(std::max(0.0, squared)))}};
 }
 
-/// Pearson's correlation of two coordinates.
+/// Pearson correlation of two coordinates.
 double correlation_of(const std::vector<Level>& x, std::size_t d, std::size_t k, std::size_t l) {
     const auto n = static_cast<double>(x.size() / d);
     double a = 0, b = 0, aa = 0, bb = 0, ab = 0;

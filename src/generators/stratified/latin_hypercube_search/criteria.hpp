@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: MIT
 //
-// What Latin hypercubes are optimised for. Distances are Euclidean, between levels 0, ..., n - 1;
-// x are the middles of the strata, (2 level + 1) / (2 n).
+// Criteria for the optimisation of Latin hypercubes. Distances are Euclidean, between levels 0,
+// ..., n - 1; x are the middles of the strata, (2 level + 1) / (2 n).
 //
-//     maximin        the least squared distance, to be large; then the number of pairs that have it
+//     maximin        the minimum squared distance, maximised; then the number of pairs that have it
 //     phi_p          (sum over pairs of d^-p)^(1/p)
 //     audze_eglais   sum over pairs of d^-2
 //     centered_l2    the squared centered L2 discrepancy of x (math/l2/kinds.hpp)
 //     maxpro         (mean over pairs of prod_k (x_ik - x_jk)^-2)^(1/d)
 //     correlation    the largest absolute correlation of two coordinates
 //
-// A search goes by an energy, which an exchange of two levels changes in O(n), for correlations O(d):
+// A search minimises an energy, which an exchange of two levels updates in O(n), for correlations
+// in O(d):
 //
 //     maximin        sum over pairs of max(0, target - d^2); the target rises once that is 0
 //     centered_l2    n^2 times the square, without its constant
 //     correlation    sum over pairs of coordinates of the fourth power of the correlation
 //     others         the sum over pairs
 //
-// Promise  energies of distances, in maximin, are whole numbers and exact.
+// Promise  energies of maximin are whole numbers, and exact.
 // Source   phi_p: M. D. Morris, T. J. Mitchell, J. Statist. Plann. Inference 43 (1995) 381-402,
 //          doi:10.1016/0378-3758(94)00035-T. Audze-Eglais, and sums without further factors as in
 //          the tables of spacefillingdesigns.nl: B. G. M. Husslage, G. Rennen, E. R. van Dam,
@@ -43,7 +44,7 @@ struct Objective {
     int power = 15;  ///< p of phi_p, in [1, 50]
 };
 
-/// How good a design is: less is better, the second number where the first are equal.
+/// Value of a design, smaller is better; `second` decides between equal values.
 struct Score {
     double value = 0;
     double second = 0;
@@ -57,29 +58,29 @@ class Criterion {
     Criterion& operator=(const Criterion&) = delete;
     virtual ~Criterion() = default;
 
-    /// What the energy grows by when rows a, a point, and b exchange their levels of a coordinate.
+    /// Change of the energy if rows a, a point, and b exchange their levels along a coordinate.
     virtual double change(std::size_t coordinate, std::size_t a, std::size_t b) = 0;
 
-    /// Exchanges them; `change` is what change() gave.
+    /// Makes the exchange; `change` is the result of change().
     virtual void exchange(std::size_t coordinate, std::size_t a, std::size_t b, double change) = 0;
 
     [[nodiscard]] virtual double energy() const = 0;
 
-    /// Whether the energy is as low as can be, or as its target asks for.
+    /// Whether the energy is as low as possible, or as its target requires.
     [[nodiscard]] virtual bool reached() const { return false; }
 
-    /// Sets the target of maximin, a squared distance; 0: that of a point to its nearest, on average.
-    /// False where there are no targets.
+    /// Sets the target of maximin, a squared distance; 0: the mean one of a point to its nearest
+    /// neighbour. Returns false for criteria without targets.
     virtual bool aim(double /*target*/) { return false; }
 
     [[nodiscard]] virtual Score score() const = 0;
 
-    /// The score where it may be below another one, else that one: without a look at all pairs.
+    /// The score if it may be below another one, else that one; avoids visiting all pairs.
     virtual Score score_below(const Score& other) = 0;
 };
 
-/// The criterion of a design, which it follows by exchange() alone. Pairs of fixed rows do not count.
-/// What takes long ends when the run is told to stop. @throws Error(cancelled)
+/// Criterion of a design, which only exchange() updates. Pairs of fixed rows do not count. Long
+/// computations end when the run is stopped. @throws Error(cancelled)
 std::unique_ptr<Criterion> make_criterion(const Objective& objective, const Design& design,
                                           const Rules& rules, const RunContext& run = {});
 std::unique_ptr<Criterion> pair_criterion(const Objective& objective, const Design& design,
@@ -89,16 +90,16 @@ std::unique_ptr<Criterion> correlation_criterion(const Design& design, const Rul
 /// Bytes that a criterion needs.
 double criterion_memory(const Objective& objective, const Design& design);
 
-/// A difference of two levels, and the mean squared distance of two points: numbers to divide by.
+/// Typical difference of two levels, and mean squared distance of two points: numbers to divide by.
 double usual_difference(std::size_t points);
 double usual_square(std::size_t points, std::size_t dimension);
 
-/// The criterion's value, as reports have it, for a score: the value that searches show.
+/// Criterion's value for a score, as reported and as shown during a search.
 double reported(const Objective& objective, const Score& score, std::size_t points,
                 std::size_t dimension);
 
-/// The value of all points by the criterion's definition, and what belongs to it, by name; without
-/// what is infinite since points share a level. O(n^2 d).
+/// Results by name: the value of all points by the criterion's definition, and related ones;
+/// without infinite values, which occur if points share a level. O(n^2 d).
 std::vector<std::pair<std::string, std::string>> described(const Objective& objective,
                                                            const Design& design, const Rules& rules,
                                                            const RunContext& run);

@@ -20,7 +20,7 @@ Axis even_parts(std::size_t points, Level parts) {
 Axis parts_by(std::span<const double> outcomes, bool categories) {
     const std::size_t n = outcomes.size();
     Axis axis{.places = std::vector<Level>(n)};
-    double same = 0;  // pairs of levels
+    double same = 0;  // pairs of levels with the same outcome
     for (std::size_t first = 0, last = 0; first < n; first = last) {
         while (last < n && outcomes[last] == outcomes[first]) ++last;
         std::fill(&axis.places[first], &axis.places[first] + (last - first),

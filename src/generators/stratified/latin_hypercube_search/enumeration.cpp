@@ -9,14 +9,14 @@
 namespace stipple::latin_hypercube_search {
 namespace {
 
-/// Half of the plain changes of n things: places p, p + 1 that exchange theirs, until those that were
-/// first in the beginning would change their order.
+/// First half of the plain changes of n things: p stands for an exchange of places p and p + 1.
+/// Ends before the two things that are first at the start would change their order.
 std::vector<std::uint8_t> half_of_plain_changes(std::size_t n) {
     if (n < 3) return {};
     const std::vector<std::uint8_t> fewer = half_of_plain_changes(n - 1);
     std::vector<std::uint8_t> changes;
     for (std::size_t i = 0; i <= fewer.size(); ++i) {
-        const bool down = i % 2 == 0;  // where the last one goes
+        const bool down = i % 2 == 0;  // direction of the last thing
         for (std::size_t p = 0; p + 1 < n; ++p)
             changes.push_back(static_cast<std::uint8_t>(down ? n - 2 - p : p));
         if (i < fewer.size())
@@ -25,7 +25,7 @@ std::vector<std::uint8_t> half_of_plain_changes(std::size_t n) {
     return changes;
 }
 
-/// A design that goes through all of them.
+/// A design that takes the value of each Latin hypercube.
 class Designs {
   public:
     Designs(const Objective& objective, const Design& start)
@@ -36,7 +36,7 @@ class Designs {
           done_(start.dimension),
           back_(start.dimension) {}
 
-    /// Goes to the next one; false after the last.
+    /// Moves to the next design; false after the last.
     bool next() {
         for (std::size_t k = 1; k < design_.dimension; ++k) {
             if (done_[k] != (back_[k] ? 0 : changes_.size())) {
@@ -67,8 +67,8 @@ class Designs {
     Rules rules_;
     std::unique_ptr<Criterion> criterion_;
     std::vector<std::uint8_t> changes_;
-    std::vector<std::size_t> done_;  ///< changes, of each coordinate
-    std::vector<bool> back_;         ///< whether it undoes them
+    std::vector<std::size_t> done_;  ///< number of changes made, by coordinate
+    std::vector<bool> back_;         ///< whether the coordinate undoes its changes
 };
 
 }  // namespace

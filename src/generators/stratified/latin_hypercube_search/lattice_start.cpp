@@ -18,7 +18,7 @@ struct Lattice {
     std::vector<std::size_t> vector = {};
 };
 
-/// The squared distance of nearest points that are not on different sides of the torus.
+/// Minimum squared distance of two points on the torus.
 double least_square(const Lattice& lattice) {
     double least = 0x1p62;
     for (std::size_t i = 1; i <= lattice.size / 2; ++i) {
@@ -33,7 +33,7 @@ double least_square(const Lattice& lattice) {
     return least;
 }
 
-/// What the least square is about to be once n points are left, in their levels.
+/// Estimate of the minimum squared distance, in levels, once n points are left.
 double promise_of(const Lattice& lattice, std::size_t points) {
     if (lattice.size <= points + 1) return least_square(lattice);
     const auto d = static_cast<double>(lattice.vector.size());
@@ -50,7 +50,7 @@ Lattice drawn(std::size_t size, std::size_t dimension, SplitMix64& draws) {
     return lattice;
 }
 
-/// The one of largest promise of some: of many with one point more, or of a few of any size.
+/// Most promising of some random lattices: many of size n + 1, or a few of any size.
 Lattice chosen(std::size_t points, std::size_t dimension, SplitMix64& draws) {
     const bool next = draws.below(3) == 0;
     const int tries = next ? 300 : 20;
@@ -67,13 +67,13 @@ Lattice chosen(std::size_t points, std::size_t dimension, SplitMix64& draws) {
     return best;
 }
 
-/// Indices of the points that stay.
+/// Indices of the points that are kept.
 std::vector<std::size_t> middle_of(const std::vector<std::size_t>& x, std::size_t points,
                                    std::size_t dimension, SplitMix64& draws) {
     const std::size_t size = x.size() / dimension;
     std::vector<std::size_t> order(size);
     std::iota(order.begin(), order.end(), std::size_t{0});
-    if (size == points + 1) return {order.begin() + 1, order.end()};  // but for the corner
+    if (size == points + 1) return {order.begin() + 1, order.end()};  // without the corner
     std::vector<double> weights(dimension, 1);
     for (double& weight : weights)
         if (draws.below(2) == 0) weight = to_unit(draws.next());

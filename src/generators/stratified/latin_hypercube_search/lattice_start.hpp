@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Latin hypercubes near lattices, whose points are far apart.
+// Latin hypercubes that are close to lattices, with points that are far apart.
 //
-// Of some lattices of rank 1 of N = n, ..., 1.3 n points the one of largest least distance; moved at
-// random on the torus, and of its points the n nearest to the middle by a maximum of differences,
-// weighted at random. Levels are the ranks of their coordinates. With n + 1 points and no move the
-// point that goes is a corner, and distances stay as they are.
+// Some random lattices of rank 1 with N = n, ..., 1.3 n points are compared, and the one of largest
+// minimum distance is shifted at random on the torus. Its n points nearest to the middle are kept,
+// by a maximum norm with random weights. Levels are the ranks of their coordinates. For N = n + 1
+// there is no shift: the removed point is a corner, and distances stay the same.
 #pragma once
 
 #include "generators/stratified/latin_hypercube_search/design.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Criteria that are sums over pairs of points. For every pair there is a number that grows coordinate
-// by coordinate, a squared distance or a product, and from which the pair's energy follows; rows are
-// padded to whole vectors with numbers of no energy.
+// Criteria that are sums over pairs of points. Every pair has a number, a squared distance or a
+// product, to which each coordinate contributes, and from which the pair's energy follows. Rows are
+// padded to whole vectors with numbers of zero energy.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -19,7 +19,7 @@ constexpr std::size_t lanes = 8;
 
 constexpr std::size_t padded(std::size_t n) { return (n + lanes - 1) / lanes * lanes; }
 
-/// In an order of additions that vectors of any width can take.
+/// Sum in an order of additions that vectors of any width can follow.
 template <class Term>
 STIPPLE_INLINE double lane_sum(std::size_t n, Term term) {
     double sums[lanes]{};
@@ -29,7 +29,7 @@ STIPPLE_INLINE double lane_sum(std::size_t n, Term term) {
            ((sums[2] + sums[6]) + (sums[3] + sums[7]));
 }
 
-/// A row of pairs, where its point goes along a coordinate whose other places are x.
+/// Row of pairs of a point that moves along a coordinate; x are the places of the other points.
 template <class Value>
 struct Row {
     const Value* pairs;
@@ -37,10 +37,10 @@ struct Row {
     std::size_t size;
     Level from;
     Level to;
-    Level apart;  ///< of categories, as an Axis has it
+    Level apart;  ///< squared distance of categories, as in an Axis
 };
 
-/// (to - x)^2 - (from - x)^2 as shift + slope x.
+/// Change of a squared distance, (to - x)^2 - (from - x)^2, as shift + slope x.
 struct Shift {
     explicit Shift(const Row<Level>& row)
         : shift(row.to * row.to - row.from * row.from), slope(2 * (row.from - row.to)) {}
@@ -49,7 +49,7 @@ struct Shift {
     Level slope;
 };
 
-/// The same of categories.
+/// The same for categories.
 struct Change {
     explicit Change(const Row<Level>& row) : apart(row.apart), from(row.from), to(row.to) {}
     STIPPLE_INLINE Level operator()(Level x) const {
@@ -75,7 +75,7 @@ STIPPLE_WIDE std::int64_t shortfall_change(const Row<Level>& row, Level target) 
                           : shortfall_by(row, target, Change(row));
 }
 
-/// r^(power / 2) of some numbers, in place.
+/// Replaces n <= 64 numbers r by r^(power / 2).
 STIPPLE_INLINE void raise(double* r, std::size_t n, int power) {
     double result[64];
     for (std::size_t l = 0; l < n; ++l) result[l] = power % 2 == 1 ? std::sqrt(r[l]) : 1;
@@ -87,7 +87,7 @@ STIPPLE_INLINE void raise(double* r, std::size_t n, int power) {
     for (std::size_t l = 0; l < n; ++l) r[l] = result[l];
 }
 
-/// Points that parts of coordinates bring together count as half a level apart.
+/// Coinciding points, which discrete axes may cause, count as half a level apart.
 STIPPLE_INLINE double over(double scale, Level square) {
     return scale / std::max(0.25, static_cast<double>(square));
 }
@@ -118,7 +118,7 @@ STIPPLE_WIDE double power_change(const Row<Level>& row, int power, double scale)
                           : powers_by(row, power, scale, Change(row));
 }
 
-/// 1 + |z|/2 + |z'|/2 - |z - z'|/2 of two places on a scale of 1 / (4 n) from the middle.
+/// 1 + |z|/2 + |z'|/2 - |z - z'|/2 for z = 2 a unit, z' = 2 b unit.
 STIPPLE_INLINE double centered_factor(double a, double b, double unit) {
     return 1 + (std::abs(a) + std::abs(b) - std::abs(a - b)) * unit;
 }
@@ -134,13 +134,13 @@ STIPPLE_WIDE double centered_change(const Row<double>& row, double n) {
            });
 }
 
-/// Never 0: the point itself and what pads the rows have no energy.
+/// Distance of two places along an axis, at least 0.5, as it is a divisor.
 STIPPLE_INLINE double gap_between(Level a, Level b, double far, double more) {
     const double difference = far == 0 ? std::abs(static_cast<double>(a - b)) : a == b ? 0 : far;
     return std::max(0.5, difference + more);
 }
 
-/// @param far between two categories; 0: places have a difference
+/// @param far distance of two categories; 0: by the places
 STIPPLE_INLINE double projections_by(const Row<double>& row, double far, double more) {
     return lane_sum(row.size, [&](std::size_t j) {
         const double now = row.pairs[j];
@@ -155,7 +155,7 @@ STIPPLE_WIDE double projection_change(const Row<double>& row, double more) {
                           : projections_by(row, std::sqrt(row.apart), more);
 }
 
-/// Squared distances, which a coordinate adds to.
+/// Squared distances, to which each coordinate adds.
 struct Distances {
     using Value = Level;
     static constexpr Level start = 0;
@@ -169,7 +169,7 @@ struct Distances {
     }
 };
 
-/// How far squared distances are below a target, in sum.
+/// Sum of the amounts by which squared distances are below a target.
 struct Shortfall : Distances {
     Level target = 1;
 
@@ -179,7 +179,7 @@ struct Shortfall : Distances {
     }
 };
 
-/// Powers of distances, which are near 1 where the distance is as it is on average.
+/// Powers of inverse distances, scaled to 1 at the mean distance.
 struct Powers : Distances {
     int power = 2;
     double scale = 1;
@@ -194,7 +194,7 @@ struct Powers : Distances {
     }
 };
 
-/// Products, which a coordinate multiplies.
+/// Products, with a factor for each coordinate.
 template <class Factor>
 struct Products : Factor {
     using Value = double;
@@ -221,7 +221,7 @@ struct CenteredFactor {
     [[nodiscard]] double factor(Level a, Level b) const {
         return centered_factor(2 * a + 1 - n, 2 * b + 1 - n, 1 / (4 * n));
     }
-    /// 1 + |z|/2 - z^2/2.
+    /// Mean of factor() over the other point: 1 + |z|/2 - z^2/2.
     [[nodiscard]] double mean_factor(Level a) const {
         const double z = std::abs(2 * a + 1 - n) / (2 * n);
         return 1 + (z - z * z) / 2;
@@ -229,10 +229,10 @@ struct CenteredFactor {
 };
 
 struct ProjectionFactor {
-    double scale = 1;  ///< of the order of a difference of levels
+    double scale = 1;  ///< typical difference of levels
     double n = 1;
 
-    /// What differences of parts count more.
+    /// Addition to the differences of discrete outcomes.
     [[nodiscard]] double more(const Axis& axis) const {
         return axis.parts > 0 ? n / axis.parts : 0;
     }
@@ -249,8 +249,8 @@ struct ProjectionFactor {
 using Centered = Products<CenteredFactor>;
 using Projections = Products<ProjectionFactor>;
 
-/// What single points add to the energy: of the centered discrepancy, (its product with itself) - 2 n
-/// (its mean product).
+/// Energy of single points: in the centered discrepancy, a point's product with itself, minus 2 n
+/// times its mean product.
 class Singles {
   public:
     Singles(const Centered& measure, std::size_t points)
@@ -287,7 +287,7 @@ class Singles {
     std::vector<double> mean_;
 };
 
-/// Of measures without such.
+/// Stands in for Singles in other measures.
 class NoSingles {
   public:
     template <class Measure>
@@ -317,7 +317,7 @@ class PairCriterion final : public Criterion {
                 places_[k * stride_ + i] = rules.axis(k).place(design.along(k)[i]);
         pairs_.reserve(points_ * width_);
         for (std::size_t i = 0; i < points_; ++i) {
-            run_.check_stop();  // of many points the first touch of so much memory takes a second
+            run_.check_stop();  // first use of that much memory takes a second
             pairs_.resize((i + 1) * width_, Measure::neutral);
         }
         rebuild();
@@ -342,7 +342,7 @@ class PairCriterion final : public Criterion {
         std::swap(places(k)[a], places(k)[b]);
         energy_ += change;
         largest_ = std::max(largest_, std::abs(energy_));
-        constexpr std::uint64_t often = 1 << 14;  // rounding stays small
+        constexpr std::uint64_t often = 1 << 14;  // keeps rounding errors small
         if (++exchanges_ % often == 0) rebuild();
     }
 
@@ -372,7 +372,7 @@ class PairCriterion final : public Criterion {
 
     Score score_below(const Score& other) override {
         if constexpr (std::is_same_v<Measure, Shortfall>) return reached() ? score() : other;
-        constexpr double rounding = 1e-12;  // of a sum, by the largest that it has been
+        constexpr double rounding = 1e-12;  // of a sum, by its largest value
         if (energy_ - rounding * largest_ < other.value && largest_ > 1e3 * std::abs(other.value))
             rebuild();
         return {std::min(energy_, other.value), 0};
@@ -409,7 +409,7 @@ class PairCriterion final : public Criterion {
         return static_cast<double>(least);
     }
 
-    /// Squared distance of a point to its nearest, on average.
+    /// Mean squared distance of a point to its nearest neighbour.
     [[nodiscard]] double mean_nearest() const {
         double sum = 0;
         for (std::size_t i = fixed_; i < points_; ++i)
@@ -418,7 +418,7 @@ class PairCriterion final : public Criterion {
         return sum / static_cast<double>(points_ - fixed_);
     }
 
-    /// The energy without the rounding of those, possibly huge, that it has been.
+    /// Energy, summed anew: without rounding errors of former, possibly huge values.
     [[nodiscard]] double sum() const {
         double sum = singles_.energy();
         for_pairs([&](Value value) { sum += measure_.energy(value); });
@@ -446,14 +446,14 @@ class PairCriterion final : public Criterion {
     RunContext run_;
     std::size_t points_;
     std::size_t fixed_;
-    std::size_t stride_;  ///< of places
-    std::size_t width_;   ///< of pairs
+    std::size_t stride_;  ///< length of a row of places_
+    std::size_t width_;   ///< length of a row of pairs_
     std::size_t dimension_;
     std::vector<Level> places_;
     std::vector<Value> pairs_;
     std::conditional_t<std::is_same_v<Measure, Centered>, Singles, NoSingles> singles_;
     double energy_ = 0;
-    double largest_ = 0;  ///< absolute energy since it was summed up
+    double largest_ = 0;  ///< largest absolute energy since rebuild()
     std::uint64_t exchanges_ = 0;
 };
 

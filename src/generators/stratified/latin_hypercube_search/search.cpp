@@ -17,11 +17,11 @@
 namespace stipple::latin_hypercube_search {
 namespace {
 
-/// Annealings of the same length, up to eight side by side.
+/// Annealings of the same length, up to eight in parallel.
 struct Round {
     std::size_t annealings;
-    double share;    ///< of the stage's trials, of each of them
-    bool from_best;  ///< every other one starts from one of the best so far
+    double share;    ///< fraction of the stage's trials, for each of them
+    bool from_best;  ///< every other one starts from one of the best designs
 };
 
 constexpr Round rounds[] = {{8, 1.0 / 96, false}, {8, 1.0 / 32, false}, {4, 1.0 / 6, true}};
@@ -33,20 +33,20 @@ struct Candidate {
     Score score;
 };
 
-/// Whether a score is lower by more than what rounding makes of equal ones.
+/// Whether a score is lower by more than rounding errors.
 bool is_better(const Score& one, const Score& other) {
     const double room = 1e-12 * std::abs(other.value);
     if (std::abs(one.value - other.value) > room) return one.value < other.value;
     return one.second < other.second - 1e-12 * std::abs(other.second);
 }
 
-/// Trials of the stages of a search: a few, then twice as many from stage to stage. Those of fewer
-/// trials are the first ones of more.
+/// Trials of the stages of a search: a few, then twice as many from stage to stage. The stages for
+/// fewer trials are the first ones for more.
 std::vector<double> stages_of(double trials, double usual, std::size_t points) {
     constexpr double few = 96;
     std::vector<double> stages{few};
     const double least = std::min(usual / 8, 64 * static_cast<double>(points));
-    double sum = usual;  // of all stages up to one of half of it
+    double sum = usual;  // of all stages including one of half as many
     while (sum / 2 >= least) sum /= 2;
     for (; sum <= trials; sum *= 2) stages.push_back(sum / 2);
     return stages;
@@ -72,13 +72,13 @@ class Rounds {
     }
 
   private:
-    static constexpr std::uint64_t stream = std::uint64_t{1} << 33;  // none of the generator's own
+    static constexpr std::uint64_t stream = std::uint64_t{1} << 33;  // not used by the generator
     static constexpr std::size_t most_kept = 4;
-    static constexpr double cold = 1e-3;  // first share of what is good already
+    static constexpr double cold = 1e-3;  // first accepted fraction for good starts
 
     [[nodiscard]] std::size_t points() const { return search_.start.points; }
 
-    /// Few where their pairs take much memory.
+    /// Maximum number of annealings in parallel: few if their pairs take much memory.
     [[nodiscard]] std::size_t most_together() const { return points() > 2000 ? 2 : 8; }
 
     /// Whether lattices are good starts.
@@ -88,7 +88,7 @@ class Rounds {
                start.dimension > 1 && start.dimension <= 3 && start.points > 10;
     }
 
-    /// A stage of so many trials.
+    /// Runs a stage of that many trials.
     void go(double trials) {
         trials_ = trials;
         for (const Round& round :
@@ -99,7 +99,7 @@ class Rounds {
         }
     }
 
-    /// The i-th annealing of a round.
+    /// Makes the i-th annealing of a round.
     Annealing start(const Round& round, std::size_t i) const {
         constexpr double beyond[] = {1, 1.005, 1.01, 1.02};
         SplitMix64 draws(rng_.bits(tasks_ + i));
@@ -178,7 +178,7 @@ class Rounds {
     RunContext inner_;
     Rng rng_;
     std::uint64_t tasks_ = 0;
-    double trials_ = 0;  ///< of the stage
+    double trials_ = 0;  ///< trials of the stage
     double spent_ = 0;
     std::vector<Candidate> best_;
     std::optional<Candidate> result_;
@@ -198,7 +198,7 @@ Result best_design(const Search& search, const std::string& words, const RunCont
 double usual_trials(const Objective& objective, const Design& design) {
     const auto n = static_cast<double>(design.points);
     const auto d = static_cast<double>(design.dimension);
-    const double crowded = std::max(1.0, n / 200);  // what targets and memory take besides
+    const double crowded = std::max(1.0, n / 200);  // extra time for targets and memory
     const double seconds = objective.kind == Kind::correlation ? 1e-8 * (3 + d)
                            : objective.kind == Kind::maximin   ? 3e-8 + 3e-10 * n * crowded
                                                                : 5e-8 + 3e-9 * n;

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
-// A search for the Latin hypercube that is best by a criterion (criteria.hpp).
+// Search for the Latin hypercube that is best by a criterion (criteria.hpp).
 //
-// Stages    of few trials, then of twice as many from one to the next, as long as the budget has room
-//           for them: more trials add stages, so the result of fewer is among what they choose from.
-// Rounds    of a stage: eight short annealings, eight of three times their trials, then four that take
-//           two thirds of it, two of them from the best so far (annealing.hpp).
-// Starts    random exchanges of the given design. For maximin of two or three coordinates there are
-//           more of them, three of four near lattices and annealed from a low temperature.
+// Stages    start with few trials, which double from one stage to the next, as long as the budget
+//           lasts: more trials add stages, so the result of fewer trials is among those that are
+//           compared.
+// Rounds    of a stage: eight short annealings, eight of three times their trials, then four that
+//           take two thirds of the trials, two of them from the best design so far (annealing.hpp).
+// Starts    random exchanges of the given design. For maximin in two or three coordinates there are
+//           more annealings; three of four start near lattices, at a low temperature.
 // Targets   of maximin are up to a fiftieth beyond the best squared distance so far.
 //
-// Cost      the budget in trials of an exchange, each O(n) but for correlations, and 4 n^2 or 8 n^2
-//           bytes for each of eight annealings, two where there are more than 2000 points.
+// Cost      the budget in trials of an exchange, each O(n) except for correlations, and 4 n^2 or
+//           8 n^2 bytes for each of eight annealings, two if there are more than 2000 points.
 // Promise   a function of the search and its seed, for any number of threads; never worse with more
-//           trials; the best there is where all designs can be tried instead (enumeration.hpp).
+//           trials; optimal if all designs can be tried instead (enumeration.hpp).
 // Source    ideas of M. D. Morris, T. J. Mitchell, J. Statist. Plann. Inference 43 (1995) 381-402
 //           (annealing), R. Jin, W. Chen, A. Sudjianto, ibid. 134 (2005) 268-287,
-//           doi:10.1016/j.jspi.2004.02.014 (what an exchange changes).
+//           doi:10.1016/j.jspi.2004.02.014 (updates by exchanges).
 #pragma once
 
 #include <string>
@@ -33,10 +34,10 @@ struct Search {
     double trials = 1e6;
 };
 
-/// Reports progress with the best value behind `words`. @throws Error(limit, cancelled)
+/// Searches, and reports progress with `words` and the best value. @throws Error(limit, cancelled)
 Result best_design(const Search& search, const std::string& words, const RunContext& run);
 
-/// Trials of some 20 seconds of one core, fewer for few points.
+/// Default number of trials: some 20 seconds of one core, fewer for few points.
 double usual_trials(const Objective& objective, const Design& design);
 
 }  // namespace stipple::latin_hypercube_search
