@@ -4,13 +4,13 @@
 //
 //     phi_b(i) = sum_j a_j b^(-j-1)    where    i = sum_j a_j b^j,  0 <= a_j < b.
 //
-// Permutations of the digits break the correlation of the coordinates: Faure's, or all but 0
-// reversed, the same for all positions j of one base; random ones, one for each position; or Owen's
-// nested ones, one for each position and each choice of the digits before it.
+// Permutations of the digits break the correlation of the coordinates: Faure's, or the reversal of
+// all digits except 0, which are the same for all positions j of one base; random ones, one for
+// each position; or Owen's nested ones, one for each position and choice of the digits before it.
 //
 // Shape   n x d for d <= 1000; indices below 2^53.
 // Cost    O(n d): a table of reversed low digits makes it one division a coordinate. Owen's takes
-//         O(b) for every digit behind those. With a leap, O(log_b i) a coordinate.
+//         O(b) for every digit after those. With a leap, O(log_b i) a coordinate.
 // Promise without or with fixed permutations, every coordinate is correctly rounded; with random
 //         ones, within 2^-52. All are below 1. Any b_1^m1 * ... * b_d^md consecutive points meet
 //         every box of that grid exactly once, also those of a leaped sequence. Under random and

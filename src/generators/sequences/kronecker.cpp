@@ -9,12 +9,12 @@
 //
 // Shape   n x d; indices below 2^53.
 // Cost    O(n d): an addition of two words a coordinate.
-// Promise all arithmetic is in whole numbers of 127 bits, modulo 1: a coordinate is the first 53
-//         bits of frac(offset + i alpha_k), at any index. A given alpha is the double that it reads
-//         as. Those of R_d are within d 2^-126, so that a point i is within i d 2^-126 + 2^-53;
-//         square roots of primes within 2^-100.
-// Beware  R_d is a conjecture beyond d = 1; no bound of its discrepancy is known. M. Roberts adds
-//         the offset 0.5 and begins with i = 1.
+// Promise all arithmetic is in integers of 127 bits, modulo 1: a coordinate is the first 53 bits of
+//         frac(offset + i alpha_k), at any index. A given alpha is rounded to a double. Those of
+//         R_d are within d 2^-126, so that point i is within i d 2^-126 + 2^-53; square roots of
+//         primes are within 2^-100.
+// Beware  beyond d = 1, that R_d is good is a conjecture; no bound of its discrepancy is known.
+//         M. Roberts adds the offset 0.5 and begins with i = 1.
 // Source  M. Roberts, "The unreasonable effectiveness of quasirandom sequences" (2018),
 //         extremelearning.com.au; for any alpha: L. Kuipers, H. Niederreiter, Uniform Distribution
 //         of Sequences, Wiley 1974.
@@ -47,7 +47,7 @@ constexpr Param<double> offset{.name = "offset",
                                .high = one_minus_ulp,
                                .help = "Every coordinate of point 0; 0.5 is M. Roberts' choice"};
 
-/// @param alphas and the offset in fractions of 127 bits
+/// @param alphas, begin fractions of 127 bits
 std::unique_ptr<Sequence> multiples(const std::vector<Wide>& alphas, Wide begin) {
     return sequence_of([=](std::uint64_t first, std::span<double> rows) {
         std::vector<Wide> point;
@@ -60,7 +60,7 @@ std::unique_ptr<Sequence> multiples(const std::vector<Wide>& alphas, Wide begin)
     });
 }
 
-/// The high half of the product of two fractions of 128 bits.
+/// High half of the product of two fractions of 128 bits.
 Wide times(Wide a, Wide b) {
     const Wide a1 = a >> 64;
     const Wide b1 = b >> 64;
@@ -82,19 +82,19 @@ Wide power(Wide base, std::size_t exponent) {  // exponent >= 1
     return result;
 }
 
-/// The root g of g^d (1 + g) = 1 in 128 bits, bit by bit.
+/// Root g of g^d (1 + g) = 1 in 128 bits, bit by bit.
 Wide golden(std::size_t d) {
     Wide g = 0;
     for (int bit = 127; bit >= 0; --bit) {
         const Wide larger = g | Wide{1} << bit;
         const Wide first = power(larger, d);
-        const bool above = first + times(first, larger) < first;  // carried: 1 or more
+        const bool above = first + times(first, larger) < first;  // carry: 1 or more
         if (!above) g = larger;
     }
     return g;
 }
 
-/// frac(x) in 127 bits; what is behind them is cut off.
+/// frac(x) in 127 bits, truncated.
 Wide fraction(double x) {
     const double part = std::fmod(std::abs(x), 1.0);
     const double high = std::floor(std::ldexp(part, 64));
@@ -104,14 +104,14 @@ Wide fraction(double x) {
     return x < 0 ? -bits : bits;
 }
 
-/// The fraction of a whole number's square root: a double, and what it lacks.
+/// Fractional part of an integer's square root: that of a double, and the double's error.
 Wide fraction_of_root(std::uint64_t p) {
     const auto square = static_cast<double>(p);
     const double root = std::sqrt(square);
     return fraction(root) + fraction(-std::fma(root, root, -square) / (2 * root));
 }
 
-/// Formulas with commas between them. @throws Error(usage)
+/// Values of formulas that are separated by commas. @throws Error(usage)
 std::vector<double> numbers_of(std::string_view text) {
     std::vector<double> numbers;
     for (const auto part : split_formulas(text, ',')) {
@@ -127,7 +127,7 @@ bool is_preset(const std::string& text) {
     return text == "golden" || text == "square-roots" || text == "richtmyer";
 }
 
-/// What each coordinate adds, in 127 bits.
+/// Step of each coordinate, in 127 bits.
 std::vector<Wide> steps_of(const std::string& text, std::size_t dimension) {
     std::vector<Wide> steps;
     if (text == "golden") {
@@ -159,7 +159,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
     return multiples(steps, fraction(options[offset]));
 }
 
-/// Steps that are whole numbers over a power of 2 come back to the first point.
+/// Points repeat if all steps are multiples of a power of 1/2.
 std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
                                const Values& options) {
     Wide bits = 0;

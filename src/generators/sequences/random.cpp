@@ -11,9 +11,9 @@
 //     ranmar       x / 2^24, seed = 30082 ij + kl               0 to 31329 * 30082 - 1
 //     random       x / 2^31 of the C library's srandom(seed)    0 to 2^32 - 1; 0 is 1
 //
-// Cost     O(n d). philox and drand48 go to any index at once; the others walk there.
+// Cost     O(n d). philox and drand48 jump to any index; the others walk there.
 // Beware   the legacy engines repeat the numbers of old programs; they are not good ones. ranmar
-//          and random have so few bits that equal coordinates come often.
+//          and random have so few bits that equal coordinates are frequent.
 // Source   see core/rng.hpp and math/digital/legacy_engines.hpp; the C++ standard, [rand.predef].
 
 #include "core/rng.hpp"
@@ -31,7 +31,7 @@ constexpr Param<Choice> engine{
         "Engine; all but philox are legacy ones, and these are sequential (one thread; --start "
         "and --shard walk to their place) except for drand48"};
 
-/// The numbers of an engine that only goes on.
+/// Sequence of an engine that can only move forward.
 template <class Engine>
 std::unique_ptr<Sequence> sequential(const Plan& plan) {
     const Engine seeded(plan.seed);

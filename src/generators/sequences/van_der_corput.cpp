@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Van der Corput sequence in base b: the digits of i, reversed behind the point,
+// Van der Corput sequence in base b: the digits of i, mirrored at the radix point,
 //
 //     phi_b(i) = sum_j a_j b^(-j-1)    where    i = sum_j a_j b^j,  0 <= a_j < b.
 //
