@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// Fast component-by-component construction. With p_i, the product of the components so far, the
-// next component z has the least
+// Fast component-by-component construction. Let p_i be the product over the components so far. The
+// next component z minimises
 //
 //     E(z) = sum_i p_i omega(i z / n).
 //
-// The i that have gcd(i, n) = n / e are n / e times the units modulo e, a group: a product of
-// cyclic ones. There, with i and z written as powers of its generators, the sum is a correlation,
-// which a Fourier transform of several dimensions gives for all z at once (Rader's permutation,
-// divisor by divisor).
+// The i with gcd(i, n) = n / e are n / e times the units modulo e, a group that is a product of
+// cyclic ones. With i and z written as powers of its generators, the sum is a correlation, which a
+// Fourier transform of several dimensions gives for all z at once (Rader's permutation, divisor by
+// divisor).
 //
 // Cost     O(d n log n + d n t) for n with t divisors; 60 n bytes.
-// Promise  the same vector on every machine, also in high dimensions, where the products lose a
-//          common power of two before they overflow (component_search.hpp).
+// Promise  the same vector on every machine, also in high dimensions, where a common power of two
+//          is taken out of the products before they overflow (component_search.hpp).
 // Source   D. Nuyens, R. Cools, Math. Comp. 75 (2006) 903-920, doi:10.1090/S0025-5718-06-01785-6
 //          (n prime); J. Complexity 22 (2006) 4-28, doi:10.1016/j.jco.2005.07.002 (any n).
 #include "generators/lattices/component_by_component.hpp"
@@ -35,7 +35,7 @@ namespace {
 constexpr double two_pi_squared = 2 * std::numbers::pi * std::numbers::pi;
 constexpr std::size_t block = 1024;
 
-/// omega(i z / n) of consecutive i, whole numbers up to 2^24; the same bits for i and n - i.
+/// omega(i z / n) for integers i and z up to 2^24; the same bits for i and n - i.
 struct Omega {
     double n;
     double inverse = 1 / n;
@@ -92,7 +92,7 @@ std::vector<PrimePower> factors(std::uint64_t n) {
     return found;
 }
 
-/// A generator of a cyclic group of units, and the number of its powers.
+/// Generator of a cyclic group of units, and the number of its powers.
 struct Cycle {
     std::uint64_t generator;
     std::uint64_t order;
@@ -108,7 +108,7 @@ std::uint64_t primitive_root(const PrimePower& odd, std::uint64_t order) {
     }
 }
 
-/// The cyclic groups whose product the units modulo a prime power are.
+/// Cyclic groups whose product is the group of units modulo a prime power.
 std::vector<Cycle> cycles_of(const PrimePower& q) {
     if (q.power == 2) return {};
     if (q.power == 4) return {{3, 2}};
@@ -117,7 +117,7 @@ std::vector<Cycle> cycles_of(const PrimePower& q) {
     return {{primitive_root(q, order), order}};
 }
 
-/// The units modulo e, in the order of the exponents of their generators, the last one fastest.
+/// Units modulo e, in the order of the exponents of their generators, the last one fastest.
 struct Units {
     std::uint64_t modulus;
     std::vector<int> shape;
@@ -131,7 +131,7 @@ struct Units {
     }
 
   private:
-    /// The number that is g modulo q, and 1 modulo the rest of the modulus.
+    /// Number that is g modulo q, and 1 modulo modulus / q.
     [[nodiscard]] std::uint64_t lift(std::uint64_t g, std::uint64_t q) const {
         const std::uint64_t rest = modulus / q;
         std::uint64_t number = 1;
@@ -150,7 +150,7 @@ struct Units {
     }
 };
 
-/// The part of E that comes from the i with gcd(i, n) = n / e.
+/// Part of E from the i with gcd(i, n) = n / e.
 class Part {
   public:
     Part(std::uint64_t n, std::uint64_t e) : units_(e), step_(n / e), correlation_(units_.shape) {
@@ -160,7 +160,8 @@ class Part {
         correlation_.take_kernel();
     }
 
-    /// Adds to total[z], z = 0, 1, ..., this part of E(z), up to a constant; z prime to n.
+    /// Adds this part of E(z), up to a constant, to total[z] for z = 0, 1, ...; it is right for z
+    /// prime to n.
     void add(std::span<const double> p, std::vector<double>& total) {
         gather(p);
         correlation_.correlate();
@@ -174,7 +175,7 @@ class Part {
     }
 
   private:
-    /// The products without their mean, which cannot change the choice.
+    /// Collects the products without their mean, which does not affect the choice.
     void gather(std::span<const double> p) {
         const std::span<double> line = correlation_.values();
         double sum = 0;
@@ -296,7 +297,8 @@ std::uint64_t korobov_multiplier(std::uint64_t n, std::span<const double> weight
     double least = std::numeric_limits<double>::infinity();
     for (std::uint64_t t = 0; t < tries; ++t) {
         search_tick(run, t, tries);
-        // Multiples of the golden ratio spread over the range; every number, where there is time.
+        // Multiples of the golden ratio spread over the range; all numbers are tried if there is
+        // time.
         const std::uint64_t turn = t * 0x9E3779B97F4A7C15;
         std::uint64_t a =
             1 + (tries == range ? t : static_cast<std::uint64_t>(Wide{turn} * range >> 64));

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// What the searches for a generating vector, component by component, have in common. With p, the
-// product of the components so far, the next component z has the least
+// Common parts of the searches for a generating vector, component by component. Let p be the
+// product over the components so far. The next component z minimises
 //
 //     E(z) = sum_a p_a kernel[a + b],    a and b exponents of the points' number and of z
 //
 // in a product of cyclic groups: a correlation, which Fourier transforms give for all z at once.
-// They round differently on different machines, so they only nominate: candidates that rounding may
+// These round differently on different machines, so they only nominate candidates: all that may be
+// the best but for rounding are compared by plain sums in a fixed order.
 // have kept from being the best are compared by plain sums in a fixed order.
 #pragma once
 
@@ -24,34 +25,34 @@
 
 namespace stipple {
 
-/// As run.tick, up to 0.99: the making of points, which comes after a search, takes the rest.
+/// Checks for a stop, and reports progress up to 0.99: making the points takes the rest.
 void search_tick(const RunContext& run, std::uint64_t done, std::uint64_t total);
 
-/// Correlation with one kernel, by transforms in place.
+/// Correlation with a fixed kernel, by transforms in place.
 class CyclicCorrelation {
   public:
-    /// @param shape orders of the groups; of a function's values those are neighbours whose
-    /// exponents differ in the last
+    /// @param shape orders of the groups; values whose exponents differ by 1 in the last group are
+    /// adjacent
     explicit CyclicCorrelation(const std::vector<int>& shape);
 
     [[nodiscard]] std::span<double> values() { return {values_.get(), size_}; }
 
-    /// Makes the values the kernel.
+    /// Makes the present values the kernel.
     void take_kernel();
 
-    /// values[b] = sum over a of values[a] kernel[a + b], but for rounding.
+    /// values[b] = sum over a of values[a] kernel[a + b], up to rounding.
     void correlate();
 
   private:
     std::size_t size_ = 1;
-    std::size_t halves_ = 1;  ///< complex numbers of a real function's spectrum
+    std::size_t halves_ = 1;  ///< number of complex values in a spectrum
     GridCells values_;
     GridCells spectrum_;
     GridCells kernel_;
     std::optional<GroupTransform> transform_;
 };
 
-/// The products p of the components so far, up to a common factor, which changes no choice.
+/// Products p over the components so far, up to a common factor, which does not affect choices.
 class Products {
   public:
     explicit Products(std::size_t count) : p_(count, 1.0) {}
@@ -64,18 +65,18 @@ class Products {
 
     [[nodiscard]] double mean() const;
 
-    /// More than transforms of p - mean, and sums of its products with the kernel, are wrong by:
-    /// they round relatively to the norms.
+    /// Bound of the errors of transforms of p - mean, and of sums of its products with the kernel:
+    /// rounding is relative to their norms.
     [[nodiscard]] double rounding(double kernel_norm) const;
 
   private:
     std::vector<double> p_;
 };
 
-/// The first component of those that are the best but for rounding.
-/// @param nearly E of the candidates 0 to end - 1, wrong by less than half the margin; infinite for
-/// what is none
-/// @param exact E by a plain sum, wrong by less than half the tie
+/// First of the components that are best up to rounding.
+/// @param end number of candidates, 0 to end - 1
+/// @param nearly E of a candidate, with an error below margin / 2; infinite to exclude it
+/// @param exact E by a plain sum, with an error below tie / 2
 template <class Nearly, class Exact>
 std::uint64_t best_component(std::uint64_t end, const Nearly& nearly, double margin,
                              const Exact& exact, double tie) {
@@ -93,7 +94,7 @@ std::uint64_t best_component(std::uint64_t end, const Nearly& nearly, double mar
     return nominees[static_cast<std::size_t>(first - errors.begin())];
 }
 
-/// Makes E infinite for the candidates that the vector has more often than others, since equal
+/// Excludes candidates that the vector has more often than others, by an infinite E: equal
 /// components make equal coordinates.
 inline void leave_out(std::span<const std::uint64_t> vector, std::vector<double>& error) {
     constexpr double never = std::numeric_limits<double>::infinity();
@@ -107,7 +108,7 @@ inline void leave_out(std::span<const std::uint64_t> vector, std::vector<double>
         if (uses[z] > least) error[z] = never;
 }
 
-/// The vector that grows from 1, one component a weight.
+/// Vector that grows from 1 to one component per weight.
 /// @param search has multiply_by(component, weight) and next(vector so far)
 template <class Search>
 std::vector<std::uint64_t> grow_vector(Search&& search, std::span<const double> weights,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Hexagonal (triangular) lattice in the unit square or in a box, of exactly n points: the lattice
-// of n points whose smallest distance on the torus (opposite edges joined) is the largest that a
-// lattice of n points has. Points that form no lattice may be farther apart: those of n = 3, 4, 6,
-// 7 and 8 can in the square.
+// Hexagonal (triangular) lattice of exactly n points in the unit square or in a box: of all
+// lattices of n points the one with the largest minimum distance on the torus (opposite edges
+// joined). Points that do not form a lattice may be farther apart: in the square this is so for
+// n = 3, 4, 6, 7 and 8.
 //
-// The square torus lets no lattice be perfectly hexagonal, which would have the smallest
-// distance sqrt(2 / (sqrt(3) n)). By how much less the one here has, depends on n: by 24 % for
+// No lattice of the square torus is perfectly hexagonal, which would give the minimum distance
+// sqrt(2 / (sqrt(3) n)). The distance here is smaller by a fraction that depends on n: 24 % for
 // n = 3, on average 6 % below 100 points and 2 % below 1000, and at most 7.3 % from 100 points on,
 // 3.2 % from 2000, 0.4 % from 10^5; always less than 2.1 / sqrt(n). Rows of the lattice are not
 // along the axes in general.
@@ -35,7 +35,7 @@ TorusPacking packing_of(const Plan& plan) {
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values&, const RunContext&) {
     const TorusPacking packing = packing_of(plan);
-    const std::uint64_t gap = plan.count / packing.row_points;  // of neighbours in a row, over n
+    const std::uint64_t gap = plan.count / packing.row_points;  // of neighbours in a row, in 1/n
     return sequence_of([packing, gap, box = plan.bounds, n = static_cast<double>(plan.count)](
                            std::uint64_t first, std::span<double> rows) {
         std::uint64_t row = first / packing.row_points;

@@ -14,7 +14,7 @@
 namespace stipple {
 namespace {
 
-/// Takes what stands before the vector, which tells how long that is.
+/// Reads the lines before the vector; returns the length of the vector.
 std::size_t read_header(TokenFile& file, bool polynomial, VectorFile& found) {
     const auto take = [&](std::string_view what, std::uint64_t low, std::uint64_t high) {
         const std::uint64_t value = file.number(what, low, high);
@@ -50,7 +50,7 @@ VectorFile vector_in_file(const Values& options, bool polynomial) {
     if (polynomial ? of_numbers : of_polynomials)
         file.refuse_whole(polynomial ? "a lattice of whole numbers, which rank1-lattice reads"
                                      : "a polynomial lattice, which polynomial-lattice reads");
-    std::size_t wanted = 0;  // 0: all that there are
+    std::size_t wanted = 0;  // 0: not known
     if (of_polynomials || of_numbers) wanted = read_header(file, polynomial, found);
     std::optional<bool> numbered;
     while (!file.at_end()) {
@@ -139,7 +139,7 @@ std::vector<std::uint64_t> given_components(const Values& options, const VectorF
 
 std::vector<double> weights_of(const Values& options, std::size_t dimension) {
     std::vector<double> found = options[product_weights];
-    // By divisions, which round alike everywhere; the library's pow need not.
+    // Divisions round the same way everywhere; pow() need not.
     for (std::size_t j = 1; !options.given(product_weights) && j <= dimension; ++j) {
         found.push_back(1);
         for (std::int64_t e = 0; e < options[weight_decay]; ++e)

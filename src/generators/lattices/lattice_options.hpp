@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the lattices' options have in common: components of a vector, given or from a file, and the
-// weights of coordinates in the search for one, which decay like a power, or are given one by one.
+// Common options of the lattices: components of a vector, given or from a file, and weights of the
+// coordinates in the search for one, which decay like a power or are given one by one.
 #pragma once
 
 #include <cstddef>
@@ -41,37 +41,39 @@ inline constexpr Param<Choice> vector_format{
         "Form of --vector-output: that of LDData (the default), or of LatNet Builder; "
         "--vector-file reads both"};
 
-/// What a file says of a lattice.
+/// Contents of a file with a lattice.
 struct VectorFile {
     std::vector<std::uint64_t> vector;
-    std::uint64_t points = 0;    ///< 0: it does not say
-    std::size_t interlaced = 1;  ///< components whose digits make a coordinate
-    std::uint64_t modulus = 0;   ///< of a polynomial lattice in base 2; 0: it is none
+    std::uint64_t points = 0;    ///< 0: not in the file
+    std::size_t interlaced = 1;  ///< number of components whose digits make a coordinate
+    std::uint64_t modulus = 0;   ///< of a polynomial lattice in base 2; 0: of another one
 };
 
-/// The file that the options name; nothing where they name none. Reads plain vectors, `# lattice`
-/// and `# plattice` of LDData, and LatNet Builder's `# Parameters for a lattice rule` and `... a
-/// polynomial lattice rule`, by what they say of themselves before the numbers.
+/// Contents of the file in --vector-file; empty without it. Reads plain vectors,
+/// `# lattice` and `# plattice` of LDData, and LatNet Builder's `# Parameters for a lattice rule`
+/// and `... a polynomial lattice rule`, which differ by their first lines.
 /// @throws Error(input) naming file, line and column, also for a lattice of the other kind
 /// Source  github.com/QMCSoftware/LDData, README.md
 VectorFile vector_in_file(const Values& options, bool polynomial);
 
-/// The file that --vector-output asks for; none where it does not.
+/// File that --vector-output asks for; empty without it.
 std::vector<SideFile> vector_files(const Values& options, const VectorFile& lattice);
 
-/// Refuses both at once, and either where nothing is searched. @throws Error(usage)
-/// @param searching the rules that search, as a message names them
-/// @param rule the one at hand
+/// Rejects --weights together with --decay, and either of them if nothing is searched.
+/// @param searching the rules that search, as named in messages
+/// @param rule the present rule
+/// @throws Error(usage)
 void check_weights(const Values& options, bool searches, std::string_view searching,
                    std::string_view rule);
 
-/// The first components of a vector that an option gives, or a file. @throws Error(usage): too few,
-/// or one that is no whole number from `least` to `most`, which messages call `range`.
+/// First components of the vector that an option or a file gives.
+/// @throws Error(usage) if they are too few, or one is not an integer from `least` to `most`, in
+/// messages `range`
 std::vector<std::uint64_t> given_components(const Values& options, const VectorFile& file,
                                             const Param<Numbers>& vector, std::size_t dimension,
                                             double least, double most, std::string_view range);
 
-/// The weights of the first coordinates. @throws Error(usage): too few, or not in (0, 10^6].
+/// Weights of the first coordinates. @throws Error(usage) if they are too few, or not in (0, 10^6]
 std::vector<double> weights_of(const Values& options, std::size_t dimension);
 
 }  // namespace stipple

@@ -6,12 +6,12 @@
 //     x_k = sum_(r = 1)^m u_r 2^-r    where    u_1 x^-1 + u_2 x^-2 + ... = i(x) q_k(x) / p(x),
 //     i(x) = sum_j i_j x^j,           up to a polynomial:
 //
-// a digital net, with the matrices of u_(r + j + 1) of q_k / p in row r and column j. Polynomials
-// are written as the whole numbers that they are at x = 2; x^3 + x + 1 is 11. The vector is given,
-// or found component by component, each making the worst-case error (polynomial_search.hpp) least.
+// a digital net, whose matrices have u_(r + j + 1) of q_k / p in row r and column j. Polynomials
+// are written as their values at x = 2; x^3 + x + 1 is 11. The vector is given, or found component
+// by component, each minimising the worst-case error (polynomial_search.hpp).
 //
 // Shape   n x d; without a modulus, p is the smallest irreducible one with 2^m >= n. n <= 2^52, and
-//         n <= 2^22 where the vector is searched.
+//         n <= 2^22 if the vector is searched.
 // Cost    O(n d), half a nanosecond a coordinate. cbc: 6 s at n = 2^20, d = 100, and up to five
 //         times as long a point where 2^m - 1 is a prime, as for m = 13, 17, 19.
 // Promise unscrambled coordinates are exact multiples of 2^-m. All 2^m points are closed under XOR

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Fast component-by-component construction. With p_i, the product of the components so far, the
-// next component q has the least
+// Fast component-by-component construction. Let p_i be the product over the components so far. The
+// next component q minimises
 //
 //     E(q) = sum_i p_i omega((i q mod modulus) / modulus).
 //
-// The polynomials i and q other than 0 are the powers of one of them, since they are the units of a
-// field, so with i = g^a and q = g^b the sum is a correlation in a and b, which a Fourier transform
-// gives for all q at once.
+// All polynomials i and q except 0 are powers of one of them, as they are the units of a field.
+// With i = g^a and q = g^b the sum is a correlation in a and b, which a Fourier transform gives for
+// all q at once.
 //
 // Cost     O(d n log n) time, 60 n bytes.
 // Promise  the same vector on every machine (component_search.hpp).
@@ -76,7 +76,7 @@ class Search {
     }
 
   private:
-    /// omega of unit a times q for a = 0, 1, ...
+    /// omega of the product of unit a and q, for a = 0, 1, ...
     [[nodiscard]] const double* kernel_from(std::uint64_t q) const {
         return kernel_.data() + exponents_[q];
     }
@@ -92,10 +92,10 @@ class Search {
 
     const RunContext& run_;
     std::vector<std::uint32_t> units_;      ///< powers of a generator
-    std::vector<std::uint32_t> exponents_;  ///< of every unit
+    std::vector<std::uint32_t> exponents_;  ///< of each unit
     CyclicCorrelation correlation_;
-    Products products_;           ///< p of every power
-    std::vector<double> kernel_;  ///< omega of every power, twice around
+    Products products_;           ///< p by exponent
+    std::vector<double> kernel_;  ///< omega by exponent, twice around
     double kernel_norm_ = 0;
 };
 
@@ -109,7 +109,7 @@ double squared_polynomial_error(std::uint64_t modulus, std::span<const std::uint
                                 std::span<const double> weights) {
     const int m = gf2::degree(modulus);
     const auto digits = static_cast<std::size_t>(m);
-    std::vector<double> kernel{omega(0, m)};  // of polynomials of degree j - 1
+    std::vector<double> kernel{omega(0, m)};  // of 0, then of polynomials of degree j - 1
     for (int j = 0; j < m; ++j) kernel.push_back(omega(std::uint64_t{1} << j, m));
     std::vector<std::uint64_t> shifted;  // q x^t mod modulus for each component
     for (std::uint64_t q : vector)
@@ -117,7 +117,7 @@ double squared_polynomial_error(std::uint64_t modulus, std::span<const std::uint
             shifted.push_back(q);
             q = q << 1 ^ ((q >> (m - 1) & 1) != 0 ? modulus : 0);
         }
-    std::vector<std::uint64_t> at(vector.size());  // i q mod modulus, i in the order of Gray's code
+    std::vector<std::uint64_t> at(vector.size());  // i q mod modulus, i in Gray code order
     double sum = 0;
     for (std::uint64_t i = 0; i < std::uint64_t{1} << m; ++i) {
         double product = 1;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// How good a polynomial lattice in base 2 is, and the search for good ones.
+// Worst-case error of polynomial lattices in base 2, and the search for lattices with a small one.
 //
-// Digitally shifted at random, its n = 2^m points integrate functions of the weighted, unanchored
-// Sobolev space of square-integrable mixed first derivatives with a worst-case error whose square
-// has the mean
+// For n = 2^m points with a random digital shift, the worst-case error of integration in the
+// weighted, unanchored Sobolev space of square-integrable mixed first derivatives has the mean
+// square
 //
 //     e^2 = -1 + 1/n sum_i prod_k (1 + weight_k omega(x_ik)),
 //     omega(x) = 1/6 - 2^(floor(log2 x) - 1),    omega(0) = 1/6.
@@ -24,20 +24,20 @@
 
 namespace stipple {
 
-/// Degree of the modulus up to which vectors are searched.
+/// Largest degree of the modulus for which vectors are searched.
 inline constexpr int largest_searched_degree = 22;
 
-/// omega of a coordinate.
+/// omega of a coordinate, as above.
 double digital_shift_kernel(double x);
 
-/// The mean square of the worst-case errors of all digitally shifted copies of a polynomial lattice of
-/// all 2^deg(modulus) points, in the space that the weights make.
+/// Mean square of the worst-case errors of all digital shifts of a polynomial lattice of all
+/// 2^deg(modulus) points, in the space with these weights.
 double squared_polynomial_error(std::uint64_t modulus, std::span<const std::uint64_t> vector,
                                 std::span<const double> weights);
 
-/// The vector that grows from 1 by the component with the least e^2; of those that are equally good
-/// but for rounding, by the smallest number. One component a weight. The modulus is irreducible, of
-/// degree 1 to largest_searched_degree.
+/// Vector that begins with 1 and grows by the component with the least e^2; of those that are
+/// equally good up to rounding, by the smallest number. There is one component per weight. The
+/// modulus must be irreducible, of degree 1 to largest_searched_degree.
 std::vector<std::uint64_t> polynomial_components(std::uint64_t modulus,
                                                  std::span<const double> weights,
                                                  const RunContext& run);

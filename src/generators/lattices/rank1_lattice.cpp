@@ -6,16 +6,16 @@
 //
 // The vector comes by one of four rules:
 //
-//     cbc        component by component, each making the worst-case error in the weighted Korobov
-//                space of smoothness 2 (component_by_component.hpp) least, no two being the same
+//     cbc        component by component, each minimising the worst-case error in the weighted
+//                Korobov space of smoothness 2 (component_by_component.hpp), no two being the same
 //                as long as there are others, then no three;
 //     korobov    (1, a, a^2, ...) mod n with a given multiplier a, or the best in that space;
-//     fibonacci  (1, F_(k-1)) for n = F_k, the best there are in two dimensions;
+//     fibonacci  (1, F_(k-1)) for n = F_k, the best vector in two dimensions;
 //     vector     given.
 //
 // The weights of the coordinates are given or are j^-decay.
 //
-// Shape   n x d; n <= 2^53, and n <= 2^24 where a rule searches. fibonacci: d <= 2.
+// Shape   n x d; n <= 2^53, and n <= 2^24 if a rule searches. fibonacci: d <= 2.
 // Cost    O(n d), one division a coordinate. cbc: 3 s at n = 2^20, d = 100; 7 s at the prime below.
 // Promise every coordinate is correctly rounded, and below 1. The points are closed under addition
 //         modulo 1. A rule gives the same vector on every machine.
@@ -66,11 +66,12 @@ constexpr Param<double> effort{
 constexpr Param<Numbers> vector{{.name = "vector",
                                  .help = "Generating vector, such as 1,182667,469891; gives the "
                                          "dimension, or more numbers than that"}};
-/// Numbers that are stepped side by side, a few points: none waits for the one before it.
+/// Numbers that are updated side by side, those of a few points, so that none waits for the one
+/// before.
 constexpr std::size_t some_numbers = 64;
 
-/// x = residues / n, and on by the step; all numbers are whole and at most 2^53, so that only the
-/// division rounds.
+/// Sets x = residues / n, and advances the residues by the step. All numbers are integers up to
+/// 2^53, so only the division rounds.
 /// @param back n - step
 STIPPLE_WIDE void advance(const double* back, double n, std::size_t count, double* residues,
                           double* x) {
@@ -86,12 +87,12 @@ double multiple(std::uint64_t i, std::uint64_t z, std::uint64_t n) {
     return static_cast<double>(static_cast<std::uint64_t>(Wide{i} * z % n));
 }
 
-/// Whether the rule korobov has a multiplier to search.
+/// Whether the rule korobov has to search a multiplier.
 bool searches_multiplier(const std::string& chosen, const Values& options) {
     return chosen == "korobov" && !options.given(multiplier);
 }
 
-/// Multipliers that are tried, at least one.
+/// Number of multipliers to try, at least one.
 std::uint64_t tries_of(const Plan& plan, const Values& options) {
     constexpr double coordinates_a_second = 0x1p29;
     const double size = static_cast<double>(plan.count) * static_cast<double>(plan.dimension);
@@ -99,7 +100,7 @@ std::uint64_t tries_of(const Plan& plan, const Values& options) {
     return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(tries));
 }
 
-/// The rule that the options mean together.
+/// Rule that follows from all options.
 std::string rule_of(const Values& options) {
     if (options.given(rule)) return options[rule];
     if (options.given(vector) || options.given(vector_file)) return "vector";
@@ -123,7 +124,7 @@ void refuse_contradictions(const Values& options, const std::string& chosen) {
              "--rule: vector needs its vector, by one of --vector and --vector-file");
 }
 
-/// The k with n = F_k, as its neighbour F_(k-1). @throws Error(usage)
+/// F_(k-1) for n = F_k. @throws Error(usage) if n is not a Fibonacci number
 std::uint64_t fibonacci_before(std::uint64_t n) {
     std::uint64_t below = 1;
     std::uint64_t above = 1;
@@ -185,8 +186,8 @@ std::vector<std::uint64_t> vector_of(const Plan& plan, const Values& options,
 /// Points i z / n modulo 1.
 Sequence::Fill multiples(std::uint64_t n, const std::vector<std::uint64_t>& z) {
     const std::size_t d = z.size();
-    const std::size_t points = (some_numbers + d - 1) / d;  // made at once
-    std::vector<double> back;  // n - (points z mod n), for each number of these
+    const std::size_t points = (some_numbers + d - 1) / d;  // made at a time
+    std::vector<double> back;  // n - (points z mod n), for each of their numbers
     for (std::size_t m = 0; m < points * d; ++m)
         back.push_back(static_cast<double>(n) - multiple(points, z[m % d], n));
     return [=](std::uint64_t first, std::span<double> rows) {
@@ -199,7 +200,7 @@ Sequence::Fill multiples(std::uint64_t n, const std::vector<std::uint64_t>& z) {
     };
 }
 
-/// Warns of coordinates that are the same in all points.
+/// Notes coordinates that are the same in all points.
 void note_repeated(std::span<const std::uint64_t> z, std::uint64_t n, const RunContext& run) {
     std::unordered_map<std::uint64_t, std::size_t> seen;
     std::string first;
