@@ -5,21 +5,21 @@
 //
 //     x = sum_r y_r b^(-r-1)    where    y = C_k a  mod b.
 //
-// For nets of higher order, the digits of alpha coordinates are interlaced to one: the first digit
-// of each, then the second of each, and so on.
+// For nets of higher order, the digits of alpha coordinates are interlaced into one: the first
+// digit of each, then the second of each, and so on.
 //
-// The layouts of files; `#` opens a comment, anywhere:
+// Layouts of files; `#` starts a comment, anywhere:
 //
 //     dnet      first line `# dnet`, then four numbers: base b, number s of matrices, their columns
-//               k (or the number of points, b^k), and rows r; then a line a matrix: its k columns
-//               as whole numbers below b^r, in whose base b digits the first row is the most
-//               significant (the format of LDData; LatNet Builder's has another title, and
-//               no base, which is 2);
+//               k (or the number of points, b^k), and rows r; then a line for each matrix: its k
+//               columns as integers below b^r, whose most significant digit in base b is the first
+//               row (the format of LDData; LatNet Builder's has another title, and no base, which
+//               is 2);
 //     dnetup    the same, `# dnetup`, with the first row the least significant;
 //     digits    the same four numbers after `# digits`; then s r lines of k digits, matrix after
 //               matrix, row after row;
-//     columns   no first line and no numbers, base 2, a line a matrix, as in dnetup (the files
-//               *.col of the Magic Point Shop);
+//     columns   no first line and no numbers, base 2, a line for each matrix, as in dnetup (the
+//               files *.col of the Magic Point Shop);
 //     rows      no first line and no numbers, square matrices as in digits (the files of
 //               MatBuilder).
 //
@@ -33,8 +33,8 @@
 //     4 6 5
 //
 // Shape   n x d for s >= alpha d matrices of m columns; i < b^m and i < 2^53.
-// Cost    O(n d); base 2: half a nanosecond a coordinate; others: five to ten. Scrambled nested in
-//         other bases, up to two microseconds where matrices are not triangular.
+// Cost    O(n d); base 2: half a nanosecond a coordinate; others: five to ten. Nested scrambling in
+//         other bases takes up to two microseconds if matrices are not triangular.
 // Promise every coordinate is correctly rounded from its first r digits, b^r <= 2^50 or, in base 2,
 //         r = 53; and below 1.
 // Source  H. Niederreiter, Random Number Generation and Quasi-Monte Carlo Methods, SIAM 1992,
@@ -97,7 +97,7 @@ constexpr Param<std::int64_t> interlacing{
 struct MatrixFile {
     std::uint32_t base = 2;
     std::vector<DigitMatrix> matrices;
-    std::size_t interlaced = 1;  ///< as the file says, or as the options do
+    std::size_t interlaced = 1;  ///< factor, from the file or the options
 };
 
 constexpr std::size_t most_columns = 64;
@@ -112,7 +112,7 @@ struct Header {
     std::size_t interlaced = 1;
 };
 
-/// Of LatNet Builder's nets, which do not say their base.
+/// Title of LatNet Builder's nets, which do not contain their base.
 constexpr std::string_view latnet_title = "# Parameters for a digital net in base 2";
 
 std::string layout_of(const TokenFile& file, std::string_view wanted) {
@@ -156,7 +156,7 @@ Header read_header(TokenFile& file) {
     return header;
 }
 
-/// The numbers of a line, `count` of them or, for 0, all there are.
+/// Numbers of a line: `count` of them, or all if `count` is 0.
 std::vector<std::uint64_t> read_line(TokenFile& file, std::string_view what, std::size_t count,
                                      std::uint64_t high) {
     std::vector<std::uint64_t> line{file.number(what, 0, high)};
@@ -166,7 +166,7 @@ std::vector<std::uint64_t> read_line(TokenFile& file, std::string_view what, std
     return line;
 }
 
-/// The matrix of columns that are whole numbers; `up`: the first row is the least significant.
+/// Matrix with columns given as integers; `up`: the first row is their least significant digit.
 DigitMatrix of_columns(const std::vector<std::uint64_t>& columns, std::uint32_t base,
                        std::size_t rows, bool up) {
     DigitMatrix matrix(rows, columns.size());
@@ -178,7 +178,7 @@ DigitMatrix of_columns(const std::vector<std::uint64_t>& columns, std::uint32_t 
     return matrix;
 }
 
-/// `line` is the first row, which is there already.
+/// Matrix whose first row, `line`, has been read before.
 DigitMatrix of_rows(TokenFile& file, std::vector<std::uint64_t> line, std::uint32_t base,
                     std::size_t rows) {
     DigitMatrix matrix(rows, line.size());
@@ -190,7 +190,7 @@ DigitMatrix of_rows(TokenFile& file, std::vector<std::uint64_t> line, std::uint3
     }
 }
 
-/// base^rows - 1; 0 where that is beyond 64 bits.
+/// base^rows - 1; 0 if that exceeds 64 bits.
 std::uint64_t largest_column(const Header& header) {
     const std::uint64_t power = saturating_power(header.base, header.rows - 1);
     if (power - 1 > (~std::uint64_t{0} - (header.base - 1)) / header.base) return 0;
@@ -246,7 +246,7 @@ MatrixFile of_bare_rows(TokenFile& file, std::uint32_t base) {
     return found;
 }
 
-/// @param base of the layout `rows`
+/// @param base for the layout `rows`
 MatrixFile read_matrices(TokenFile& file, std::string_view wanted, std::uint32_t base) {
     if (file.at_end()) file.refuse_whole("no matrix; expected generating matrices");
     const std::string layout = layout_of(file, wanted);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Niederreiter sequence in a prime base b: a digital sequence in which digit j of coordinate k,
-// behind the point, is
+// after the radix point, is
 //
 //     sum_r i_r v_(r + u),    j = e Q + u,  0 <= u < e,    i = sum_r i_r b^r,
 //
@@ -34,7 +34,7 @@ constexpr Param<std::int64_t> base_option{.name = "base",
                                           .high = BaseNet::largest_base,
                                           .help = "Base of the digits, a prime"};
 
-/// Over the integers modulo a prime; coefficients, the constant first, the leading one 1.
+/// Polynomial over the integers modulo a prime: its coefficients, the constant first, 1 last.
 using Polynomial = std::vector<std::uint32_t>;
 
 /// The monic polynomial whose lower coefficients are the digits of `number`.
@@ -57,7 +57,7 @@ bool divides(const Polynomial& divisor, Polynomial rest, std::uint64_t base) {
     return std::ranges::all_of(rest, [](std::uint32_t c) { return c == 0; });
 }
 
-/// Whether no polynomial of lower degree divides p; `smaller` has all irreducible ones of those.
+/// Whether p is irreducible; `smaller` has all irreducible polynomials of lower degrees.
 bool is_irreducible(const Polynomial& p, const std::vector<Polynomial>& smaller,
                     std::uint32_t base) {
     for (const Polynomial& q : smaller) {
@@ -67,7 +67,7 @@ bool is_irreducible(const Polynomial& p, const std::vector<Polynomial>& smaller,
     return true;
 }
 
-/// The first irreducible polynomials, by degree and then in the order of their digits' numbers.
+/// First irreducible polynomials, by degree and then by the number that their lower digits form.
 std::vector<Polynomial> irreducible_polynomials(std::size_t count, std::uint32_t base) {
     std::vector<Polynomial> found;
     for (std::size_t degree = 1; found.size() < count; ++degree) {
@@ -89,7 +89,7 @@ Polynomial product(const Polynomial& a, const Polynomial& b, std::uint64_t base)
     return result;
 }
 
-/// v_0, ..., v_(length-1) by the recurrence of `power`, from `zeros` zeros and ones after them.
+/// v_0, ..., v_(length-1) by the recurrence of `power`, starting with `zeros` zeros, then ones.
 std::vector<std::uint32_t> recurrence(const Polynomial& power, std::size_t zeros,
                                       std::size_t length, std::uint64_t base) {
     const std::size_t m = power.size() - 1;
@@ -103,7 +103,8 @@ std::vector<std::uint32_t> recurrence(const Polynomial& power, std::size_t zeros
     return v;
 }
 
-/// A fraction's digits: in base 2 more than a double has, for scrambling looks at all of them.
+/// Number of digits of a coordinate: in base 2 more than in a double, as scrambling uses all of
+/// them.
 std::size_t rows_in(std::uint32_t base) { return base == 2 ? 64 : net_digits(base); }
 
 DigitMatrix matrix_of(const Polynomial& p, std::uint32_t base) {

@@ -5,24 +5,23 @@
 //     the first 4^k points     hold one in each of the 2^k x 2^k squares,
 //     the first 2 4^k points   hold two in each of them, in opposite quarters of it,
 //
-// and for every m each of the 2^m strips along either axis holds one of the first 2^m points. So do
-// points j 2^m, ..., (j + 1) 2^m - 1 for every j. Other elementary intervals are left to chance:
-// that is how this differs from pmj02.
+// and for every m each of the 2^m strips along either axis holds one of the first 2^m points. The
+// same is true of points j 2^m, ..., (j + 1) 2^m - 1 for every j. Unlike in pmj02, other elementary
+// intervals are left to chance.
 //
-// Coordinate 0 of point i is the radical inverse of i, coordinate 1 a random binary matrix, another
-// one for every seed, times the digits of i; then both get nested uniform scrambling, which moves
-// elementary intervals onto each other. The promises are those of the matrix's minors: with r_m,
-// c_m for the first rows and the last of the first m columns, the r x r block of rows 1..r and
-// columns m-r+1..m is regular for r = m (strips) and for r = m/2 (squares), or both r = (m-1)/2 and
-// (m+1)/2 (opposite quarters) for odd m. Given the columns before, each of these conditions is that
-// one sum of the new column's entries is 1, and they do not contradict each other; the column is
-// drawn until they hold, 8 times on average at most.
+// Coordinate 0 of point i is the radical inverse of i; coordinate 1 is a random binary matrix,
+// another one for every seed, times the digits of i. Then both get nested uniform scrambling, which
+// permutes elementary intervals. The promises depend on minors of the matrix: for every m, the
+// block of rows 1..r and columns m-r+1..m is regular for r = m (strips) and for r = m/2 (squares),
+// or for odd m for both r = (m-1)/2 and (m+1)/2 (opposite quarters). Given the columns before, each
+// of these conditions is that one sum of the new column's entries is 1, and they do not contradict
+// each other. The column is drawn until they hold, at most 8 times on average.
 //
 // Shape   2 dimensions, indices below 2^53.
 // Cost    O(n), no memory beyond 4 kB; drawing the matrix takes a fraction of a millisecond.
 // Promise the above, for every seed.
-// Beware  the paper's points are drawn one by one in free strips; here later ones follow earlier
-//         ones by the matrix. Single points are uniform in the square all the same.
+// Beware  the paper's points are drawn one by one in free strips; here later ones follow from
+//         earlier ones by the matrix. Still, each single point is uniform in the square.
 // Source  P. Christensen, A. Kensler, C. Kilpatrick, Comput. Graph. Forum 37 (4) (2018) 21-33,
 //         doi:10.1111/cgf.13472 (what the points are); the construction is stipple's own, in the
 //         spirit of A. Helmer, P. Christensen, A. Kensler, EGSR (2021), doi:10.2312/sr.20211287.
@@ -40,7 +39,7 @@ constexpr std::uint64_t top = std::uint64_t{1} << 63;
 /// A matrix by its columns, the first digit of each in bit 63.
 using ColumnMatrix = std::array<std::uint64_t, 53>;
 
-/// Whether the rows 1..r of columns last-r+1..last (counted from 0) are a regular block.
+/// Whether rows 1..r of columns last-r+1..last (counted from 0) are a regular block.
 bool is_regular(ColumnMatrix matrix, std::size_t r, std::size_t last) {
     for (std::size_t row = 0; row < r; ++row) {
         const std::uint64_t digit = top >> row;
@@ -55,13 +54,14 @@ bool is_regular(ColumnMatrix matrix, std::size_t r, std::size_t last) {
     return true;
 }
 
-/// Whether 2^m points keep their promises, given that 2^(m-1) do.
+/// Whether 2^m points satisfy the conditions, given that 2^(m-1) do.
 bool is_good(const ColumnMatrix& matrix, std::size_t m) {
     return is_regular(matrix, m, m - 1) && is_regular(matrix, m / 2, m - 1) &&
            is_regular(matrix, (m + 1) / 2, m - 1);
 }
 
-/// Digits of column j below the j-th stay 0: scrambling makes them random.
+/// Random matrix that satisfies the conditions. Digits of column j after the j-th stay 0, as
+/// scrambling makes them random.
 ColumnMatrix random_matrix(std::uint64_t seed) {
     const Rng rng(seed, 0);
     ColumnMatrix matrix{};

@@ -8,15 +8,16 @@
 // exactly once, and so do points j 2^m, ..., (j + 1) 2^m - 1 for every j.
 //
 // They are Sobol's points in two dimensions with nested uniform scrambling: the second coordinate's
-// matrix holds the binomials C(j, k) mod 2 (Pascal's triangle). Instead of a search for free
-// intervals, which takes memory for all points, this gives point i alone. Every set it gives is a
-// pmj02 sequence. Not all of those come: the intervals of later points follow from earlier ones by
-// Pascal's matrix, which a search need not do.
+// matrix holds the binomials C(j, k) mod 2 (Pascal's triangle). A search for free intervals would
+// take memory for all points; this gives any point by itself. Every result is a pmj02 sequence, but
+// not every such sequence occurs: the intervals of later points follow from earlier ones by
+// Pascal's matrix, which a search does not require.
 //
 // Shape   2 dimensions, indices below 2^53.
 // Cost    O(n), no memory.
 // Promise the above, for every seed. The points are those of sobol with nested uniform scrambling
-//         by another seed, a random number that its own gives: at one seed the two are independent.
+//         by another seed, which is a random function of the given one: with the same seed, the two
+//         are independent.
 // Source  P. Christensen, A. Kensler, C. Kilpatrick, Comput. Graph. Forum 37 (4) (2018) 21-33,
 //         doi:10.1111/cgf.13472 (what the points are); A. B. Owen 1995,
 //         doi:10.1007/978-1-4612-2552-2_19 (scrambling); A. Helmer, P. Christensen, A. Kensler,

@@ -5,8 +5,8 @@
 //
 //     x_k(i) = sum_j i_j v_kj    where    i = sum_j i_j 2^j,
 //
-// v_kj being direction numbers that grow from a primitive polynomial p_k (sobol_directions.cpp).
-// The first coordinate is the radical inverse in base 2.
+// with direction numbers v_kj that grow from a primitive polynomial p_k (sobol_directions.cpp). The
+// first coordinate is the radical inverse in base 2.
 //
 // Shape   n x d for d <= 3667, or what a file of direction numbers has; indices below 2^52.
 // Cost    O(n d), at the speed of the cache: see math/digital/binary_net.hpp.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A dimension's polynomial x^s + a_1 x^(s-1) + ... + a_(s-1) x + 1 over GF(2) carries its first s
-// direction numbers m_1, ..., m_s on (m_j odd, below 2^j), v_j = m_j / 2^j being column j:
+// The first s direction numbers m_1, ..., m_s of a dimension (m_j odd, below 2^j) are given; its
+// polynomial x^s + a_1 x^(s-1) + ... + a_(s-1) x + 1 over GF(2) gives the others. With
+// v_j = m_j / 2^j as column j,
 //
 //     v_j = a_1 v_(j-1) + ... + a_(s-1) v_(j-s+1) + v_(j-s) + v_(j-s) / 2^s,     j > s.
 //
@@ -24,10 +25,10 @@ namespace {
 
 using JoeKuoTable = boost::random::detail::qrng_tables::sobol;
 
-/// The polynomial and the first direction numbers of a dimension, which initialise the others.
+/// Polynomial and first direction numbers of a dimension, which determine the others.
 struct Initializer {
     std::size_t degree = 0;
-    std::uint64_t interior = 0;             ///< a_1 ... a_(s-1), a_1 the highest bit
+    std::uint64_t interior = 0;             ///< a_1 ... a_(s-1) as bits, a_1 the highest
     std::vector<std::uint64_t> first = {};  ///< m_1 ... m_s
 };
 
@@ -65,7 +66,7 @@ BinaryMatrices van_der_corput_first(std::size_t dimension, std::size_t digits) {
     return matrices;
 }
 
-/// @param bare the line has no more than m_1 ... m_s: the polynomial is that of the table
+/// @param bare the line has m_1 ... m_s only; the polynomial is that of the table
 Initializer read_line(TokenFile& file, std::size_t dimension, bool bare) {
     Initializer initial;
     if (bare) {
@@ -92,9 +93,8 @@ Initializer read_line(TokenFile& file, std::size_t dimension, bool bare) {
     return initial;
 }
 
-/// Takes the numbers that LatNet Builder puts on lines with comments before the directions: the
-/// dimension, perhaps two of interlacing, perhaps the digits of the number of points. Gives the
-/// interlacing factor.
+/// Reads LatNet Builder's header, whose numbers are on lines with comments: the dimension, perhaps
+/// two of interlacing, perhaps the digits of the number of points. Returns the interlacing factor.
 std::size_t take_header(TokenFile& file) {
     std::size_t alpha = 1;
     while (file.comment_has("#")) {
@@ -107,7 +107,8 @@ std::size_t take_header(TokenFile& file) {
     return alpha;
 }
 
-/// Each coordinate made of the digits of alpha: the first of each, then the second of each, ...
+/// Interlaces the digits of alpha coordinates at a time: the first of each, then the second of
+/// each, ...
 BinaryMatrices interlaced(const BinaryMatrices& matrices, std::size_t alpha) {
     BinaryMatrices woven{matrices.dimension / alpha, {}};
     for (std::size_t at = 0; at < matrices.columns.size(); at += alpha) {
