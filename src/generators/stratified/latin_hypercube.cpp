@@ -6,8 +6,8 @@
 //     strength 1   coordinate k of point i is in stratum pi_k(i), the pi_k being independent random
 //                  permutations (math/combinatorics/permutation.hpp)
 //     strength 2   for n = p^2, p prime, and d <= p + 1: a Latin hypercube in which also, for any
-//                  two coordinates, each of the p x p squares holds exactly one point. It is made from
-//                  an orthogonal array (orthogonal_points.hpp).
+//                  two coordinates, each of the p x p squares holds exactly one point. It is made
+//                  from an orthogonal array (orthogonal_points.hpp).
 //     --sliced, --nested   parts of the points are Latin hypercubes, too (latin_structure.hpp)
 //     --extend     new points in the strata that given ones leave empty (latin_extension.hpp)
 //     --optimize   the permutations are the best that a search finds for a criterion
