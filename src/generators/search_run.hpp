@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Progress of searches with a budget, and what they return when they are stopped.
+// Progress of searches with a budget, and their end when they are stopped.
 #pragma once
 
 #include <fmt/format.h>

@@ -68,7 +68,7 @@ class PointDraws {
         // Split in two, as the probability of no hit at all could underflow.
         if (m > 1 && static_cast<double>(m) * p > 16)
             return binomial(m / 2, p) + binomial(m - m / 2, p);
-        double chance = power(1 - p, m);  // of k hits, from k = 0 on
+        double chance = power(1 - p, m);  // probability of k hits, from k = 0 on
         double u = next();
         std::uint64_t k = 0;
         for (; k < m && u >= chance; ++k) {
@@ -161,7 +161,7 @@ class LazySearch {
 
     struct Cell {
         Point low;
-        double bound;                 ///< of distances from the cell to the nearest point
+        double bound;                 ///< upper bound of distances to the nearest point
         std::uint32_t depth = 0;      ///< number of halvings; the cell is 2^-depth of the box
         std::uint32_t points = 0;     ///< number of points when the bound was computed
         std::uint32_t slot = closed;  ///< index in the list of open cells of its depth
@@ -431,17 +431,17 @@ class LazySearch {
     double factor_;
     Rng rng_;
     GrowingPoints<D> points_;
-    std::array<Point, most_halvings + 1> sides_{};     ///< of cells, by depth
+    std::array<Point, most_halvings + 1> sides_{};     ///< sides of cells, by depth
     std::array<Point, most_halvings + 1> halves_{};    ///< half of sides_
     std::array<double, most_halvings + 1> shares_{1};  ///< fraction of the box, by depth
     std::vector<Cell> cells_;
     std::priority_queue<Waiting> heap_;
-    std::array<std::vector<Open>, most_halvings + 1> open_;  ///< by depth
+    std::array<std::vector<Open>, most_halvings + 1> open_;  ///< open cells
     bool crowded_ = false;                                   ///< more cells are open than necessary
     double open_share_ = 0;                                  ///< open fraction of the box; exact
     std::uint32_t newest_ = 0;                               ///< cell opened last
-    GridFrame<D> tiles_;                                     ///< to find open cells by place
-    std::vector<std::vector<std::uint32_t>> tile_cells_;     ///< by tile; some closed since
+    GridFrame<D> tiles_;                                     ///< frame of tile_cells_
+    std::vector<std::vector<std::uint32_t>> tile_cells_;     ///< cells by tile; some closed since
     std::vector<std::uint32_t> missed_;                      ///< cells in which candidates lost
     CoveringBound<D> covering_;
     double open_size_ = 1;  ///< cells with more expected candidates are halved, not opened

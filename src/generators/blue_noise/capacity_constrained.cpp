@@ -22,7 +22,7 @@
 //         mass.
 // Cost    4 us a point and iteration at n = 4096 on one core, 7 us at 10^5; with a density of
 //         strong contrasts up to ten times that. 300 bytes a point.
-// Promise masses are equal within 10^-6 of their mean, or the user is told; the same bits for any
+// Promise masses are equal within 10^-6 of their mean, or a note reports it; the same bits for any
 //         number of threads.
 // Source  F. de Goes, K. Breeden, V. Ostromoukhov, M. Desbrun, "Blue noise through optimal
 //         transport", ACM Trans. Graph. 31, 6 (2012) 171, doi:10.1145/2366145.2366190. There,

@@ -151,7 +151,7 @@ std::vector<std::uint32_t> eliminate_from(LayeredPoints<D> points, std::uint64_t
                                           const RunContext& run) {
     const double share = static_cast<double>(kept) / static_cast<double>(points.count());
     const Kernel kernel{beta * (1 - share * std::sqrt(share))};
-    auto weights = weights_of(points, kernel, run.stage(0, 0.3));  // by the new numbers
+    auto weights = weights_of(points, kernel, run.stage(0, 0.3));  // indexed by the new numbers
     std::vector<Candidate> all;
     all.reserve(points.count());
     for (std::size_t s = 0; s < points.count(); ++s)

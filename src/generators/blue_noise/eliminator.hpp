@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
-// r_max, limited to [6, n / 12].
 //
-// Cost    O(65536) distances for each of 256 points.
-// Promise the same on every machine: roots and products only.
 // Weighted sample elimination: of M points, the one with the greatest weight is removed, again and
 // again, until N are left.
 //
@@ -59,6 +56,10 @@ double elimination_memory(double points, std::size_t dimension, bool with_shares
 //
 // The estimate has to hold at the distances that the kept points will have: a coil of wire is a
 // curve to many points, and a surface to few. So k is about 1.5 n / kept, half of the points within
+// 2 r_max, limited to [6, n / 12].
+//
+// Cost    O(65536) distances for each of 256 points.
+// Promise the same on every machine: roots and products only.
 
 struct CrowdExtent {
     std::size_t dimension = 0;  ///< 0: there are fewer than 24 points, or too many in one place

@@ -10,7 +10,7 @@
 //
 // These circles are centred at corners of Voronoi cells: each cell is stored with its farthest
 // corner, in a tree that finds the farthest of all. A move recomputes the cells around the old and
-// the new place, some 14 of them. Between walls (--bounded) cells end at the walls, and so do the
+// the new place, about 14 of them. Between walls (--bounded) cells end at the walls, and so do the
 // possible centres. Centres may be on a wall or in a corner, and as distances are largest there,
 // many are.
 //
@@ -163,7 +163,7 @@ class FarthestPoint {
     /// If the largest gap is the one that the point has left, inserts the point beyond the gap's
     /// centre, unless that is nearer to others than the point was. Returns whether it was inserted.
     bool overshoot(std::size_t i, Vec2 was, Vec2 to, double nearest) {
-        constexpr double beyond = 0.8;  // of the step; 0 takes eight times as many iterations
+        constexpr double beyond = 0.8;  // fraction of the step; 0 takes 8 times as many iterations
         const Vec2 step = sites_.shortest(was, to);
         if (step.x * step.x + step.y * step.y > nearest / 16) return false;
         sites_.insert(i, sites_.inside({to.x + beyond * step.x, to.y + beyond * step.y}));

@@ -14,7 +14,7 @@
 //
 // Shape   d = 1 ... 4, distances on the torus, which is the unit cube or a box with no side a
 //         thousand times another; a density in 2-D.
-// Cost    O(n) a step: 4096 points in 2-D and 1000 steps take 5 s of processor time; some 10 and
+// Cost    O(n) a step: 4096 points in 2-D and 1000 steps take 5 s of processor time; about 10 and
 //         100 times as much in 3-D and 4-D, and 10 times as much with a density.
 // Promise the same bits for any number of threads.
 // Beware  in a box whose shortest side is below (V / n)^(1/d), points line up farther apart than

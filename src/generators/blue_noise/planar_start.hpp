@@ -67,7 +67,7 @@ struct PlanarStart {
 
 /// Initial points that the options ask for.
 /// @param bytes per point, for the memory limit; messages name `who`
-/// @throws Error(limit), and what reading the files throws
+/// @throws Error(limit), and errors of reading the files
 PlanarStart planar_start(const Plan& plan, const Values& options, double bytes,
                          std::string_view who, const RunContext& run);
 

@@ -281,7 +281,7 @@ std::vector<std::uint32_t> thin(const Crowd& crowd, std::vector<std::uint32_t>& 
 
 /// Reorders the points so that every prefix is well spread.
 void arrange(const Crowd& crowd, std::vector<std::uint32_t>& points, const RunContext& run) {
-    std::vector<std::uint32_t> tail;  // in reverse order
+    std::vector<std::uint32_t> tail;  // last point first
     const auto done = [all = static_cast<double>(points.size())](std::size_t left) {
         return 1 - static_cast<double>(left) / all;
     };

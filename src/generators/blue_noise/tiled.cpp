@@ -32,7 +32,7 @@
 // Shape   2-D. A sequence: point i is a function of i, n and the seed; memory for the tile only,
 //         and with a density 16 bytes for each repetition of it.
 // Cost    O(t (iterations + t)) once, 1.5 seconds for t = 4096; then 2 ns a point and core. With a
-//         density some 8 ns a point and core, times top.
+//         density about 8 ns a point and core, times top.
 // Promise exactly n points. No two are nearer than the nearest of the tile's torus, at its size in
 //         the set; without a density, a tile of 4096 points keeps them at least 0.5 / sqrt(n) apart
 //         (times the root of a box's area).
@@ -88,7 +88,7 @@ double difference(double a, double b) {
 
 /// Ranks the points of the torus: those removed last come first.
 std::vector<Vec2> ranked(std::vector<Vec2> points, Vec2 sides, const RunContext& run) {
-    const Vec2 torus{std::sqrt(sides.x / sides.y), std::sqrt(sides.y / sides.x)};  // of area 1
+    const Vec2 torus{std::sqrt(sides.x / sides.y), std::sqrt(sides.y / sides.x)};  // area 1
     const auto felt = [&](const Vec2& p, const Vec2& q, double sharpness) {
         const double x = torus.x * difference(p.x, q.x);
         const double y = torus.y * difference(p.y, q.y);

@@ -15,7 +15,7 @@
 // Promise coordinates are exact to their first 53 digits (nearest doubles in bases other than 2),
 //         and below 1. Any b^m points from a multiple of b^m on are a (t,m,d)-net in base b,
 //         t = sum_k (deg p_k - 1), as far as there are digits; scrambled, too.
-// Beware  other counts, and a first point left out, cost this evenness; the user is told.
+// Beware  other counts, and a first point left out, cost this evenness; a note reports it.
 // Source  P. Bratley, B. L. Fox, H. Niederreiter, ACM Trans. Model. Comput. Simul. 2 (1992)
 //         195-213, doi:10.1145/146382.146385, with the choice of v of section 3.3;
 //         H. Niederreiter, J. Number Theory 30 (1988) 51-70, doi:10.1016/0022-314X(88)90025-X.

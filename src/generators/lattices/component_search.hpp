@@ -8,7 +8,6 @@
 // in a product of cyclic groups: a correlation, which Fourier transforms give for all z at once.
 // These round differently on different machines, so they only nominate candidates: all that may be
 // the best but for rounding are compared by plain sums in a fixed order.
-// have kept from being the best are compared by plain sums in a fixed order.
 #pragma once
 
 #include <algorithm>

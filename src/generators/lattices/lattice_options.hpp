@@ -46,7 +46,7 @@ struct VectorFile {
     std::vector<std::uint64_t> vector;
     std::uint64_t points = 0;    ///< 0: not in the file
     std::size_t interlaced = 1;  ///< number of components whose digits make a coordinate
-    std::uint64_t modulus = 0;   ///< of a polynomial lattice in base 2; 0: of another one
+    std::uint64_t modulus = 0;   ///< polynomial in base 2; 0: not a polynomial lattice
 };
 
 /// Contents of the file in --vector-file; empty without it. Reads plain vectors,

@@ -92,7 +92,7 @@ class Search {
 
     const RunContext& run_;
     std::vector<std::uint32_t> units_;      ///< powers of a generator
-    std::vector<std::uint32_t> exponents_;  ///< of each unit
+    std::vector<std::uint32_t> exponents_;  ///< exponent of each unit
     CyclicCorrelation correlation_;
     Products products_;           ///< p by exponent
     std::vector<double> kernel_;  ///< omega by exponent, twice around
@@ -109,7 +109,7 @@ double squared_polynomial_error(std::uint64_t modulus, std::span<const std::uint
                                 std::span<const double> weights) {
     const int m = gf2::degree(modulus);
     const auto digits = static_cast<std::size_t>(m);
-    std::vector<double> kernel{omega(0, m)};  // of 0, then of polynomials of degree j - 1
+    std::vector<double> kernel{omega(0, m)};  // omega of 0, then of polynomials of degree j - 1
     for (int j = 0; j < m; ++j) kernel.push_back(omega(std::uint64_t{1} << j, m));
     std::vector<std::uint64_t> shifted;  // q x^t mod modulus for each component
     for (std::uint64_t q : vector)

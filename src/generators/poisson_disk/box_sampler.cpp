@@ -149,7 +149,7 @@ class BoxSampler {
         }
     }
 
-    /// Throws darts at the open sub-cells of a gap; adds what is left of the gap to the workspace.
+    /// Throws darts at the open sub-cells of a gap; adds the rest of the gap to the workspace.
     template <class Real>
     void throw_at(const T& tile, const Gap<D>& gap, const PoissonCounts& counts, std::uint64_t key,
                   Workspace& work, const NearDisks<D, Real>& near,

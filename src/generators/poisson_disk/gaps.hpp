@@ -112,7 +112,7 @@ void split(const Gap<D>& gap, SubcellBits open, std::vector<Gap<D>>& out) {
     }
 }
 
-/// Adds what is left of a gap with open sub-cells: a smaller gap if they fit into one. A gap that
+/// Adds the rest of a gap with open sub-cells: a smaller gap if they fit into one. A gap that
 /// is open from end to end is split if it may be, and otherwise kept.
 template <std::size_t D>
 void narrow(const Gap<D>& gap, SubcellBits open, bool may_split, std::vector<Gap<D>>& out) {

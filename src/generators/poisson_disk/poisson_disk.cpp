@@ -4,14 +4,14 @@
 // further point fits (generators/poisson_disk/maximal_disks.hpp).
 //
 // --radius R     as many points as fit.
-// --n-approx N   about N points: as many as fit with the radius that gives N in the mean.
+// --n-approx N   about N points: as many as fit with the radius that gives N on average.
 // --count N      exactly N points, as many as fit with some radius, which is searched for. The same
 //                darts mostly leave fewer points for a larger radius, and nearly the same points
 //                for a similar one, so that a few tries, each as long as a run with --radius, find
 //                exactly N. The radius in the provenance is the minimum distance of the points, and
 //                they are maximal for it, too. If the tries skip N, other darts are used. If eight
 //                sets of darts fail, which may happen with a few points only, the surplus of the
-//                best set is removed: then the set is not maximal, and the user is told.
+//                best set is removed: then the set is not maximal, as a note reports.
 //
 // In 2-D radii may vary (generators/poisson_disk/varying/varied_disks.hpp). Two points keep the
 // smaller of their radii, and every place where points may be has a point nearer than the smaller
@@ -23,10 +23,10 @@
 //
 // Shape   d = 2 ... 6; distances are those in the box of --bounds, across its faces (torus) or
 //         bounded.
-// Cost    see maximal_disks.hpp; --count takes some ten runs.
+// Cost    see maximal_disks.hpp; --count takes about ten runs.
 // Promise sum_k d_k^2 >= radius^2 for every pair, in float64, from the coordinates as stored;
 //         d_k = |x_k - y_k|, on the torus min(d_k, side_k - d_k). No place of the box is as far as
-//         the radius from all points, unless the user is told that some were removed. The
+//         the radius from all points, unless a note reports that some were removed. The
 //         provenance has the radius.
 // Source  R. L. Cook, ACM Trans. Graph. 5 (1986) 51-72, doi:10.1145/7529.8927 (the process).
 
@@ -248,7 +248,7 @@ std::vector<std::pair<std::string, std::string>> notes(const Values& options, co
 PointSet make(const Plan& plan, const Values& options, const RunContext& given) {
     const RunContext run = given.rising();
     const bool progressive = options[order] == "progressive";
-    const double packed = progressive ? 0.5 : 1;  // of the time
+    const double packed = progressive ? 0.5 : 1;  // fraction of the time
     const BoxSpace space = space_of(plan, !options[bounded_option]);
     std::optional<RadiusField> field;
     if (is_varied(options)) field = read_field(space, options, run);

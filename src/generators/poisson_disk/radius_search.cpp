@@ -20,7 +20,7 @@ class Search {
         : goal_(goal), pack_(pack), run_(run), dimension_(goal.dimension), count_(goal.count) {}
 
     /// Tries the streams of a seed one after the other until one gives exactly the count. If none
-    /// does, removes the surplus of the set with the largest radius, and tells the user.
+    /// does, removes the surplus of the set with the largest radius, with a note.
     Packing find(std::uint64_t seed) {
         constexpr std::uint64_t streams = 8;
         for (std::uint64_t stream = 0; stream < streams; ++stream)

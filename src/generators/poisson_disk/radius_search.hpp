@@ -3,7 +3,7 @@
 // Searches for the radius at which a process leaves exactly the wanted number of points. The same
 // darts mostly leave fewer points for a larger radius, and nearly the same points for a similar
 // one, so a few tries find exactly the count. If they skip it, other darts are tried. If eight sets
-// of darts fail, the surplus of the best set is removed, and the user is told.
+// of darts fail, the surplus of the best set is removed, with a note.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +33,7 @@ struct SearchGoal {
     double largest;  ///< radius that leaves one point
 };
 
-/// Returns exactly goal.count points: a maximal set, unless the user is told otherwise.
+/// Returns exactly goal.count points: a maximal set, unless a note reports otherwise.
 Packing search_radius(const SearchGoal& goal, std::uint64_t seed, const Pack& pack,
                       const RunContext& run);
 

@@ -110,11 +110,11 @@ class Tile {
         unsigned faces = 0;  ///< faces of this tile between both: bit 2 k or 2 k + 1
     };
     std::vector<Neighbour> neighbours;
-    std::array<Pending, 2> pending;  ///< of even and odd rounds
-    std::vector<Gap<D>> gaps;        ///< where something may be uncovered, once known
+    std::array<Pending, 2> pending;  ///< darts of even and odd rounds
+    std::vector<Gap<D>> gaps;        ///< possibly uncovered parts, once known
 
   protected:
-    Index first_{};  ///< in the grid
+    Index first_{};  ///< first cell in the grid
     Cell size_{};
     std::vector<double> points_;
 };
@@ -123,7 +123,7 @@ class Tile {
 template <std::size_t D>
 struct GapWorkspace {
     std::vector<PendingDart<D>> pending;
-    std::vector<Gap<D>> gaps;  ///< what is left of the tile's gaps
+    std::vector<Gap<D>> gaps;  ///< remaining gaps of the tile
     NearDisks<D, float> near;
     NearDisks<D, float> reaching;
     NearDisks<D, double> exactly_near;
@@ -154,7 +154,7 @@ void add_pending(const T& tile, const Grid<D>& grid, const TileCell<D>& cell,
 }
 
 /// Draws darts on the open sub-cells of a gap, and calls draw(place in its cell) for each. Adds
-/// what is left of the gap to `left`.
+/// the rest of the gap to `left`.
 template <std::size_t D, class Draw>
 void throw_at_gap(const Gap<D>& gap, SubcellBits open, const PoissonCounts& counts,
                   SplitMix64& mixer, std::vector<Gap<D>>& left, const Draw& draw) {
@@ -213,8 +213,8 @@ class TileRounds {
     }
 
     /// Rounds until no tile has gaps: draw(tile, counts, key, workspace, first), where counts are
-    /// by the level of the gap, and `first` is true while gaps are not known yet. What is left of
-    /// gaps goes to the workspace.
+    /// by the level of the gap, and `first` is true while gaps are not known yet. The rest
+    /// of the gaps goes to the workspace.
     /// @param density of darts per r^D, in each round `growth` times as many
     template <class Draw>
     void close_gaps(double density, double growth, const Draw& draw) {

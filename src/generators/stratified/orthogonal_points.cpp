@@ -81,8 +81,8 @@ class OrthogonalPoints {
     ArrayShape shape_;
     Substrata substrata_;
     std::vector<std::uint64_t> powers_;  ///< s^0, ..., s^t
-    PermutationFamily levels_;           ///< of the levels, one per column
-    PermutationFamily within_;           ///< of the points of a level
+    PermutationFamily levels_;           ///< permutation of levels for each column
+    PermutationFamily within_;           ///< permutations of the points of a level
 };
 
 }  // namespace

@@ -18,7 +18,7 @@
 // is the force of gaussian_relaxation.
 //
 // Shape   2-D; a density of any contrast; the same proportions of sides as in gaussian_relaxation.
-// Cost    a step: some 10 times that of relax_gaussian, more if the contrast is high.
+// Cost    a step: about 10 times that of relax_gaussian, more if the contrast is high.
 // Promise the same bits on every machine and for any number of threads; no point moves to a place
 //         of density 0.
 // Source  after A. G. M. Ahmed, J. Ren, P. Wonka, "Gaussian blue noise", ACM Trans. Graph. 41(6),

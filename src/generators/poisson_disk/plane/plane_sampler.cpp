@@ -50,7 +50,7 @@ struct Dart {
 struct PlaneWorkspace : GapWorkspace<2> {
     std::vector<Dart> darts;
     std::vector<std::uint64_t> order;  ///< darts in order of time
-    std::vector<Point> places;         ///< of darts on gaps, from the tile's first cell, in cells
+    std::vector<Point> places;         ///< darts on gaps, from the tile's first cell, in cells
     std::array<std::uint64_t, plane_side + 4> waiting;  ///< cells with pending darts: a bit each,
                                                         ///< in rows from two before the first on
 };
@@ -108,7 +108,8 @@ class Thrower {
         work_.pending.push_back(dart);
     }
 
-    /// In cells, from the tile's first. Digits that a dart does not store follow from the others.
+    /// Place of a dart, from the tile's first cell, in cells. Digits that a dart does not store are
+    /// derived from the others.
     [[nodiscard]] Point place_of(const Dart& d) const {
         if (!work_.places.empty()) return work_.places[d.detail];
         const std::uint64_t more = SplitMix64(std::uint64_t{d.x} << 32 | d.y).next();
@@ -269,7 +270,7 @@ class PlaneSampler {
         try_all(tile, work);
     }
 
-    /// Makes the first gaps: about the open parts of cells, as far as known.
+    /// Makes the first gaps: cubes around the open parts of cells, as far as known.
     static void make_gaps(PlaneTile& tile) {
         for (int row = 0; row < tile.size(1); ++row) {
             const SubcellBits* covered = tile.covered(PlaneTile::number_of({0, row}));
@@ -280,7 +281,7 @@ class PlaneSampler {
         }
     }
 
-    /// Draws darts on the open sub-cells of a gap; adds what is left of the gap to the workspace.
+    /// Draws darts on the open sub-cells of a gap; adds the rest of the gap to the workspace.
     void draw_on_gap(const PlaneTile& tile, const Gap<2>& gap, const PoissonCounts& counts,
                      std::uint64_t key, PlaneWorkspace& work) const {
         const Cell cell = PlaneTile::cell_at(gap.place);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Tiles of cells of the plane, with all that is needed to throw darts at them one after the other:
-// a tile's points and what they cover, and those of two rows of cells around it.
+// a tile's points and their coverage, and those of two rows of cells around it.
 //
 // Shape   cells that hold at most one point, two of which a radius spans; at least five cells along
 //         each direction. A tile may be its own neighbour on a torus.
@@ -367,7 +367,7 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
     const PlaneRules* rules_ = nullptr;
     FixedPositions positions_;
     SubcellBits* covered_ = nullptr;
-    std::uint16_t* index_ = nullptr;  ///< of a cell's point; from most_own on, in halo_
+    std::uint16_t* index_ = nullptr;  ///< index of a cell's point; from most_own on, in halo_
     std::size_t own_ = 0;             ///< number of the tile's own points so far
     std::vector<double> halo_;        ///< points of other tiles
 };

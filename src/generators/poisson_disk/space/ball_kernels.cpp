@@ -44,7 +44,7 @@ struct Pattern {
                                                    const std::array<float, 3>& middle) {
     constexpr std::size_t most = power(5, 3);  // number of balls
     float across[most][layer];                 // squared, along x and y, by sub-cell
-    float left[4][most];                       // of the squared radius, by layer
+    float left[4][most];                       // rest of the squared radius, by layer
     for (std::size_t i = 0; i < near.size(); ++i) {
         const float x = near.along(0)[i] - middle[0];
         const float y = near.along(1)[i] - middle[1];
@@ -81,7 +81,7 @@ struct LineCover {
 
     int first;                       ///< number of the first line, from the cell's corner
     std::array<float, lines> far_y;  ///< squared distances to the far sides of the lines
-    float x;  ///< of the centre, in sub-cells, from `reach` of them before the cell
+    float x;                         ///< centre in sub-cells, from `reach` of them before the cell
     float per_side;
     int word;        ///< number of the word with the first bit
     unsigned shift;  ///< position of that bit

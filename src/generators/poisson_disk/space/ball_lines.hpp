@@ -27,7 +27,7 @@ inline constexpr int space_side = 1 << space_tile_bits;
 
 struct BallLines {
     static constexpr std::size_t along = 4 * space_side;  ///< sub-cells along each direction
-    static constexpr std::size_t words = along / 32;      ///< in a line
+    static constexpr std::size_t words = along / 32;      ///< words in a line
     static constexpr std::size_t layer = words * along;
     static constexpr std::size_t pad = 16;  ///< before the first and after the last, written, too
     static constexpr std::size_t room = along * layer + 2 * pad;
@@ -41,7 +41,7 @@ struct BallLines {
 /// A ball, by its centre.
 struct PlacedBall {
     TileCell<3> cell;          ///< in the tile, or up to two beyond its faces
-    std::array<float, 3> off;  ///< from that cell's corner, in radii
+    std::array<float, 3> off;  ///< centre, from that cell's corner, in radii
 };
 
 /// Adds the coverage by balls to a tile.

@@ -194,7 +194,7 @@ class SpaceSampler {
         }
     }
 
-    /// Throws darts at the open sub-cells of a cell's gaps; adds what is left of these to the
+    /// Throws darts at the open sub-cells of a cell's gaps; adds the rest of these to the
     /// workspace.
     void throw_at_cell(const SpaceTile& tile, const Cell& cell, SubcellBits some,
                        const Counts& counts, std::uint64_t key, SpaceWorkspace& work) const {

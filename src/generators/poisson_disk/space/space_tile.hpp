@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Tiles of cells in space, with all that is needed to throw darts at them: a tile's points and what
-// they cover, and those of two layers of cells around it.
+// Tiles of cells in space, with all that is needed to throw darts at them: a tile's points and
+// their coverage, and those of two layers of cells around it.
 //
 // Shape   cells that hold at most one point, two of which a radius spans; at least five cells along
 //         each direction. Up to 32 cells along each side of a tile; a tile may be its own neighbour
@@ -64,7 +64,7 @@ class SpaceBits {
 struct SpaceRules {
     using Quad [[gnu::vector_size(16)]] = float;
 
-    static constexpr double digit = 0x1p-23;  ///< of a cell: resolution of darts on sub-cells
+    static constexpr double digit = 0x1p-23;  ///< resolution of darts on sub-cells, in cells
 
     explicit SpaceRules(const Grid<3>& box_grid) : grid(box_grid) {
         for (std::size_t b = 0; b < about.size(); ++b) {
@@ -206,7 +206,7 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
         return {p[0], p[1], p[2]};
     }
 
-    /// Adds a point; the caller adds what it covers.
+    /// Adds a point; the caller adds its coverage.
     PlacedBall add(const Addition<3>& a) {
         PlacedBall added{a.cell, {}};
         const Point place = in_cell(rules_->grid, a.at, a.cell);

@@ -63,7 +63,7 @@ class Exchanges {
 
     Design design_;
     const Rules& rules_;
-    std::vector<std::uint32_t> group_;   ///< of each row; empty: one group
+    std::vector<std::uint32_t> group_;   ///< group of each row; empty: one group
     std::vector<std::uint32_t> row_at_;  ///< row of each level, by coordinate; with groups
     std::vector<Level> row_;             ///< levels that are checked
 };

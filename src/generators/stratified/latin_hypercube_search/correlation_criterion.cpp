@@ -17,7 +17,7 @@ class CorrelationCriterion final : public Criterion {
         : points_(design.points), dimension_(design.dimension), x_(design.rows * dimension_) {
         const std::size_t d = dimension_;
         for (std::size_t k = 0; k < d; ++k) {
-            double squares = 0;  // of all levels, some of them in spare rows
+            double squares = 0;  // sum over all levels, some of them in spare rows
             for (std::size_t l = 0; l < points_; ++l) {
                 const auto x =
                     static_cast<double>(twice_from_middle(static_cast<Level>(l), k, rules));

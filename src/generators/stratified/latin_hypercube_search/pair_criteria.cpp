@@ -372,7 +372,7 @@ class PairCriterion final : public Criterion {
 
     Score score_below(const Score& other) override {
         if constexpr (std::is_same_v<Measure, Shortfall>) return reached() ? score() : other;
-        constexpr double rounding = 1e-12;  // of a sum, by its largest value
+        constexpr double rounding = 1e-12;  // error of a sum relative to its largest value
         if (energy_ - rounding * largest_ < other.value && largest_ > 1e3 * std::abs(other.value))
             rebuild();
         return {std::min(energy_, other.value), 0};

@@ -46,7 +46,7 @@ std::vector<double> stages_of(double trials, double usual, std::size_t points) {
     constexpr double few = 96;
     std::vector<double> stages{few};
     const double least = std::min(usual / 8, 64 * static_cast<double>(points));
-    double sum = usual;  // of all stages including one of half as many
+    double sum = usual;  // trials of all stages up to one of half as many
     while (sum / 2 >= least) sum /= 2;
     for (; sum <= trials; sum *= 2) stages.push_back(sum / 2);
     return stages;

@@ -37,7 +37,7 @@ struct Search {
 /// Searches, and reports progress with `words` and the best value. @throws Error(limit, cancelled)
 Result best_design(const Search& search, const std::string& words, const RunContext& run);
 
-/// Default number of trials: some 20 seconds of one core, fewer for few points.
+/// Default number of trials: about 20 seconds of one core, fewer for few points.
 double usual_trials(const Objective& objective, const Design& design);
 
 }  // namespace stipple::latin_hypercube_search
