@@ -22,10 +22,10 @@ inline constexpr Param<Path> density_option{
 inline constexpr Param<bool> invert_option{
     .name = "invert", .help = "Points where --density is dark, as ink on paper"};
 
-/// @throws Error(usage) if --invert is given without a density
+/// @throws Error(usage) if --invert is given without --density
 void check_invert(const Values& options);
 
-/// The same. @throws Error(usage) also if there is a density and the dimension is not 2
+/// @throws Error(usage) as check_invert, or if --density is given and the dimension is not 2
 void check_density(const Values& options, std::size_t dimension);
 
 /// Density of --density; nullopt if it is not given or the unit has no such option.

@@ -25,8 +25,8 @@ namespace stipple {
 struct Destination {
     /// Whether point i at `row` has an image; safe to call from several threads.
     std::function<bool(std::uint64_t i, std::span<const double> row)> has_image = {};
-    bool drops = false;                  ///< points without an image are to be avoided
-    std::vector<OutcomeAxis> axes = {};  ///< one per coordinate
+    bool drops = false;                  ///< some points have no image; avoid them
+    std::vector<OutcomeAxis> axes = {};  ///< outcomes along each coordinate
     PointSet given = {};  ///< points of the cube to extend, if a file holds their images
 };
 
@@ -135,8 +135,8 @@ struct Generator {
     /// a stopped search may return its best. If empty: never.
     std::function<bool(const Values&)> whole = {};
 
-    /// For generators of digits in bases other than 2: the base of each coordinate, the default
-    /// base of scrambles.
+    /// For generators of digits in bases other than 2: the base of each coordinate, which scrambles
+    /// use by default.
     std::function<std::vector<std::uint32_t>(const Plan&, const Values&)> bases = {};
 
     /// Largest seed, if the seeding of an engine takes fewer than 64 bits.

@@ -43,7 +43,7 @@ inline constexpr std::string_view interlacing_comment = "Interlacing factor";
 // Common parts of the digital sequences in base 2: the order of their points, their scrambles, and
 // the counts at which they are nets.
 
-/// Columns of a sequence's generating matrices, and digits of its indices.
+/// Number of columns of a sequence's generating matrices, and of digits of its indices.
 inline constexpr int binary_digits = 52;
 
 inline constexpr Param<Choice> binary_order{
@@ -69,7 +69,7 @@ std::unique_ptr<Sequence> binary_sequence(BinaryMatrices matrices, const Plan& p
 /// Sequence of these matrices with nested uniform scrambling.
 std::unique_ptr<Sequence> owen_sequence(const BinaryMatrices& matrices, std::uint64_t seed);
 
-/// For Generator::uses_seed.
+/// Whether the points are scrambled; for Generator::uses_seed.
 bool binary_uses_seed(const Values& options);
 
 /// For Generator::notes: returns a sentence if start and count do not select a net.

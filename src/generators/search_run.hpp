@@ -15,8 +15,7 @@
 
 namespace stipple {
 
-/// Ignores stop requests if the run keeps the best: such searches check best_is_wanted()
-/// themselves.
+/// Run that ignores stop requests if it keeps the best: such searches check for them themselves.
 inline RunContext until_best_is_wanted(const RunContext& run) {
     return run.keeps_best ? unstopped(run) : run;
 }

@@ -188,7 +188,7 @@ class VariedIndex {
     std::vector<Class> classes_;
     std::vector<Disk> disks_;
     std::vector<std::uint32_t> next_;   ///< next disk in the list of its cell
-    std::vector<std::uint32_t> heads_;  ///< first disk of each list; a power of two
+    std::vector<std::uint32_t> heads_;  ///< first disks of 2^k lists
 };
 
 }  // namespace stipple

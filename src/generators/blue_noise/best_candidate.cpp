@@ -221,8 +221,8 @@ class LazySearch {
         open_share_ -= shares_[cell.depth];
     }
 
-    /// Processes the highest cell of the heap. If that opens it, makes those of the `left`
-    /// candidates outside the cells open before that fall into it; returns their number.
+    /// Processes the highest cell of the heap. If it is opened, makes its binomial number of the
+    /// `left` remaining candidates; returns their number.
     std::uint64_t go_on(std::uint64_t left, PointDraws& draws) {
         const double rest = 1 - open_share_;
         if (!pull()) return 0;
@@ -525,8 +525,8 @@ std::vector<double> farthest(const BoxSpace& space, std::span<const std::vector<
     return winner;
 }
 
-/// Makes all candidates of the first `wanted` points. A candidate is dropped at the first point
-/// that is as near as the nearest one of the best candidate.
+/// Makes all candidates of the first `wanted` points. A candidate is dropped as soon as a point is
+/// as near to it as the nearest point is to the best one.
 std::vector<double> all_candidates(const BoxSpace& space, std::uint64_t seed, double factor,
                                    std::uint64_t wanted, const RunContext& run) {
     const std::size_t d = space.box.dimension();

@@ -289,8 +289,8 @@ CrowdExtent crowd_extent(std::span<const double> rows, std::size_t directions,
         for (std::size_t k = 0; k < d / 2; ++k) volume *= ball.square;
         volumes.push_back(volume);
     }
-    const double points = static_cast<double>(inner) - 1.0 / 3;  // median in a ball
-    constexpr double inside = 0.4;                               // quantile, mostly far from rims
+    const double points = static_cast<double>(inner) - 1.0 / 3;  // points in a median ball
+    constexpr double inside = 0.4;  // quantile; far from rims, as a rule
     return {d, quantile(std::move(volumes), inside) * static_cast<double>(others.size()) / points};
 }
 

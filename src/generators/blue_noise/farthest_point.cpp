@@ -73,7 +73,7 @@ class Tournament {
 
   private:
     std::size_t leaves_;
-    std::vector<double> best_;  ///< maximum of both children, from index 1 on
+    std::vector<double> best_;  ///< maxima of two children each; the root has index 1
 };
 
 class FarthestPoint {

@@ -42,7 +42,7 @@ std::vector<std::uint64_t> component_by_component(std::uint64_t n, std::span<con
 std::uint64_t korobov_multiplier(std::uint64_t n, std::span<const double> weights,
                                  std::uint64_t tries, const RunContext& run);
 
-/// Number of multipliers, those up to n / 2; the ones prime to n are tried.
+/// Number of candidates for a multiplier, 1 to n / 2; those prime to n are tried.
 constexpr std::uint64_t korobov_range(std::uint64_t n) { return n < 4 ? 1 : n / 2; }
 
 /// (1, a, a^2, ...) modulo n.

@@ -67,8 +67,8 @@ void check_weights(const Values& options, bool searches, std::string_view search
                    std::string_view rule);
 
 /// First components of the vector that an option or a file gives.
-/// @throws Error(usage) if they are too few, or one is not an integer from `least` to `most`, in
-/// messages `range`
+/// @param range name of the allowed range in messages
+/// @throws Error(usage) if they are too few, or one is not an integer from `least` to `most`
 std::vector<std::uint64_t> given_components(const Values& options, const VectorFile& file,
                                             const Param<Numbers>& vector, std::size_t dimension,
                                             double least, double most, std::string_view range);

@@ -113,7 +113,7 @@ inline constexpr unsigned space_tile_bits = 5;
 template <std::size_t D>
 Rows box_sample(const Task<D>& task, const RunContext& run);
 
-/// The same for grids of five or more cells along each direction, two of which a radius spans.
+/// The same for grids in which a radius spans two cells along each direction, of five or more.
 Rows plane_sample(const Task<2>& task, const RunContext& run);
 Rows space_sample(const Task<3>& task, const RunContext& run);
 

@@ -11,7 +11,7 @@
 namespace stipple::poisson_disk {
 namespace {
 
-/// Whether there are five or more cells along every direction, two of which a radius spans.
+/// Whether a radius spans two cells along every direction, of five or more.
 bool is_fine(const BoxSpace& space, const std::vector<double>& cells, double radius) {
     bool fine = cells.size() <= 3;
     for (std::size_t k = 0; k < cells.size(); ++k) {
@@ -49,9 +49,10 @@ double memory_for(const std::vector<double>& along, bool fine, double points) {
         cells *= count;
         tiles *= std::ceil(count / (1U << bits));
     }
-    // A point and its copies; gaps, one for each cell at first.
+    // Memory of points and their copies, and of gaps, at first one per cell.
     if (!fine) return points * (5 * 8 * d) + 2 * cells * (8 * d + 8);
-    // Tables of the tiles; a point, its copy, and pending darts or copies in other tiles; gaps.
+    // Memory of the tiles' tables; of points, their copies, and pending darts or points of others;
+    // of gaps.
     return along.size() == 2 ? tiles * plane_tile_bytes + 45 * points + 4 * cells
                              : tiles * space_tile_bytes + 140 * points;
 }

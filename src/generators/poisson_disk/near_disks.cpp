@@ -45,8 +45,8 @@ template <std::size_t D, class Real>
     }
 }
 
-/// Limits x to integers. Floats are small: they serve large gaps only, so no disk is millions of
-/// sub-cells away.
+/// Keeps x in the range of integers. Floats need no limit: they serve large gaps only, so no disk
+/// is millions of sub-cells away.
 [[gnu::always_inline]] inline float within_int(float x) { return x; }
 [[gnu::always_inline]] inline double within_int(double x) { return std::clamp(x, -1e9, 1e9); }
 

@@ -42,7 +42,7 @@ void place(bool centered, const Strata& strata, double* x, std::size_t stride) {
     centered ? place_in_middles(strata, x, stride) : place_in_strata(strata, x, stride);
 }
 
-/// Points first, first + 1, ... of n in the plane.
+/// Puts points first, first + 1, ... of n into rows of cells in the plane.
 void place_in_rows(std::uint64_t n, bool centered, std::uint64_t first, std::span<double> rows) {
     const std::uint64_t row_count = rounded_root(n);
     const auto row_begin = [&](std::uint64_t row) {
@@ -65,7 +65,7 @@ void place_in_rows(std::uint64_t n, bool centered, std::uint64_t first, std::spa
     }
 }
 
-/// Points first, first + 1, ... in boxes, of which there are sides[k] along axis k.
+/// Puts points first, first + 1, ... into boxes, of which there are sides[k] along axis k.
 void place_in_boxes(std::span<const std::uint64_t> sides, bool centered, std::uint64_t first,
                     std::span<double> rows) {
     const std::size_t d = sides.size();

@@ -21,8 +21,8 @@ enum class StratifiedStream : std::uint64_t {
     first_of_offsets = std::uint64_t{1} << 31  ///< one per coordinate
 };
 
-// Numbers in a block of points, which fit the cache; and its minimum points, so that the work per
-// block and coordinate pays off.
+// Numbers in a block of points, which fit the cache; and its minimum number of points, for which
+// the work per block and coordinate pays off.
 constexpr std::size_t block_numbers = 4096;
 constexpr std::size_t least_block = 256;
 

@@ -90,7 +90,7 @@ class FixedPositions {
         return {wrapped(origin_[0] + cell_[0] * x), wrapped(origin_[1] + cell_[1] * y)};
     }
 
-    /// Pointer to a cell's position, which those of the next cells follow.
+    /// Pointer to a cell's position; the positions of the next cells follow it.
     [[nodiscard]] const FixedPosition* from(std::size_t number) const {
         return positions_ + number;
     }
@@ -281,7 +281,7 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
                                       static_cast<std::size_t>(cell[1] + int{halo}));
     }
 
-    /// Coverage of a cell by single disks, which that of the next cells in the row follows.
+    /// Coverage of a cell by single disks; that of the next cells in the row follows it.
     [[nodiscard]] const SubcellBits* covered(std::size_t number) const { return covered_ + number; }
 
     [[nodiscard]] bool taken(std::size_t number) const { return index_[number] != none; }

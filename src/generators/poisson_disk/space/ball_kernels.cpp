@@ -43,7 +43,7 @@ struct Pattern {
                                                    const Pattern& p,
                                                    const std::array<float, 3>& middle) {
     constexpr std::size_t most = power(5, 3);  // number of balls
-    float across[most][layer];                 // squared, along x and y, by sub-cell
+    float across[most][layer];                 // squared distances along x and y
     float left[4][most];                       // rest of the squared radius, by layer
     for (std::size_t i = 0; i < near.size(); ++i) {
         const float x = near.along(0)[i] - middle[0];

@@ -104,7 +104,8 @@ STIPPLE_WIDE void throw_at_subcells(const SpaceRules& rules, const SpaceTile& ti
     const Quad to_radii = Quad{rules.scales[0], rules.scales[1], rules.scales[2], 0} *
                           static_cast<float>(SpaceRules::digit);
     for (std::size_t column = 0; column < space_side * BallLines::words; ++column) {
-        // Draws all darts of a layer first: hits are hard to predict, and drawing need not wait.
+        // All darts of a layer are drawn first: hits are hard to predict and would delay the
+        // drawing.
         work.drawn.clear();
         for (std::size_t y = 0; y < BallLines::along; y += 2)
             draw_on_lines(tile, {column % BallLines::words * 32, y, column / BallLines::words * 4},

@@ -68,7 +68,7 @@ class Exchanges {
     std::vector<Level> row_;             ///< levels that are checked
 };
 
-/// Best of the designs that exchanges lead to, stored as the steps to it: no copy for each.
+/// Best design that exchanges reached, stored as the steps to it: improvements need no copy.
 class Trail {
   public:
     explicit Trail(Design start) : best_(std::move(start)) {}

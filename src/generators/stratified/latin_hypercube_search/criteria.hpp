@@ -69,8 +69,8 @@ class Criterion {
     /// Whether the energy is as low as possible, or as its target requires.
     [[nodiscard]] virtual bool reached() const { return false; }
 
-    /// Sets the target of maximin, a squared distance; 0: the mean one of a point to its nearest
-    /// neighbour. Returns false for criteria without targets.
+    /// Sets the target of maximin, a squared distance; 0: the mean one of nearest neighbours.
+    /// Returns false for criteria without targets.
     virtual bool aim(double /*target*/) { return false; }
 
     [[nodiscard]] virtual Score score() const = 0;

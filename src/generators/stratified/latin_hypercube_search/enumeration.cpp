@@ -25,7 +25,7 @@ std::vector<std::uint8_t> half_of_plain_changes(std::size_t n) {
     return changes;
 }
 
-/// A design that takes the value of each Latin hypercube.
+/// Steps a design through all Latin hypercubes.
 class Designs {
   public:
     Designs(const Objective& objective, const Design& start)

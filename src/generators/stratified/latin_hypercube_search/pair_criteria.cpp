@@ -287,7 +287,7 @@ class Singles {
     std::vector<double> mean_;
 };
 
-/// Stands in for Singles in other measures.
+/// Replaces Singles in measures without such energies.
 class NoSingles {
   public:
     template <class Measure>
