@@ -6,11 +6,11 @@
 //     minimise over x  sum over i of integral of |y - x_i|^2 rho(y) dy over cell i,
 //     with weights w such that  integral of rho over cell i = total / n  for all i.
 //
-// Alternately, the weights are found for the present points (equal_cells.hpp) and the points move
-// to the centroids of their cells; both lower the cost. Undisturbed, points form crystals of
-// hexagons. So every tenth iteration, except the last nine, shakes hexagons beside hexagons by up
-// to half a spacing. A point is one of them if the bond order of its k neighbours at angles theta_j
-// is high,
+// Alternately, the weights are found for the present points (relaxation/equal_cells.hpp) and the
+// points move to the centroids of their cells; both lower the cost. Undisturbed, points form
+// crystals of hexagons. So every tenth iteration, except the last nine, shakes hexagons beside
+// hexagons by up to half a spacing. A point is one of them if the bond order of its k neighbours at
+// angles theta_j is high,
 //
 //     | sum_j exp(6 i theta_j) | / k  >  3/4    for the point and two of its neighbours or more.
 //

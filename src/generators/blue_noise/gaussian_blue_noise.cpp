@@ -4,13 +4,13 @@
 //
 //     E = sum over pairs i < j of  exp(-(n / V)^(2/d) |x_i - x_j|^2 / 2)
 //
-// by --iterations accelerated gradient steps (gaussian_relaxation.hpp). Up to constants, E is the
-// integral of the square of the points convolved with Gaussians of standard deviation sqrt(1/2)
-// (V / n)^(1/d). At its minimum these sums are nearly constant, so the spectrum vanishes below the
-// frequency (n / V)^(1/d) / 2.
+// by --iterations accelerated gradient steps (relaxation/gaussian_relaxation.hpp). Up to constants,
+// E is the integral of the square of the points convolved with Gaussians of standard deviation
+// sqrt(1/2) (V / n)^(1/d). At its minimum these sums are nearly constant, so the spectrum vanishes
+// below the frequency (n / V)^(1/d) / 2.
 //
 // With a --density, kernels are as wide as the local spacing of points, and the density attracts as
-// much as the points repel (density_relaxation.hpp).
+// much as the points repel (relaxation/density_relaxation.hpp).
 //
 // Shape   d = 1 ... 4, distances on the torus, which is the unit cube or a box with no side a
 //         thousand times another; a density in 2-D.

@@ -4,9 +4,9 @@
 //
 //     K x K tiles,  K = least with K^2 T >= n,  of  t = ceil(n / K^2) points,   T = --tile-points.
 //
-// The tile is toroidal Gaussian blue noise (gaussian_relaxation.hpp) with ranked points: the first
-// m of them are well spread, for every m. Ranks are given from the last to the first: each time,
-// the most crowded of the remaining points is removed,
+// The tile is toroidal Gaussian blue noise (relaxation/gaussian_relaxation.hpp) with ranked points:
+// the first m of them are well spread, for every m. Ranks are given from the last to the first:
+// each time, the most crowded of the remaining points is removed,
 //
 //     argmax over i of  sum over j of exp(-|x_i - x_j|^2 / (2 sigma^2)),
 //

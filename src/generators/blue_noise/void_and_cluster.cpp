@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Points on the first cells that void-and-cluster fills, on a torus of W x H cells:
+// Points on the first cells that void-and-cluster fills (math/neighbors/void_and_cluster.hpp), on a
+// torus of W x H cells:
 //
-//     point i = (c_i + 1/2) / (W, H),    c_i the cell of rank i    (math/neighbors/void_and_cluster.hpp)
+//     point i = (c_i + 1/2) / (W, H),    c_i the cell of rank i
 //
 // --bounds      distances are those in the box, in which cells need not be squares.
 // --density     the picture as dithered by the ranks: the n cells with the smallest

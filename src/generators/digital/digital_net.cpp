@@ -39,10 +39,10 @@
 //         r = 53; and below 1.
 // Source  H. Niederreiter, Random Number Generation and Quasi-Monte Carlo Methods, SIAM 1992,
 //         section 4.3, doi:10.1137/1.9781611970081; interlacing: J. Dick, SIAM J. Numer. Anal. 46
-//         (2008) 1519-1553, doi:10.1137/060666639. Layouts: github.com/QMCSoftware/LDData, formats.md
-//         (dnet, dnetup); F. Y. Kuo, D. Nuyens, Found. Comput. Math. 16 (2016) 1631-1696,
-//         doi:10.1007/s10208-016-9329-5 (columns); L. Paulin et al., ACM Trans. Graph. 41 (2022) 84,
-//         doi:10.1145/3528223.3530063 (rows).
+//         (2008) 1519-1553, doi:10.1137/060666639. Layouts: github.com/QMCSoftware/LDData,
+//         formats.md (dnet, dnetup); F. Y. Kuo, D. Nuyens, Found. Comput. Math. 16 (2016)
+//         1631-1696, doi:10.1007/s10208-016-9329-5 (columns); L. Paulin et al., ACM Trans. Graph.
+//         41 (2022) 84, doi:10.1145/3528223.3530063 (rows).
 
 #include <fmt/format.h>
 
