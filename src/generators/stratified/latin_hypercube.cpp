@@ -14,8 +14,9 @@
 //                  (latin_hypercube_search); it keeps slices, nested and given points, and takes
 //                  named parameters into account (latin_destination.hpp)
 //
-// Cost    O(n d); point i is found without the others, in constant memory. A search takes about 20 s of
-//         one core by default, less for few points, and up to 64 n^2 bytes: 256 MB at n = 2000.
+// Cost    O(n d); point i is found without the others, in constant memory. A search takes by
+//         default about 20 s of one core, less for few points, and up to 64 n^2 bytes: 256 MB at
+//         n = 2000.
 // Promise each stratum holds one point in exact arithmetic, and so it does by floor(x n)
 //         (math/digital/stratum.hpp). A search's result is a function of the request and options,
 //         for any number of threads, and never worse with more effort. Its value in the provenance
