@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Box-Behnken design: three levels, and for each block of an incomplete block design all
-// combinations of the lowest and highest levels of its factors, the others in the middle; then runs
-// at the centre.
+// Box-Behnken design with three levels. Each block of an incomplete block design gives all
+// combinations of the lowest and highest levels of its factors, while the other factors stay at the
+// middle level. Runs at the centre follow.
 //
 //     factors     3   4   5   6   7    9   10   11   12   16
 //     block       2   2   2   3   3    3    4    5    4    4      (11: half of the 2^5, E = ABCD)
-//     runs       12  24  40  48  56  120  160  176  192  384      and those at the centre
+//     runs       12  24  40  48  56  120  160  176  192  384      plus those at the centre
 //
 // Shape   (runs above + --center) x k for these k.
 // Source  G. E. P. Box, D. W. Behnken, Technometrics 2 (1960) 455-475,
@@ -25,7 +25,7 @@ namespace {
 
 struct Blocks {
     std::size_t factors;
-    std::string_view list;  ///< factors of each block, as digits to the base 17
+    std::string_view list;  ///< factors of each block, as digits in base 17
 };
 
 constexpr Blocks published[] = {
@@ -42,7 +42,7 @@ constexpr Blocks published[] = {
      "1269 348b 5ade 7cfg 237a 145c 6bef 89dg 256d 478f 19ae 3bcg 367e 158g 2abf 49cd 13df 24eg "
      "579b 68ac 46ag 359f 17bd 28ce"}};
 
-/// @throws Error(usage) naming the nearest numbers of factors that there are
+/// @throws Error(usage) naming the nearest available numbers of factors
 const Blocks& blocks_for(std::size_t factors) {
     std::size_t below = 0;
     for (const Blocks& blocks : published) {
@@ -58,7 +58,7 @@ const Blocks& blocks_for(std::size_t factors) {
          below);
 }
 
-/// The place in a block of each factor; none: -1.
+/// Index of each factor within each block, -1 for factors outside the block.
 using Places = std::vector<std::vector<int>>;
 
 Places places_of(const Blocks& blocks) {
@@ -74,7 +74,7 @@ Places places_of(const Blocks& blocks) {
     return places;
 }
 
-/// Binary logarithm of the runs of a block: all combinations of up to four factors.
+/// Binary logarithm of the runs per block: all combinations of up to four factors.
 std::size_t log_runs(const Blocks& blocks) {
     return std::min<std::size_t>(4, blocks.list.find(' '));
 }
@@ -87,7 +87,7 @@ Plan plan(const Request& request, const Values& options) {
                             fmt::format("the Box-Behnken design of {} factors", k));
 }
 
-/// 0, 1 or 2.
+/// Level 0, 1 or 2 of a factor in a run.
 std::size_t level(const Places& places, std::size_t log_runs, std::uint64_t run,
                   std::size_t factor) {
     const std::uint64_t block = run >> log_runs;

@@ -2,20 +2,20 @@
 //
 // Central composite design of k factors: F = 2^k corners at (+-1, ..., +-1), or a fraction of
 // resolution V of them; 2k axial runs at distance alpha from the centre, along each axis; and runs
-// at the centre. The whole is scaled about the cube's middle 1/2, its outermost levels being where
-// those of a three-level design are (levels.hpp).
+// at the centre. The design is scaled about the cube's centre so that its outermost levels are
+// those of a three-level design (levels.hpp).
 //
-//     --alpha rotatable    F^(1/4): the variance of prediction depends on the distance from the
-//                          centre alone
+//     --alpha rotatable    F^(1/4): the variance of prediction depends only on the distance from
+//                          the centre
 //             orthogonal   sqrt((sqrt(F N) - F) / 2) for N runs: quadratic effects are uncorrelated
 //
 //     --type circumscribed corners at -1 and 1, axial runs at -alpha and alpha
 //            inscribed     axial runs at -1 and 1, corners at -1/alpha and 1/alpha
 //            faced         alpha = 1
 //
-// Within the cube the first two have the same points. What differs is the box in which they have
-// these coded values, the provenance's coded_bounds for --bounds: that of the first is alpha times
-// as wide.
+// Circumscribed and inscribed designs have the same points in the cube. They differ in the box that
+// gives them these coded values (coded_bounds of the provenance, for --bounds): that of the
+// circumscribed one is alpha times as wide.
 //
 // Shape   n = F + 2 k + --center, k from 2 to 20.
 // Promise square roots are the only operations that round; the centre is 1/2 exactly.
@@ -61,7 +61,7 @@ RegularFraction corners_for(std::size_t factors, const Values& options) {
     return found ? found->design : full_fraction(factors);
 }
 
-/// @throws Error(usage)
+/// Axial distance alpha. @throws Error(usage)
 double alpha_of(const Values& options, double corners, double runs) {
     const std::string text = options[alpha];
     if (options[type] == "faced") {
@@ -92,7 +92,7 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-/// Places of -alpha, -1, 0, 1 and alpha.
+/// Coordinates of the coded values -alpha, -1, 0, 1 and alpha.
 std::vector<double> places_of(double a, bool ends) {
     const double outer = std::max(a, 1.0);
     std::vector<double> places{-a, -1, 0, 1, a};

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
 // Full factorial design: every combination of the factors' levels once, in standard order, the
-// first factor fastest. Where levels are in the cube: levels.hpp.
+// first factor fastest. levels.hpp defines the coordinates of levels.
 //
-// Shape   n = m_1 m_2 ... m_k runs, up to 2^53. Without --levels a count is m^k, and without a
-//         count every factor has two levels, or all outcomes of a parameter that has up to ten.
+// Shape   n = m_1 m_2 ... m_k runs, up to 2^53. Without --levels, a given count must be m^k;
+//         without a count, every factor has two levels, or all outcomes of a parameter with up to
+//         ten.
 // Cost    O(n k).
 // Source  D. C. Montgomery, "Design and Analysis of Experiments", Wiley, chapter 5.
 
@@ -28,7 +29,7 @@ constexpr Param<Numbers> levels{
              "Default: 2, or the k-th root of the count; of parameters with up to 10 outcomes, all "
              "of these"}};
 
-/// Levels of each factor. @throws Error(usage)
+/// Number of levels of each factor. @throws Error(usage)
 std::vector<std::uint64_t> levels_of(const std::vector<double>& given, std::size_t dimension) {
     std::vector<std::uint64_t> sizes;
     for (const double m : given) {
@@ -59,7 +60,7 @@ Plan plan(const Request& request, const Values& options) {
     return plan_of_runs(request, runs, d, "--levels " + format_value(Value(given)));
 }
 
-/// Each outcome of a parameter stands as often as others. @throws Error(usage)
+/// Checks that every outcome of a parameter occurs equally often. @throws Error(usage)
 void check_outcomes(const std::vector<std::uint64_t>& sizes, const LevelPlaces& places) {
     for (std::size_t k = 0; k < sizes.size(); ++k) {
         const std::uint64_t outcomes = places.outcomes(k);

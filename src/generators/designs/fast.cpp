@@ -5,13 +5,13 @@
 //
 //     x_i = 1/2 + asin(sin(2 pi (w_i j / N + phi_i))) / pi,
 //
-// straight lines that are reflected at its faces. On a factor's own curve it has the frequency w =
-// floor((N - 1) / (2 M)), and the others have 1, ..., m = floor(w / (2 M)), evenly spread in order
-// or, where there are too few, in turn. The phases phi_i are random, others for each curve and
-// factor.
+// straight lines that are reflected at its faces. On its own curve a factor has the frequency w =
+// floor((N - 1) / (2 M)). The other factors have frequencies from 1, ..., m = floor(w / (2 M)):
+// evenly spaced if there are enough of them, otherwise reused in turn. The phases phi_i are random,
+// drawn anew for each curve and factor.
 //
 // Shape   n = N k, the curve of the first factor first; N at least 4 M^2 + 1.
-// Promise x_i is within 1e-15 of exact.
+// Promise x_i is within 1e-15 of the exact value.
 // Source  A. Saltelli, S. Tarantola, K. P.-S. Chan, Technometrics 41 (1999) 39-56,
 //         doi:10.1080/00401706.1999.10485594.
 
@@ -32,7 +32,7 @@ constexpr Param<std::int64_t> harmonics{
     .high = 1000,
     .help = "Multiples M of a frequency that count as the factor's; the analysis needs the same"};
 
-constexpr std::uint64_t usual_curve = 1025;  // 2 M w + 1 for M = 4, w = 128: no aliases
+constexpr std::uint64_t usual_curve = 1025;  // 2 M w + 1 for M = 4 and w = 128: no aliasing
 
 Plan plan(const Request& request, const Values& options) {
     const std::size_t k = request.dimension.value_or(2);
@@ -48,8 +48,8 @@ Plan plan(const Request& request, const Values& options) {
 }
 
 struct Frequencies {
-    std::uint64_t own;                  ///< of the curve's factor
-    std::vector<std::uint64_t> others;  ///< of the other factors, in their order
+    std::uint64_t own;                  ///< frequency of the curve's factor
+    std::vector<std::uint64_t> others;  ///< frequencies of the other factors, in their order
 };
 
 Frequencies frequencies(std::uint64_t runs, std::size_t factors, std::uint64_t m) {
@@ -63,7 +63,7 @@ Frequencies frequencies(std::uint64_t runs, std::size_t factors, std::uint64_t m
     return f;
 }
 
-/// 1/2 + asin(sin(2 pi t)) / pi, below 1.
+/// 1/2 + asin(sin(2 pi t)) / pi for t in [0, 2), kept below 1.
 double triangle_wave(double t) {
     const double u = t < 1 ? t : t - 1;
     const double x = u <= 0.25 ? 0.5 + 2 * u : u <= 0.75 ? 1.5 - 2 * u : 2 * u - 1.5;

@@ -39,7 +39,7 @@ Equation parse_equation(std::string_view text) {
     return equation;
 }
 
-/// @throws Error(usage)
+/// Checks that no column is constant, equal to or opposite to another. @throws Error(usage)
 void require_different_columns(const RegularFraction& design) {
     for (std::size_t i = 0; i < design.factors(); ++i) {
         if (design.columns[i] == 0)
@@ -51,7 +51,7 @@ void require_different_columns(const RegularFraction& design) {
     }
 }
 
-/// What a word of the defining relation is equal to: 1 or -1.
+/// Sign of a word of the defining relation: "-" if the product of its factors is -1, else "".
 const char* sign_of(const RegularFraction& design, std::uint64_t word) {
     bool negative = false;
     for (std::size_t k = 0; k < design.negative.size(); ++k)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Regular fractions as experimenters write them: factors A, B, ..., Z, a, ..., z without I and i,
-// of which I stands for the mean; generators D=ABC,E=-AB; the defining relation I=ABCD=-ABE=-CDE;
-// and with each main effect what it is aliased with.
+// Text notation of regular fractions. Factors are A, B, ..., Z, a, ..., z without I and i, because
+// I denotes the mean. Generators are D=ABC,E=-AB; the defining relation is I=ABCD=-ABE=-CDE; each
+// main effect is listed with its aliases.
 #pragma once
 
 #include <cstddef>
@@ -18,33 +18,33 @@ namespace stipple::generators {
 inline constexpr std::string_view factor_letters =
     "ABCDEFGHJKLMNOPQRSTUVWXYZabcdefghjklmnopqrstuvwxyz";
 
-/// One generator, D=-ABC.
+/// One generator such as D=-ABC.
 struct Equation {
     std::size_t factor = 0;
-    std::uint64_t product = 0;  ///< set of factors
+    std::uint64_t product = 0;  ///< set of factors, one bit each
     bool negative = false;
 };
 
-/// @throws Error(usage)
+/// Parses generators separated by commas or spaces. @throws Error(usage)
 std::vector<Equation> parse_equations(std::string_view text);
 
-/// The fraction that equations between so many factors give. @throws Error(usage) where they
-/// contradict each other, or two factors would be the same
+/// Fraction of `factors` factors defined by equations. @throws Error(usage) if they contradict each
+/// other or make two factors equal
 RegularFraction fraction_of(const std::vector<Equation>& equations, std::size_t factors);
 
-/// D=ABC,E=-AB
+/// Generators as text: "D=ABC,E=-AB".
 std::string equations_of(const RegularFraction& design);
 
-/// I=ABCD=-ABE=-CDE, of the words of the defining relation.
+/// Defining relation as text: "I=ABCD=-ABE=-CDE".
 std::string relation_of(const RegularFraction& design, const std::vector<std::uint64_t>& words);
 
-/// A=BD=CE; B=AD: with each main effect the shortest that it cannot be told from.
+/// Each main effect with its shortest aliases: "A=BD=CE; B=AD".
 std::string aliases_of(const RegularFraction& design, const std::vector<std::uint64_t>& words);
 
-/// "7 of 3, 7 of 4, 1 of 7"
+/// Numbers of words by length: "7 of 3, 7 of 4, 1 of 7".
 std::string lengths_text(const WordLengths& lengths);
 
-/// III for 3, up to ten.
+/// Roman numeral up to ten (III for 3), Arabic digits beyond.
 std::string roman_numeral(std::size_t number);
 
 }  // namespace stipple::generators

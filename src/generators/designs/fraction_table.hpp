@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// Two-level fractions of up to 50 factors in up to 2^16 runs, which no others are known to be better
-// than: of the highest resolution that is known, and of these with the least aberration that a search
-// found (exchanges of columns, from codes of the tables and from random ones).
+// Table of the best known two-level fractions of up to 50 factors in up to 2^16 runs. Each has the
+// highest known resolution and, among fractions of that resolution, the least aberration that a
+// search found (exchanges of columns, starting from codes of the tables and from random ones).
 //
-// A row has the fractions of `least` to `most` factors: of k factors, the first k - basic numbers are
-// the columns of those that are not basic.
+// A row holds the fractions of `least` to `most` factors. For k factors, the first k - basic
+// numbers are the columns of the factors that are not basic.
 //
-// Promise as good as the catalogue of U. Groemping, J. Stat. Softw. 56 (2014) 1, doi:10.18637/jss.v056.i01
-//         (Chen, Sun, Wu; Xu), or better, wherever that has a fraction of so many factors and runs.
+// Promise as good as or better than the catalogue of U. Groemping, J. Stat. Softw. 56 (2014) 1,
+//         doi:10.18637/jss.v056.i01 (Chen, Sun, Wu; Xu), for every fraction that it contains.
 // Source  A. E. Brouwer, T. Verhoeff, IEEE Trans. Inf. Theory 39 (1993) 662-677,
-//         doi:10.1109/18.212302, as of 2006, for resolutions and their bounds: the defining relation is
-//         a linear code, and the resolution its least distance. J. Chen, D. X. Sun, C. F. J. Wu,
-//         Int. Stat. Rev. 61 (1993) 131-145, doi:10.2307/1403599; H. Xu, Technometrics 51 (2009)
-//         266-277, doi:10.1198/tech.2009.08120. V. V. Rao, S. M. Reddy, IEEE Trans. Inf. Theory 19
-//         (1973) 709-711 (resolution VII of 47 factors in 2^16 runs).
+//         doi:10.1109/18.212302, as of 2006, for resolutions and their bounds: the defining
+//         relation is a linear code, and the resolution its minimum distance. J. Chen, D. X. Sun,
+//         C. F. J. Wu, Int. Stat. Rev. 61 (1993) 131-145, doi:10.2307/1403599; H. Xu, Technometrics
+//         51 (2009) 266-277, doi:10.1198/tech.2009.08120. V. V. Rao, S. M. Reddy, IEEE Trans. Inf.
+//         Theory 19 (1973) 709-711 (resolution VII of 47 factors in 2^16 runs).
 #pragma once
 
 #include <cstddef>
@@ -441,7 +441,7 @@ inline constexpr FractionRow fraction_rows[] = {
      "44cb2f3c112c2e8c341c5a2d6c2d765d80edd07fc5d"},
 };
 
-/// Where a resolution above that of the table may exist: factors first to last.
+/// Range of factors for which a resolution above the table's, up to `bound`, may exist.
 struct OpenResolution {
     std::size_t basic;
     std::size_t first;

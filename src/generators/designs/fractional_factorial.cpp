@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
-// Regular fractional factorial design 2^(k-p): k factors of two levels in n = 2^(k-p) runs, a part
-// of the full factorial (regular_fraction.hpp). The factors are A, B, ..., H, J, ..., Z, a, ...,
-// without I, which stands for the mean. The fraction is given by --generators (D=ABC,E=-AB), or is
-// one of a table (fraction_table.hpp): of the highest resolution that is known for a count, or with the
-// fewest runs for a resolution, and of the least aberration that is known.
+// Regular fractional factorial design 2^(k-p): k factors of two levels in n = 2^(k-p) runs, a
+// subset of the full factorial (regular_fraction.hpp). The factors are A, B, ..., H, J, ..., Z, a,
+// ..., without I, which denotes the mean. The fraction is given by --generators (D=ABC,E=-AB) or
+// taken from a table (fraction_table.hpp): the highest known resolution for a count, or the fewest
+// runs for a resolution, and then the least known aberration.
 //
 //     III   main effects are aliased with interactions of two factors, but not with each other
-//     IV    with those of three; interactions of two factors with each other
-//     V     neither with those of two
+//     IV    main effects are aliased with interactions of three factors; interactions of two
+//           factors are aliased with each other
+//     V     main effects and interactions of two factors are not aliased with each other
 //
 // Shape   n x k, 2 <= k <= 50; n is a power of two, at most 2^16 for fractions of the table.
-//         Runs in standard order of the factors that are not generated, the first fastest.
-// Promise the provenance has the resolution and the number of words of each length, for p <= 6 the
-//         words and the shortest aliases of main effects, too; and whether no fraction of so many runs
-//         can have a higher resolution or less aberration (complete) or not all of them have been
-//         searched (limited), which a note says, too.
+//         Runs are in standard order of the basic factors (those without a generator), the first
+//         fastest.
+// Promise the provenance has the resolution and the number of words of each length; for p <= 6 also
+//         the words and the shortest aliases of main effects. For fractions of the table it also
+//         has whether a higher resolution or less aberration is impossible in so many runs (search:
+//         complete) or not excluded (limited). A note reports the latter.
 // Source  G. E. P. Box, J. S. Hunter, Technometrics 3 (1961) 311-351,
 //         doi:10.1080/00401706.1961.10489951; A. Fries, W. G. Hunter, Technometrics 22 (1980)
 //         601-608, doi:10.1080/00401706.1980.10486210 (aberration).
@@ -51,7 +53,7 @@ std::size_t asked_resolution(const Values& options) {
     return options.given(resolution) ? static_cast<std::size_t>(options[resolution]) : 3;
 }
 
-/// @throws Error(usage) for counts that are not the runs of a fraction
+/// @throws Error(usage) if no fraction has `count` runs
 KnownFraction for_count(std::uint64_t count, std::size_t factors, const Values& options) {
     const std::uint64_t all = std::uint64_t{1} << factors;
     if (!std::has_single_bit(count) || count > all) {
@@ -80,7 +82,7 @@ KnownFraction for_count(std::uint64_t count, std::size_t factors, const Values& 
          factors, roman_numeral(asked), others);
 }
 
-/// The fraction of the options. @throws Error(usage)
+/// Fraction selected by the options. @throws Error(usage)
 KnownFraction decide(std::optional<std::uint64_t> count, std::size_t factors,
                      const Values& options) {
     if (options.given(equations))
@@ -95,7 +97,7 @@ KnownFraction decide(std::optional<std::uint64_t> count, std::size_t factors,
     return *known;
 }
 
-/// As many factors as the equations name. @throws Error(usage)
+/// Number of factors: the dimension, or as many as the equations name. @throws Error(usage)
 std::size_t factors_of(const Request& request, const Values& options) {
     if (!options.given(equations)) return request.dimension.value_or(3);
     std::uint64_t named = 0;
@@ -145,7 +147,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
         findings_of(known, options.given(equations), ends));
 }
 
-/// Whether fewer runs may have that resolution, as far as is known; how many.
+/// Smallest number of runs that might reach the resolution but is not known to; 0 if there is none.
 std::uint64_t fewer_in_doubt(std::size_t factors, const KnownFraction& known, std::size_t asked) {
     for (std::size_t basic = 1; basic < known.design.basic.size(); ++basic)
         if (const auto smaller = known_fraction(factors, basic); smaller && smaller->bound >= asked)

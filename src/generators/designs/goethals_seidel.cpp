@@ -12,7 +12,8 @@ namespace {
 struct Functions {
     std::uint64_t outer;
     std::uint64_t inner;
-    std::array<std::string_view, 4> values;  ///< 1 bits are 1, the first of each digit the highest
+    std::array<std::string_view, 4> values;  ///< hexadecimal, highest bit first; a bit 1 means the
+                                             ///< value 1
 };
 
 constexpr Functions functions[] = {

@@ -11,7 +11,7 @@
 namespace stipple::generators {
 namespace {
 
-/// p for a power of a prime p; else 0.
+/// Returns p if q is a power of a prime p, otherwise 0.
 std::uint64_t prime_of_power(std::uint64_t q) {
     if (q < 2) return 0;
     const std::uint64_t p = smallest_factor(q);
@@ -19,13 +19,13 @@ std::uint64_t prime_of_power(std::uint64_t q) {
     return q == 1 ? p : 0;
 }
 
-/// a for q = a (a + 2), both primes; else 0.
+/// Returns a if q = a (a + 2) with both primes, otherwise 0.
 std::uint64_t lower_twin(std::uint64_t q) {
     const std::uint64_t a = floor_root(q, 2);
     return a >= 3 && a * (a + 2) == q && is_prime(a) && is_prime(a + 2) ? a : 0;
 }
 
-/// x - y in the field whose elements are numbered by their digits to the base p.
+/// x - y in the field of order p^m; elements are numbered by their digits in base p.
 std::uint64_t difference(std::uint64_t x, std::uint64_t y, std::uint64_t p) {
     std::uint64_t out = 0;
     for (std::uint64_t unit = 1; x != 0 || y != 0; x /= p, y /= p, unit *= p)
@@ -33,8 +33,8 @@ std::uint64_t difference(std::uint64_t x, std::uint64_t y, std::uint64_t p) {
     return out;
 }
 
-/// The squares of the field, 0 among them: every other power of t modulo a polynomial of which t is
-/// a primitive root, the first one in the order of its coefficients.
+/// Squares of the field, including 0. They are the even powers of t modulo the first polynomial, in
+/// the order of coefficients, that has t as a primitive root.
 std::vector<bool> squares_of_field(std::uint64_t q, std::uint64_t p) {
     for (std::uint64_t polynomial = 1; polynomial < q; ++polynomial) {
         std::vector<bool> square(q);
@@ -42,7 +42,7 @@ std::vector<bool> squares_of_field(std::uint64_t q, std::uint64_t p) {
         std::uint64_t power = 1;
         std::uint64_t steps = 0;
         do {
-            const std::uint64_t carry = power / (q / p);  // t^r = carry of the polynomial
+            const std::uint64_t carry = power / (q / p);  // t^r = carry times the polynomial
             power = power % (q / p) * p;
             for (std::uint64_t c = 0; c < carry; ++c) power = difference(power, polynomial, p);
             ++steps;
@@ -60,7 +60,7 @@ std::vector<bool> squares_of_prime(std::uint64_t p) {
     return square;
 }
 
-/// The sequence of Stanton and Sprott, turned so that with 36 runs it is that of Plackett and
+/// Sequence of Stanton and Sprott, rotated so that the design of 36 runs is that of Plackett and
 /// Burman.
 std::vector<bool> twin_sequence(std::uint64_t a) {
     const auto of_a = squares_of_prime(a);
@@ -75,13 +75,14 @@ std::vector<bool> twin_sequence(std::uint64_t a) {
     return positive;
 }
 
-/// Whether Miyamoto's construction gives that order.
+/// Whether Miyamoto's construction gives this order.
 bool is_of_miyamoto(std::uint64_t order) {
     const std::uint64_t q = order / 4;
     return order % 16 == 4 && prime_of_power(q) != 0 && has_hadamard(q - 1);
 }
 
-/// Order of what has to be doubled to that one, or it itself; 0: none.
+/// Order of the construction that doubling extends to `order`, possibly `order` itself; 0 if there
+/// is none.
 std::uint64_t base_order(std::uint64_t order) {
     for (; order >= 4 && order % 4 == 0; order /= 2)
         if (prime_of_power(order - 1) != 0 || lower_twin(order - 1) != 0 ||
@@ -144,7 +145,7 @@ bool Hadamard::positive(std::uint64_t row, std::uint64_t column) const {
 
 bool Hadamard::core(std::uint64_t row, std::uint64_t column) const {
     if (column == 0) return true;
-    if (kind_ == Kind::four_functions)  // rows times what makes the first column 1
+    if (kind_ == Kind::four_functions)  // divides each row by its first entry
         return four_->positive(row, column) == four_->positive(row, 0);
     if (kind_ == Kind::miyamoto) return miyamoto(row, column) == miyamoto(row, 0);
     if (kind_ == Kind::conference) return paley_two(row, column);
@@ -154,7 +155,8 @@ bool Hadamard::core(std::uint64_t row, std::uint64_t column) const {
     return square_[kind_ == Kind::field ? difference(k, row, prime_) : (k + q - row) % q];
 }
 
-/// C (x) (1 1 / 1 -1) + I (x) (1 -1 / -1 -1), row 1 times -1 for the first column of 1.
+/// Entry of C (x) (1 1 / 1 -1) + I (x) (1 -1 / -1 -1), with row 1 negated so that the first column
+/// is all 1.
 bool Hadamard::paley_two(std::uint64_t row, std::uint64_t column) const {
     const std::uint64_t i = row / 2;
     const std::uint64_t k = column / 2;
@@ -165,16 +167,17 @@ bool Hadamard::paley_two(std::uint64_t row, std::uint64_t column) const {
     return (character != low) != turned;
 }
 
-/// Four strips of q rows and columns, of which the first is a border of 1 and -1 and the others are two
-/// times m. With the characters of differences between squares C1, from squares to others C2 and between
-/// others C4, and the quarters K1, ..., K4 of the smaller matrix, strips s and t meet in
+/// Entry of Miyamoto's matrix: four strips of q rows and columns. The first line of a strip is a
+/// border of 1 and -1; the others form two halves of m lines. C1, C2 and C4 are characters of
+/// differences: between squares, from squares to nonsquares, and between nonsquares. K1, ..., K4
+/// are the quarters of the smaller matrix. Strips s and t meet in
 ///
 ///     U + V  U - V        U  -C1 C2  0   0        V  I   0    K1  K2
 ///     U - V  U + V            C2'C4  0   0           0   I   -K3  K4
 ///                             0   0 -C1  C2          K1' -K3' I   0
 ///                             0   0  C2' C4          K2'  K4' 0   I
 ///
-/// times signs, by which the strips are orthogonal.
+/// times signs that make the strips orthogonal.
 bool Hadamard::miyamoto(std::uint64_t row, std::uint64_t column) const {
     constexpr bool minus[4][4] = {{false, false, false, false},
                                   {true, false, false, true},

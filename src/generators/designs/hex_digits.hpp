@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Tables as hexadecimal digits.
+// Reads numbers of tables that are stored as hexadecimal digits.
 #pragma once
 
 #include <charconv>

@@ -5,12 +5,13 @@
 //     (2 l + 1) / (2 m)     the middle of the l-th of m equal cells, or with --ends
 //     l / (m - 1)           from face to face, the highest one just below 1.
 //
-// From the middles every warp by inversion onto m equally probable integers or categories gives the
-// levels exactly, as does the box from -m / (m - 1) to m / (m - 1), in which they are the coded
+// With the middles, every warp by inversion onto m equally probable integers or categories gives
+// the levels exactly. So does the box from -m / (m - 1) to m / (m - 1), in which they are the coded
 // values -1, ..., 1 of the literature: --bounds -2..2 for two levels, -1.5..1.5 for three.
 //
-// A factor that becomes one of K outcomes, words or up to ten numbers, takes them in turn, whatever
-// their probabilities: a level at x is in the middle of the interval of outcome floor(K x).
+// A factor that is warped onto K outcomes (categories, or up to ten numbers) takes them in turn,
+// whatever their probabilities: a level at x moves to the middle of the interval of outcome
+// floor(K x).
 #pragma once
 
 #include <cstddef>
@@ -44,52 +45,52 @@ inline constexpr Param<std::int64_t> center_option{
 
 using Findings = std::vector<std::pair<std::string, std::string>>;
 
-/// Where a level is. One level alone is in the middle.
+/// Coordinate of a level; 1/2 if it is the only one.
 double level_place(std::uint64_t level, std::uint64_t levels, bool ends);
 
-/// The places of all levels.
+/// Coordinates of all levels.
 std::vector<double> level_places(std::uint64_t levels, bool ends);
 
-/// The range "-2..2" in which so many levels are -1, ..., 1, for --bounds.
+/// The --bounds that map the levels to -1, ..., 1, such as "-2..2".
 std::string coded_range(std::uint64_t levels, bool ends);
 
-/// The plan for a number of runs. @throws Error(usage) where another one is asked for
-/// @param design "2^3 runs" in its message
+/// Plan for a fixed number of runs. @throws Error(usage) if the request has another count
+/// @param design named in that message, such as "2^3 runs"
 Plan plan_of_runs(const Request& request, std::uint64_t runs, std::size_t factors,
                   const std::string& design);
 
-/// As plan_of_runs(), for `others` runs and so many as are asked for at the centre.
+/// Like plan_of_runs(), for `others` runs plus those at the centre.
 Plan plan_with_center(const Request& request, const Values& options, std::uint64_t others,
                       std::size_t factors, const std::string& design);
 
-/// Holds that count and start are multiples of the runs that belong together. @throws Error(usage)
+/// Checks that count and start are multiples of `block`. @throws Error(usage)
 void require_whole_blocks(const Plan& plan, std::uint64_t block, const std::string& who);
 
-/// The ends of the intervals of [0, 1] that have the same outcome each, rising; none where these are
-/// more than `most`, or the axis is continuous.
+/// Ends of the intervals of [0, 1] with the same outcome, ascending; empty if there are more than
+/// `most` intervals or the axis is continuous.
 std::vector<double> outcome_ends(const OutcomeAxis& axis, std::size_t most);
 
-/// The same of categories, and of up to ten outcomes that are none: what designs take for levels.
+/// Like outcome_ends(), for axes whose outcomes serve as levels: categories, or up to ten numbers.
 std::vector<double> level_ends(const OutcomeAxis& axis);
 
-/// Where levels are along the factors of a plan.
+/// Coordinates of levels along the factors of a plan.
 class LevelPlaces {
   public:
     explicit LevelPlaces(const Plan& plan);
 
-    /// How many outcomes a factor has for levels; 0: those of a number are anywhere.
+    /// Number of outcomes that serve as levels of a factor; 0 if its levels are plain coordinates.
     [[nodiscard]] std::size_t outcomes(std::size_t factor) const {
         return factor < ends_.size() && !ends_[factor].empty() ? ends_[factor].size() - 1 : 0;
     }
 
-    /// Of the level at x.
+    /// Coordinate of the level at x.
     [[nodiscard]] double operator()(std::size_t factor, double x) const;
 
   private:
-    std::vector<std::vector<double>> ends_;  ///< of each factor, level_ends()
+    std::vector<std::vector<double>> ends_;  ///< level_ends() of each factor
 };
 
-/// Which of the places a run has along a factor.
+/// Index of a run's level along a factor.
 using LevelOf = std::function<std::size_t(std::uint64_t run, std::size_t factor)>;
 
 std::unique_ptr<Sequence> level_sequence(const Plan& plan, std::span<const double> places,

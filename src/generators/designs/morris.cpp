@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
-// Morris' design for elementary effects: r trajectories of k + 1 runs, of which each differs from
-// the one before in one factor. The levels of a factor are l / (p - 1), l = 0, ..., p - 1, from end to
-// end of its range, and the factor moves by
+// Morris' design for elementary effects: r trajectories of k + 1 runs, each of which differs from
+// the previous one in one factor. The levels of a factor are l / (p - 1), l = 0, ..., p - 1, over
+// its whole range, and the factor moves by
 //
 //     delta = p / (2 (p - 1)),       p / 2 of its p levels.
 //
-// Which factor moves when, from which level and in which direction is random, each equally likely.
+// The order of the factors, the starting levels and the directions are random and equally likely.
 //
 //     --middles  levels (2 l + 1) / (2 p), the middles of equal cells; delta is 1/2 for every p
-//     --radial   r stars in place of trajectories: a point A, then for each factor A with that
+//     --radial   r stars instead of trajectories: a point A, then for each factor A with that
 //                coordinate from another point B; both from a Sobol' sequence, B four points ahead
 //
 // Shape   n = r (k + 1).
 // Cost    O(n k).
-// Promise trajectory t is the same for any number of them: more reuse all there were.
-// Beware  what has the period delta in a factor looks as if it did not depend on it; with --middles that
-//         is the period 1/2, for every p.
+// Promise trajectory t does not depend on the number of trajectories: a larger design extends a
+//         smaller one.
+// Beware  a function with the period delta in a factor seems not to depend on it; with --middles
+//         the period is 1/2 for every p.
 // Source  M. D. Morris, Technometrics 33 (1991) 161-174, doi:10.1080/00401706.1991.10484804;
 //         F. Campolongo, A. Saltelli, J. Cariboni, Comput. Phys. Commun. 182 (2011) 978-988,
 //         doi:10.1016/j.cpc.2010.12.039 (radial).
@@ -79,7 +80,7 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-/// One trajectory, step by step.
+/// One trajectory, generated step by step.
 class Trajectory {
   public:
     Trajectory(std::uint64_t key, std::size_t dimension, std::uint64_t p)
@@ -107,7 +108,7 @@ class Trajectory {
 
   private:
     std::uint64_t levels_;
-    std::vector<std::uint64_t> low_;  ///< the lower of the factor's two levels
+    std::vector<std::uint64_t> low_;  ///< lower of the factor's two levels
     std::vector<bool> up_;
     std::vector<std::size_t> order_;
     std::size_t moved_ = 0;
@@ -121,7 +122,7 @@ void fill(const Plan& plan, const LevelPlaces& places, std::uint64_t p, bool end
         Trajectory trajectory(keys.bits(first / (d + 1)), d, p);
         for (std::size_t j = 0; j <= d && !rows.empty(); ++j) {
             if (j > 0) trajectory.step();
-            if (j < first % (d + 1)) continue;  // only of the first one
+            if (j < first % (d + 1)) continue;  // the first trajectory may begin inside
             trajectory.write(rows.first(d), ends, places);
             rows = rows.subspan(d);
             if (j == d) first += d + 1 - first % (d + 1);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // Plackett-Burman design: n runs of up to n - 1 factors with two levels, in which any two factors
-// have each of the four pairs of levels n / 4 times. The columns are those of a Hadamard matrix but
-// for its column of 1 (hadamard.hpp). For 12, 20, 24, 36 and 44 runs, as wherever n - 1 is a prime,
-// they are the published cyclic ones: the first row moved on by one for each next run, and a last
-// run with all factors at the low level.
+// have each of the four pairs of levels n / 4 times. The columns are those of a Hadamard matrix
+// except its column of 1 (hadamard.hpp). If n - 1 is a prime, as for 12, 20, 24 and 44 runs, or n
+// is 36, they are the published cyclic ones: each run is the previous one shifted by one, and the
+// last run has all factors at the low level.
 //
-// Shape   n x k, k < n; n a multiple of 4 (which ones: hadamard.hpp). Without a count the fewest
-//         runs for k factors, without k as many factors as there can be.
+// Shape   n x k, k < n; n a multiple of 4 (which ones: hadamard.hpp). The default count is the
+//         least for k factors, the default k is n - 1.
 // Beware  main effects are aliased in part with interactions of two other factors.
 // Source  R. L. Plackett, J. P. Burman, Biometrika 33 (1946) 305-325,
 //         doi:10.1093/biomet/33.4.305.
@@ -25,11 +25,11 @@ std::uint64_t nearest_below(std::uint64_t count) {
     return n;
 }
 
-/// 0: none.
+/// Smallest possible count of at least `count`; 0 if there is none.
 std::uint64_t nearest_above(std::uint64_t count) {
     if (count > most_hadamard) return 0;
     std::uint64_t n = std::max<std::uint64_t>(4, (count + 3) / 4 * 4);
-    while (!has_hadamard(n)) n += 4;  // ends at 2^20
+    while (!has_hadamard(n)) n += 4;  // ends at 2^20, for which there is a matrix
     return n;
 }
 

@@ -10,7 +10,7 @@
 namespace stipple::generators {
 namespace {
 
-/// @throws Error(usage)
+/// Checks that `base` can start at any index. @throws Error(usage)
 void require_sequence(const std::string& base, Request request) {
     request.start = 1;
     try {

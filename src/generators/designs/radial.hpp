@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Radial designs: for each i the runs in which coordinates of one point A_i of the unit cube are
-// replaced by those of another one, B_i. Both are halves of points of one sequence in twice as many
-// dimensions: A_i of point i, B_i of point i + ahead. As of every sequence that is allowed there,
-// any beginning may be taken, so that more runs reuse all there were.
+// Radial designs: for each i, runs in which coordinates of one point A_i of the unit cube are
+// replaced by those of another point B_i. Both come from one sequence in twice as many dimensions:
+// A_i is the first half of its point i, B_i the second half of its point i + ahead. Since the base
+// is a sequence, a larger design extends a smaller one.
 #pragma once
 
 #include <cstddef>
@@ -17,22 +17,22 @@
 
 namespace stipple::generators {
 
-/// What both halves come from unless asked otherwise: scrambled, since both halves of the first
-/// point would else be the origin, and random by the seed.
+/// Default sequence for both halves. It is scrambled because both halves of the first point would
+/// otherwise be the origin, and so that the seed matters.
 inline constexpr const char* usual_base = "sobol:scramble=owen";
 
 struct RadialShape {
     std::size_t dimension;
-    std::size_t runs;       ///< for each i
+    std::size_t runs;       ///< runs for each i
     std::size_t ahead = 0;  ///< points by which B is ahead of A
 };
 
-/// Writes run j of those for one i: its row is A_i before.
+/// Writes run j of the block for one i; `row` holds A_i on entry, `b` is B_i.
 using RadialRun =
     std::function<void(std::size_t j, std::span<const double> b, std::span<double> row)>;
 
 /// @param base spec of a generator
-/// @throws Error(usage) for one whose points depend on their number
+/// @throws Error(usage) if the base's points depend on their number
 std::unique_ptr<Sequence> radial_sequence(const RadialShape& shape, const std::string& base,
                                           std::uint64_t seed, RadialRun write_run);
 

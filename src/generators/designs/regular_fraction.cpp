@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t bit(std::size_t i) { return std::uint64_t{1} << i; }
 
-/// A word for each factor that is not basic, as a set of factors.
+/// Word of each factor that is not basic, as a set of factors.
 std::vector<std::uint64_t> generating_words(const RegularFraction& design) {
     std::vector<std::uint64_t> words;
     for (std::size_t k = 0; k < design.factors(); ++k) {
@@ -25,7 +25,7 @@ std::vector<std::uint64_t> generating_words(const RegularFraction& design) {
     return words;
 }
 
-/// Calls visit(x) for every XOR of a choice of `parts`, the empty one first.
+/// Calls visit(x) for the XOR of every subset of `parts`, the empty one first.
 template <class Visit>
 void for_each_sum(const std::vector<std::uint64_t>& parts, const Visit& visit) {
     std::uint64_t sum = 0;
@@ -34,7 +34,8 @@ void for_each_sum(const std::vector<std::uint64_t>& parts, const Visit& visit) {
         visit(sum ^= parts[static_cast<std::size_t>(std::countr_zero(i))]);
 }
 
-/// The numbers of words from those of the sums of rows: by MacWilliams,
+/// Word length counts A_t from the numbers B_w of row sums with w factors, by the MacWilliams
+/// identity:
 ///     sum_t A_t z^t  =  2^-r sum_w B_w (1 - z)^w (1 + z)^(k - w).
 WordLengths from_rows(const std::vector<std::uint64_t>& sums, std::size_t basic) {
     const std::size_t k = sums.size() - 1;
@@ -53,7 +54,7 @@ WordLengths from_rows(const std::vector<std::uint64_t>& sums, std::size_t basic)
     return lengths;
 }
 
-/// The row of the table with a fraction.
+/// Row of the table with the fraction, nullptr if there is none.
 const FractionRow* row_of(std::size_t factors, std::size_t basic) {
     const auto found = std::ranges::find_if(fraction_rows, [&](const FractionRow& row) {
         return row.basic == basic && row.least <= factors && factors <= row.most;
@@ -67,8 +68,9 @@ std::size_t bound_of(std::size_t factors, std::size_t basic, std::size_t resolut
     return resolution;
 }
 
-/// By the complete catalogues of up to 32 runs, and of 64 runs at resolution IV (Chen, Sun, Wu 1993),
-/// and the theorems on up to four generators (J. Chen, C. F. J. Wu, Ann. Stat. 19 (1991) 1028-1041).
+/// Whether the fraction is proven to have minimum aberration: by the complete catalogues of up to
+/// 32 runs, and of 64 runs at resolution IV (Chen, Sun, Wu 1993), or by the theorems on up to four
+/// generators (J. Chen, C. F. J. Wu, Ann. Stat. 19 (1991) 1028-1041).
 bool is_least(std::size_t factors, std::size_t basic) {
     return basic <= 5 || (basic == 6 && factors <= 32) || factors - basic <= 4;
 }
@@ -95,7 +97,7 @@ WordLengths word_lengths(const RegularFraction& design) {
         for_each_sum(generating_words(design), count);
         return counts;
     }
-    std::vector<std::uint64_t> rows(basic);  // factors whose column has the j-th basic factor
+    std::vector<std::uint64_t> rows(basic);  // factors whose column has the j-th basic one
     for (std::size_t j = 0; j < basic; ++j)
         for (std::size_t i = 0; i < k; ++i)
             if ((design.columns[i] & bit(j)) != 0) rows[j] |= bit(i);
@@ -114,7 +116,7 @@ std::vector<std::uint64_t> defining_words(const RegularFraction& design) {
     for_each_sum(generating_words(design), [&](std::uint64_t word) { words.push_back(word); });
     words.erase(words.begin());
     std::ranges::sort(words, {}, [](std::uint64_t word) {
-        // By length, then as one would list them: ABD before ACE.
+        // by length, then alphabetically: ABD before ACE
         std::uint64_t reversed = 0;
         for (std::size_t i = 0; i < 64; ++i) reversed |= (word >> i & 1) << (63 - i);
         return std::pair(std::popcount(word), ~reversed);

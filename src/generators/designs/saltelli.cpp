@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
 // Saltelli's design for Sobol' indices of k factors. For each base row i, with two independent
-// points A_i and B_i of the cube, the runs are, in this order (as of SALib),
+// points A_i and B_i of the cube, the runs are, in this order (that of SALib),
 //
 //     A_i,  AB_i1, ..., AB_ik,  [BA_i1, ..., BA_ik,]  B_i
 //
 // where AB_ij is A_i with coordinate j from B_i, and BA_ij is B_i with coordinate j from A_i. The
-// latter are there for indices of second order (--second-order).
+// latter runs are included with --second-order, for indices of second order.
 //
 // Shape   n = N (k + 2) runs for N base rows, or N (2 k + 2) with --second-order.
-// Promise N base rows are the first of any larger number: more runs reuse all there were.
-// Beware  a base of Sobol' points is best with N a power of two.
+// Promise the first N base rows do not depend on their number: a larger design extends a smaller
+//         one.
+// Beware  Sobol' points as the base work best if N is a power of two.
 // Source  A. Saltelli, P. Annoni, I. Azzini, F. Campolongo, M. Ratto, S. Tarantola, Comput. Phys.
 //         Commun. 181 (2010) 259-270, doi:10.1016/j.cpc.2009.09.018; A. Saltelli, Comput. Phys.
 //         Commun. 145 (2002) 280-297, doi:10.1016/S0010-4655(02)00280-1 (second order).
@@ -57,7 +58,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
             row[j - 1] = b[j - 1];
             return;
         }
-        const std::size_t kept = j + 1 < runs ? j - k - 1 : k;  // none of the last run's
+        const std::size_t kept = j + 1 < runs ? j - k - 1 : k;  // k: none
         for (std::size_t i = 0; i < k; ++i)
             if (i != kept) row[i] = b[i];
     };
