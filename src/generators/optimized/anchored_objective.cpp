@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// The star discrepancy in two and three dimensions by all boxes that end at coordinates of points,
+// The star discrepancy in two and three dimensions over all boxes that end at coordinates of
+// points,
 //
 //     open    V - c / n     c points with all coordinates below the corner's
 //     closed  c / n - V     c points with none above it
 //
-// and V the product of the corner's coordinates: plane by plane along the first axis, with the
-// counts of a plane in memory. With weights w_j >= 0 a box counts with the product of those of the
-// axes on which it does not end at 1; where w_j > 1 one that ends just below 1 counts in its place.
+// where V is the product of the corner's coordinates. Boxes are searched plane by plane along the
+// first axis, with the counts of one plane in memory. With weights w_j >= 0 a box is weighted by
+// the product of w_j over the axes on which it does not end at 1. If w_j > 1, a box that ends just
+// below 1 replaces one that ends at 1.
 #include <algorithm>
 #include <vector>
 
@@ -20,15 +22,15 @@
 namespace stipple::optimized {
 namespace {
 
-/// A box by the places of its corner's coordinates in their orders.
+/// Box, given by the ranks of its corner's coordinates.
 struct Hit {
     std::uint32_t at[3];
     float value;
     bool open;
 };
 
-/// Rows of counts, and what a box of each row has as its volume over the last coordinate and as a
-/// point's share, both with the sign of its side and its weight.
+/// Rows of counts. For each row, both weighted and with the sign for open or closed: a box's volume
+/// per unit of its last coordinate, and the value of one point.
 struct Plane {
     const float* counts;
     std::size_t stride;
@@ -52,7 +54,7 @@ inline bool any_above(const float* values, const float* counts, float reach, flo
 }
 
 /// Appends the places of a plane with values[k] * reach - counts[k] * share > least, for k in
-/// [first, last): most rows have none.
+/// [first, last). Tests whole rows first, since most have none.
 STIPPLE_WIDE void find_above(const Plane& plane, const float* values, float least,
                              std::size_t first, std::size_t last, std::vector<Place>& places) {
     constexpr std::size_t lanes = 32;
@@ -72,7 +74,7 @@ STIPPLE_WIDE void find_above(const Plane& plane, const float* values, float leas
     }
 }
 
-/// Adds a point to the counts beyond it.
+/// Increments all counts of a row from a point on.
 STIPPLE_WIDE void add_one(float* counts, std::size_t size) {
     for (std::size_t k = 0; k < size; ++k) counts[k] += 1;
 }
@@ -91,7 +93,9 @@ class AnchoredObjective final : public Objective {
     double value(std::span<const double> rows, double sharpness, std::span<double> gradient,
                  const RunContext& run) override {
         sort_axes(rows);
-        if (last_ == 0) last_ = static_cast<double>(d_ + 1) / static_cast<double>(n_);  // a guess
+        if (last_ == 0)
+            last_ = static_cast<double>(d_ + 1) / static_cast<double>(n_);  // initial
+                                                                            // guess
         double most = 0;
         for (double least = last_ * (1 - reach / sharpness); most == 0; least *= 0.8) {
             look(static_cast<float>(std::max(least, 0.0)), run);
@@ -112,7 +116,7 @@ class AnchoredObjective final : public Objective {
   private:
     static constexpr std::size_t lanes = 16;
 
-    /// What a thread finds in its planes, and finds it with.
+    /// Hits and buffers of one thread.
     struct Part {
         std::vector<float> counts;
         std::vector<float> reaches;
@@ -121,9 +125,9 @@ class AnchoredObjective final : public Objective {
         std::vector<Hit> hits;
     };
 
-    static constexpr double reach = 7;  ///< boxes whose weights are below e^-reach do not count
+    static constexpr double reach = 7;  ///< boxes with weights below e^-reach are ignored
 
-    /// Of a box that ends at the given place on an axis.
+    /// Weight of an axis for a box that ends at `place` on it.
     [[nodiscard]] float weight(std::size_t axis, std::size_t place) const {
         return place < n_ ? weights_[axis] : std::max(1.0F, weights_[axis]);
     }
@@ -133,7 +137,7 @@ class AnchoredObjective final : public Objective {
             const std::size_t j = axis + d_ - 3;
             const auto at = [&](std::uint32_t i) { return rows[i * d_ + j]; };
             const auto& order = order_[axis] = order_by(n_, at);
-            values_[axis].assign(width_, 0);  // behind the 1 no box is above anything
+            values_[axis].assign(width_, 0);  // padding after the 1: boxes of value 0
             values_[axis][n_] = 1;
             ranks_[axis].resize(n_);
             for (std::uint32_t place = 0; place < n_; ++place) {
@@ -143,8 +147,9 @@ class AnchoredObjective final : public Objective {
         }
     }
 
-    /// Finds all boxes above `least`, by planes of the first axis; in the plane there is one. A part
-    /// of the planes begins by counting the points before it, so there are no more than threads.
+    /// Finds all boxes above `least`, plane by plane along the first axis; in two dimensions there
+    /// is one plane. Each part begins by counting the points before it, so there are no more parts
+    /// than threads.
     void look(float least, const RunContext& run) {
         constexpr std::size_t few = 100;
         const std::size_t planes = d_ == 3 ? n_ + 1 : 1;
@@ -174,14 +179,15 @@ class AnchoredObjective final : public Objective {
             add_one(&counts[b * stride_ + first], n_ + 2 - first);
     }
 
-    /// The boxes that end in a plane; adds its point to the counts.
+    /// Searches the boxes that end in plane `a` and adds its point to the counts.
     void look_at(std::size_t a, float least, Part& part, const RunContext& run) const {
         look_in(a, true, least, part, run);
         if (a < n_) add(order_[0][a], part.counts);
         look_in(a, false, least, part, run);
     }
 
-    /// Closed boxes have the counts of the next places, which behind the last are the same.
+    /// Searches the open or closed boxes that end in plane `a`. Closed boxes use the counts one
+    /// place further.
     void look_in(std::size_t a, bool open, float least, Part& part, const RunContext& run) const {
         const float outer = weight(0, a) * (open ? 1 : -1);
         const float width = d_ == 3 ? values_[0][a] : 1;
@@ -198,7 +204,7 @@ class AnchoredObjective final : public Objective {
                 part.reaches[b] *= times;
                 part.shares[b] *= times;
             }
-            constexpr std::size_t few = 1024;  // rows between two looks at the run
+            constexpr std::size_t few = 1024;  // rows between two checks for a stop
             for (std::size_t row = 0; row <= n_; row += few) {
                 run.check_stop();
                 part.places.clear();
@@ -246,13 +252,13 @@ class AnchoredObjective final : public Objective {
 
     std::size_t n_;
     std::size_t d_;
-    std::size_t width_;   ///< of values_, a multiple of what a vector holds
-    std::size_t stride_;  ///< of counts
+    std::size_t width_;   ///< size of values_, a multiple of `lanes`
+    std::size_t stride_;  ///< row length of counts
     float weights_[3] = {1, 1, 1};
-    double last_ = 0;  ///< value
+    double last_ = 0;  ///< value at the previous points
     std::vector<std::uint32_t> order_[3];
     std::vector<std::uint32_t> ranks_[3];
-    std::vector<float> values_[3];  ///< in order, and 1
+    std::vector<float> values_[3];  ///< sorted coordinates, then 1
     std::vector<Part> parts_;
 };
 

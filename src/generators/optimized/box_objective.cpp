@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Discrepancies and dispersion in any dimension by a pool of boxes near the worst, each given by the
-// points at its sides, with which it moves:
+// Discrepancies and dispersion in any dimension over a pool of boxes near the worst. Each box is
+// given by the points at its sides and moves with them:
 //
-//     open    V - c / n     c points inside        (for the dispersion V, where there are none)
+//     open    V - c / n     c points inside        (dispersion: V if c = 0)
 //     closed  c / n - V     c points inside or on a side
 //
-// Each time, ascents from boxes of the pool, from others near them and from random ones look for
-// boxes that belong into it: they take the worst interval on one axis after the other until none is
-// worse. So the value is that of the worst box which was found, a lower bound.
+// Each evaluation runs ascents from boxes of the pool, from variants of them and from random boxes,
+// to find new boxes for the pool. An ascent takes the worst interval on one axis after the other
+// until none is worse. The value is that of the worst box found, a lower bound.
 #include <algorithm>
 #include <numeric>
 #include <vector>
@@ -43,7 +43,7 @@ STIPPLE_WIDE void keep_within(const double* x, double low, double high, std::siz
         inside[i] &= std::int64_t{x[i] >= low} & std::int64_t{x[i] <= high};
 }
 
-/// Sides of a box on an axis: points, or `rim` for 0 below and 1 above.
+/// Points at the sides of a box on one axis; `rim` stands for 0 below and for 1 above.
 struct Sides {
     std::uint32_t lower;
     std::uint32_t upper;
@@ -60,7 +60,7 @@ struct PoolBox {
     }
 };
 
-/// The search on from a box that is known, with so many comparisons.
+/// Worst box by the exact search, started from a known box and limited to `work` comparisons.
 SearchResult worst_of_all(const BoxGrid& grid, const WorstBox& known, std::uint64_t work,
                           const RunContext& run) {
     const SearchLimits limits{.work = work};
@@ -110,17 +110,17 @@ class BoxObjective final : public Objective {
         for (std::size_t k = 0; k < std::min<std::size_t>(pool_.size(), 8); ++k)
             if (!grid.torus() || ends_at_points(pool_[k])) known.offer(grid_box(pool_[k], grid));
         const SearchResult found = worst_of_all(grid, known, SearchLimits::short_work, run);
-        run.check_stop();  // which ends the search with what it has
+        run.check_stop();  // a stopped search returns without error
         pool_.push_back(pool_box(found.worst));
         return found.worst.value();
     }
 
     [[nodiscard]] double steps() const override {
-        return 500.0 * static_cast<double>(n_ * d_);  // the exact search now and then included
+        return 500.0 * static_cast<double>(n_ * d_);  // includes occasional exact searches
     }
 
   private:
-    static constexpr double reach = 7;  ///< boxes whose weights are below e^-reach do not count
+    static constexpr double reach = 7;  ///< boxes with weights below e^-reach are ignored
     static constexpr std::size_t ascents = 12;
     static constexpr std::size_t most_boxes = 1000;
 
@@ -138,14 +138,15 @@ class BoxObjective final : public Objective {
         return of;
     }
 
-    /// The torus has no rim for the grid: boxes that end there are other ways to say the same.
+    /// Whether all sides are at points. The torus's grid has no rim; boxes that end there are
+    /// duplicates.
     [[nodiscard]] bool ends_at_points(const PoolBox& box) const {
         return std::ranges::none_of(box.axes, [&](const Sides& sides) {
             return sides.lower == rim_ || sides.upper == rim_;
         });
     }
 
-    /// With points at its sides.
+    /// Converts a box of the grid to one given by the points at its sides.
     [[nodiscard]] PoolBox pool_box(const WorstBox& worst) const {
         PoolBox box{.open = !worst.closed()};
         const std::vector<double> low = worst.corner(&Interval::lower);
@@ -160,7 +161,7 @@ class BoxObjective final : public Objective {
         return box;
     }
 
-    /// On the torus 1 is 0, as in the grid of boxes.
+    /// Coordinate as in the grid, where 1 is 0 on the torus.
     [[nodiscard]] double place(double x) const {
         return family_ == Family::torus && x == 1 ? 0 : x;
     }
@@ -191,7 +192,8 @@ class BoxObjective final : public Objective {
         for (std::size_t j = 0; j < d_; ++j) product *= length(box, j);
         return product;
     }
-    /// Of an axis: a box that ends at 1 stands for those that end just below if these count more.
+    /// Weight of an axis. A box that ends at 1 also represents those ending just below if these
+    /// weigh more.
     [[nodiscard]] double weight(std::size_t j, bool at_rim) const {
         return at_rim ? std::max(1.0, weights_[j]) : weights_[j];
     }
@@ -201,7 +203,7 @@ class BoxObjective final : public Objective {
         return product;
     }
 
-    /// Marks of the points inside a box on all axes but one.
+    /// Marks the points inside a box on all axes except `but`.
     void mark_inside(const PoolBox& box, std::size_t but) {
         std::ranges::fill(inside_, std::int64_t{1});
         for (std::size_t j = 0; j < d_; ++j) {
@@ -230,7 +232,7 @@ class BoxObjective final : public Objective {
         return weight(box) * (box.open ? volume(box) - share : share - volume(box));
     }
 
-    /// Takes the worst interval on an axis with the others fixed; true if the box got worse.
+    /// Moves a box to the worst interval on one axis, the others fixed; true if its value rises.
     bool improve(PoolBox& box, std::size_t axis) {
         mark_inside(box, axis);
         line_.clear();
@@ -246,7 +248,7 @@ class BoxObjective final : public Objective {
         return false;
     }
 
-    /// Where an anchored box is worst to end.
+    /// Finds the worst upper end of an anchored box on one axis.
     void end_worst(PoolBox& box, std::size_t axis, double across) {
         double others = 1;
         for (std::size_t j = 0; j < d_; ++j)
@@ -265,7 +267,7 @@ class BoxObjective final : public Objective {
         }
     }
 
-    /// Where any box is worst to begin and end.
+    /// Finds the worst interval of a box on one axis, both ends free.
     void lie_worst(PoolBox& box, std::size_t axis, double across) {
         const double n = static_cast<double>(n_);
         const double each = empty_ ? 2 : 1 / n;
@@ -295,7 +297,7 @@ class BoxObjective final : public Objective {
     PoolBox random_box() {
         PoolBox box{.open = empty_ || draws_.below(2) == 0};
         for (std::size_t j = 0; j < d_; ++j) {
-            // towards 1, as the worst boxes of many dimensions have
+            // maximum: towards 1, as the worst boxes of many dimensions end
             const std::uint64_t a = draws_.below(n_ + 1);
             const std::uint64_t b = draws_.below(n_ + 1);
             const auto at = [&](std::uint64_t k) { return k == n_ ? rim_ : order_[j][k]; };
@@ -319,7 +321,7 @@ class BoxObjective final : public Objective {
         return near;
     }
 
-    /// Adds what ascents reach and leaves out what is far from the worst.
+    /// Adds the results of ascents to the pool and removes boxes far from the worst.
     void ascend(double sharpness, const RunContext& run) {
         const std::size_t some = pool_.empty() ? 20 * ascents : ascents;
         for (std::size_t k = 0; k < some; ++k) {

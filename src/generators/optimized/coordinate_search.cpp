@@ -13,7 +13,7 @@
 namespace stipple::optimized {
 namespace {
 
-/// A number that goes from one value to another, by a factor from step to step.
+/// Geometric sequence from one value to another in a given number of steps.
 class Geometric {
   public:
     Geometric(double from, double to, std::size_t steps)
@@ -31,12 +31,13 @@ class Geometric {
     double factor_;
 };
 
-/// The moving means of a gradient that Adam steps by.
+/// Adam: steps scaled by moving averages of the gradient and of its square.
 class Adam {
   public:
     explicit Adam(std::size_t size) : mean_(size), square_(size) {}
 
-    /// Moves the coordinates from the `first` on by at most about `rate`, within the unit cube.
+    /// Moves the coordinates from index `first` on, each by at most about `rate`, within the unit
+    /// cube.
     void step(std::span<double> x, std::span<const double> gradient, double rate,
               std::size_t first) {
         mean_left_ *= memory;
@@ -64,9 +65,9 @@ class Adam {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Where a descent ends, or the least of what it passed if it is cut short and the best will do. No
-/// rows, and a value that may be too small, if it is above `enough`: to be certain of it can take
-/// longer than the descent.
+/// Returns the end of a descent or, if it is cut short and the run keeps the best, the lowest set
+/// that it passed. If the value is above `enough`, there are no rows and the value may be too
+/// small, because a certain value can take longer than the descent.
 OptimizedRows descend(std::vector<double> rows, const CoordinateSearch& search,
                       const Schedule& schedule, double enough, const RunContext& run) {
     const std::unique_ptr<Objective> objective = search.objective();
@@ -77,7 +78,8 @@ OptimizedRows descend(std::vector<double> rows, const CoordinateSearch& search,
     Geometric sharpness(schedule.first_sharpness, schedule.last_sharpness, schedule.steps);
     Adam adam(rows.size());
     constexpr double near = 1.001;
-    // True if there was no box worse than those it went by.
+    // Descends by `steps` steps. True if the descent is over: its value is useless, or no box is
+    // worse than those it saw.
     const auto go = [&](std::size_t steps, auto next_rate, auto next_sharpness) {
         for (std::size_t step = 0; step < steps; ++step) {
             run.check_stop();
@@ -124,7 +126,7 @@ class Population {
         need_memory();
     }
 
-    /// @throws Error(cancelled) also where a stop comes before there is a best
+    /// @throws Error(cancelled), also if a stop comes before there is a best set
     OptimizedRows best() {
         unless_best_is_wanted(run_, [&] { search(); });
         keep_best(1);
@@ -149,11 +151,11 @@ class Population {
         polish();
     }
 
-    /// For the sets that are kept, those that come of them, and what descents hold besides.
+    /// Requires memory for the kept sets, their successors and the working data of descents.
     void need_memory() const {
         const auto sets = static_cast<double>(most_sets_);
         const double at_once = std::min(sets, static_cast<double>(run_.thread_count()));
-        constexpr double a_descent = 9;  // numbers for each coordinate
+        constexpr double a_descent = 9;  // doubles per coordinate
         run_.need_memory(8 * static_cast<double>(search_.count * search_.dimension) *
                              (2 * sets + a_descent * at_once),
                          "the search for coordinates");
@@ -162,7 +164,7 @@ class Population {
     static constexpr double starts_share = 0.4;
     static constexpr double polish_share = 0.05;
 
-    /// So many that each has time to get better.
+    /// Number of sets for a budget of `values` objective values, so that each has time to improve.
     static std::size_t sets_for(double values) {
         return static_cast<std::size_t>(std::clamp(values / 3000, 2.0, 16.0));
     }
@@ -172,7 +174,7 @@ class Population {
     }
     [[nodiscard]] SplitMix64 draws() { return SplitMix64(rng_.bits(tasks_++)); }
 
-    /// Several, or where the budget has few values in it, one with most of them.
+    /// Descends from several starts or, if the budget is small, from one with most of the budget.
     void make_starts() {
         constexpr double few = 1500;
         const double values = search_.budget / objective_->steps();
@@ -187,7 +189,7 @@ class Population {
                    search_.from_start);
     }
 
-    /// The start as it is.
+    /// Adds the given start unchanged.
     void add_given() {
         SplitMix64 own = draws();
         OptimizedRows given{search_.start(0, own), 0};
@@ -197,7 +199,7 @@ class Population {
         all_.push_back(std::move(given));
     }
 
-    /// Of some sets the one of least value.
+    /// Best of several sets, by their value.
     [[nodiscard]] std::vector<double> first_rows(std::size_t start, SplitMix64 draws) const {
         const std::size_t sets = search_.one_start ? 1 : search_.sets_a_start;
         OptimizedRows least{{}, infinity};
@@ -226,7 +228,7 @@ class Population {
         }
     }
 
-    /// Moves half of the points a little.
+    /// Moves about half of the points a little.
     void disturb(std::vector<double>& rows, SplitMix64& draws) const {
         const double reach = search_.hop * to_unit(draws.next());
         for (std::size_t i = search_.kept; i < search_.count; ++i) {
@@ -249,7 +251,7 @@ class Population {
             if (!better(all_[i], found[i])) all_[i] = std::move(found[i]);
     }
 
-    /// Descends from the best in ever smaller steps to where hops, which end sooner, do not reach.
+    /// Descends from the best set with smaller and smaller steps, finer than those after hops.
     void polish() {
         const Schedule& hop = search_.from_hop;
         const double values = search_.budget / objective_->steps();
@@ -261,7 +263,7 @@ class Population {
         if (better(found.front(), all_.front())) all_.front() = std::move(found.front());
     }
 
-    /// Where descents from several sets end; from the i-th, values above enough(i) are of no use.
+    /// Results of descents from several sets; for the i-th, values above enough(i) are useless.
     std::vector<OptimizedRows> descended(std::vector<std::vector<double>> rows,
                                          const Schedule& schedule, auto enough) {
         std::vector<OptimizedRows> found(rows.size());
@@ -288,8 +290,8 @@ class Population {
     Rng rng_;
     std::unique_ptr<Objective> objective_;
     const RunContext& run_;
-    std::size_t most_sets_;  ///< that are kept at first
-    RunContext inner_;       ///< of descents
+    std::size_t most_sets_;  ///< number of sets kept at first
+    RunContext inner_;       ///< context of descents
     std::uint64_t tasks_ = 0;
     double spent_ = 0;
     double least_ = infinity;

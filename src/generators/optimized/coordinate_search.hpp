@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// A search over coordinates for points of least objective, by descents along its gradient.
+// Search over coordinates for points with a minimal objective, by descents along its gradient.
 //
-// Starts    sets that are given, or the best of some that are made; each is descended from, and the
-//           best are kept: the more, the more values the budget has.
-// Hops      half of the points of each are moved; a descent follows, and takes the new set's place
-//           unless that is worse; fewer and fewer are kept.
+// Starts    given sets, or the best of several generated ones. A descent follows from each, and the
+//           best are kept: more if the budget allows more objective values.
+// Hops      half of a set's points are moved and a descent follows; the new set replaces the old
+//           one unless it is worse. The number of sets shrinks over time.
 // Descents  steps that adapt to each coordinate's gradient (Adam), shorter and shorter, while the
-//           soft maximum comes nearer to the maximum.
+//           soft maximum approaches the maximum.
 //
-// Promise   a function of what is given, for any number of threads.
+// Promise   depends only on the arguments, not on the number of threads.
 // Source    D. P. Kingma, J. Ba, arXiv:1412.6980 (Adam).
 #pragma once
 
@@ -25,10 +25,10 @@
 
 namespace stipple::optimized {
 
-/// How a descent goes, from its first step to its last.
+/// Parameters of a descent, changed geometrically from its first step to its last.
 struct Schedule {
     std::size_t steps;
-    double first_rate;  ///< of a coordinate in one step, at most
+    double first_rate;  ///< largest change of a coordinate in one step
     double last_rate;
     double first_sharpness;
     double last_sharpness;
@@ -37,20 +37,21 @@ struct Schedule {
 struct CoordinateSearch {
     std::size_t count;
     std::size_t dimension;
-    std::size_t kept;  ///< the first so many points stay where they are
+    std::size_t kept;  ///< number of leading points that stay fixed
     std::function<std::unique_ptr<Objective>()> objective;
-    /// Rows of the i-th set that a start is chosen from.
+    /// Rows of the i-th candidate for a start.
     std::function<std::vector<double>(std::uint64_t i, SplitMix64& draws)> start;
     Schedule from_start;
     Schedule from_hop;
-    double hop;  ///< that a coordinate is disturbed by, at most
+    double hop;  ///< largest displacement of a coordinate by a hop
     std::uint64_t seed;
-    double budget;           ///< in steps of the objective
-    bool one_start = false;  ///< all starts are the same
+    double budget;           ///< in steps, see Objective::steps()
+    bool one_start = false;  ///< whether all starts are the same
     std::size_t sets_a_start = 16;
 };
 
-/// Reports progress with the least value so far, as reports have it, behind `words`.
+/// Runs the search. Reports progress after `words`, with the lowest value so far as reports show
+/// it.
 /// @throws Error(cancelled)
 OptimizedRows search_coordinates(const CoordinateSearch& search, const std::string& words,
                                  const RunContext& run);

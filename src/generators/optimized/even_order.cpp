@@ -6,7 +6,7 @@
 namespace stipple::optimized {
 namespace {
 
-/// Points that are still to come, by what each would add.
+/// Greedy choice of the next point: the remaining one that adds least to the discrepancy.
 class Greedy {
   public:
     Greedy(const std::vector<double>& rows, std::size_t dimension, std::vector<Factor> factors)
@@ -51,7 +51,7 @@ class Greedy {
     const std::vector<double>& rows_;
     std::size_t d_;
     std::vector<Factor> factors_;
-    std::vector<double> sums_;  ///< of kernels with the points taken
+    std::vector<double> sums_;  ///< of kernels with the points already taken
     std::vector<bool> taken_;
     std::vector<double> means_;
     std::vector<double> own_;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// An order of points in which every prefix has an L2 discrepancy as small as a greedy choice makes it:
-// next comes the point x for which, with m points p before it,
+// Order of points in which every prefix has a small L2 discrepancy, chosen greedily. After m points
+// p follows the point x that minimizes
 //
-//     2 sum_p K(x, p) + K(x, x) - 2 (m + 1) int K(x, y) dy     is least.
+//     2 sum_p K(x, p) + K(x, x) - 2 (m + 1) int K(x, y) dy.
 //
 // Cost  O(n^2 d).
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace stipple::optimized {
 
-/// The rows in that order; the first `kept` stay where they are.
+/// Returns the rows in that order; the first `kept` keep their positions.
 std::vector<double> in_even_order(const std::vector<double>& rows, std::size_t dimension,
                                   std::size_t kept, l2::Kind kind, const l2::AxisWeights& weights,
                                   const RunContext& run);

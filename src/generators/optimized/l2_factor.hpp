@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The factor of an L2 kernel on an axis, in doubles.
+// Factor of an L2 kernel on one axis, in double precision.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace stipple::optimized {
 
-/// a + b x + c x^2 + e |x - 1/2|
+/// The function a[0] + a[1] x + a[2] x^2 + a[3] |x - 1/2|.
 struct Curve {
     std::array<double, 4> a{};
 
@@ -26,7 +26,7 @@ struct Curve {
     }
 };
 
-/// own(x) + own(y) + product x y + distance |x - y|
+/// The factor own(x) + own(y) + product x y + distance |x - y|.
 struct Factor {
     explicit Factor(const l2::AxisFactor& of)
         : own(of.own),
@@ -46,7 +46,7 @@ struct Factor {
     double total;
 };
 
-/// Those of all axes.
+/// Factors of all axes.
 inline std::vector<Factor> factors_of(l2::Kind kind, const l2::AxisWeights& weights,
                                       std::size_t dimension) {
     const bool alone = l2::is_kernel_alone(kind, weights);

@@ -18,17 +18,17 @@
 namespace stipple::optimized {
 namespace {
 
-constexpr std::size_t lanes = 64;  ///< points of a block
+constexpr std::size_t lanes = 64;  ///< points per block
 
-/// The factors of one point with a block of others, axis after axis, and what comes of them.
+/// Factors of one point with a block of others, axis by axis, and sums derived from them.
 struct Row {
-    std::vector<double> factors;    ///< of each axis, `lanes` each
-    std::vector<double> before;     ///< products of those of the axes before
-    std::vector<double> slopes;     ///< sums of slopes times the other axes' factors
-    std::array<double, lanes> sum;  ///< of products
+    std::vector<double> factors;    ///< `lanes` for each axis
+    std::vector<double> before;     ///< products of the factors of the preceding axes
+    std::vector<double> slopes;     ///< sums of slopes times the factors of the other axes
+    std::array<double, lanes> sum;  ///< sums of products
 };
 
-/// Of a point at x, whose number on the axis is `own`, with those of a block.
+/// Multiplies by the factors of one axis, of a point at x with a block; `own` is own(x).
 STIPPLE_WIDE void multiply(double x, double own, const Factor& k, const double* __restrict others,
                            const double* __restrict owns, std::size_t size,
                            double* __restrict factors, double* __restrict before,
@@ -43,7 +43,7 @@ STIPPLE_WIDE void multiply(double x, double own, const Factor& k, const double* 
     }
 }
 
-/// Adds slopes along an axis times the factors of the axes before and behind it.
+/// Adds the slopes along one axis times the factors of all other axes.
 STIPPLE_WIDE void add_slopes(double x, double own_slope, const Factor& k,
                              const double* __restrict others, std::size_t size,
                              const double* __restrict factors, const double* __restrict before,
@@ -95,7 +95,7 @@ class L2Objective final : public Objective {
     }
 
   private:
-    static constexpr std::size_t few = 16;  ///< points of a part of the sum
+    static constexpr std::size_t few = 16;  ///< points per part of the sum
 
     void put_columns(std::span<const double> rows) {
         columns_.resize(n_ * d_);
@@ -107,7 +107,7 @@ class L2Objective final : public Objective {
             }
     }
 
-    /// The i-th point's part of the sum, and its gradient.
+    /// Returns the i-th point's part of the sum and sets its gradient.
     double add_point(std::size_t i, Row& row, std::span<double> gradient) const {
         row.sum.fill(0);
         std::ranges::fill(row.slopes, 0);
@@ -150,7 +150,7 @@ class L2Objective final : public Objective {
     std::vector<Factor> factors_;
     double total_ = 1;
     std::vector<double> columns_;  ///< coordinates, axis after axis
-    std::vector<double> owns_;     ///< own() of them
+    std::vector<double> owns_;     ///< own() of each coordinate
 };
 
 }  // namespace

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The lattice of least objective among all of Korobov's form: points i (1, g, g^2, ...) / n modulo
-// 1, for every g; in the plane these are all of rank 1 whose projections have n places.
+// Finds the lattice with the least objective among all of Korobov's form: points
+// i (1, g, g^2, ...) / n modulo 1, for every g. In the plane these are all lattices of rank 1 whose
+// projections have n distinct coordinates.
 //
-// Promise   a function of the count, the dimension and the objective, for any number of threads.
-// Cost      n / 2 values: g and n - g give mirror images.
+// Promise   depends only on the count, the dimension and the objective, not on the number of
+//           threads.
+// Cost      n / 2 objective values: g and n - g give mirror images.
 #pragma once
 
 #include <functional>
@@ -16,7 +18,8 @@
 
 namespace stipple::optimized {
 
-/// Reports progress with the least value so far, as reports have it, behind `words`.
+/// Runs the search. Reports progress after `words`, with the lowest value so far as reports show
+/// it.
 /// @throws Error(cancelled)
 OptimizedRows least_lattice(std::size_t count, std::size_t dimension,
                             const std::function<std::unique_ptr<Objective>()>& objective,

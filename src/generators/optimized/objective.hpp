@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What sets are optimised for, as functions of their coordinates that have a gradient.
+// Objectives of the search for optimized sets: functions of the coordinates, with a gradient.
 #pragma once
 
 #include <cstddef>
@@ -22,31 +22,32 @@ class Objective {
     Objective& operator=(const Objective&) = delete;
     virtual ~Objective() = default;
 
-    /// The value of points with coordinates in [0, 1], and its gradient. Of a maximum it is the
-    /// gradient of its soft maximum, in which what is below the value by a part 1 / sharpness of it
-    /// counts less by a factor of e. A measure may learn from one call what it uses in the next.
+    /// Returns the value at points with coordinates in [0, 1] and sets the gradient. For a maximum,
+    /// this is the gradient of a soft maximum: a term that is smaller by the fraction 1 / sharpness
+    /// of the value has a weight smaller by a factor of e. An objective may reuse results of
+    /// earlier calls.
     virtual double value(std::span<const double> rows, double sharpness, std::span<double> gradient,
                          const RunContext& run) = 0;
 
-    /// The value for sure of points whose value() came last and was `known`, where that may miss the
-    /// worst; the next one knows then what that is.
+    /// Value at the points of the last value() call, which returned `known` but may have missed the
+    /// worst box, by a more thorough search. The next value() reuses the box it finds.
     virtual double certain_value(std::span<const double> /*rows*/, double known,
                                  const RunContext& /*run*/) {
         return known;
     }
 
-    /// Steps that one value takes, of which one core does some 10^9 a second.
+    /// Elementary steps of one value; a core does about 10^9 per second.
     [[nodiscard]] virtual double steps() const = 0;
 
-    /// The value of a report for that of value(): a root of it, as a rule.
+    /// Value as reports show it, usually a root of that of value().
     [[nodiscard]] virtual double reported(double value) const { return value; }
 };
 
-/// The square of an L2 discrepancy, by all pairs of points.
+/// Squared L2 discrepancy, over all pairs of points.
 std::unique_ptr<Objective> l2_objective(l2::Kind kind, const l2::AxisWeights& weights,
                                         std::size_t count, std::size_t dimension);
 
-/// The star discrepancy in two or three dimensions, by all boxes.
+/// Star discrepancy in two or three dimensions, over all boxes.
 std::unique_ptr<Objective> anchored_objective(const std::vector<double>& weights, std::size_t count,
                                               std::size_t dimension);
 
@@ -55,12 +56,13 @@ struct Bounds {
     double upper;
 };
 
-/// Of points in the unit cube: the largest discrepancy of a family of boxes, or the volume of the
-/// largest without a point; both bounds the same unless that takes more than so many comparisons.
+/// Bounds of the largest discrepancy of a family of boxes or, if `empty`, of the volume of the
+/// largest empty box, for points in the unit cube. They are equal unless that takes more than
+/// `work` comparisons.
 Bounds bounds_of(const PointSet& points, discrepancy::Family family, bool empty,
                  const RunContext& run, std::uint64_t work = std::uint64_t{1} << 37);
 
-/// A discrepancy or, of empty boxes, the dispersion, by the boxes of a family that are near the worst.
+/// Discrepancy or, if `empty`, dispersion, over a pool of boxes near the worst of a family.
 std::unique_ptr<Objective> box_objective(discrepancy::Family family, bool empty,
                                          const std::vector<double>& weights, std::size_t count,
                                          std::size_t dimension);

@@ -1,31 +1,33 @@
 // SPDX-License-Identifier: MIT
 //
-// Sets for a given number of points that a search makes as even as it can, by one measure:
+// Sets of a given number of points that a search makes as even as it can, by one measure:
 //
 //     star, extreme, periodic   the largest local discrepancy of a kind of boxes
 //     dispersion                the volume of the largest empty box
 //     l2-KIND                   an L2 discrepancy of math/l2/kinds.hpp
 //
-//     d = 1        (i + 1/2) / n, or for the dispersion (i + 1) / (n + 1): the least
-//     n = 1        of boxes at the origin x + x^d = 1, of others the middle: the least
+// The method depends on the measure and the numbers of axes d and points n:
+//
+//     d = 1        (i + 1/2) / n, or for the dispersion (i + 1) / (n + 1): optimal
+//     n = 1        for boxes at the origin x + x^d = 1, for other boxes the centre: optimal
 //     star, d = 2  a search over the orders of the points by x and by y, each solved exactly
 //                  (planar_order.hpp, order_search.hpp)
-//     others       descents along the gradient from many sets (coordinate_search.hpp): of the star
-//                  discrepancy of three axes by all boxes, of others with boxes by those near the
-//                  worst, and of L2 kinds by all pairs of points
+//     others       descents along the gradient from many sets (coordinate_search.hpp). The objective
+//                  takes all boxes for the star discrepancy of three axes, those near the worst for
+//                  other boxes, and all pairs of points for L2 kinds
 //     --lattice    all lattices of Korobov's form (lattice_search.hpp)
 //
-// Shape   d <= 6 for boxes, up to 100 for L2 kinds. The search over orders needs 8 n^2 bytes a
-//         thread; one over coordinates takes up to 2^16 points.
-// Cost    a budget of steps, never the clock: some 20 s of one core by default, and more where one
-//         step of the search takes longer.
-// Promise the value in the provenance is what the analyzers say, exact; with bounds where the worst
-//         box of many points in many dimensions takes too long to find. In the plane the star
-//         discrepancy is the least of the points' order, to 1e-12 relatively; up to 20 points the
-//         default effort finds the optimum that is proven. A function of the request and the options,
-//         for any number of threads.
-// Beware  no prefix of the points is good by itself, but with --order; projections are as even as
-//         the measure asks for.
+// Shape   d <= 6 for boxes, up to 100 for L2 kinds. The search over orders needs 8 n^2 bytes per
+//         thread; the search over coordinates takes up to 2^16 points.
+// Cost    a budget of steps, independent of the clock: some 20 s of one core by default, more if a
+//         single step of the search takes longer.
+// Promise the value in the provenance is exact and equals that of the analyzers; it is given as
+//         bounds if finding the worst box takes too long (many points in many dimensions). In the
+//         plane the star discrepancy is the least for the points' order, to a relative 1e-12; up to
+//         20 points the default effort finds the proven optimum. The points depend only on the
+//         request and the options, not on the number of threads.
+// Beware  prefixes of the points are not good sets, except with --order; projections are as even as
+//         the measure requires.
 // Source  F. Clement, C. Doerr, K. Klamroth, L. Paquete, arXiv:2311.17463 (optimal sets);
 //         T. K. Rusch, N. Kirk, M. M. Bronstein, C. Lemieux, D. Rus, arXiv:2405.15059.
 #include <algorithm>
@@ -102,7 +104,7 @@ discrepancy::Family family_of(const Values& options) {
     return what == "periodic" ? discrepancy::Family::torus : discrepancy::Family::cube;
 }
 
-/// The L2 kind by which prefixes are made even.
+/// L2 kind that --order makes small for prefixes.
 l2::Kind order_kind(const Values& options) {
     const std::string what = options[objective];
     if (is_l2(options)) return kind_of(what.substr(3));
@@ -123,7 +125,7 @@ PointSet given_points(const Values& options, const RunContext& run) {
     return points;
 }
 
-/// Count and dimension by the file's points. @throws Error(usage)
+/// Request with count and dimension taken from the file's points. @throws Error(usage)
 Request fitted(Request request, const Values& options) {
     if (options.given(initial))
         fail(ErrorKind::usage, "--initial and --from are two ways to start; give one");
@@ -154,7 +156,7 @@ void check_weights(const Values& options, std::size_t dimension) {
             fail(ErrorKind::usage, "--weights: {} is outside (0, 1000]", format_number(weight));
 }
 
-/// Only on the torus does it not matter where a lattice lies.
+/// Checks --lattice: only measures on the torus do not depend on the lattice's shift.
 void check_lattice(const Values& options) {
     if (!options[lattice]) return;
     const std::string what = options[objective];
@@ -181,14 +183,14 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-/// Whether the best set is known.
+/// Whether the best set is known in closed form.
 bool is_known(const Plan& plan, const Values& options) {
     if (options.given(keep)) return false;
     return plan.dimension == 1 ||
            (plan.count == 1 && !is_l2(options) && !options.given(axis_weights));
 }
 
-/// Whether the search is one over orders of the plane.
+/// Whether to search over orders of points in the plane.
 bool by_orders(const Plan& plan, const Values& options) {
     return options[objective] == "star" && plan.dimension == 2 && !options.given(from) &&
            !options.given(initial) && !options.given(axis_weights);
@@ -204,10 +206,10 @@ std::unique_ptr<Objective> make_objective(const Plan& plan, const Values& option
     return box_objective(family_of(options), what == "dispersion", weights, n, d);
 }
 
-/// The i-th start.
+/// Returns the rows of the i-th start.
 using Start = std::function<std::vector<double>(std::uint64_t, SplitMix64&)>;
 
-/// The rows of a file, with random ones behind them.
+/// Rows of a file, followed by random ones.
 Start start_from(const PointSet& points, const Plan& plan, std::size_t fixed) {
     std::vector<double> given(points.flat().begin(), points.flat().end());
     for (std::size_t i = fixed * plan.dimension; i < given.size(); ++i)
@@ -230,7 +232,7 @@ Start start_without_file(const Plan& plan, const Values& options, const RunConte
                 generate(spec, {.count = n, .dimension = d, .seed = seed + i}, {}, quiet);
             return std::vector<double>(points.flat().begin(), points.flat().end());
         };
-    // By turns, since it depends on the count which ends lower; but in the plane's torus.
+    // Alternates, since the count decides which start ends lower, except on the torus in the plane.
     const bool lattices = d > 2 || (d == 2 && options[objective] != "periodic");
     return [=, quiet = silent(run)](std::uint64_t i, SplitMix64& draws) {
         if (lattices && i % 2 == 0) return lattice_rows(n, d, draws, quiet);
@@ -238,13 +240,13 @@ Start start_without_file(const Plan& plan, const Values& options, const RunConte
     };
 }
 
-/// Of one value of an L2 objective.
+/// Steps of one value of an L2 objective.
 double l2_steps(const Plan& plan) {
     const auto n = static_cast<double>(plan.count);
     return n * n * static_cast<double>(plan.dimension) / 3;
 }
 
-/// In steps, of the default effort: less for few points, which need no more than some values each.
+/// Default budget in steps; smaller for few points, which need only a number of values each.
 double usual_budget(const Plan& plan, const Values& options) {
     const double most =
         1e6 * static_cast<double>(plan.count) * make_objective(plan, options)->steps();
@@ -282,7 +284,7 @@ CoordinateSearch search_for(const Plan& plan, const Values& options, const RunCo
     return search;
 }
 
-/// The coordinates of a set of axes.
+/// Projection of points on a set of axes, given as bits.
 PointSet projection(const PointSet& points, std::uint64_t axes) {
     std::vector<double> rows;
     for (std::size_t i = 0; i < points.count(); ++i)
@@ -291,8 +293,9 @@ PointSet projection(const PointSet& points, std::uint64_t axes) {
     return {std::move(rows), static_cast<std::size_t>(std::popcount(axes))};
 }
 
-/// The largest product of the weights of some axes and the star discrepancy of the points' projection
-/// on them, which is no more than that of a projection on more axes.
+/// Bounds of the weighted star discrepancy: the maximum, over sets of axes, of the product of their
+/// weights and the star discrepancy of the projection on them. A projection on fewer axes has no
+/// larger discrepancy, so some need no search.
 Bounds weighted_star(const PointSet& points, const std::vector<double>& weights, std::uint64_t work,
                      const RunContext& run) {
     const std::size_t d = weights.size();
@@ -303,7 +306,7 @@ Bounds weighted_star(const PointSet& points, const std::vector<double>& weights,
             if ((axes >> j & 1) != 0) times *= weights[j];
         return times;
     };
-    std::vector<double> upper(all + 1, 1);  // of a projection's discrepancy
+    std::vector<double> upper(all + 1, 1);  // bounds of the projections' discrepancies
     Bounds worst{0, 0};
     for (std::uint64_t axes = all; axes > 0; --axes) {
         for (std::size_t j = 0; j < d; ++j)
@@ -318,7 +321,7 @@ Bounds weighted_star(const PointSet& points, const std::vector<double>& weights,
     return worst;
 }
 
-/// What the analyzers say of the points.
+/// Value of the points, as the analyzers compute it.
 /// @param work comparisons that a search for the worst box may take
 Bounds judged(const PointSet& points, const Values& options, std::uint64_t work,
               const RunContext& run) {
@@ -362,7 +365,7 @@ void record(PointSet& points, const Plan& plan, const Values& options, const Bou
     }
 }
 
-/// The best set of the line.
+/// Optimal set in one dimension.
 std::vector<double> on_the_line(std::size_t n, bool empty, const RunContext& run) {
     constexpr std::size_t often = 1U << 20;
     std::vector<double> rows;
@@ -375,7 +378,8 @@ std::vector<double> on_the_line(std::size_t n, bool empty, const RunContext& run
     return rows;
 }
 
-/// The best point for the boxes at the origin: x + x^d = 1, of which one is empty and one has it.
+/// Coordinate x of the best single point for boxes at the origin: x + x^d = 1, where the largest
+/// empty box (volume x) and the closed box at the point (1 - x^d too small) are equally bad.
 double coordinate_for_star(std::size_t dimension) {
     double low = 0;
     double high = 1;
@@ -395,8 +399,8 @@ std::vector<double> known_rows(const Plan& plan, const Values& options, const Ru
     return std::vector<double>(plan.dimension, x);
 }
 
-/// The run with as many threads as there is memory for: in every step of a search by all boxes of
-/// the plane or of space, each thread has a plane of n^2 of them, for each set that is searched.
+/// Run with as many threads as memory allows. A search over all boxes in two or three dimensions
+/// holds a plane of n^2 counts per thread, for each set in the search.
 RunContext fitting(const Plan& plan, const Values& options, const RunContext& run) {
     constexpr std::uint64_t most = std::uint64_t{1} << 16;
     if (plan.count > most)
@@ -413,20 +417,19 @@ RunContext fitting(const Plan& plan, const Values& options, const RunContext& ru
     return fit;
 }
 
-/// Whether all pairs of points are gone through in no time, as is wanted after a stop.
+/// Whether a pass over all pairs of points takes almost no time, as required after a stop.
 bool has_few_pairs(const Plan& plan) {
     const auto n = static_cast<double>(plan.count);
     return n * n * static_cast<double>(plan.dimension) <= 5e7;
 }
 
-/// The same of finding out what the points are worth.
+/// Whether the value of the points can be computed in almost no time.
 bool is_soon_judged(const Plan& plan, const Values& options) {
     const bool swept = is_l2(options) || options[objective] == "star";
     return has_few_pairs(plan) || (plan.dimension <= 2 && swept);
 }
 
-/// Puts the points into order, and notes what they are worth; of a search that was stopped both only
-/// where that is soon done.
+/// Orders the points and records their value; after a stop, only those of the two that are quick.
 PointSet finished(OptimizedRows found, const Plan& plan, const Values& options,
                   const RunContext& run) {
     const RunContext last = found.stopped ? unstopped(run) : run;

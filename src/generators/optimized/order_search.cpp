@@ -19,21 +19,21 @@ using Ranks = PlanarOrder::Ranks;
 
 const double golden = (std::sqrt(5.0) - 1) / 2;
 
-constexpr double on_cycle = 0.35;       ///< share of the swaps that are on the critical cycle
-constexpr double patience = 20;         ///< swaps in vain, a point, that end a descent
-constexpr double kick_height = 0.2;     ///< by which a kick may raise the level, at most
-constexpr std::size_t kick_swaps = 20;  ///< that a kick makes, at most
-constexpr double solution = 30;         ///< steps for one, over n^2
+constexpr double on_cycle = 0.35;    ///< fraction of the swaps that are tried on the critical cycle
+constexpr double patience = 20;      ///< useless swaps per point that end a descent
+constexpr double kick_height = 0.2;  ///< largest relative rise of the level by a kick
+constexpr std::size_t kick_swaps = 20;  ///< largest number of swaps in a kick
+constexpr double solution = 30;         ///< steps of one solution, divided by n^2
 
-/// An order, where a descent from it has got to.
+/// State of a descent: an order and its level.
 struct Descent {
     Ranks ranks;
     double level = std::numeric_limits<double>::infinity();
-    bool over = false;              ///< nothing was gained for long
-    std::vector<double> rows = {};  ///< points that have the level, where the best so far may do
+    bool over = false;              ///< whether it gained nothing for long
+    std::vector<double> rows = {};  ///< points with that level; empty unless the run keeps the best
 };
 
-/// Where an order has got to.
+/// State of a descent that has reached `order`.
 Descent reached(const PlanarOrder& order, bool over, const RunContext& run) {
     return {order.ranks(), order.level(), over,
             run.keeps_best ? order.points() : std::vector<double>()};
@@ -43,7 +43,7 @@ bool better(const Descent& a, const Descent& b) { return a.level < b.level; }
 
 double unit(SplitMix64& draws) { return to_unit(draws.next()); }
 
-/// The order of points with different coordinates.
+/// Ranks of points with distinct coordinates.
 Ranks order_of(const std::vector<double>& x, const std::vector<double>& y) {
     const auto sorted = [](const std::vector<double>& values) {
         return order_by(values.size(), [&](std::uint32_t i) { return values[i]; });
@@ -57,7 +57,7 @@ Ranks order_of(const std::vector<double>& x, const std::vector<double>& y) {
     return ranks;
 }
 
-/// Multiples of the golden section, shifted.
+/// Order of multiples of the golden section modulo 1, shifted at random.
 Ranks rotation(std::size_t n, SplitMix64& draws) {
     std::vector<double> x;
     std::vector<double> y;
@@ -70,8 +70,9 @@ Ranks rotation(std::size_t n, SplitMix64& draws) {
     return order_of(x, y);
 }
 
-/// The golden lattice k t (a + b / golden), (k / t) (a - b golden) with n points on average in the
-/// unit square, shifted; nothing unless there are n.
+/// Order of the points of the golden lattice k t (a + b / golden), (k / t) (a - b golden) in the
+/// unit square, with random t and shift. The square holds n points on average; empty unless it
+/// holds exactly n.
 Ranks lattice_cut(std::size_t n, SplitMix64& draws) {
     const double k = std::sqrt(1 / (static_cast<double>(n) * std::sqrt(5.0)));
     const double t = golden + unit(draws) * (1 / golden - golden);
@@ -79,7 +80,7 @@ Ranks lattice_cut(std::size_t n, SplitMix64& draws) {
     const double up = unit(draws);
     const double wide = 1 / (k * t);
     const double high = t / k;
-    // a + b / golden in [0, wide) - right wide, a - b golden in [0, high) - up high
+    // a + b / golden in [-right, 1 - right) wide, a - b golden in [-up, 1 - up) high
     const double spread = golden + 1 / golden;
     const auto first =
         static_cast<std::int64_t>(std::floor((-right * wide - (1 - up) * high) / spread));
@@ -117,7 +118,7 @@ PlanarOrder::Swap any_swap(std::size_t n, SplitMix64& draws) {
     return {by_x, 1 + static_cast<std::size_t>(draws.below(n - 1))};
 }
 
-/// Some swaps, few or many, that raise the level a little or more.
+/// Makes a random number of swaps that together raise the level by at most a random amount.
 void kick(PlanarOrder& order, std::size_t n, SplitMix64& draws) {
     constexpr int tries = 200;
     const double u = unit(draws);
@@ -128,8 +129,8 @@ void kick(PlanarOrder& order, std::size_t n, SplitMix64& draws) {
         made += static_cast<std::size_t>(order.attempt(any_swap(n, draws), limit));
 }
 
-/// Goes on with a descent, after a kick where it is over, for so many steps at most.
-/// Returns the steps that it took. @throws Error(cancelled)
+/// Continues a descent for at most `steps` steps, after a kick if it is over. Returns the steps
+/// taken. @throws Error(cancelled)
 double go_on(Descent& descent, SplitMix64 draws, double steps, const RunContext& run) {
     constexpr double equal = 1 + 1e-12;
     const std::size_t n = descent.ranks.size();
@@ -160,7 +161,7 @@ class OrderSearch {
     OrderSearch(std::size_t n, std::uint64_t seed, double budget, const RunContext& run)
         : n_(n), rng_(seed), budget_(budget), run_(run), inner_(silent(run)) {}
 
-    /// @throws Error(cancelled) also where a stop comes before there is a best
+    /// @throws Error(cancelled), also if a stop comes before there is a best order
     Descent best() {
         make_starts();
         std::vector<Descent> all;
@@ -184,7 +185,7 @@ class OrderSearch {
     }
 
   private:
-    /// Once all have been: one of them, with as many as n swaps.
+    /// Returns a start for use after all starts: one of them, changed by up to n swaps.
     Descent another_start() {
         SplitMix64 own = draws();
         Ranks ranks = starts_[own.below(starts_.size())].ranks;
@@ -197,7 +198,7 @@ class OrderSearch {
         return {std::move(ranks)};
     }
 
-    /// Descents that go on side by side: few where each takes long, whatever the machine has.
+    /// Number of descents side by side: fewer if each takes long, whatever the machine.
     [[nodiscard]] std::size_t together() const { return n_ <= 200 ? 16 : n_ <= 500 ? 8 : 4; }
 
     [[nodiscard]] SplitMix64 draws() { return SplitMix64(rng_.bits(tasks_++)); }
@@ -225,7 +226,7 @@ class OrderSearch {
         starts_ = std::move(all);
     }
 
-    /// In order of their levels, each once.
+    /// Removes duplicates, sorts by level and keeps at most `most`.
     static void keep_best(std::vector<Descent>& all, std::size_t most) {
         std::ranges::stable_sort(all, {}, &Descent::ranks);
         const auto same = [](const Descent& a, const Descent& b) { return a.ranks == b.ranks; };
@@ -234,7 +235,7 @@ class OrderSearch {
         if (all.size() > most) all.resize(most);
     }
 
-    /// Lets all go on, each for a share of the budget at most.
+    /// Continues all descents, each for at most a fraction `share` of the budget.
     void advance(std::vector<Descent>& all, double share) {
         std::vector<SplitMix64> streams;
         for (std::size_t i = 0; i < all.size(); ++i) streams.push_back(draws());
@@ -258,7 +259,7 @@ class OrderSearch {
     Rng rng_;
     double budget_;
     const RunContext& run_;
-    RunContext inner_;  ///< of descents
+    RunContext inner_;  ///< context of descents
     std::uint64_t tasks_ = 0;
     double spent_ = 0;
     double least_ = 0;
@@ -272,7 +273,7 @@ optimized::OptimizedRows least_star_discrepancy(std::size_t n, std::uint64_t see
     const auto size = static_cast<double>(n);
     const double bytes = 8 * size * size + 200 * size;
     run.need_memory(bytes, "the search for an order");
-    RunContext own = run;  // as many threads as there is memory for
+    RunContext own = run;  // with as many threads as memory allows
     own.threads = static_cast<unsigned>(std::min(static_cast<double>(run.memory_left()) / bytes,
                                                  static_cast<double>(run.thread_count())));
     Descent best = n > 1 ? OrderSearch(n, seed, budget, own).best() : Descent{{0}};

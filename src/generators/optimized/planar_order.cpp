@@ -13,12 +13,13 @@
 namespace stipple {
 namespace {
 
-constexpr double slack = 1e-13;      ///< relative, by which a bound may be missed
-constexpr std::size_t lanes = 64;    ///< bounds that are compared at once
-constexpr std::uint64_t entry = 32;  ///< steps that beginning a row takes
+constexpr double slack = 1e-13;      ///< relative tolerance of bounds
+constexpr std::size_t lanes = 64;    ///< bounds compared at once
+constexpr std::uint64_t entry = 32;  ///< steps charged for starting a row
 
-/// Writes the k below `size` with (counts[k] - level) * scale above values[k] * reach; returns how
-/// many. With all three signs turned, those with (counts[k] + level) * scale below.
+/// Writes the indices k < size with (counts[k] - level) * scale > values[k] * reach to `hits` and
+/// returns their number. With negated level, scale and reach it finds those with (counts[k] +
+/// level) * scale < values[k] * reach.
 STIPPLE_WIDE std::size_t beyond(const float* counts, double level, double scale,
                                 const double* values, double reach, std::size_t size,
                                 std::uint32_t* hits) {
@@ -62,7 +63,7 @@ PlanarOrder::PlanarOrder(const Ranks& ranks, const RunContext& run)
         counts->resize(stride_);
     }
     for (std::size_t i = 1; i <= n_; ++i) {
-        run_.check_stop();  // of many points the first touch of so much memory takes seconds
+        run_.check_stop();  // with many points, the first touch of so much memory takes seconds
         counts_.resize((i + 1) * stride_);
         transposed_.resize((i + 1) * stride_);
         for (std::size_t j = 1; j <= n_ + 1; ++j) {
@@ -71,7 +72,7 @@ PlanarOrder::PlanarOrder(const Ranks& ranks, const RunContext& run)
                 transposed_[(i - 1) * stride_ + j] + (place_[i] <= j ? 1.0F : 0.0F);
         }
     }
-    level_ = 0.3;  // below what any points have: n D* is above 1/2
+    level_ = 0.3;  // below the level of any points: n D* exceeds 1/2
     begin();
     push_all();
     settle(std::numeric_limits<double>::infinity());
@@ -84,7 +85,7 @@ PlanarOrder::Ranks PlanarOrder::ranks() const {
 }
 
 std::vector<double> PlanarOrder::points() const {
-    const double one = x_[n_ + 1];  // as normalise() has it
+    const double one = x_[n_ + 1];  // as in normalise()
     std::vector<double> rows;
     for (std::size_t i = 1; i <= n_; ++i)
         for (const double value : {x_[i] / one, y_[rank_[i]] * one})
@@ -130,7 +131,7 @@ std::optional<PlanarOrder::Swap> PlanarOrder::critical_swap(SplitMix64& draws) c
     return Swap{by_x, at};
 }
 
-// ---------------------------------------------------------------- coordinates, and what bounds them
+// ---------------------------------------------------------------- coordinates and their bounds
 
 double PlanarOrder::value(Node node) const {
     return node == 0 ? x_[n_ + 1] : node <= n_ ? x_[node] : y_[node - n_];
@@ -147,7 +148,7 @@ void PlanarOrder::put(Node node, double value) {
     }
 }
 
-/// Moves a node to where another one bounds it. True where that closes a cycle.
+/// Moves a node to a bound set by another node. True if that closes a cycle.
 bool PlanarOrder::move(Node node, Node from, bool by_order, double value) {
     if (trying_) undo_.push_back({node, this->value(node)});
     put(node, value);
@@ -179,14 +180,14 @@ PlanarOrder::Node PlanarOrder::pop() {
     return node;
 }
 
-/// Forgets what bounds what.
+/// Starts a new era, which forgets which node bounds which.
 void PlanarOrder::begin() {
     if (++era_ != 0) return;
     std::ranges::fill(moved_in_, 0);
     era_ = 1;
 }
 
-/// The bounds of closed boxes that x_i has on all y. True where a cycle is closed.
+/// Enforces the bounds of closed boxes that x_i sets for all y. True if that closes a cycle.
 bool PlanarOrder::relax_x(std::size_t i, Node node) {
     const double scale = 1 / (static_cast<double>(n_) * x_[i]);
     const float* counts = &counts_[std::min(i, n_) * stride_];
@@ -205,7 +206,7 @@ bool PlanarOrder::relax_x(std::size_t i, Node node) {
            move(static_cast<Node>(i - 1), node, true, x_[i]);
 }
 
-/// The bounds of open boxes that y_j has on all x.
+/// Enforces the bounds of open boxes that y_j sets for all x. True if that closes a cycle.
 bool PlanarOrder::relax_y(std::size_t j, Node node) {
     const double scale = 1 / (static_cast<double>(n_) * y_[j]);
     const float* counts = &transposed_[(j - 1) * stride_];
@@ -223,7 +224,7 @@ bool PlanarOrder::relax_y(std::size_t j, Node node) {
                   : move(0, node, true, 1 / y_[j]);
 }
 
-/// Moves coordinates until all bounds hold.
+/// Moves coordinates until all bounds hold, a cycle closes or the attempt is given up.
 PlanarOrder::Outcome PlanarOrder::relax() {
     constexpr std::uint64_t turns_at_a_time = 64;
     while (first_ != last_) {
@@ -243,7 +244,7 @@ PlanarOrder::Outcome PlanarOrder::relax() {
 
 // ---------------------------------------------------------------- the level
 
-/// The bounds on the cycle that was met.
+/// Collects the bounds on the cycle through met_.
 void PlanarOrder::take_cycle() {
     cycle_.clear();
     Node node = met_;
@@ -265,8 +266,8 @@ void PlanarOrder::take_cycle() {
     } while (node != met_);
 }
 
-/// The level from which on the cycle's bounds do not contradict each other: where the product of
-/// (c + F) / n over open boxes is that of (c - F) / n over closed ones.
+/// Lowest level at which the cycle's bounds are consistent: the product of (c + F) / n over open
+/// boxes equals that of (c - F) / n over closed ones.
 double PlanarOrder::level_of_cycle() const {
     double low = 0;
     double high = std::numeric_limits<double>::infinity();
@@ -296,15 +297,15 @@ double PlanarOrder::level_of_cycle() const {
     return level;
 }
 
-/// To where the cycle that was met does not contradict itself any more.
+/// Raises the level until the contradictory cycle is consistent.
 void PlanarOrder::raise() {
     take_cycle();
-    // Bounds are missed by the slack; so may a cycle be that contradicts itself no more.
+    // Because of the slack, a cycle may close that is already consistent; the level rises anyway.
     level_ = std::max(level_of_cycle(), level_ * (1 + 2 * slack));
     begin();
 }
 
-/// Raises the level until there are points; false where it is above the limit, or given up.
+/// Raises the level until points exist; false if it exceeds the limit or the attempt is given up.
 bool PlanarOrder::settle(double limit) {
     for (;;) {
         const Outcome outcome = relax();
@@ -314,7 +315,7 @@ bool PlanarOrder::settle(double limit) {
     }
 }
 
-/// Finds the level below this one, at which there are points.
+/// Lowers the level to the smallest one at which points exist.
 void PlanarOrder::lower() {
     for (double step = 0.004;; step *= 2) {
         level_ *= std::max(1 - step, 0.5);
@@ -330,12 +331,12 @@ void PlanarOrder::lower() {
 
 // ---------------------------------------------------------------- swaps
 
-/// Looks at the bounds that a swap has made tighter, of closed boxes where they hold more points, of
-/// open ones where they hold fewer.
+/// Enforces the bounds that a swap has tightened: those of closed boxes if these hold more points,
+/// of open ones if these hold fewer.
 void PlanarOrder::tighten(const Swap& swap, bool more) {
     const auto [by_x, p] = swap;
     if (by_x == more) return push(static_cast<Node>(by_x ? p : n_ + p + 1));
-    // One coordinate is bound by those across.
+    // Here several coordinates across bound a single one.
     const auto [low, high] =
         by_x ? std::minmax(rank_[p], rank_[p + 1]) : std::minmax(place_[p], place_[p + 1]);
     const auto n = static_cast<double>(n_);
@@ -394,7 +395,7 @@ bool PlanarOrder::attempt(const Swap& swap, double limit, bool critical) {
     return true;
 }
 
-/// Makes 1 of x_{n+1} and y_{n+1}.
+/// Rescales so that x_{n+1} and y_{n+1} are 1.
 void PlanarOrder::normalise() {
     const double one = x_[n_ + 1];
     for (double& x : x_) x /= one;

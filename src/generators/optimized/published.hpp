@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Star discrepancies of sets in the plane that have been published.
+// Published star discrepancies of point sets in the plane.
 //
 // Source  [1] F. Clement, C. Doerr, K. Klamroth, L. Paquete, arXiv:2311.17463: proven optima;
 //         [2] the same, arXiv:2407.11533; [3] T. K. Rusch, N. Kirk, M. M. Bronstein, C. Lemieux,
@@ -18,8 +18,8 @@ namespace stipple::optimized {
 
 struct PublishedStar {
     std::uint64_t count;
-    double value;  ///< rounded to the digits that it has here
-    bool optimal;  ///< proven
+    double value;  ///< rounded to the digits given here
+    bool optimal;  ///< whether it is proven to be optimal
     std::string_view source() const {
         return optimal ? "arXiv:2311.17463" : "arXiv:2311.17463, 2405.15059, 2407.11533";
     }
@@ -36,7 +36,7 @@ inline constexpr std::array published_stars = std::to_array<PublishedStar>(
      {380, .006375, false}, {420, .005625, false}, {500, .005086, false}, {580, .003772, false},
      {660, .003600, false}, {780, .003104, false}, {900, .002957, false}, {1020, .002450, false}});
 
-/// The least published for so many points, where one is known here.
+/// Least published value for `count` points; nullopt if the table has none.
 inline std::optional<PublishedStar> published_star(std::uint64_t count, std::size_t dimension) {
     const auto* const found = std::ranges::find(published_stars, count, &PublishedStar::count);
     if (dimension != 2 || found == published_stars.end()) return {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What searches for optimized sets give.
+// Result of a search for an optimized set.
 #pragma once
 
 #include <vector>
@@ -12,8 +12,9 @@ namespace stipple::optimized {
 struct OptimizedRows {
     std::vector<double> rows;
     double value = 0;
-    bool stopped = false;  ///< before the budget was used up, since the run keeps the best
-    bool certain = true;   ///< the value; one of a descent that was cut short may be too small
+    bool stopped = false;  ///< before the budget was used up, for a run that keeps the best
+    bool certain = true;   ///< whether the value is exact; a descent that was cut short may report
+                           ///< too small a value
 };
 
 }  // namespace stipple::optimized

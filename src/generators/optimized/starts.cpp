@@ -13,7 +13,7 @@ namespace {
 
 double turned(double x) { return std::min(x - std::floor(x), one_minus_ulp); }
 
-/// The lattice's part of its squared wraparound discrepancy that its vector decides.
+/// Part of a lattice's squared wraparound discrepancy that depends on its vector.
 double wraparound_sum(std::size_t count, const std::vector<std::size_t>& vector) {
     std::vector<std::size_t> at(vector.size());
     double sum = 0;
@@ -29,7 +29,7 @@ double wraparound_sum(std::size_t count, const std::vector<std::size_t>& vector)
     return sum;
 }
 
-/// Of more vectors the best of more, but not the same again and again.
+/// Number of random vectors to try: more if there are more, without many repetitions.
 std::size_t vectors_to_draw(std::size_t count, std::size_t dimension) {
     double all = 1;
     for (std::size_t j = 1; j < dimension; ++j) all *= static_cast<double>(count);
