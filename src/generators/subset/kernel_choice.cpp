@@ -32,7 +32,7 @@ STIPPLE_WIDE void add_difference(const double* values, const double* less, std::
     for (std::size_t j = 0; j < count; ++j) sums[j] += values[j] - less[j];
 }
 
-/// P + K/2 - weight m, of the points of a tile.
+/// P + K/2 - weight m for the points of a tile.
 STIPPLE_WIDE void score(const double* sums, const double* halves, const double* means,
                         double weight, std::size_t count, double* scores) {
     for (std::size_t j = 0; j < count; ++j) scores[j] = (sums[j] + halves[j]) - weight * means[j];
@@ -42,7 +42,8 @@ STIPPLE_WIDE void subtract(const double* values, std::size_t count, double* scor
     for (std::size_t j = 0; j < count; ++j) scores[j] -= values[j];
 }
 
-/// The least of a tile's numbers, by halves, as a loop over one minimum does not vectorise.
+/// Minimum of a tile's numbers, by halving, because a loop over a single minimum does not
+/// vectorise.
 STIPPLE_WIDE double least(const double* numbers, std::size_t count, double* room) {
     for (std::size_t j = 0; j < count; ++j) room[j] = numbers[j];
     for (std::size_t size = count; size > 1;) {
@@ -55,7 +56,7 @@ STIPPLE_WIDE double least(const double* numbers, std::size_t count, double* room
     return room[0];
 }
 
-/// The point of least score, of equal ones the first.
+/// The point with the lowest score; of several equal ones the first.
 struct Best {
     double score = never;
     std::size_t at = 0;
@@ -65,11 +66,11 @@ struct Best {
     }
 };
 
-/// Points that are chosen, and what it would cost to choose each of the others.
+/// Chosen points, and the cost of choosing each of the others.
 struct Chosen {
-    Rows members;                    ///< in the order in which their places are looked at
+    Rows members;                    ///< in the order in which exchanges are tried
     std::vector<double> potentials;  ///< P
-    std::vector<double> halves;      ///< K_jj / 2; infinite where the point is chosen
+    std::vector<double> halves;      ///< K_jj / 2; infinite for chosen points
 };
 
 class Herding {
@@ -107,14 +108,14 @@ class Herding {
         scan(Step::grow, next.at, 0);
     }
 
-    /// @param values of the kernel that may be worked out
+    /// @param values budget of kernel evaluations
     void improve(double values, RunContext run) {
         run_ = std::move(run);
         values_ = values;
         descend();
         best_ = now_;
         double best_cost = cost();
-        // A single point has been compared with all others.
+        // A single point has already been compared with all others.
         while (n_ > 1 && left()) {
             perturb();
             descend();
@@ -137,12 +138,12 @@ class Herding {
   private:
     enum class Step { look, grow, remove };
 
-    /// Whether there are values left for an exchange.
+    /// Whether the budget allows another exchange.
     [[nodiscard]] bool left() const {
         return spent_ + 2 * static_cast<double>(points_.count()) <= values_;
     }
 
-    /// Gains below this are rounding.
+    /// Gains below this are rounding errors.
     [[nodiscard]] double slack() const { return 1e-10 * largest_; }
 
     void put(std::size_t i) { now_.halves[i] = never; }
@@ -151,8 +152,9 @@ class Herding {
         now_.halves[i] = kernel_.diagonal(row_.data()) / 2;
     }
 
-    /// The best point to choose, with `weight` means: as it is; after point i was added to the
-    /// potentials; or as if it were taken from them, whose values are kept in removed_.
+    /// Best point to choose, with the means times `weight`: for the current potentials (look),
+    /// after point i was added to them (grow), or as if point i were removed (remove). The last
+    /// stores the point's kernel values in removed_.
     Best scan(Step step, std::size_t i, double weight) {
         constexpr std::size_t tiles = 32;
         if (step != Step::look) points_.row(i, row_.data());
@@ -186,7 +188,7 @@ class Herding {
         return {found, first + static_cast<std::size_t>(at - scores.data())};
     }
 
-    /// Adds point j to the potentials, less what scan(remove) left.
+    /// Adds point j to the potentials and subtracts the point of the last scan(remove).
     void exchange(std::size_t j) {
         constexpr std::size_t tiles = 32;
         points_.row(j, row_.data());
@@ -207,7 +209,7 @@ class Herding {
         exchange(j);
     }
 
-    /// Exchanges until none helps, or all values are spent.
+    /// Exchanges points until no exchange helps or the budget is spent.
     void descend() {
         const auto n = static_cast<double>(n_);
         bool exchanged = true;
@@ -229,7 +231,7 @@ class Herding {
         }
     }
 
-    /// Exchanges some points for others at random.
+    /// Exchanges some points at random.
     void perturb() {
         const std::size_t most = std::max<std::size_t>(1, n_ / 4);
         const std::size_t some = 2 + draw(most);
@@ -288,12 +290,12 @@ class Herding {
     std::uint64_t drawn_ = 0;
     RunContext run_;
     std::vector<double> means_;
-    std::vector<double> removed_;  ///< values with the point that scan(remove) took away
+    std::vector<double> removed_;  ///< kernel values of the point of the last scan(remove)
     std::vector<double> row_;
-    double largest_ = 0;  ///< K(x, x)
+    double largest_ = 0;  ///< largest K(x, x)
     Chosen now_;
     Chosen best_;
-    double values_ = 0;  ///< of the kernel that may be worked out
+    double values_ = 0;  ///< budget of kernel evaluations
     double spent_ = 0;
 };
 

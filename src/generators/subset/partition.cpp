@@ -16,7 +16,7 @@ using kernels::Columns;
 using kernels::Kernel;
 using kernels::tile;
 
-/// The points of two sets, the first ones first, while these trade.
+/// The points of two sets that trade with each other; those of the first set come first.
 class Trade {
   public:
     Trade(const Kernel& kernel, const Columns& points, Rows& first, Rows& second,
@@ -41,7 +41,7 @@ class Trade {
         }
     }
 
-    /// Exchanges points until no i has a j that helps; gives their number.
+    /// Exchanges points until no exchange helps, in at most 8 sweeps; returns their number.
     std::size_t go() {
         constexpr int most_sweeps = 8;
         std::size_t all = 0;
@@ -67,7 +67,7 @@ class Trade {
         return rows;
     }
 
-    /// Which columns hold a place's point: exchanges turn places, not columns.
+    /// Kernel values of a column's point with all columns. Exchanges permute places, not columns.
     void fill(std::size_t column, std::vector<double>& values) {
         points_.row(column, row_.data());
         for (std::size_t first = 0; first < 2 * n_; first += tile)
@@ -75,7 +75,7 @@ class Trade {
                          &values[first]);
     }
 
-    /// Exchanges place i for the best place of the other set, if that helps.
+    /// Exchanges the point at place i with the best one of the other set, if that helps.
     bool exchange(std::size_t i) {
         run_.check_stop();
         fill(columns_[i], values_);
@@ -100,9 +100,9 @@ class Trade {
     const Kernel& kernel_;
     const RunContext& run_;
     std::size_t n_;
-    Rows rows_;  ///< at each place
+    Rows rows_;  ///< row of the point at each place
     Columns points_;
-    Rows columns_ = places();          ///< of the point at each place
+    Rows columns_ = places();          ///< column of the point at each place
     std::vector<double> differences_;  ///< D of each column's point
     std::vector<double> diagonals_;
     std::vector<double> values_;
@@ -117,7 +117,7 @@ class Trade {
     }
 };
 
-/// All rows, dealt out at random.
+/// All rows, dealt out at random to the sets.
 std::vector<Rows> dealt(std::size_t count, std::size_t sets, std::uint64_t seed,
                         const RunContext& run) {
     constexpr std::size_t often = 65536;
@@ -133,8 +133,8 @@ std::vector<Rows> dealt(std::size_t count, std::size_t sets, std::uint64_t seed,
     return all;
 }
 
-/// Who plays whom in a round of a tournament, by the circle method: the last one, of an even
-/// number, stays, the others go round.
+/// Pairs of a round of a tournament, by the circle method: if their number is even, the last set
+/// stays in place and the others rotate.
 std::vector<std::array<std::size_t, 2>> pairs_of(std::size_t round, std::size_t sets) {
     const std::size_t ring = sets % 2 == 0 ? sets - 1 : sets;
     std::vector<std::array<std::size_t, 2>> pairs;
@@ -155,7 +155,7 @@ std::vector<Rows> part_by_kernel(const Kernel& kernel, const Columns& points, st
     const double round_values = 8 * n * n * static_cast<double>(sets / 2);
     const auto rounds =
         std::max<std::size_t>(least_rounds, static_cast<std::size_t>(values / round_values));
-    std::size_t idle = 0;  // rounds in a row in which nobody traded
+    std::size_t idle = 0;  // consecutive rounds without a trade
     for (std::size_t round = 0; round < rounds && idle < tournament; ++round) {
         const auto pairs = pairs_of(round % tournament, sets);
         std::vector<std::size_t> traded(pairs.size());

@@ -19,16 +19,16 @@ namespace {
 
 using discrepancy::Side;
 
-/// A set of rows.
+/// A set of rows, one bit each.
 using Bits = std::vector<std::uint64_t>;
 
 bool has(const Bits& bits, std::size_t i) { return (bits[i / 64] >> (i % 64) & 1) != 0; }
 void flip(Bits& bits, std::size_t i) { bits[i / 64] ^= std::uint64_t{1} << (i % 64); }
 
-/// What a set's worst box is.
+/// Star discrepancy of a set, and its worst box.
 struct Measured {
     double value = 1;
-    bool exact = false;  ///< or at least this
+    bool exact = false;  ///< otherwise `value` is a lower bound
     Side side = Side::closed;
     std::vector<double> corner = {};
 };
@@ -46,10 +46,10 @@ PointSet set_of(const PointSet& points, const Rows& rows) {
     return set;
 }
 
-/// Comparisons of coordinates that one measure may take while sets are compared.
+/// Coordinate comparisons allowed for one measurement while sets are compared.
 constexpr std::uint64_t work_of_measure = std::uint64_t{1} << 30;
 
-/// The worst box, or one that is as bad as `enough`.
+/// Finds the worst box, or stops at one that is as bad as `enough`.
 Measured measure(const PointSet& set, double enough, const RunContext& run) {
     const auto grid = discrepancy::box_grid(set, discrepancy::Family::anchored, run);
     const auto told = [](const discrepancy::WorstBox& worst, bool exact) {
@@ -68,7 +68,7 @@ Measured measure(const PointSet& set, double enough, const RunContext& run) {
     return told(found.worst, true);
 }
 
-/// Boxes that were the worst of some set, and how full they are of the present one.
+/// Boxes that were the worst of some set, with their excess for the present set.
 class BadBoxes {
   public:
     BadBoxes(const PointSet& points, std::size_t n, const RunContext& run)
@@ -88,12 +88,12 @@ class BadBoxes {
         boxes_.push_back(std::move(box));
     }
 
-    /// Counts the points of another set in every box.
+    /// Counts the points of another set in all boxes.
     void take(const Bits& set) {
         for (Box& box : boxes_) count(box, set);
     }
 
-    /// Boxes in which one exchange may lead to an excess of `most` points.
+    /// Selects the boxes in which one exchange may lead to an excess of `most` points.
     void look_at(double most) {
         critical_.clear();
         for (std::size_t b = 0; b < boxes_.size(); ++b)
@@ -103,7 +103,7 @@ class BadBoxes {
             }
     }
 
-    /// The points to put in for i so that no box that is looked at has an excess of `most`.
+    /// Points that may replace point i such that no selected box has an excess of `most`.
     [[nodiscard]] Bits allowed(const Bits& set, std::size_t i, double most) const {
         Bits points(words_);
         for (std::size_t w = 0; w < words_; ++w) points[w] = ~set[w];
@@ -117,14 +117,14 @@ class BadBoxes {
             const double least = box.excess + change - (closed ? 0 : 1);
             if (least >= most) return Bits(words_);
             if (least + 1 < most) continue;
-            // Closed boxes must not get fuller, open ones must not stay as empty.
+            // The new point must be outside closed boxes, which are too full, and inside open ones.
             for (std::size_t w = 0; w < words_; ++w)
                 points[w] &= closed ? ~box.members[w] : box.members[w];
         }
         return points;
     }
 
-    /// The largest excess of the boxes that are looked at, once i is exchanged for j.
+    /// Largest excess of the selected boxes after i is exchanged for j.
     [[nodiscard]] double excess_after(std::size_t i, std::size_t j) const {
         double most = 0;
         for (const std::size_t b : critical_) {
@@ -152,7 +152,7 @@ class BadBoxes {
         box.excess = box.side == Side::closed ? excess : -excess;
     }
 
-    /// Drops the half that was not looked at for longest.
+    /// Drops the least recently selected half.
     void forget() {
         std::ranges::stable_sort(boxes_, std::ranges::greater(), &Box::used);
         boxes_.resize(boxes_.size() / 2);
@@ -168,12 +168,12 @@ class BadBoxes {
 };
 
 struct Exchange {
-    std::size_t place;  ///< of the member that goes
-    std::size_t row;    ///< that comes
-    double excess;      ///< of the worst box that is kept
+    std::size_t place;  ///< place of the member to remove
+    std::size_t row;    ///< row to insert
+    double excess;      ///< largest excess of the kept boxes
 };
 
-/// A set, and what it is worth.
+/// A set and its star discrepancy.
 struct Present {
     Rows members;
     double value = 1;
@@ -210,7 +210,7 @@ class StarExchanges {
   private:
     static constexpr std::size_t at_once = 8;
 
-    /// Measures the present set, and counts it in the boxes.
+    /// Measures the present set and counts its points in the boxes.
     void settle() {
         in_.assign((points_.count() + 63) / 64, 0);
         for (const std::size_t i : now_.members) flip(in_, i);
@@ -221,7 +221,7 @@ class StarExchanges {
         boxes_.add(found, in_);
     }
 
-    /// Takes the best of some exchanges if it is better. False: there are none.
+    /// Makes the best of some exchanges if it lowers the value. False if no exchange is promising.
     bool step() {
         const double bound = now_.value * static_cast<double>(n_) * (1 - 1e-12);
         boxes_.look_at(bound);
@@ -257,7 +257,7 @@ class StarExchanges {
         boxes_.take(in_);
     }
 
-    /// Of some exchanges that no box forbids, those with the least excess in the boxes.
+    /// Some exchanges that no box rules out, chosen for the least excess in the boxes.
     std::vector<Exchange> promising(double bound) {
         constexpr std::size_t some = 16 * at_once;
         std::vector<Exchange> found;
@@ -274,7 +274,7 @@ class StarExchanges {
         return found;
     }
 
-    /// Up to `most` of the rows, from a random one on.
+    /// Up to `most` of the rows, beginning at a random position.
     std::vector<std::size_t> drawn_from(const Bits& rows, std::size_t most) {
         std::vector<std::size_t> drawn;
         const std::size_t from = draw(rows.size());
@@ -286,7 +286,7 @@ class StarExchanges {
         return drawn;
     }
 
-    /// Some random exchanges, where possible such that no box gets much worse than the worst.
+    /// Makes some random exchanges, if possible without a box that is much worse than the worst.
     void perturb() {
         const std::size_t some = 1 + draw(3);
         const double bound = now_.value * static_cast<double>(n_) + 0.5;
@@ -317,14 +317,14 @@ class StarExchanges {
     Rng rng_;
     const RunContext& run_;
     std::uint64_t drawn_ = 0;
-    std::uint64_t done_ = 0;  ///< measures
+    std::uint64_t done_ = 0;  ///< number of measured sets
     BadBoxes boxes_;
-    Bits in_;  ///< the members of the present set
+    Bits in_;  ///< members of the present set
     Present now_;
     Present best_;
 };
 
-/// Sets that make up all points, of which the worst trades with the others.
+/// Sets that together hold all points; the worst one trades with the others.
 class StarTrades {
   public:
     StarTrades(const PointSet& points, std::vector<Rows>& sets, std::uint64_t seed,
@@ -335,8 +335,8 @@ class StarTrades {
 
     [[nodiscard]] double largest() const { return found_[worst()].value; }
 
-    /// Exchanges a point of the worst set for one of another such that its worst box gets better,
-    /// and takes that back where either is as bad then.
+    /// Exchanges a point of the worst set for one of another set so that its worst box improves.
+    /// Undoes the exchange if either set would be as bad as before.
     void trade() {
         const std::size_t mine = worst();
         const std::size_t other = (mine + 1 + draw(sets_.size() - 1)) % sets_.size();
@@ -365,7 +365,7 @@ class StarTrades {
         return measure(set_of(points_, set), enough, quiet_);
     }
 
-    /// A random row of the set whose point is inside the box, or outside; any, where such are few.
+    /// Random row of the set whose point is inside the box, or outside; any row if such are rare.
     std::size_t& drawn_from(Rows& set, const Measured& box, bool inside) {
         constexpr int most_draws = 64;
         std::size_t at = draw(set.size());
@@ -410,7 +410,7 @@ Rows choose_by_star(const PointSet& points, Rows start, std::uint64_t measures, 
 void even_out_by_star(const PointSet& points, std::vector<Rows>& sets, std::uint64_t measures,
                       std::uint64_t seed, const RunContext& run) {
     StarTrades trades(points, sets, seed, run);
-    for (std::uint64_t done = 0; done < measures; done += 2) {  // two a trade
+    for (std::uint64_t done = 0; done < measures; done += 2) {  // two per trade
         run.tick(done, measures + 1,
                  fmt::format("largest star discrepancy {:.6g}", trades.largest()));
         trades.trade();

@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: MIT
 //
-// The best n of N points by a discrepancy:
+// Chooses the best n of N points by a discrepancy:
 //
 //     star        the star discrepancy, by exchanges that break its worst box (star_choice.hpp)
 //     l2-star, l2-centered, l2-wraparound, l2-mixture, l2-average
-//                 L2 discrepancies, as l2-discrepancy has them
+//                 L2 discrepancies, as in l2-discrepancy
 //     periodic, gaussian, matern
-//                 maximum mean discrepancies from the uniform distribution, as kernel-discrepancy
-//                 has them; periodic is the diaphony
+//                 maximum mean discrepancies from the uniform distribution, as in
+//                 kernel-discrepancy; periodic is the diaphony
 //     stein       the kernel Stein discrepancy: rows are d coordinates, then d scores grad log p
 //
-// All but the first are chosen greedily by their kernels, then exchanged (kernel_choice.hpp).
+// All except star choose points greedily by a kernel, then exchange some (kernel_choice.hpp).
 //
-// --split K: all N points, parted into K sets that are even alike, N / K points each, one set after
-// the other (partition.hpp); star: parted by l2-star, then evened out by exchanges.
+// --split K: partitions all N points into K similarly even sets of N / K points, one set after the
+// other (partition.hpp). For star, the partition by l2-star is then improved by exchanges.
 //
-// Points are those of a file (--from), or of another generator (--of, --candidates of them).
+// The points are those of a file (--from) or of another generator (--of, --candidates of them).
 //
-// Shape   as the points given; in [0, 1], but for stein anywhere. Rows are those given, to the last
-//         bit, in the order in which they came; of stein with their scores.
+// Shape   that of the given points; in [0, 1], for stein anywhere. Rows are those given, to the
+//         last bit, in their original order; for stein with their scores.
 // Cost    kernels: N n values of K for the greedy choice, and --effort times up to 2^31 for
 //         exchanges: 512 of 2^18 points of the plane in 2.5 s on one core. star: --effort times
-//         10 to 40 s, less of few points.
-// Promise a function of the points, the options and the seed, for any number of threads. The
-//         provenance has the value: star_discrepancy (or its bounds where it is not known), else
-//         squared; of several sets the largest and the smallest.
+//         10 to 40 s, less for few points.
+// Promise depends only on the points, the options and the seed, not on the number of threads. The
+//         provenance has the value: star_discrepancy (its bounds if it is not known) or squared;
+//         for several sets the largest and the smallest.
 // Source  F. Clement, C. Doerr, L. Paquete, J. Complexity 83 (2024) 101852, arXiv:2306.15276;
 //         Y. Chen, M. Welling, A. Smola, UAI 2010, arXiv:1203.3472 (kernel herding).
 
@@ -122,7 +122,7 @@ void check_options(const Values& options) {
              "--candidates is of --of; with --from there are as many as in the file");
 }
 
-/// @throws Error(usage) where `all` points cannot be parted
+/// @throws Error(usage) if `all` points cannot be split into sets of equal size
 void check_split(std::uint64_t all, std::uint64_t sets, const std::string& whose) {
     if (all % sets != 0)
         fail(ErrorKind::usage, "--split: the {} points{} are no {} sets of equal size", all, whose,
@@ -158,7 +158,7 @@ Plan plan_for_file(const Request& request, const Values& options) {
     return plan;
 }
 
-/// Points of --of that are asked for.
+/// Number of points to generate by --of.
 std::uint64_t candidates_for(std::uint64_t count, const Values& options) {
     if (options.given(candidates)) return static_cast<std::uint64_t>(options[candidates]);
     return options[split] > 1 ? count : 16 * count;
@@ -175,7 +175,7 @@ Plan plan(const Request& request, const Values& options) {
     if (sets > 1 && !request.count && options.given(candidates))
         complete.count = candidates_for(0, options);
     const Plan plan = default_plan(complete, sets > 1 ? 64 * sets : 64);
-    if (plan.count > std::uint64_t{1} << 48) return plan;  // refused where memory is asked for
+    if (plan.count > std::uint64_t{1} << 48) return plan;  // rejected when memory is requested
     const std::uint64_t all = candidates_for(plan.count, options);
     if (sets > 1 && plan.count != all)
         fail(ErrorKind::usage,
@@ -226,24 +226,24 @@ kernels::KernelPtr kernel_of(const Values& options, std::size_t width) {
     return kernels::of_l2(d, kinds.front());
 }
 
-/// Points to choose from, and how.
+/// Points to choose from, and how to choose.
 struct Task {
     const PointSet& points;
     kernels::Columns columns;
     kernels::KernelPtr kernel;
     std::size_t sets;
-    std::size_t n;  ///< points of each set
+    std::size_t n;  ///< points per set
     bool star;
     std::uint64_t seed;
     double effort;
 
-    /// Values of the kernel to work out.
+    /// Budget of kernel evaluations.
     [[nodiscard]] double values() const {
         const double few = 0x1p13 * static_cast<double>(points.count()) * static_cast<double>(n);
         const double times = star ? std::min(effort, 1.0) : effort;
         return std::ceil(times * std::min(few, 0x1p31 / (1 + 0.5 * width())));
     }
-    /// Star discrepancies to measure, of sets of n points.
+    /// Number of star discrepancies to compute, of sets of n points.
     [[nodiscard]] std::uint64_t measures() const {
         const double seconds =
             2e-4 + 5e-8 * std::pow(static_cast<double>(n), width() < 8 ? 1 + width() / 4 : 3);
@@ -255,7 +255,8 @@ struct Task {
 };
 
 std::vector<Rows> choose(const Task& task, const RunContext& run) {
-    constexpr double start = 0.05;  // of what kernels take, where star measures follow
+    constexpr double start = 0.05;  // fraction of the kernel evaluations if star measurements
+                                    // follow
     const double share = task.star ? start : 1;
     const RunContext first = run.stage(0, share);
     const RunContext second = run.stage(share, 1);
@@ -273,7 +274,7 @@ std::vector<Rows> choose(const Task& task, const RunContext& run) {
 
 using Found = std::vector<std::pair<std::string, std::string>>;
 
-/// What sets are worth, for the provenance.
+/// Values of the sets, for the provenance.
 Found found_of(const Task& task, const std::vector<Rows>& sets, const RunContext& run) {
     std::vector<StarBounds> values;
     for (const Rows& rows : sets) {
