@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Cranley-Patterson rotation: one vector u is added to all points, modulo 1.
+// Cranley-Patterson rotation: adds one vector u to all points, modulo 1.
 //
 //     y = x + u mod 1,    u uniform in [0, 1)^d, or given.
 //
 // Cost     O(n d).
-// Promise  differences of points modulo 1 stay, to rounding: a lattice stays a (shifted) lattice.
-//          Never 1: where x + u reaches 1 it wraps.
+// Promise  keeps differences of points modulo 1, up to rounding: a lattice stays a (shifted)
+//          lattice. Coordinates never become 1: sums of 1 and more wrap.
 // Beware   the net property of digital nets is lost; use digital-shift, matrix or owen for them.
 // Source   R. Cranley, T. N. L. Patterson, SIAM J. Numer. Anal. 13 (1976) 904-914,
 //          doi:10.1137/0713071.
@@ -24,7 +24,7 @@ constexpr Param<Numbers> shift{
     {.name = "shift",
      .help = "The vector itself, one number for each coordinate, taken modulo 1; else random"}};
 
-/// Numbers as they are to be added, in [0, 1).
+/// The given shifts modulo 1, in [0, 1).
 std::vector<double> fractions(std::vector<double> numbers, std::size_t coordinates) {
     if (numbers.size() != coordinates)
         fail(ErrorKind::usage, "--shift: {} numbers for {} coordinates", numbers.size(),

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The frame of the scrambles that work on digits: every coordinate has a base, and a random map of
-// its digits in it. Base 2 has maps of its own, which take all points of a block at once.
+// Common part of the scrambles that work on digits: every coordinate has a base, and a random map
+// of its digits in that base. Base 2 has maps of its own, which process all points of a block at
+// once.
 #pragma once
 
 #include <array>
@@ -14,10 +15,10 @@
 
 namespace stipple {
 
-/// For Scramble::make.
+/// Returns the function for Scramble::make.
 /// @param Binary has apply(fractions), in place (math/digital/binary_scramble.hpp)
-/// @param General has of(digits), the image of a point (math/digital/base_scramble.hpp)
-/// Both are made from a seed and the number of a coordinate, General from its base, too.
+/// @param General has of(digits), which returns the image (math/digital/base_scramble.hpp)
+/// Both are made from a seed and the number of a coordinate, General also from its base.
 /// @param base the option, which must outlive the unit
 /// @param prime whether bases must be primes
 template <class Binary, class General>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Digital shift: the same random digits are added to those of all points, digit by digit modulo the
-// base, without carries.
+// Digital shift: adds the same random digits to the digits of all points, modulo the base, without
+// carries.
 //
 // Cost     O(n d) in base 2, O(n d log 2^50 / log b) in others.
-// Promise  keeps the (t,m,s)-net property in its base, whatever the net.
-// Beware   in a base other than 2 a point is taken for the nearest multiple of b^-K, where b^K is
-//          the largest power up to 2^50; so that Halton's points are taken for what they stand for.
+// Promise  keeps the (t,m,s)-net property in its base, for every net.
+// Beware   in other bases than 2 a coordinate is first rounded to a multiple of b^-K, where b^K is
+//          the largest power up to 2^50. This recovers the exact digits of Halton's points.
 // Source   see math/digital/base_scramble.hpp.
 
 #include "scrambles/digit_scramble.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Linear matrix scrambling: the vector of a coordinate's digits is multiplied by a random
-// nonsingular lower triangular matrix, one a coordinate, and a digital shift is added.
+// Linear matrix scrambling: multiplies the vector of a coordinate's digits by a random nonsingular
+// lower triangular matrix, one per coordinate, and adds a digital shift.
 //
 // Cost     O(n d) in base 2, O(n d K^2) in others, with K digits.
 // Promise  keeps the (t,m,s)-net property in its base. The variance of an estimate is that of
@@ -22,7 +22,7 @@ constexpr Param<Numbers> base{{.name = "base",
                                .help = "Base of the digits, a prime: one for all coordinates, or "
                                        "one for each; default: the generator's, else 2"}};
 
-/// The product with a binary matrix, byte by byte from tables.
+/// Product with a binary matrix, by tables for each byte.
 class BinaryProduct {
   public:
     BinaryProduct(std::uint64_t seed, std::size_t coordinate)
@@ -46,7 +46,7 @@ class BinaryProduct {
     }
 
   private:
-    static constexpr std::size_t bytes = 7;  // hold the 53 digits of a double
+    static constexpr std::size_t bytes = 7;  // enough for the 53 digits of a double
     std::uint64_t shift_;
     std::vector<std::array<std::uint64_t, 256>> tables_;
 };

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Micro-jitter: every coordinate goes to a random place in its interval of length 1 / N.
+// Micro-jitter: moves every coordinate to a random position in its interval of length 1 / N.
 //
-//     y = (floor(x N) + u) / N,    u uniform in [0, 1), another for each coordinate of each point.
+//     y = (floor(x N) + u) / N,    u uniform in [0, 1), drawn for each coordinate of each point.
 //
 // Cost     O(n d).
-// Promise  which interval [k / N, (k + 1) / N) a coordinate is in stays, by exact arithmetic: with
-//          N = n the Latin property, and with N = b^m the net property of a (t,m,s)-net in base b.
-//          A coordinate is taken to be on an interval's lower edge when it is its rounded value.
-// Beware   depends on the points' order: the numbers u belong to the place in the file.
+// Promise  a coordinate stays in its interval [k / N, (k + 1) / N), by exact arithmetic. So N = n
+//          keeps the Latin property, and N = b^m the net property of a (t,m,s)-net in base b. A
+//          coordinate that is the rounded value of an interval's lower edge counts as on it.
+// Beware   depends on the points' order: the numbers u belong to positions in the file.
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +26,8 @@ constexpr Param<std::int64_t> cells{.name = "cells",
                                     .optional = true,
                                     .help = "Number N of intervals; else the number of points"};
 
-/// The interval of x: that of the nearest edge if x is its rounded value, else the one x is in.
+/// Index of the interval of x; if x is the rounded value of an edge, of the interval that begins
+/// there.
 std::uint64_t interval_of(double x, std::uint64_t count) {
     const double scaled = x * static_cast<double>(count);
     const double edge = std::round(scaled);
@@ -40,7 +41,7 @@ Randomization make(const Values& options, const ScrambleRequest& request) {
         options.given(cells) ? static_cast<std::uint64_t>(options[cells]) : request.count;
     const Rng rng = scramble_numbers(request.seed, ScrambleStream::micro_jitter);
     return [count, rng, which = request.coordinates](std::uint64_t first, std::span<double> rows) {
-        // A stride that depends on nothing but the coordinate keeps one choice for one coordinate.
+        // A fixed stride gives a coordinate the same number whichever others are scrambled.
         constexpr std::uint64_t stride = std::uint64_t{1} << 20;
         const std::size_t d = which.size();
         for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Owen's nested uniform scrambling: the first digit of a coordinate is permuted at random, the
-// second by a permutation that depends on the first, and so on down the tree of digits.
+// Owen's nested uniform scrambling: permutes the first digit of a coordinate at random, the second
+// by a permutation that depends on the first, and so on down the tree of digits.
 //
 // Cost     O(n d) in base 2; O(n d K b) with K digits in others.
 // Promise  every point is uniform in the cube; keeps the (t,m,s)-net property in its base. Digits
-//          behind a point's last are random, too: 53 bits in all.
+//          after a point's last one are random, too: 53 bits in all.
 // Beware   as in digital-shift. Equal points stay equal.
 // Source   A. B. Owen, in Monte Carlo and Quasi-Monte Carlo Methods in Scientific Computing (1995),
 //          299-317, doi:10.1007/978-1-4612-2552-2_19.

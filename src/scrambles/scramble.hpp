@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What a scramble is: its record, and the randomization it makes for given options. A scramble
-// moves points within the unit cube, at random, so that each is uniform and together they stay as
-// even.
+// Scrambles: the record of one, and the randomization that it makes for given options. A scramble
+// moves points at random within the unit cube, so that each is uniform and the set stays as even as
+// before.
 #pragma once
 
 #include <cstddef>
@@ -16,49 +16,49 @@
 
 namespace stipple {
 
-/// An option of every scramble, which is resolved before it is made.
+/// Option of every scramble; resolved before the scramble is made.
 inline constexpr Param<Text> scramble_seed{
     {.name = "seed", .help = "64-bit seed of its own; else the set's"}};
 
-/// What is to be scrambled.
+/// Describes the set to scramble.
 struct ScrambleRequest {
-    std::vector<std::size_t> coordinates = {};  ///< numbers of a row that it moves, from 0
+    std::vector<std::size_t> coordinates = {};  ///< those to scramble, as positions in a row, from
+                                                ///< 0
     std::uint64_t seed = 1;
-    std::uint64_t count = 1;  ///< points of the whole set
+    std::uint64_t count = 1;  ///< points in the whole set
 };
 
-/// One random choice of a scramble; safe to call from several threads. Moves points first,
-/// first + 1, ... of the set: `rows` holds their coordinates that are scrambled, in [0, 1] before
-/// and in [0, 1) after.
+/// One random choice of a scramble; safe to call from several threads. Moves points first, first +
+/// 1, ... of the set: `rows` holds their coordinates to scramble, in [0, 1] on entry and in [0, 1)
+/// on return.
 using Randomization = std::function<void(std::uint64_t first, std::span<double> rows)>;
 
 struct Scramble {
     std::string name;
     std::string summary;
     std::string source;
-    std::string family = {};  ///< "blue noise"; the registry gives it, by the folder
-    /// Words that lead to it and are no names of it: what it is a kind, a part or a use of.
+    std::string family = {};  ///< such as "blue noise"; set by the registry from the folder
+    /// Search words that are not names of it: a kind, a part or a use.
     std::vector<std::string> related = {};
     Schema options;
-    std::vector<std::string> aliases = {};  ///< other names that users of the field would type
+    std::vector<std::string> aliases = {};  ///< other names that users may type
 
-    /// Raised with every change of the results that the same options and seed give (see
-    /// tests/contract/golden.txt).
+    /// Raised when the same options and seed give other results (see tests/contract/golden.txt).
     std::uint64_t stream_version = 1;
 
     /// @throws Error(usage)
     std::function<Randomization(const Values&, const ScrambleRequest&)> make;
 };
 
-/// The bases that `--base` gives to the coordinates: one number for all, or one for each.
-/// @throws Error(usage) for numbers that are no bases, or no primes where they must be
+/// Bases of the coordinates given by `--base`: one number for all, or one for each.
+/// @throws Error(usage) for invalid bases, and if `prime` for bases that are not prime
 std::vector<std::uint32_t> bases_for(const std::vector<double>& given, std::size_t coordinates,
                                      bool prime);
 
-/// Numbers that a coordinate-wise randomization moves at a time, at most.
+/// Largest number of points that a coordinate-wise randomization moves at a time.
 inline constexpr std::size_t most_moved = 512;
 
-/// The randomization that moves the k-th coordinate of consecutive points by move(k, numbers).
+/// Randomization that moves the k-th coordinate of consecutive points by move(k, numbers).
 Randomization coordinate_wise(std::size_t dimension,
                               std::function<void(std::size_t k, std::span<double>)> move);
 
