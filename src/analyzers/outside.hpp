@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Points that the domain which they are said to live on does not contain.
+// Points outside the domain that they are supposed to be on.
 #pragma once
 
 #include <cstdint>
@@ -16,10 +16,11 @@ namespace stipple::analyzers {
 
 struct Outside {
     std::uint64_t count = 0;
-    std::uint64_t first = std::numeric_limits<std::uint64_t>::max();  ///< the lowest index
-    std::vector<double> point = {};                                   ///< at that index
+    std::uint64_t first = std::numeric_limits<std::uint64_t>::max();  ///< lowest index of a point
+                                                                      ///< outside
+    std::vector<double> point = {};                                   ///< the point with that index
 
-    /// Adds point `i`, the points before it having been looked at.
+    /// Adds point `i`; indices must ascend.
     void add(std::uint64_t i, std::span<const double> at) {
         if (count++ > 0) return;
         first = i;
@@ -40,11 +41,11 @@ struct Outside {
     }
 };
 
-/// Counts them among `total` and names the first. @throws Error(input)
+/// Reports their number among `total` and the first of them. @throws Error(input)
 [[noreturn]] void refuse(const Outside& outside, std::uint64_t total, const Domain& domain,
                          std::string hint);
 
-/// What helps where points are outside the domain.
+/// Advice for points outside the domain.
 std::string outside_hint(const Domain& domain);
 
 }  // namespace stipple::analyzers

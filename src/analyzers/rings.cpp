@@ -13,13 +13,13 @@ namespace {
 
 constexpr double lowest_db = -100;
 
-/// Rows of frequencies, half of them; the others hold the opposite vectors.
+/// Half of the rows of frequencies; the other half holds the opposite vectors.
 struct HalfOfRows {
     explicit HalfOfRows(const Grid& of)
         : power(of), width(static_cast<std::int64_t>(of.columns)), last(width / 2) {}
 
-    /// Calls visit(centre, f_1^2 + f_2^2, middle): the power at f_0 = 0, and whether the row has
-    /// the opposites of its vectors in itself.
+    /// Calls visit(centre, f_1^2 + f_2^2, middle) for each row: `centre` points to the power at f_0
+    /// = 0, and `middle` is true for the row that contains the opposites of its own vectors.
     template <class Visit>
     void visit(const RunContext& run, Visit&& visit) const {
         for (std::size_t row = power.rows / 2; row < power.rows; ++row) {
@@ -34,11 +34,11 @@ struct HalfOfRows {
 
     const Grid& power;
     std::int64_t width;
-    std::int64_t last;  ///< F
+    std::int64_t last;  ///< F, the highest frequency
 };
 
-/// Calls visit(ring, power) for half of the frequency vectors in rings 1..F, of which the others
-/// are the opposites. In integers, k - 1/2 <= |f| < k + 1/2 is k^2 - k < |f|^2 <= k^2 + k.
+/// Calls visit(ring, power) for half of the frequency vectors in rings 1..F; the others are their
+/// opposites. In integers, k - 1/2 <= |f| < k + 1/2 is k^2 - k < |f|^2 <= k^2 + k.
 template <class Visit>
 void for_half_of_rings(const Grid& power, const RunContext& run, Visit&& visit) {
     const HalfOfRows rows(power);
@@ -80,7 +80,7 @@ Rings rings_of(const Grid& power, const RunContext& run) {
 
 double decibels(double ratio) {
     constexpr DoubleDouble per_log{std::numbers::log10e, 1.098319650216765e-17};
-    return 10 * (logarithm_parts(ratio) * per_log).high;  // whole numbers for powers of 10
+    return 10 * (logarithm_parts(ratio) * per_log).high;  // exact for powers of 10
 }
 
 double anisotropy_db(double variance, double mean, double least) {
@@ -91,7 +91,7 @@ double anisotropy_db(double variance, double mean, double least) {
 
 namespace {
 
-/// Frequencies of one length, half of them.
+/// Half of the frequencies of one length.
 struct Shell {
     double power = 0;
     double cells = 0;
@@ -103,7 +103,7 @@ struct Shell {
     [[nodiscard]] bool is_low() const { return power <= 0.1 * cells; }
 };
 
-/// The largest whole number whose square is at most x >= 0.
+/// Integer square root of x >= 0, rounded down.
 std::int64_t whole_root(std::int64_t x) {
     auto root = static_cast<std::int64_t>(std::sqrt(static_cast<double>(x)));
     while (root * root > x) --root;
@@ -111,7 +111,7 @@ std::int64_t whole_root(std::int64_t x) {
     return root;
 }
 
-/// The shells of a ring by |f|^2, as far as that is at most F^2.
+/// Shells of a ring by |f|^2, up to F^2.
 std::map<std::int64_t, Shell> shells_of(const Grid& power, std::int64_t ring,
                                         const RunContext& run) {
     std::map<std::int64_t, Shell> shells;
@@ -133,14 +133,14 @@ std::map<std::int64_t, Shell> shells_of(const Grid& power, std::int64_t ring,
 }  // namespace
 
 double effective_nyquist(const Grid& power, const Rings& rings, const RunContext& run) {
-    std::vector<Shell> within(1);  // rings 1..k
+    std::vector<Shell> within(1);  // sums over rings 1..k
     for (std::size_t i = 0; i < rings.power.size(); ++i) {
         const double cells = static_cast<double>(rings.cells[i]) / 2;
         within.push_back(within.back());
         within.back().add({rings.power[i] * cells, cells});
     }
-    // From outside: the mean up to a place in a ring is at least that of the power before the ring
-    // over all cells with it, so that most rings need no second look.
+    // Goes inwards. The mean up to a shell of a ring is at least the power before the ring divided
+    // by the number of cells including the ring, so most rings need no closer look.
     const std::size_t last = rings.power.size();
     for (std::size_t ring = last; ring > 0; --ring) {
         if (!Shell{within[ring - 1].power, within[ring].cells}.is_low()) continue;
@@ -168,7 +168,7 @@ double effective_nyquist(const Grid& power, const Rings& rings, const RunContext
 
 namespace {
 
-/// Mean over the frequencies of some rings, of each of which weighted(cells, power) is the sum.
+/// Mean over the frequencies of some rings, where weighted(cells, power) is the sum over one ring.
 template <class Weighted>
 double mean_of(const Rings& rings, std::size_t first, std::size_t last, const Weighted& weighted) {
     double sum = 0;
