@@ -12,9 +12,9 @@
 //     n = 1        for boxes at the origin x + x^d = 1, for other boxes the centre: optimal
 //     star, d = 2  a search over the orders of the points by x and by y, each solved exactly
 //                  (planar_order.hpp, order_search.hpp)
-//     others       descents along the gradient from many sets (coordinate_search.hpp). The objective
-//                  takes all boxes for the star discrepancy of three axes, those near the worst for
-//                  other boxes, and all pairs of points for L2 kinds
+//     others       descents along the gradient from many sets (coordinate_search.hpp), over all
+//                  boxes for the star discrepancy of three axes, over those near the worst for
+//                  other boxes, and over all pairs of points for L2 kinds
 //     --lattice    all lattices of Korobov's form (lattice_search.hpp)
 //
 // Shape   d <= 6 for boxes, up to 100 for L2 kinds. The search over orders needs 8 n^2 bytes per

@@ -6,8 +6,8 @@
 //     D*(S)  >=  | #(S in the box) / n  -  volume |,
 //
 // so the worst boxes of all measured subsets are kept, each with its points as bits. They rule out
-// most exchanges quickly, for all N possible replacements of a member at once. The most promising of
-// the remaining exchanges are measured by the exact search. The best is made if it improves the
+// most exchanges quickly, for all N possible replacements of a member at once. The most promising
+// of the remaining exchanges are measured by the exact search. The best is made if it improves the
 // set; the worst boxes of the others are kept, too. If no exchange remains, some are made at random
 // that keep all boxes nearly as good, and the search continues from there, or from the best set if
 // that leads nowhere.
