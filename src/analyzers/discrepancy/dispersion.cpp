@@ -5,20 +5,20 @@
 //
 //     value = max { vol (a,b) : no x_i in (a,b) },      (a,b) open, in [0,1]^d.
 //
-// On the torus (--torus), where 1 is 0, each side of a box may wrap from 1 to 0; its lower end is
-// then above its upper one, or the same if the side goes all the way round.
+// On the torus (--torus), where 1 is 0, each side of a box may wrap from 1 to 0. Its lower end is
+// then above its upper end, or equal to it if the side goes all the way round.
 //
 // Shape   points n x d in [0, 1];  result in [1/(n+1), 1].
 // Cost    d = 1: O(n log n). d = 2: O((n + s) log n), where s rectangles cannot grow; s is about
 //         n log n for random points and n^2 at worst; 10^5 random points take 0.4 s on one core,
 //         on the torus 0.5 s; --time-limit cuts it short.
 //         d > 2: branch and bound over the boxes' sides, which stops at --max-work or --time-limit
-//         with bounds that hold; it grows as fast as n^(2(d - 1)) at worst. 4000 random points in
+//         with valid bounds; it grows as fast as n^(2(d - 1)) at worst. 4000 random points in
 //         3-D take 0.4 s, 200 in 5-D 0.6 s.
-// Promise exact where it says so: boxes are compared without rounding, and the value is the double
-//         nearest to the box's volume. Never depends on the number of threads.
-// Beware  points on a box's rim are not inside. Not the covering radius, which is also called
-//         dispersion: that is the analyzer coverage.
+// Promise `exact` reports whether the value is exact: boxes are compared without rounding, and the
+//         value is the double nearest to the box's volume. Never depends on the number of threads.
+// Beware  points on the boundary of a box are not inside. Not the covering radius, which is also
+//         called dispersion: that is the analyzer coverage.
 // Source  A. Naamad, D. T. Lee, W.-L. Hsu, Discrete Appl. Math. 8 (1984) 267-277,
 //         doi:10.1016/0166-218X(84)90124-0 (2-D); G. Rote, R. F. Tichy, "Quasi-Monte-Carlo methods
 //         and the dispersion of point sequences", Math. Comput. Modelling 23 (1996) 9-23,
@@ -39,10 +39,11 @@ using namespace discrepancy;
 constexpr Param<bool> torus{.name = "torus",
                             .help = "Join opposite faces of the cube, so that boxes may wrap"};
 
-/// More points than any machine's memory holds; keys of points stay below 2^31.
+/// Limit beyond any machine's memory; keys of points stay below 2^31.
 constexpr std::size_t max_count = std::size_t{1} << 29;
 
-/// Where it is cut short: an empty box has a discrepancy of its volume.
+/// Bounds a search that is cut short by the discrepancy, which is at least the volume of an empty
+/// box.
 SearchResult largest_empty_box(const BoxGrid& grid, const PointSet& points,
                                const SearchLimits& limits, const RunContext& run) {
     if (grid.dimension() != 2) return extreme::find_worst(grid, limits, run);
@@ -76,7 +77,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return report_of(found, limits.search.tolerance, how(d)).add("box", std::move(box));
 }
 
-/// A mean of boxes is none.
+/// Boxes cannot be averaged.
 void refine(Report& mean, std::size_t sets, const Values&) {
     if (sets > 1) drop(mean, {"box"});
 }

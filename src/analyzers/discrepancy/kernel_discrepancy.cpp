@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Kernel discrepancy, or maximum mean discrepancy: the largest error of the points' mean among all
-// functions of norm 1 in the Hilbert space of a kernel K. With y independent and of the target,
+// functions of norm 1 in the Hilbert space of a kernel K. With independent y and y' from the
+// target,
 //
 //     squared = E K(y, y')  -  2/n sum_i E K(x_i, y)  +  n^-2 sum_i sum_k K(x_i, x_k),
 //     value   = sqrt(squared)                                       (the V-statistic, biased).
@@ -13,24 +14,26 @@
 //     stein      the kernel Stein discrepancy, of the Langevin Stein kernel over the base kernel
 //                (1 + |x - y|^2 / h^2)^(-1/2) (math/kernels/stein.cpp); E K(x, y) = 0
 //
-// The target is the uniform distribution on the unit cube, with the expectations in closed form; or
-// that of the points' own domain, where its coordinates are independent, by integrals over their
-// distribution functions (math/kernels/domain_kernel.hpp), and for the periodic kernel a box, whose
-// torus is that of the cube; or, with --target, the points of a file; or, for stein, the density
-// whose scores grad log p follow the coordinates in each row.
+// The target is one of
+//
+//     default     the distribution of the points' own domain. Expectations over the unit cube are in
+//                 closed form. Other domains must have independent coordinates and take integrals
+//                 over their distribution functions (math/kernels/domain_kernel.hpp); for the
+//                 periodic kernel they must be boxes, whose torus is that of the cube
+//     --target    the points of a file
+//     stein       the density whose scores grad log p follow the coordinates in each row
 //
 // Shape   points n x d in [0, 1], in any domain, or with --target and stein anywhere; for stein n x
 //         2d, first d coordinates, then d scores.
 // Units   h is a length. By default sqrt(d / 6), the root mean square distance of two uniform
-//         points of the cube; with --target the median distance of all points, by all pairs or, if
-//         these are more than 2^22, by so many drawn at random; for stein 1.
-// Cost    on a domain other than a cube some 100 us a point besides;
-//         n^2 / 2 values of K, with m points of a target (n + m)^2 / 2; each takes 0.5 to 2 ns in
-//         few dimensions on one core. The periodic kernel on a line or in the plane: O(n log n) for
-//         n > 4096 (math/l2). O(n) memory.
-// Promise the same for any number of threads. Values of K are added as whole numbers; `value` is
-//         off by `error` at most. 0 for points that are those of the target, in any order.
-// Beware  values of different kernels, or different h, do not compare.
+//         points of the cube; with --target the median distance of all points, over all pairs or,
+//         if there are more than 2^22, over that many random pairs; for stein 1.
+// Cost    n^2 / 2 values of K, with m points of a target (n + m)^2 / 2; each takes 0.5 to 2 ns in
+//         few dimensions on one core. The periodic kernel in one or two dimensions: O(n log n) for
+//         n > 4096 (math/l2). Domains other than a cube: some 100 us more per point. O(n) memory.
+// Promise the same for any number of threads. Values of K are added as integers; `value` is off by
+//         at most `error`. 0 for the points of the target, in any order.
+// Beware  values for different kernels, or different h, cannot be compared.
 // Source  A. Gretton, K. M. Borgwardt, M. J. Rasch, B. Schoelkopf, A. Smola, J. Mach. Learn. Res.
 //         13 (2012) 723-773; J. Gorham, L. Mackey, ICML 2017, arXiv:1703.01717 (stein).
 
@@ -81,16 +84,16 @@ constexpr Param<Choice> smoothness{.name = "smoothness",
                                    .choices = "0.5|1.5|2.5",
                                    .help = "The parameter nu of matern"};
 
-/// More pairs than anybody waits for; sums of them fit 128 bits.
+/// Limit beyond practical run times; sums over its pairs fit 128 bits.
 constexpr std::size_t max_count = std::size_t{1} << 26;
 
-/// Points to measure, and how.
+/// Points to analyze, and how.
 struct Setting {
     kernels::Columns points;
     std::size_t dimension;
     std::optional<double> h = {};
-    const char* rule = "";    ///< where h is from
-    std::uint64_t pairs = 0;  ///< of points, whose median distance it is
+    const char* rule = "";    ///< how h was chosen
+    std::uint64_t pairs = 0;  ///< number of pairs whose median distance is h
     const char* method = "all-pairs";
 };
 
@@ -107,7 +110,7 @@ void check_options(const Values& options) {
              "--target out, or choose another kernel");
 }
 
-/// @throws Error(input) where a number is not finite
+/// @throws Error(input) if a number is not finite
 void require_finite(const PointSet& points, const std::string& file) {
     const auto flat = points.flat();
     const auto bad = std::ranges::find_if_not(flat, [](double x) { return std::isfinite(x); });
@@ -118,7 +121,7 @@ void require_finite(const PointSet& points, const std::string& file) {
          *bad);
 }
 
-/// @throws Error(input) where points are outside their domain
+/// @throws Error(input) if points are outside their domain
 void require_inside(const PointSet& points) {
     const Domain& domain = *points.domain;
     Outside outside;
@@ -131,7 +134,7 @@ void require_inside(const PointSet& points) {
 
 bool is_unit_cube(const Domain& domain) { return domain.spec() == unit_cube(1)->spec(); }
 
-/// @throws Error(input) where coordinates of the domain depend on each other
+/// @throws Error(input) if coordinates of the domain depend on each other
 void require_independent_axes(const PointSet& points) {
     const Domain& domain = *points.domain;
     if (!kernels::has_independent_axes(domain, points.flat()))
@@ -141,7 +144,7 @@ void require_independent_axes(const PointSet& points) {
                        domain.title());
 }
 
-/// Points of a box on the unit cube. @throws Error(input) for points of other domains
+/// Maps points of a box to the unit cube. @throws Error(input) for points of other domains
 PointSet on_cube(const PointSet& points) {
     const Domain& domain = *points.domain;
     PointSet cube = points;
@@ -168,7 +171,7 @@ PointSet on_cube(const PointSet& points) {
     return cube;
 }
 
-/// h as it is given, or `fallback` by a rule.
+/// Sets h as given by the user, or to `fallback` with the name of its rule.
 void set_bandwidth(Setting& setting, const Values& options, double fallback, const char* rule) {
     const bool given = options.given(bandwidth);
     setting.h = given ? options[bandwidth] : fallback;
@@ -188,7 +191,7 @@ kernels::KernelPtr kernel_of(const Setting& setting, const Values& options) {
     return kernels::matern(setting.dimension, *setting.h, order_of(options));
 }
 
-/// The most that the root of a square is off which is off by `error`.
+/// Largest error of the root of `squared`, which is off by at most `error`.
 double error_of_root(double squared, double error) {
     if (squared > error) return std::sqrt(squared) - std::sqrt(squared - error);
     return std::sqrt(squared + error);
@@ -213,7 +216,7 @@ Report report_of(const Setting& setting, const kernels::SquaredDiscrepancy& foun
     return report;
 }
 
-/// The square by exact sums, where these are much sooner there than all pairs.
+/// Squared discrepancy by exact sums; nullopt unless these are much faster than all pairs.
 std::optional<kernels::SquaredDiscrepancy> by_exact_sums(const PointSet& cube,
                                                          const Values& options,
                                                          const RunContext& run) {
@@ -227,7 +230,7 @@ std::optional<kernels::SquaredDiscrepancy> by_exact_sums(const PointSet& cube,
                                        one_point / static_cast<double>(cube.count())};
 }
 
-/// The kernel with its means over the points' own domain.
+/// Kernel with its means over the points' own domain.
 kernels::KernelPtr kernel_over_domain(const PointSet& points, const Setting& setting,
                                       const Values& options, const RunContext& run) {
     if (options[kernel] == "periodic" || is_unit_cube(*points.domain))
@@ -255,7 +258,7 @@ Report against_domain(const PointSet& points, const Values& options, const RunCo
                      options);
 }
 
-/// @throws Error(input) for points that the periodic kernel does not take
+/// @throws Error(input) for points outside the unit cube, where the periodic kernel is defined
 void require_cube(const PointSet& points, const std::string& what) {
     for (std::size_t i = 0; i < points.count(); ++i)
         for (const double x : points[i])

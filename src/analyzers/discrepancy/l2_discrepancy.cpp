@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// L2 discrepancies of n points x_i in the unit cube: root mean squares of local discrepancies, as
-// the norms of the error of integration that they are. Each has a kernel k on an axis,
+// L2 discrepancies of n points x_i in the unit cube: root mean squares of local discrepancies,
+// which are also norms of integration errors. Each has a kernel k on one axis,
 //
 //     star        1 - max(x, y)                                  boxes [0, c)
 //     extreme     min(x, y) - x y                                boxes [a, b)
@@ -14,8 +14,8 @@
 //     average     (1 - t) / 2                                    boxes at a corner, mean of all 2^d
 //     symmetric   1 - 2 t                                        unions of boxes, even minus odd
 //
-// and with K the product of k over the axes for star, extreme, periodic and average, of 1 + k for
-// the others (so that every projection counts),
+// Let K be the product over the axes of k for star, extreme, periodic and average, and of 1 + k for
+// the others (so that every projection counts). Then
 //
 //     squared = int int K  -  2/n sum_i int K(x_i, y) dy  +  n^-2 sum_i sum_k K(x_i, x_k),
 //     value   = sqrt(squared).
@@ -29,20 +29,20 @@
 // Cost    d <= 2: O(n log n) for all kinds together (about 0.4 s at n = 10^6 on one core).
 //         d > 2: O(n^2 d) for each kind; of many points O(n log^2 n) in three dimensions, and in
 //         four O(n log^3 n) for the kinds star, extreme, centered and modified.
-// Promise the same for any number of threads. d <= 2: exact sums, rounded once at the end (of
-//         coordinates to multiples of 2^-63). d > 2: value is off by at most `error`, which is less
-//         than 1e-12 of it (most often its own rounding) unless all but 2^-38 of it cancels.
+// Promise the same for any number of threads. d <= 2: exact sums, rounded once at the end, of
+//         coordinates rounded to multiples of 2^-63. d > 2: `value` is off by at most `error`. This
+//         is below a relative 1e-12 (usually the rounding of the value) unless all but 2^-38 of the
+//         sum cancels.
 // Beware  SciPy's CD, WD and MD are `squared` of centered, wraparound and mixture; its L2-star is
 //         `value` of star. Diaphony is not divided by its largest value, sqrt((1 + pi^2/3)^d - 1).
 // Source  T. T. Warnock, in "Applications of Number Theory to Numerical Analysis" (1972) 319-343
-//         (star). F. J. Hickernell, Math. Comp. 67 (1998) 299-322 (centered, modified,
-//         symmetric);
+//         (star). F. J. Hickernell, Math. Comp. 67 (1998) 299-322 (centered, modified, symmetric);
 //         "Lattice rules: how well do they measure up?" (1998) (wraparound). Y.-D. Zhou, K.-T.
 //         Fang, J.-H. Ning, J. Complexity 29 (2013) 283-301 (mixture). W. J. Morokoff, R. E.
-//         Caflisch, SIAM J. Sci. Comput. 15 (1994) 1251-1279 (extreme). arXiv:2508.04926 (average). P. Zinterhof, Sitzungsber.
-//         Oesterr. Akad. Wiss. II 185 (1976) 121-132 (diaphony). I. H. Sloan, H. Wozniakowski, J.
-//         Complexity 14 (1998) 1-33 (weights). S. Heinrich, Math. Comp. 65 (1996) 1621-1633 (fewer
-//         than n^2).
+//         Caflisch, SIAM J. Sci. Comput. 15 (1994) 1251-1279 (extreme). arXiv:2508.04926 (average).
+//         P. Zinterhof, Sitzungsber. Oesterr. Akad. Wiss. II 185 (1976) 121-132 (diaphony). I. H.
+//         Sloan, H. Wozniakowski, J. Complexity 14 (1998) 1-33 (weights). S. Heinrich, Math. Comp.
+//         65 (1996) 1621-1633 (fewer than n^2).
 
 #include <algorithm>
 #include <cmath>
@@ -72,7 +72,7 @@ constexpr Param<Numbers> axis_weights{
          "every kind, so that projections count by the product of their weights; without it star, "
          "extreme, periodic and average have K = prod k, which is not that of weights 1"}};
 
-/// More points than any machine's memory holds; places of points fit 32 bits.
+/// Limit beyond any machine's memory; indices of points fit 32 bits.
 constexpr std::size_t max_count = std::size_t{1} << 29;
 
 std::vector<double> checked_weights(const Values& options, std::size_t dimension) {
@@ -106,14 +106,14 @@ Report in_plane(const PointSet& points, const std::vector<l2::Kind>& kinds,
     return results;
 }
 
-/// The most that the root of `squared` is off where the square is off by `error`.
+/// Largest error of the root of `squared`, which is off by at most `error`.
 double error_of_root(double squared, double error) {
     const double value = std::sqrt(std::max(squared, 0.0));
     if (squared > error) return value - std::sqrt(squared - error) + 0x1p-51 * value;
     return std::sqrt(std::max(squared, 0.0) + error);
 }
 
-/// Says so where all pairs take more than some ten minutes on one core.
+/// Warns if all pairs take more than some ten minutes on one core.
 void warn_of_pairs(std::size_t n, std::size_t d, l2::Kind which, const RunContext& run) {
     const double pairs = static_cast<double>(n) * static_cast<double>(n) / 2;
     const double seconds = 0.6e-9 * pairs * static_cast<double>(d);
@@ -124,7 +124,7 @@ void warn_of_pairs(std::size_t n, std::size_t d, l2::Kind which, const RunContex
                     l2::record_of(which).name, n, d, seconds / 60));
 }
 
-/// Of squares off by `error`, or by what is too small for a double.
+/// Reports the root of a square with its error; warns if few digits are certain.
 Report off_by(const l2::Square& square, l2::Kind which, const char* method, const RunContext& run) {
     constexpr double few_digits = 1e-9;
     constexpr double smallest = std::numeric_limits<double>::min();
@@ -137,8 +137,8 @@ Report off_by(const l2::Square& square, l2::Kind which, const char* method, cons
     return result_of(square.squared, method).add("error", error);
 }
 
-/// Of one kind; by itself (`alone`) it must have a value.
-/// @throws Error(limit)
+/// Discrepancy of one kind in three or more dimensions. @throws Error(limit) if it has no finite
+/// value and is the only one requested (`alone`)
 Report in_space(const PointSet& points, l2::Kind which, const l2::AxisWeights& weights, bool alone,
                 const RunContext& run) {
     const std::size_t n = points.count();

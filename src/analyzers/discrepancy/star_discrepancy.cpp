@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Star discrepancy of n points in the unit cube, exact, or where that takes too long, between
-// bounds that are certain:
+// Star discrepancy of n points in the unit cube, exact or, if that takes too long, between bounds
+// that are certain:
 //
 //     D* = sup over c in [0,1]^d of  | #{points in [0,c)} / n  -  vol [0,c) |.
 //
@@ -10,7 +10,7 @@
 //
 //     D* = max over c of  max( vol(c) - #{x < c} / n,  #{x <= c} / n - vol(c) ).
 //
-// --boxes half-open takes the first line at its word: points with a coordinate 1 are in no box.
+// --boxes half-open uses the first formula literally: points with a coordinate 1 are in no box.
 // --kind extreme takes all boxes [a,b) in the cube, --kind periodic those of the torus, where 1 is
 // 0 and each side may wrap; closed boxes count as limits of half-open ones. So D* <= extreme <= 2^d
 // D* and extreme <= periodic. In one dimension, both are Kuiper's statistic.
@@ -26,12 +26,12 @@
 //         periodic kind of even points takes ten times as long. d > 2: up to n^(2(d - 1)) cells;
 //         1000 random points in 3-D take 10 s, 128 in 5-D 5 s. A first bound of many points in few
 //         dimensions is 2^d D* (periodic: (3^d - 1) D*).
-// Promise `exact` says whether it is: counts are integers, boxes are compared without rounding, and
-//         the value is the double nearest to that of the worst box. Where it is not, the worst box
-//         found gives `lower`, and no box is worse than `upper`. Never depends on the number of
-//         threads; depends on the machine if --time-limit ends it.
-// Beware  where `exact` is false, `value` is `lower`; a --check of it must hold for both bounds.
-//         Coordinates are taken as the doubles that they are: 0.1 is a little more than 1/10.
+// Promise `exact` reports whether the value is: counts are integers, boxes are compared without
+//         rounding, and the value is the double nearest to that of the worst box. Otherwise the
+//         worst box found gives `lower`, and no box is worse than `upper`. Never depends on the
+//         number of threads; depends on the machine if --time-limit ends it.
+// Beware  if `exact` is false, `value` is `lower`; a --check of it must hold for both bounds.
+//         Coordinates are the exact values of the doubles: 0.1 is a little more than 1/10.
 // Source  C. Doerr, M. Gnewuch, M. Wahlstroem, "Calculation of discrepancy measures and
 //         applications", arXiv:1405.1653 (survey); M. Gnewuch, A. Srivastav, C. Winzen, J.
 //         Complexity 25 (2009) 115-127 (NP-hard). Other kinds: W. J. Morokoff, R. E. Caflisch, SIAM
@@ -73,10 +73,10 @@ constexpr Param<Choice> boxes{
         "Whether boxes that end at 1 are closed there, or half-open as all others; they differ "
         "for points with a coordinate 1"};
 
-/// More points than any machine's memory holds; counts of points stay far from 2^31.
+/// Limit beyond any machine's memory; counts of points stay far from 2^31.
 constexpr std::size_t max_count = std::size_t{1} << 29;
 
-/// What a set's search found, and how.
+/// Result of a search, and its method.
 struct Found {
     SearchResult result;
     const char* method = "branch-and-bound";
@@ -101,7 +101,7 @@ Family family_of(const Values& options) {
     return options[kind] == "extreme" ? Family::cube : Family::torus;
 }
 
-/// @throws Error(limit) saying how many points would do.
+/// @throws Error(limit) naming a number of points that fits
 void need_room(const PointSet& points, Family family, const RunContext& run) {
     const std::size_t d = points.dimension();
     if (family >= Family::cube)
@@ -120,9 +120,9 @@ void need_room(const PointSet& points, Family family, const RunContext& run) {
                    points.count(), d, format_bytes(all), format_bytes(room));
 }
 
-/// The square's worst box; bounds alone where the sweep takes longer than a part of the time.
+/// Worst box in the square; only bounds if the sweep takes longer than its part of the time.
 Found sweep_or_search(const BoxGrid& grid, const Limits& limits, const RunContext& run) {
-    constexpr double part = 0.7;  // what is left is for bounds
+    constexpr double part = 0.7;  // the rest is for bounds
     SearchLimits first = limits.search;
     first.deadline = limits.start + part * (first.deadline - limits.start);
     const SearchResult sweep = star::sweep_2d(grid, first, run);
@@ -149,7 +149,7 @@ Report measure(const star::Member& set, const Values& options, const RunContext&
              points.count());
     const Family family = family_of(options);
     need_room(points, family, run);
-    // Peers stop together, in the search.
+    // Peers must stop together, which the search ensures.
     const BoxGrid grid = box_grid(points, family, set.peers != nullptr ? unstopped(run) : run);
     const Found found = search(grid, set, run);
     set.limits.judge(found.result, fmt::format("the {} discrepancy", options[kind]), points, run);
@@ -165,8 +165,8 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return star::families(points, options, limits, one, run);
 }
 
-/// The peers share the search for the worst box. The sweeps of one and two dimensions are sooner
-/// done than shared.
+/// Shares the search for the worst box among the peers. The sweeps in one and two dimensions take
+/// less time than sharing them.
 Report analyze_together(const PointSet& points, const Values& options, Peers& peers,
                         const RunContext& run) {
     if (star::wants_families(options) || options[kind] != "star")
@@ -179,7 +179,7 @@ Report analyze_together(const PointSet& points, const Values& options, Peers& pe
                    options, run);
 }
 
-/// A mean of boxes is none, nor is one of axes; the worst projection is that of the means.
+/// Boxes and axes cannot be averaged; the worst projection is found anew from the means.
 void refine(Report& mean, std::size_t sets, const Values&) {
     if (sets < 2) return;
     drop(mean, {"worst_box"});

@@ -14,7 +14,7 @@
 namespace stipple::discrepancy::star {
 namespace {
 
-/// The columns that every table has. A value that is not known is NaN.
+/// Columns of every table. Unknown values are NaN.
 struct Columns {
     explicit Columns(std::size_t rows) : value(rows), lower(rows), upper(rows) {}
 
@@ -38,8 +38,8 @@ struct Columns {
     Report::Curve upper;
 };
 
-/// What is certain of any n points, of any kind of discrepancy: that of the coordinates on an axis
-/// is at least 1/(2n).
+/// Trivial bounds of any kind of discrepancy for any n points: the coordinates on a single axis
+/// have at least 1/(2n).
 Report least_known(std::size_t count) {
     const double lower = 0.5 / static_cast<double>(count);
     Report known;
@@ -60,11 +60,11 @@ class Table {
           measure_(measure),
           run_(run) {}
 
-    /// One of `together` that are measured at a time, each on so many threads.
+    /// Measures one set. If `together` sets are measured at a time, each uses a single thread.
     void fill(std::size_t row, const PointSet& points, double weight, double together) {
         RunContext mine = together > 1 ? run_ : progress_of(points.count());
         if (together > 1) mine.progress = {}, mine.threads = 1;
-        mine.warn = {};  // bounds are told of once for the table
+        mine.warn = {};  // bounds are reported once for the whole table
         const auto [limits, first] = next_limits(weight, together);
         const bool skip = !first && !limits.exact && limits.search.late(run_);
         Report found;
@@ -79,7 +79,7 @@ class Table {
         if (!run_.stop.stop_requested()) run_.tick(++done_, rows_);
     }
 
-    /// Warns of values that are bounds; name(row) is "the first 64 points".
+    /// Warns of values that are only bounds; name(row) is text such as "the first 64 points".
     void tell_of_bounds(const std::function<std::string(std::size_t)>& name) const {
         std::size_t open = 0;
         std::size_t first = 0;
@@ -95,7 +95,8 @@ class Table {
     Columns columns;
 
   private:
-    /// For a set that begins, of so many that are measured at a time; and whether it is the first.
+    /// Limits of the next set, of `together` that are measured at a time; and whether it is the
+    /// first.
     std::pair<Limits, bool> next_limits(double weight, double together) {
         const std::lock_guard lock(counting_);
         const bool first = left_ == weight_;
@@ -104,8 +105,8 @@ class Table {
         return {limits_.part(weight / weight_, of_time, run_), first};
     }
 
-    /// A run for the next row, alone: its progress is that row's part of the table's, and says what
-    /// is certain of the set of so many points.
+    /// Run for the next row, measured alone. Its progress is the row's part of the table's, and its
+    /// notes begin with the number of points.
     [[nodiscard]] RunContext progress_of(std::size_t count) const {
         const double rows = static_cast<double>(rows_);
         const double done = static_cast<double>(done_);
@@ -120,7 +121,7 @@ class Table {
     std::size_t rows_;
     const Limits& limits_;
     double weight_;
-    double left_;  ///< weight of sets that have not begun
+    double left_;  ///< weight of the sets that have not begun
     const Measure& measure_;
     const RunContext& run_;
     std::size_t done_ = 0;
@@ -145,7 +146,7 @@ std::vector<std::size_t> given_sizes(const Values& options) {
     return sizes;
 }
 
-/// @throws Error(input) when the set does not have so many points.
+/// @throws Error(input) if the set has fewer points
 std::vector<std::size_t> prefix_sizes(std::size_t count, const Values& options) {
     if (options.given(every)) {
         const auto step = static_cast<std::size_t>(options[every]);
@@ -173,13 +174,13 @@ PointSet projection(const PointSet& points, const Combination& along) {
     return flat;
 }
 
-/// m points, the first n of them among them: in every box, the shares of the points differ by at
-/// most (m - n) / m, and so do the discrepancies. A little more, for rounding.
+/// Largest difference between the discrepancies of m points and of n among them: in every box, the
+/// fractions of points differ by at most (m - n) / m. A little more, for rounding.
 double step_between(std::size_t n, std::size_t m) {
     return static_cast<double>(m - n) / static_cast<double>(m) + 0x1p-50;
 }
 
-/// Takes from each prefix to the next what that says of its bounds.
+/// Tightens the bounds of each prefix by those of the neighbouring ones.
 void carry_bounds(const std::vector<std::size_t>& sizes, Columns& columns) {
     const auto carry = [&](std::size_t from, std::size_t to) {
         const auto [n, m] = std::minmax(sizes[from], sizes[to]);
@@ -193,8 +194,8 @@ void carry_bounds(const std::vector<std::size_t>& sizes, Columns& columns) {
     for (std::size_t row = sizes.size(); row-- > 1;) carry(row, row - 1);
 }
 
-/// Prefixes that are a large part of all the work use all threads, one after the other; the others
-/// go over the threads.
+/// Prefixes that take much of the total work use all threads, one after another; the others are
+/// distributed over the threads.
 Report of_prefixes(const PointSet& points, const std::vector<std::size_t>& sizes,
                    const Limits& limits, const Measure& measure, const RunContext& run) {
     double total = 0;
@@ -221,7 +222,7 @@ Report of_prefixes(const PointSet& points, const std::vector<std::size_t>& sizes
     return result;
 }
 
-/// What is known of the largest value of a table with marks.
+/// Adds bounds of the largest value of a table and, if it is certain, the value.
 void add_largest(Report& table) {
     const auto& lower = table.curve("lower");
     const auto& upper = table.curve("upper");
@@ -238,7 +239,7 @@ void add_largest(Report& table) {
     table.add("largest", std::move(largest));
 }
 
-/// "the projection to axes 1, 3"
+/// Text such as "the projection to axes 1, 3".
 std::string axes_of(const Combination& along) {
     std::vector<std::string> axes;
     for (const std::size_t k : along) axes.push_back(fmt::format("{}", k + 1));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Tables of discrepancies: of the prefixes of a sequence, against their length, and of the
-// projections of a set to a few of its axes.
+// Tables of discrepancies: of the prefixes of a sequence, by length, and of the projections of a
+// set to a few of its axes.
 #pragma once
 
 #include <functional>
@@ -40,28 +40,28 @@ inline constexpr Param<std::int64_t> projections{
         "Instead of the whole set, all its projections to so many coordinates; a table, in the "
         "order 1-2, 1-3, 2-3, 1-4, 2-4, ...: sorted by the last axis, then by the one before"};
 
-/// A set to measure.
+/// A set to measure, with its limits.
 struct Member {
     const PointSet& points;
     const Limits& limits;
-    Peers* peers = nullptr;  ///< who share the search, if any do
+    Peers* peers = nullptr;  ///< share the search; may be null
 };
 
-/// Measures one set: its report has `value`, `lower` and `upper`.
+/// Measures one set; reports `lower`, `upper` and, if it is known, `value`.
 using Measure = std::function<Report(const Member&, const RunContext&)>;
 
 /// Marks the first row of a table of projections with the largest lower bound.
 void mark_worst(Report& table);
 
-/// Whether tables are asked for. @throws Error(usage) for sizes that no set has prefixes of.
+/// Whether tables are requested. @throws Error(usage) for sizes that no prefix can have
 bool wants_families(const Values& options);
 
-/// The tables, several sets at once on the run's threads; the same for any number of them unless
-/// the time ends it. The limits are for all together: work goes by the numbers of points, time by
-/// the same to those not yet begun. Bounds of a prefix hold for its neighbours, too, up to what the
-/// points between can change. Other sets that a stop or the time leaves out have the bounds 1/(2n)
-/// and 1.
-/// @throws Error(input) for prefixes and projections that these points do not have.
+/// Tables of several sets, measured in parallel. They do not depend on the number of threads unless
+/// the time ends the search. The limits apply to all sets together: work is divided by their
+/// numbers of points, and so is the remaining time among the sets not yet begun. Bounds of a prefix
+/// are also used for its neighbours, widened by the effect of the points between. Sets left out by
+/// a stop or the time limit have the bounds 1/(2n) and 1.
+/// @throws Error(input) for prefixes and projections that these points do not have
 Report families(const PointSet& points, const Values& options, const Limits& limits,
                 const Measure& measure, const RunContext& run);
 

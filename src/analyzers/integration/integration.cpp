@@ -1,49 +1,48 @@
 // SPDX-License-Identifier: MIT
 //
-// Integrals of functions that are known, by the points of a set. With the density p that the points
-// follow,
+// Integrals of known functions, estimated by the points of a set. With p the density of the points,
 //
 //     estimate = (1 / n) sum_i f(x_i) / p(x_i),        error = estimate - exact
 //
-// p is the domain's density (1 / measure where it is uniform), unless the set tells of another: by
-// a column pdf or weight = 1 / pdf, or by a warp in its meta that is biased on purpose.
+// p is the domain's density (1 / measure if it is uniform), unless the set has another: from a
+// column pdf or weight = 1 / pdf, or from a deliberately biased warp in its provenance.
 //
-// Integrands of the unit cube take any box, and any density on it: the function is stretched to the
-// box, its integral multiplied by the volume.
+// Integrands of the unit cube apply to any box, with any density: the function is stretched to the
+// box and its integral multiplied by the volume.
 //
-// Standard error: of one set, sqrt(variance of f / p over n) is right for independent points alone,
-// and far too large for low-discrepancy ones; it is given where the set is known to be from a
-// generator of such points, else left out. Of R sets (--average) it is the spread of their estimates,
+// Standard error: for one set, sqrt(variance of f / p over n) is right only for independent points,
+// and far too large for low-discrepancy ones. It is reported if the set is known to be from a
+// generator of independent points. For R sets (--average) it is the spread of their estimates,
 //
 //     standard_error = sqrt(sum_r (estimate_r - mean)^2 / (R (R - 1))),
 //
-// and the interval mean +- t standard_error has the exact value in it with probability 0.95
-// (Student's t, R - 1 degrees of freedom), where sets are independent and unbiased.
+// and the interval mean +- t standard_error contains the exact value with probability 0.95
+// (Student's t, R - 1 degrees of freedom), if the sets are independent and unbiased.
 //
-// --compare: beside the estimate by importance sampling with density p, that by uniform sampling
-// with the same points of the cube: x_i goes back to the cube by the domain's coordinates, in which
-// p is uniform, and from there to the box, hemisphere or sphere by its measure. Variances are those
-// of one sample, f / p and measure x f, over the set; their ratio says how many times as many
-// uniform points would be needed, were they independent.
+// --compare adds the estimate by uniform sampling to that by importance sampling with density p.
+// Uniform points come from the same points of the cube: x_i is mapped back to the cube by the
+// domain's coordinates, in which p is uniform, and from there to the box, hemisphere or sphere by
+// its measure. Variances are those of single samples, f / p and measure x f, over the set. Their
+// ratio is the factor by which independent uniform points would have to be more numerous.
 //
-// Where the density is 0 on a part of the domain, no point tells of f there: the estimate is of the
-// integral over the rest, the support, and so is `exact`, by quadrature to exact_error where the
-// support is known as a few boxes of one or two dimensions; else there is none.
+// If the density is 0 on a part of the domain, no point samples f there: the estimate is of the
+// integral over the rest, the support. So is `exact`, by quadrature to exact_error if the support
+// is known as a few boxes of one or two dimensions; otherwise it is left out.
 //
-// Where the density is level, on any domain, both are the same points. Where the domain has no such
-// coordinates (mixtures, formulas, supports with gaps), or the density is not its own, the uniform
-// estimator's variance is worked out from the same points by their weights,
+// If the density is constant, on any domain, both use the same points. If the domain has no such
+// coordinates (mixtures, formulas, supports with gaps), or the density is not its own, the variance
+// of uniform points is computed from the weights of the given points, estimator's variance is
+// worked out from the same points by their weights,
 //
 //     n / (n - 1) (measure mean(f^2 / p) - mean(f / p)^2),
 //
-// which tends to the same number; its estimate is then that by importance sampling.
+// which converges to the same number; the uniform estimate is then that by importance sampling.
 //
-// Shape   points n x d on any domain whose measure is finite; numbers for each integrand.
-// Cost    O(n d) for each integrand; about 10 to 50 ns a point in 2-D on one core.
-// Promise sums carry their rounding along; results are the same for any number of threads.
-// Beware  where p nears 0 and f does not, f / p may have no finite variance (`measure` on the
-//         cosine hemisphere): a standard error of it is then a description of the points, not a
-//         bound.
+// Shape   points n x d on any domain with a finite measure; numbers for each integrand.
+// Cost    O(n d) for each integrand; about 10 to 50 ns per point in 2-D on one core.
+// Promise sums are compensated for rounding; results are the same for any number of threads.
+// Beware  if p approaches 0 and f does not, f / p may have no finite variance (`measure` on the
+//         cosine hemisphere): its standard error then describes the points, but bounds nothing.
 // Source  A. B. Owen, "Monte Carlo theory, methods and examples" (2013), chapters 9 (importance
 //         sampling) and 17 (error estimates by replication).
 
@@ -101,7 +100,7 @@ struct Task {
     std::string name;
     Region region;
     std::function<double(std::span<const double>)> value;
-    std::optional<Estimate> exact;  ///< over the support of the density, where it is known
+    std::optional<Estimate> exact;  ///< over the support of the density; empty if unknown
 };
 
 const char* words(Region region) {
@@ -109,7 +108,7 @@ const char* words(Region region) {
     return region == Region::hemisphere ? "a hemisphere" : "a domain of finite measure";
 }
 
-/// @throws Error(input) when the integrand does not take such points.
+/// @throws Error(input) if the integrand does not accept such points
 void require_fit(const IntegrandKind& kind, const Domain& domain, const RegionView& view) {
     const std::size_t d = domain.dimension();
     if (!view.has(kind.region))
@@ -128,13 +127,13 @@ bool fits(const IntegrandKind& kind, const Domain& domain, const RegionView& vie
            domain.dimension() <= kind.max_dimension;
 }
 
-/// An integrand as it is called, with its options.
+/// An integrand of --integrand, with its options.
 struct Named {
     const IntegrandKind& kind;
     Values values;
 };
 
-/// @throws Error(usage) naming the spec
+/// @throws Error(usage) naming the integrand
 Named named(const std::string& text) {
     std::string where = "--integrand";
     try {
@@ -149,7 +148,7 @@ Named named(const std::string& text) {
     }
 }
 
-/// The integral over the boxes of the support, of one or two dimensions.
+/// Integral over the boxes of the support; nullopt without boxes or above two dimensions.
 std::optional<Estimate> integral_over(const Support& support, const Domain& domain,
                                       const RegionView& view, const Task& task) {
     const std::size_t d = domain.dimension();
@@ -180,7 +179,7 @@ Task task_of(const IntegrandKind& kind, const Values& values, const Domain& doma
     return task;
 }
 
-/// A second genz-gaussian is genz-gaussian-2.
+/// Makes names unique: a second genz-gaussian becomes genz-gaussian-2.
 void tell_apart(std::vector<Task>& tasks) {
     for (std::size_t i = tasks.size(); i-- > 0;) {
         const auto same =
@@ -190,7 +189,7 @@ void tell_apart(std::vector<Task>& tasks) {
     }
 }
 
-/// All integrands that take points of the domain. @throws Error(input) if there is none.
+/// All integrands that accept points of the domain. @throws Error(input) if there is none
 std::vector<Task> tasks_that_fit(const Domain& domain, const RegionView& view,
                                  const Support& support) {
     std::vector<Task> tasks;
@@ -205,7 +204,7 @@ std::vector<Task> tasks_that_fit(const Domain& domain, const RegionView& view,
     return tasks;
 }
 
-/// Those of --integrand. @throws Error(usage), Error(input)
+/// Integrands of --integrand. @throws Error(usage), Error(input)
 std::vector<Task> tasks_named(const std::string& list, const Domain& domain, const RegionView& view,
                               const Support& support) {
     std::vector<Task> tasks;
@@ -225,7 +224,7 @@ Task formula(const Domain& domain, const Values& options) {
     return task;
 }
 
-/// What is to be integrated. @throws Error(usage), Error(input)
+/// All integrands of the options. @throws Error(usage), Error(input)
 std::vector<Task> tasks_of(const Domain& domain, const RegionView& view, const Support& support,
                            const Values& options) {
     const bool typed = options.given(expression);
@@ -242,7 +241,7 @@ std::vector<Task> tasks_of(const Domain& domain, const RegionView& view, const S
 
 // ---------------------------------------------------------------- sums
 
-/// That which the points follow.
+/// Density that point i was sampled from.
 double density_of(const PointSet& points, std::size_t i) {
     return points.densities.empty() ? points.domain->density(points[i]) : points.densities[i];
 }
@@ -253,14 +252,14 @@ struct Fault {
     std::size_t task = 0;
     double value = 0;
     double density = 0;
-    bool uniform = false;  ///< at the uniform point that was made from that one
+    bool uniform = false;  ///< at the uniform point made from that point
 
     void add(const Fault& other) {
         if (other.point < point) *this = other;
     }
 };
 
-/// Sums over one block, or over all.
+/// Sums over one block, or over all blocks.
 struct Sums {
     std::vector<Tally> weighted;  ///< f / p, for each task
     std::vector<Tally> uniform;   ///< measure x f at uniform points, or measure x f^2 / p
@@ -277,20 +276,21 @@ struct Sums {
     }
 };
 
-/// Uniform points beside those of a density, for --compare.
+/// How to sample uniformly for --compare.
 struct Uniform {
     enum How {
         none,
-        remade,       ///< from the same points of the cube
-        as_they_are,  ///< the density is level
-        weighed,      ///< none are had; sums of measure x f^2 / p tell of their variance
+        remade,       ///< uniform points from the same points of the cube
+        as_they_are,  ///< the given points; their density is constant
+        weighed,      ///< no uniform points; sums of measure x f^2 / p give their variance
     };
     How how = none;
-    double measure = 0;               ///< of what they are on
-    std::optional<Tally> found = {};  ///< by the weights, where nobody knows the measure
+    double measure = 0;               ///< of the domain of these points
+    std::optional<Tally> found = {};  ///< estimate of the measure by the weights, if it is not
+                                      ///< known
 };
 
-/// Values of all integrands at points of the domain.
+/// Sums the values of all integrands at points of the domain.
 class Evaluation {
   public:
     Evaluation(const PointSet& points, const RegionView& view, const std::vector<Task>& tasks,
@@ -368,7 +368,7 @@ class Evaluation {
          fault.point, name, fault.value, domain.title(), fault.density);
 }
 
-/// @throws Error(input) for points outside the domain, and values that are not numbers.
+/// @throws Error(input) for points outside the domain and for values that are not finite
 Sums sums_over(const PointSet& points, const RegionView& view, const std::vector<Task>& tasks,
                const Uniform& uniform, const RunContext& run) {
     const Domain& domain = *points.domain;
@@ -389,15 +389,15 @@ Sums sums_over(const PointSet& points, const RegionView& view, const std::vector
 // ---------------------------------------------------------------- results
 
 double ratio_of(double uniform, double importance) {
-    return uniform == importance ? 1 : uniform / importance;  // 0 / 0 where f is level, too
+    return uniform == importance ? 1 : uniform / importance;  // 0 / 0 if f is constant, too
 }
 
-/// Of measure x f at uniform points, from the mean of measure x f^2 / p.
+/// Variance of measure x f at uniform points, from the mean of measure x f^2 / p.
 double variance_by_weights(const Tally& importance, const Tally& squares) {
     const double n = static_cast<double>(importance.count());
     const double square = importance.mean() * importance.mean();
     const double off = squares.mean() - square;
-    return off > 1e-13 * square ? off * n / (n - 1) : 0;  // below is rounding
+    return off > 1e-13 * square ? off * n / (n - 1) : 0;  // less is rounding
 }
 
 Report comparison(const std::vector<Task>& tasks, const Sums& sums, bool weighed) {
@@ -418,14 +418,14 @@ Report comparison(const std::vector<Task>& tasks, const Sums& sums, bool weighed
     return all;
 }
 
-/// The measure of what the points are on, as an integral over them.
+/// Measure of the region that the points cover, as an integral estimated by them.
 Tally measure_of(const PointSet& points) {
     Tally inverse;
     for (std::size_t i = 0; i < points.count(); ++i) inverse.add(1 / density_of(points, i));
     return inverse;
 }
 
-/// Whether the points follow the domain's density.
+/// Whether the densities of the points are those of the domain.
 bool follows_domain(const PointSet& points) {
     for (std::size_t i = 0; i < points.densities.size(); ++i)
         if (std::abs(points.domain->density(points[i]) / points.densities[i] - 1) > 1e-12)
@@ -433,7 +433,7 @@ bool follows_domain(const PointSet& points) {
     return true;
 }
 
-/// How uniform points are had. @throws Error(input) when there are none to compare with.
+/// Chooses how to sample uniformly. @throws Error(input) if there is nothing to compare with
 Uniform uniform_for(const PointSet& points, const RegionView& view, const Support& support) {
     if (points.count() < 2) fail(ErrorKind::input, "--compare: needs at least 2 points, not 1");
     const Domain& domain = *points.domain;
@@ -455,7 +455,7 @@ Uniform uniform_for(const PointSet& points, const RegionView& view, const Suppor
     return {Uniform::as_they_are, measure};
 }
 
-/// Says of what part of the domain the estimates are, where it is not all of it.
+/// Reports the part of the domain that the estimates apply to, unless it is all of it.
 void tell_support(const Support& support, Report& report) {
     if (support.whole) return;
     Report part;
@@ -468,7 +468,7 @@ void tell_support(const Support& support, Report& report) {
     report.add("support", std::move(part));
 }
 
-/// Says that the measure of uniform points is an estimate, too.
+/// Reports that the measure used for uniform points is an estimate.
 void tell_measure(const Tally& found, const PointSet& points, Report& report) {
     Report part;
     if (const auto* item = report.find("support")) part = std::get<Report>(*item);
@@ -511,7 +511,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return report;
 }
 
-/// What several estimates tell of their mean, and of the error of one.
+/// Adds the standard error, interval and root mean square error of several estimates.
 void replicate(Report& mean, const std::string& name, std::span<const Report> sets) {
     Tally estimates, squares;
     for (const Report& set : sets) {
@@ -528,7 +528,7 @@ void replicate(Report& mean, const std::string& name, std::span<const Report> se
     if (squares.count() > 0) mean.add("rms_error", std::sqrt(squares.mean()));
 }
 
-/// Of one set, the spread is not known.
+/// Adds the error of one set, whose spread is unknown.
 void combine_one(Report& mean) {
     for (auto& entry : mean.entries()) {
         auto* group = std::get_if<Report>(&entry.value);

@@ -10,7 +10,7 @@
 namespace stipple::analyzers {
 namespace {
 
-/// A domain fills its bounding box where the two are of the same size.
+/// Bounding box of a domain that fills it, which is so if both have the same volume; else nullopt.
 std::optional<Box> filled_box(const Domain& domain) {
     if (domain.cube_dimension() != domain.dimension()) return std::nullopt;
     Box box = domain.bounding_box();
@@ -20,7 +20,7 @@ std::optional<Box> filled_box(const Domain& domain) {
     return box;
 }
 
-/// Three axes at right angles, the last one given.
+/// Orthonormal frame with the given z axis.
 Frame axes_about(const Vector3& z) {
     const bool near_x = std::abs(z[0]) > 0.5;
     const Vector3 other{near_x ? 0.0 : 1.0, near_x ? 1.0 : 0.0, 0.0};

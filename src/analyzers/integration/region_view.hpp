@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A domain as integrands see it: a box, stretched onto the unit cube, a hemisphere, turned until
-// its axis is z, or any domain as it is.
+// A domain in the coordinates of integrands: a box stretched onto the unit cube, a hemisphere
+// rotated so that its axis is z, or any domain as it is.
 #pragma once
 
 #include <optional>
@@ -20,25 +20,24 @@ class RegionView {
 
     [[nodiscard]] bool has(Region region) const;
 
-    /// By what the integral over the region is to be multiplied to be that over the domain.
+    /// Factor from the integral over the region to that over the domain.
     [[nodiscard]] double scale(Region region) const;
 
-    /// A point of the domain in the coordinates of the region.
+    /// Converts a point of the domain to the coordinates of the region.
     void see(Region region, std::span<const double> point, std::span<double> seen) const;
 
-    /// Whether `uniform` can be asked: of boxes, hemispheres and lobes on the whole sphere.
+    /// Whether uniform() is available: for boxes, hemispheres and lobes on the whole sphere.
     [[nodiscard]] bool has_uniform() const;
 
-    /// The point of the domain that its measure alone, without its density, gives to a point of the
-    /// unit cube.
+    /// Maps a point of the unit cube to the domain, uniformly by measure, regardless of density.
     void uniform(std::span<const double> cube, std::span<double> point) const;
 
   private:
     const Domain& domain_;
-    bool finite_;                ///< the measure of where the density is not 0
-    std::optional<Box> box_;     ///< of a domain that fills it
-    std::optional<Frame> axes_;  ///< of a hemisphere; z is its own
-    std::optional<Frame> pole_;  ///< the same, of a law on the whole sphere
+    bool finite_;                ///< whether the support has a finite measure
+    std::optional<Box> box_;     ///< box of a domain that fills it
+    std::optional<Frame> axes_;  ///< frame of a hemisphere, whose axis is z
+    std::optional<Frame> pole_;  ///< frame of a distribution on the whole sphere, whose axis is z
 };
 
 }  // namespace stipple::analyzers

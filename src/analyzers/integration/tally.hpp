@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Mean and variance of numbers that come one by one or in blocks.
+// Mean and variance of numbers that are added one by one or in blocks.
 //
-// Promise the mean is that of a sum whose rounding is carried along (Neumaier); the same for the
-//         same blocks in the same order.
+// Promise the mean is that of a compensated sum (Neumaier); it is the same for the same blocks in
+//         the same order.
 // Source  A. Neumaier, Zeitschrift fuer Angewandte Mathematik und Mechanik 54 (1974) 39-51.
 //         T. F. Chan, G. H. Golub, R. J. LeVeque, The American Statistician 37 (1983) 242-247
 //         (merging of variances), doi:10.1080/00031305.1983.10483115.
@@ -39,10 +39,10 @@ class Tally {
     [[nodiscard]] double count() const { return count_; }
     [[nodiscard]] double mean() const { return (sum_ + carry_) / count_; }
 
-    /// Unbiased; of at least two numbers.
+    /// Unbiased variance; needs at least two numbers.
     [[nodiscard]] double variance() const { return squares_ / (count_ - 1); }
 
-    /// Of the mean, where the numbers are independent.
+    /// Standard error of the mean, if the numbers are independent.
     [[nodiscard]] double standard_error() const { return std::sqrt(variance() / count_); }
 
   private:

@@ -5,23 +5,23 @@
 //
 //     prod_k [ a_k / b^q_k, (a_k + 1) / b^q_k ),    q_1 + ... + q_d = m - t,    0 <= a_k < b^q_k,
 //
-// holds b^t points. If R is the least number of digits q_1 + ... + q_d with which some boxes hold
-// more points than others (m + 1, since b^m points do not fill b^(m+1) boxes, if there is no less),
+// holds b^t points. Let R be the least number of digits q_1 + ... + q_d for which some boxes hold
+// more points than others. It is at most m + 1, since b^m points do not fill b^(m+1) boxes. Then
 //
 //     t = m - R + 1.
 //
-// A projection to the coordinates u has its own R_u and t_u: R_u is the least of R_v over the v
-// inside u, or comes from boxes that are cut along all of u. So projections are done from the
-// smallest on; the whole set needs boxes cut along more than K coordinates only, of fewer digits
-// than what failed already.
+// A projection to the coordinates u has its own R_u and t_u. R_u is the minimum of R_v over all v
+// inside u and of the digits for which boxes cut along all of u become unequal. So projections are
+// analyzed from the smallest on. The whole set then needs only boxes that are cut along more than
+// --projections coordinates, with fewer digits than those that already failed.
 //
 // Shape   n = b^m points in [0, 1]^d; t in 0..m, smaller is more even; random points are near m.
-// Cost    C(R+d-1, d-1) divisions at most, of n steps each, or for a digital net of R^2 m. 2^14
-//         points: d = 2 in 2 ms; Sobol' with d = 10 in 6 ms, counted 0.4 s on one core. Counting
-//         gets long where many points have a small t: 2^20 with d = 5 and t = 5 take 30 s.
+// Cost    at most C(R+d-1, d-1) divisions, each of n steps or, for a digital net, of R^2 m. 2^14
+//         points: d = 2 in 2 ms; Sobol' with d = 10 in 6 ms, by counting 0.4 s on one core.
+//         Counting is slow for many points with a small t: 2^20 with d = 5 and t = 5 take 30 s.
 // Promise exact, and the same for any number of threads.
-// Beware  a coordinate is taken to be on the edge j / b^m whose nearest double it is, since k / b^K
-//         may be rounded to below an edge that it lies on; 1 is taken into the last box.
+// Beware  a coordinate counts as on the edge j / b^m if it is the double nearest to it, since k /
+//         b^K may have been rounded to below its edge; 1 belongs to the last box.
 // Source  H. Niederreiter, Monatsh. Math. 104 (1987) 273-337, doi:10.1007/BF01294651 (nets, and
 //         digital nets, whose t is a matter of rank).
 
@@ -57,8 +57,8 @@ constexpr Param<std::int64_t> projections{
     .unit = "coordinates",
     .help = "Gives the t of all projections to up to so many coordinates"};
 
-/// Least number of digits along all of the coordinates that gives unequal boxes; `most` if less
-/// does not. What is equal stays so with fewer digits.
+/// Least number of digits along all of the coordinates that gives unequal boxes; `most` if no
+/// smaller number does. Equal boxes stay equal with fewer digits.
 std::size_t least_unequal(Probe& probe, const Combination& along, std::size_t most) {
     std::size_t equal = along.size() - 1;
     while (equal + 1 < most) {
@@ -68,10 +68,10 @@ std::size_t least_unequal(Probe& probe, const Combination& along, std::size_t mo
     return most;
 }
 
-/// R of all projections of one size, in the order of their numbers.
+/// R of all projections of one size, ordered by combination_number().
 using Unequal = std::vector<std::size_t>;
 
-/// Projections, all of one size, that have the t of the whole.
+/// Projections, all of one size, that have the t of the whole set.
 struct Worst {
     std::size_t unequal = 0;  ///< R
     std::vector<Combination> along = {};
@@ -82,7 +82,7 @@ class Search {
     Search(const Net& net, const std::optional<Matrices>& matrices)
         : net_(net), matrices_(matrices) {}
 
-    /// R of the projections of each size up to `largest`; of none at all, m + 1.
+    /// R of the projections of each size up to `largest`; for size 0, m + 1.
     [[nodiscard]] std::vector<Unequal> projections(std::size_t largest,
                                                    const RunContext& run) const {
         double total = 0;
@@ -98,7 +98,7 @@ class Search {
         return found;
     }
 
-    /// The worst projections, given R of all those of up to some size.
+    /// Worst projections, given R of all projections up to some size.
     [[nodiscard]] Worst worst(const std::vector<Unequal>& known, const RunContext& run) const {
         const Worst small = worst_of(known);
         const auto levels = levels_above(known.size() - 1, small.unequal);
@@ -115,7 +115,7 @@ class Search {
     }
 
   private:
-    /// Boxes cut along so many coordinates with so many digits.
+    /// Boxes cut along `size` coordinates with `digits` digits in total.
     struct Level {
         std::size_t size;
         std::size_t digits;
@@ -168,7 +168,7 @@ class Search {
     [[nodiscard]] Worst unequal(const Level& level, const RunContext& run) const {
         Worst found{.unequal = level.digits};
         std::mutex finding;
-        // The digits of the first coordinate tell the ways apart.
+        // The number of digits of the first coordinate distinguishes the ways.
         const std::size_t ways = level.digits - level.size + 1;
         for_each(level.size, ways, run,
                  [&](const Combination& along, std::size_t way, auto& probe) {
@@ -185,7 +185,7 @@ class Search {
 
     using Body = std::function<void(const Combination& along, std::size_t way, Probe& probe)>;
 
-    /// Calls body so many ways for all choices of `size` coordinates, on all threads.
+    /// Calls body for all choices of `size` coordinates and for each of `ways`, on all threads.
     void for_each(std::size_t size, std::size_t ways, const RunContext& run,
                   const Body& body) const {
         const std::uint64_t count = binomial(net_.dimension, size) * ways;
@@ -206,7 +206,7 @@ class Search {
     const std::optional<Matrices>& matrices_;
 };
 
-/// m with b^m = n. @throws Error(input) naming the nearest n that have one.
+/// Returns m with b^m = n. @throws Error(input) naming the nearest powers
 std::size_t exact_logarithm(std::uint64_t n, std::uint64_t b) {
     std::size_t m = 0;
     while (saturating_power(b, m + 1) <= n) ++m;
@@ -225,7 +225,7 @@ Net checked_net(const PointSet& points, std::int64_t b, const RunContext& run) {
     const std::size_t m = exact_logarithm(points.count(), static_cast<std::uint64_t>(b));
     const auto n = static_cast<double>(points.count());
     const auto d = static_cast<double>(points.dimension());
-    const double cuts = std::min(d, static_cast<double>(m)) + 2;  // a counting thread's memory
+    const double cuts = std::min(d, static_cast<double>(m)) + 2;  // memory of a counting thread
     run.need_memory(4 * n * (d + cuts * run.thread_count()), "the t-value");
     return equidistribution::net_of(points, static_cast<std::uint32_t>(b), m, run);
 }

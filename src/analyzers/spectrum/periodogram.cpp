@@ -5,43 +5,43 @@
 //
 //     P(f) = | sum_j s_j exp(-2 pi i f.x_j) |^2 / sum_j s_j^2,        f in {-F..F}^d,
 //
-// so that white noise has mean 1. Points that do not live on a torus may be faded out towards the
-// sides, by --window hann, w(x) = prod_k sin^2(pi x_k) with the transform W(f):
+// so that white noise has mean 1. If the domain is not a torus, points may be faded out towards the
+// sides by --window hann, w(x) = prod_k sin^2(pi x_k) with the transform W(f):
 //
 //     P(f) = | sum_j s_j w(x_j) exp(-2 pi i f.x_j) - W(f) sum_j s_j |^2
 //            / ((3/8)^d - W(f)^2) / sum_j s_j^2;
 //
-// the density's own transform is taken off, and the mean is 1 again, at every f. From the power,
-// with f = 0 left out everywhere:
+// the density's own transform is subtracted, and the mean is 1 again, at every f. From the power,
+// always without f = 0:
 //
 //     radial power       P_k = mean of P over the ring k - 1/2 <= |f| < k + 1/2,  k = 1..F
 //     anisotropy         variance of P over the ring (mean squared deviation) / P_k^2, in dB;
-//                        no less than -100 dB, which is what a ring of equal powers gets, and one
-//                        without power beyond the tolerance. White noise has 0 dB, a mean of R
+//                        at least -100 dB, which is that of a ring of equal powers and of one
+//                        without power above the tolerance. White noise has 0 dB, a mean of R
 //                        sets -10 log10 R
 //     effective Nyquist  R / 2, where R is the largest radius, at most F, of a disk |f| < R that
 //                        has a mean power of at most 1/10; 0 if no disk has
 //     oscillation        10 times the root of the mean of (P_k - 1)^2 over the frequency vectors of
 //                        rings a..b: a is the first with P_k >= 0.98 (else that of most power),
-//                        b = a + 5 n^(1/d), at most F: complete, and as published, only where
-//                        there is such a ring a and F is no less than b
+//                        b = a + 5 n^(1/d), at most F. It is complete, and as published, only if
+//                        there is such a ring a and F >= b
 //     total variation    half the mean of |P_k - 1| over the frequency vectors of all rings: 0 for
 //                        white noise, near 1 for a lattice; the larger F, the smaller for others
 //     exponent           slope of log P_k against log k, rings weighted by their vectors, for
 //                        k <= n^(1/d) / 4 (but at least up to 4): a in P ~ f^a near 0. Rings
-//                        without power beyond the tolerance are left out
+//                        without power above the tolerance are left out
 //
 // Shape   points in [0, 1]^d or a box, d = 1, 2, 3, also in pieces; strengths 0 or from 1e-100 to
 //         1e100 in size; the 2-D power has row = f_1, column = f_0, -F..F.
 // Units   cycles a unit length (of a box: a side); published tables give the effective Nyquist
 //         frequency over `regular_nyquist`, n^(1/d) / 2, which is that of a regular grid.
 // Cost    O(n w^d + (4F)^d log F), see math/fourier/nufft.hpp; `direct` O(n (2F)^d). Sets of up to
-//         2^20 points are kept until their number is known; of more, no more than a batch.
-// Promise the same for any number of threads, and whether points come at once or in pieces; in any
-//         run, too, but for last bits with --wisdom, where FFTW measures its plans.
+//         2^20 points are kept until their number is known; of larger ones only a batch.
+// Promise the same for any number of threads, and whether points arrive at once or in pieces. The
+//         same in every run, except for last bits with --wisdom, where FFTW measures its plans.
 // Beware  one set's power has a standard deviation of 100 % at every frequency: average sets. A
-//         mean of anisotropies is not the anisotropy of the mean power; so the power itself goes
-//         into the report, and refine() works out all else from its mean.
+//         mean of anisotropies is not the anisotropy of the mean power; so the report contains the
+//         power itself, and refine() recomputes everything else from its mean.
 // Source  R. A. Ulichney, Proc. IEEE 76 (1988) 56-79, doi:10.1109/5.3288 (radial mean, anisotropy);
 //         D. Heck, T. Schloemer, O. Deussen, ACM Trans. Graph. 32:3 (2013) 25 (effective Nyquist
 //         frequency, oscillation; thresholds as in the authors' program psa).
@@ -148,7 +148,8 @@ constexpr Param<std::int64_t> slice{
 
 constexpr double floor_of_floats = 1e-13;
 constexpr std::uint64_t buffered_points = std::uint64_t{1} << 20;
-constexpr std::uint64_t most_points = std::uint64_t{1} << 30;  // that larger sets are planned for
+constexpr std::uint64_t most_points = std::uint64_t{1} << 30;  // count for which the transform of
+                                                               // larger sets is planned
 
 std::size_t default_frequency(std::uint64_t count, std::size_t dimension) {
     constexpr double most[] = {0, 65536, 1024, 64};
@@ -162,14 +163,14 @@ double regular_nyquist(double count, std::size_t dimension) {
     return real_power(count, 1 / static_cast<double>(dimension)) / 2;
 }
 
-/// Puts all that follows from the power into the report.
+/// Adds everything that is derived from the power to the report.
 void summarize(Report& report, const Grid& power, std::size_t sets, const Values& options,
                const RunContext& run) {
     const Rings rings = rings_of(power, run);
     const double regular = report.number("regular_nyquist");
     const double unit = options[normalize] ? 2 * regular : 1;
     const double error = report.number("tolerance");
-    const double least = error * error;  // what is lower may be rounding only
+    const double least = error * error;  // less may be rounding
     const char* unit_name = options[normalize] ? "cycles a mean distance" : "cycles a unit length";
     Report::Curve frequency;
     Report::Curve anisotropy;
@@ -203,7 +204,7 @@ STIPPLE_WIDE bool all_inside(std::span<const double> coordinates) {
     return outside == 0;
 }
 
-/// A spectrum whose points come in pieces.
+/// Power spectrum of points that arrive in pieces.
 class Summation final : public SharedAccumulator {
   public:
     Summation(const Arrival& arrival, const Values& options, const RunContext& run)
@@ -280,7 +281,7 @@ class Summation final : public SharedAccumulator {
     }
 
   private:
-    /// Small sets are done before other threads have woken up.
+    /// Limits the threads for small sets, which are done before other threads have woken up.
     [[nodiscard]] RunContext fitting(const RunContext& run) const {
         if (nufft_ || direct_ || options_[method] == "direct") return run;
         const double values = fourier_sums_size(d_, frequency_for(std::max<std::uint64_t>(n_, 1)));
@@ -288,7 +289,7 @@ class Summation final : public SharedAccumulator {
     }
 
     void check_options() const {
-        // Direct sums are as exact as they are, whatever was asked for.
+        // Direct sums have float64's accuracy, whatever the tolerance.
         if (options_[method] != "direct" && options_[tolerance] < floor_of_floats)
             fail(ErrorKind::usage,
                  "--tolerance: {} is below {}, the floor of what float64 gives; --method direct is "
@@ -308,8 +309,8 @@ class Summation final : public SharedAccumulator {
                                              : default_frequency(count, d_);
     }
 
-    /// Points of the unit cube, with their strengths where these are not all 1; nothing where that
-    /// is what they were.
+    /// Points in the unit cube, with their strengths and window if these are not all 1; empty if
+    /// `rows` need no change.
     std::vector<double> changed_points(std::span<const double> rows) {
         std::vector<double> points;
         const std::size_t given = d_ + (weighted_ ? 1 : 0);
@@ -334,8 +335,8 @@ class Summation final : public SharedAccumulator {
         return points;
     }
 
-    /// @throws Error(input) for a strength that the sum of squares might lose or overflow with:
-    /// what is in range gives the same power at any scale.
+    /// @throws Error(input) for a strength whose square might underflow or overflow the sum. The
+    /// power does not depend on the scale of strengths.
     static void require_fitting(double strength, std::uint64_t index) {
         constexpr double least = 1e-100;
         constexpr double most = 1e100;
@@ -349,12 +350,13 @@ class Summation final : public SharedAccumulator {
             format_number(strength), format_number(least), format_number(most));
     }
 
-    /// Whether there is nothing to note: all points are in the unit cube, and not the first ones.
+    /// Whether all points need no checks: they are in the unit cube, and the set is not all one
+    /// point.
     [[nodiscard]] bool note_all(std::span<const double> rows) const {
         return cube_ && !all_equal_ && all_inside(rows);
     }
 
-    /// Looks whether the point is where it should be, and whether it is elsewhere than the first.
+    /// Checks whether the point is in the domain, and whether it differs from the first point.
     void note(std::span<const double> point, std::uint64_t index) {
         bool inside = true;
         for (const double x : point) inside = inside && x >= 0 && x <= 1;
@@ -370,7 +372,7 @@ class Summation final : public SharedAccumulator {
         return weighted_ ? strengths_.total() : Strengths{n, n};
     }
 
-    /// The window at a point of the cube.
+    /// Window at a point of the cube.
     [[nodiscard]] double faded(std::span<const double> point) const {
         double product = 1;
         if (hann_)
@@ -401,7 +403,7 @@ class Summation final : public SharedAccumulator {
         buffer_ = {};
     }
 
-    /// Of a large set: what is summed over blocks takes twice the grid.
+    /// Requires memory for a large set: sums over blocks take twice the grid.
     void need_block_sums(const RunContext& run, const std::string& cause) const {
         if (announced_ > 0 && announced_ <= FourierSummation::block_of(*nufft_)) return;
         run.need_memory(nufft_->bytes() + 16 * std::pow(static_cast<double>(nufft_->side()), d_),
@@ -443,17 +445,17 @@ class Summation final : public SharedAccumulator {
     DomainPtr domain_;
     Values options_;
     std::size_t d_;
-    bool cube_;  ///< the domain is the unit cube
+    bool cube_;  ///< whether the domain is the unit cube
     bool weighted_;
     bool hann_;
-    std::size_t numbers_;   ///< of a point as the sums take it: coordinates, and perhaps a strength
-    std::uint64_t at_ = 0;  ///< index of the first point that comes
+    std::size_t numbers_;   ///< numbers per point in the sums: coordinates, and perhaps a strength
+    std::uint64_t at_ = 0;  ///< index of the first point to arrive
     std::size_t frequency_ = 0;
     std::uint64_t n_ = 0;
-    std::uint64_t announced_ = 0;  ///< number of points; 0: unknown
-    std::uint64_t planned_ = 0;    ///< points for which the transform was chosen
+    std::uint64_t announced_ = 0;  ///< number of points; 0 if unknown
+    std::uint64_t planned_ = 0;    ///< number of points for which the transform was chosen
     std::vector<double> buffer_;
-    std::vector<double> first_;  ///< point of the set
+    std::vector<double> first_;  ///< first point of the set
     bool all_equal_ = true;
     StrengthSums strengths_;
     Outside outside_;
@@ -462,7 +464,7 @@ class Summation final : public SharedAccumulator {
     std::unique_ptr<DirectSummation> direct_;
 };
 
-/// Blocks of points that have a grid of their own; few points are not shared out.
+/// Points per block of the sums, each with its own grid; small sets are not shared.
 std::uint64_t grain(const Arrival& arrival, const Values& options) {
     if (options[method] == "direct")
         fail(ErrorKind::usage, "periodogram: ranks share --method nufft; start one process");
@@ -483,7 +485,7 @@ void refine(Report& mean, std::size_t sets, const Values& options) {
     summarize(mean, power, sets, options, {});
 }
 
-/// A mean over different normalised frequencies is none.
+/// Spectra at different normalized frequencies cannot be averaged.
 void combine(Report&, std::span<const Report> sets, const Values& options) {
     if (options[normalize] && !alike(sets, "regular_nyquist"))
         fail_with_hint(ErrorKind::usage,
@@ -492,7 +494,7 @@ void combine(Report&, std::span<const Report> sets, const Values& options) {
                        "normalised frequencies");
 }
 
-/// Sets of other sizes are measured at the first one's frequencies, so that they have a mean.
+/// Sets of other sizes use the first one's frequencies, so that they can be averaged.
 void follow(const Report& first, Values& options) {
     if (options.given(max_frequency)) return;
     options.put(max_frequency.name, static_cast<std::int64_t>(first.number("max_frequency")));

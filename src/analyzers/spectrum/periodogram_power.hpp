@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The power of a spectrum from its Fourier sums and the sums of the strengths; the formulas are at
-// the top of periodogram.cpp.
+// Power of a spectrum from its Fourier sums and the sums of the strengths; the formulas are at the
+// top of periodogram.cpp.
 #pragma once
 
 #include <cmath>
@@ -14,13 +14,14 @@
 
 namespace stipple::analyzers {
 
-/// sum_j s_j and sum_j s_j^2.
+/// The sums sum_j s_j and sum_j s_j^2.
 struct Strengths {
     double sum = 0;
     double squares = 0;
 };
 
-/// The same of points that come in blocks, which may be shared out; these are summed as grids are.
+/// Sums of strengths of points that arrive in blocks, possibly in several processes; added as grids
+/// are.
 class StrengthSums {
   public:
     void add(double strength) {
@@ -44,7 +45,7 @@ class StrengthSums {
         sum_.pack(to);
         squares_.pack(to);
     }
-    /// This one's points are whole blocks.
+    /// Requires that this object's points are whole blocks.
     void merge(Unpacker& from) {
         if (points_ > 0) close();
         sum_.merge(from);
@@ -52,7 +53,7 @@ class StrengthSums {
     }
 
   private:
-    static constexpr std::uint64_t block = std::uint64_t{1} << 21;  ///< divides those of grids
+    static constexpr std::uint64_t block = std::uint64_t{1} << 21;  ///< divides the blocks of grids
 
     void close() {
         sum_.add({&block_.sum, 1}, std::abs(block_.sum), {});
@@ -67,8 +68,8 @@ class StrengthSums {
     ScaledGridSum squares_;
 };
 
-/// Power at all frequencies from the sums at half of them; P(-f) = P(f) holds to the last bit.
-/// @param hann whether the points were seen through that window.
+/// Power at all frequencies from the sums at half of them; P(-f) = P(f) holds exactly.
+/// @param hann whether the points were weighted by the Hann window
 Grid power_of(const FourierSums& sums, const Strengths& strengths, bool hann,
               const RunContext& run);
 
