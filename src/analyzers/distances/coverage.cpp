@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// Covering radius, or fill distance: the largest ball in which no point is, with its centre in the
-// unit cube or box that the points live on:
+// Covering radius, or fill distance: the radius of the largest ball that contains no point, with
+// its centre in the unit cube or box of the points:
 //
 //     radius = max over x of  min_i |x - x_i|.
 //
-// On the torus (the default) in 2-D that is the largest circumradius of a Delaunay triangle. With
-// straight distances the walls end the domain, so that its corners count, and the places where the
-// bounds of the points' cells meet the walls. (analyzers/distances/empty_ball.hpp)
+// On the torus (the default) in 2-D it is the largest circumradius of a Delaunay triangle. With
+// straight distances the walls end the domain. The centre may then also be one of its corners, or a
+// place where the bounds of the points' cells meet the walls (empty_ball.hpp).
 //
 //     mesh_ratio = radius / (minimum / 2),
 //
-// the covering radius over the packing radius, is the smaller the more even the points are; it is
-// at least 1, and at most 2 for a maximal Poisson-disk set. It is left out where two points are at
-// the same place, and for a single point with straight distances.
+// the covering radius divided by the packing radius, is smaller for more even points. It is at
+// least 1, and at most 2 for a maximal Poisson-disk set. It is left out if two points coincide, and
+// for a single point with straight distances.
 //
 // Shape   points n x d, d <= 32.
 // Cost    d <= 2: O(n log n) for sets that are not too uneven; 10^6 points in 2-D take 2.3 s on one
@@ -73,7 +73,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return results;
 }
 
-/// A mean of places is none.
+/// Positions cannot be averaged.
 void refine(Report& mean, std::size_t sets, const Values&) {
     if (sets > 1) drop(mean, {"center"});
 }

@@ -10,12 +10,12 @@
 //     variation       deviation over mean of the distances to the nearest neighbours: the coverage
 //                     measure of Gunzburger and Burkardt, 0 for a grid
 //     correlation     of two coordinates: the largest absolute value, and the root mean square
-//     line, plane     the least distance of two points along any one axis, and seen on any two
+//     line, plane     the least distance of two points in the projections to one axis and to two
 //     efficiency      D, A and G for a polynomial model (model_efficiency.hpp), each coordinate
 //                     scaled so that its lowest and highest values in the design are -1 and 1
 //
-// and the means of all of them over random Latin hypercubes of as many points, those of the seeds
-// 1, 2, ..., so that one sees whether the design is better.
+// and, for comparison, the means of all of them over random Latin hypercubes with the same number
+// of points, those of the seeds 1, 2, ....
 //
 // Shape   n x d, n >= 2, d <= 1000. Sums over pairs for up to 16384 points; planes for d <= 32.
 // Units   lengths of the unit cube.
@@ -65,19 +65,20 @@ constexpr Param<std::int64_t> compare{
 constexpr std::size_t most_paired = 16384;
 constexpr std::size_t most_planes = 32;
 
-/// Two points of a Latin hypercube share no coordinate, but these may.
+/// Adds a criterion if it is finite: unlike those of a Latin hypercube, two points may share a
+/// coordinate.
 void add_finite(Report& report, const char* name, double value) {
     if (std::isfinite(value)) report.add(name, value);
 }
 
-/// Axes as people number them.
+/// Axis numbers for users, from 1.
 Report::Integers from_one(const std::vector<std::size_t>& axes) {
     Report::Integers numbers;
     for (const std::size_t k : axes) numbers.push_back(static_cast<std::int64_t>(k + 1));
     return numbers;
 }
 
-/// The coordinates, scaled so that the lowest and highest of each are -1 and 1.
+/// Coordinates scaled so that the lowest and highest value of each is -1 and 1.
 std::vector<double> coded(const PointSet& cube) {
     const std::size_t d = cube.dimension();
     const Box range = bounding_box(cube.flat(), d);
@@ -138,7 +139,7 @@ Report criteria_of(const PointSet& cube, const Values& options, const RunContext
     return report;
 }
 
-/// Means of the numbers that all of the hypercubes have.
+/// Means of the criteria over random Latin hypercubes.
 Report of_hypercubes(const PointSet& cube, const Values& options, const RunContext& run) {
     const auto sets = static_cast<std::uint64_t>(options[compare]);
     Report mean;
@@ -191,7 +192,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return report;
 }
 
-/// A mean of axes is none.
+/// Axes cannot be averaged.
 void refine(Report& mean, std::size_t sets, const Values&) {
     if (sets > 1) drop(mean, {"largest_correlation_axes", "line_axis", "plane_axes"});
 }

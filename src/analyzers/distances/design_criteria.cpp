@@ -18,7 +18,7 @@ Distances straight_in_cube(std::size_t dimension) {
     return {.torus = false, .box = unit_cube(dimension)->bounding_box()};
 }
 
-/// The coordinates of some axes.
+/// Projection of points to some axes.
 PointSet projected(const PointSet& points, const std::vector<std::size_t>& axes) {
     PointSet image(points.count(), axes.size());
     for (std::size_t i = 0; i < points.count(); ++i)
@@ -26,11 +26,11 @@ PointSet projected(const PointSet& points, const std::vector<std::size_t>& axes)
     return image;
 }
 
-/// What a pair adds to the three sums.
+/// Terms of the three sums over pairs.
 struct PairSums {
     double powers = 0;       ///< (minimum / distance)^p
     double reciprocals = 0;  ///< 1 / distance^2
-    double products = 0;     ///< 1 / prod (4 difference)^2: 4, lest it leaves the range of float64
+    double products = 0;     ///< 1 / prod (4 difference)^2; 4 keeps the product in range
 
     PairSums& operator+=(const PairSums& other) {
         powers += other.powers;
@@ -93,7 +93,7 @@ std::optional<Correlation> correlation_of(const PointSet& points) {
     const std::size_t n = points.count();
     const std::size_t d = points.dimension();
     std::vector<std::size_t> axes;
-    std::vector<std::vector<double>> columns;  // centred, of length 1
+    std::vector<std::vector<double>> columns;  // centred and of length 1
     for (std::size_t k = 0; k < d; ++k) {
         std::vector<double> column(n);
         double mean = 0;

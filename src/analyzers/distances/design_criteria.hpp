@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Criteria by which designs for computer experiments are compared, of points in the unit cube.
+// Criteria for comparing designs of computer experiments, for points in the unit cube.
 #pragma once
 
 #include <array>
@@ -14,21 +14,21 @@
 
 namespace stipple::analyzers {
 
-/// A smallest or largest value, and the axes, from 0, where it is.
+/// A smallest or largest value, and the axes (from 0) at which it occurs.
 struct AtAxes {
     double value = 0;
     std::vector<std::size_t> axes = {};
 };
 
-/// Sums over all pairs of points.
+/// Criteria that are sums over all pairs of points.
 struct PairCriteria {
     double phi_p = 0;
     double audze_eglais = 0;
     double maxpro = 0;
 };
 
-/// Smallest distance of two points, and the deviation of the distances to the nearest neighbours
-/// over their mean.
+/// Smallest distance of two points, and the standard deviation over mean of the distances to the
+/// nearest neighbours.
 struct Separation {
     double minimum = 0;
     double variation = 0;
@@ -36,11 +36,12 @@ struct Separation {
 
 Separation separation_of(const PointSet& points, const RunContext& run);
 
-/// @param minimum the smallest distance; 0 and shared coordinates make criteria infinite
+/// @param minimum the smallest distance; if 0, or if points share coordinates, criteria are
+/// infinite
 PairCriteria pair_criteria(const PointSet& points, double p, double minimum, const RunContext& run);
 
-/// Largest absolute value of the correlations of two coordinates, and the root of their mean
-/// square. Coordinates that are constant have none; nothing where fewer than two are left.
+/// Largest absolute correlation of two coordinates, and root mean square of all. Constant
+/// coordinates are left out; nullopt if fewer than two remain.
 struct Correlation {
     AtAxes largest;
     double rms = 0;
@@ -48,10 +49,10 @@ struct Correlation {
 
 std::optional<Correlation> correlation_of(const PointSet& points);
 
-/// The least distance of two points among the projections to one axis.
+/// Least distance of two points in the projections to one axis.
 AtAxes closest_on_axis(const PointSet& points);
 
-/// The same to two axes; some n log n for each two of them.
+/// Least distance of two points in the projections to two axes, in O(n log n) for each of these.
 AtAxes closest_on_plane(const PointSet& points, const RunContext& run);
 
 }  // namespace stipple::analyzers

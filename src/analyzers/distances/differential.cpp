@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
 // Differential domain analysis: the differences of all ordered pairs of n points of the plane,
-// counted in square pixels D about 0, over what independent uniform points have there on average,
+// counted in square pixels D around 0 and divided by the mean counts of independent uniform points,
 //
 //     density(D) = #{ (i, j) : i != j, x_j - x_i in D }  /  ( n (n - 1) * P(D) ),
 //
-// where P(D) is how likely the difference of two uniform points is in D: its area over V on the
-// torus, and less for straight differences, by the box's set covariance (L_1 - |x|) (L_2 - |y|). So
-// independent points have 1 everywhere. The difference is to the power spectrum what a correlation
-// is: what one shows at high frequencies the other does near 0. Beside the image stand
+// where P(D) is the probability that the difference of two uniform points is in D: the area of D
+// over V on the torus, and less for straight differences, by the box's set covariance (L_1 - |x|)
+// (L_2 - |y|). So independent points have density 1 everywhere. The image complements the power
+// spectrum: what one shows at high frequencies the other shows near 0. It is summarized by
 //
 //     radial density     mean over the pixels with centres in the ring k - 1/2 <= |x| / w < k + 1/2
 //     anisotropy         variance of the pixels over the ring / squared mean, in dB; independent
-//                        points have -10 log10(differences a pixel), less for a mean of sets
+//                        points have -10 log10(differences per pixel), less for a mean of sets
 //
-// with w the side of a pixel, k = 0 the one in the middle.
+// where w is the side of a pixel; k = 0 is the central pixel.
 //
 // Shape   n >= 2 points of the unit square or a rectangle. Image of B x B pixels, B odd, reaching
 //         from -r to r, x to the right and y upward: row = y.
@@ -23,7 +23,7 @@
 //         take 2 s on one core.
 // Promise every pair counts twice, once on either side of 0: the image is its own mirror image
 //         exactly. Never depends on the number of threads.
-// Beware  what is on a rim of pixels counts with one of them: a lattice has its peaks in pixels.
+// Beware  a difference on the edge of a pixel counts in one of the pixels beside it.
 // Source  L.-Y. Wei, R. Wang, ACM Trans. Graph. 30:4 (2011) 50, doi:10.1145/2010324.1964945.
 
 #include <algorithm>
@@ -97,10 +97,11 @@ Plan plan_for(const PointSet& points, const Values& options) {
     return plan;
 }
 
-/// Counts of differences, row after row.
+/// Counts of differences, row by row.
 using Counts = std::vector<std::uint64_t>;
 
-/// Blocks have counts of their own, which are not to take more than 1 GiB, or few times one image.
+/// Largest number of blocks. Each has its own counts, which take at most 1 GiB in total, or 4
+/// images.
 std::uint64_t most_blocks(std::size_t pixels) {
     constexpr std::uint64_t most_counts = std::uint64_t{1} << 27;
     return std::clamp<std::uint64_t>(most_counts / (pixels * pixels), 4, 64);
@@ -117,7 +118,7 @@ class DifferenceCounter {
                                static_cast<double>(points.count()) + 64),
                   points.flat(), run) {}
 
-    /// In few blocks, as each needs counts of its own; they are whole numbers, in any order.
+    /// Counts in few blocks, since each needs its own counts. Integers can be added in any order.
     [[nodiscard]] Counts count() const {
         const std::uint64_t n = points_.count();
         const std::uint64_t size = std::max<std::uint64_t>(1024, n / most_blocks(plan_.pixels) + 1);
@@ -139,7 +140,7 @@ class DifferenceCounter {
     }
 
   private:
-    /// Both ways.
+    /// Counts the difference of two points and its opposite.
     void add(const double* p, const double* q, Counts& counts) const {
         const auto size = static_cast<double>(plan_.pixels);
         const double column = across(q[0] - p[0], 0) * scale_ + size / 2;
@@ -159,17 +160,17 @@ class DifferenceCounter {
 
     const Plan& plan_;
     const RunContext& run_;
-    double scale_ = 1 / plan_.side();  ///< pixels a unit
+    double scale_ = 1 / plan_.side();  ///< pixels per unit of distance
     std::array<double, 2> sides_;
     SortedPoints<2> points_;
 };
 
-/// How likely the difference along an axis is in each pixel.
+/// Probability that the difference along an axis is in each of its pixels.
 std::vector<double> chances(const Plan& plan, std::size_t axis) {
     const double side = plan.distances.box->extent(axis);
     const double width = plan.side();
     std::vector<double> chance(plan.pixels);
-    const auto below = [&](double x) {  // of a straight difference in [0, x]
+    const auto below = [&](double x) {  // probability of a straight difference in [0, x]
         return x / side * (1 - x / side / 2);
     };
     const auto middle = static_cast<double>(plan.pixels / 2);
@@ -197,7 +198,7 @@ Grid densities(const Plan& plan, const Counts& counts, double pairs) {
     return grid;
 }
 
-/// Puts the radial mean and the anisotropy of the image into the report.
+/// Adds the radial mean and the anisotropy of the image to the report.
 void summarize(Report& report, const Grid& grid, double pixel) {
     const Rings rings = rings_of(grid, {});
     const double middle = grid.values[grid.values.size() / 2];
@@ -243,7 +244,7 @@ void refine(Report& mean, std::size_t, const Values&) {
         summarize(mean, std::get<Grid>(*grid), mean.number("pixel"));
 }
 
-/// A mean over pixels of different sizes is none.
+/// Images with pixels of different sizes cannot be averaged.
 void combine(Report&, std::span<const Report> sets, const Values&) {
     if (!alike(sets, "pixel"))
         fail_with_hint(ErrorKind::usage, "give them one --max-distance",

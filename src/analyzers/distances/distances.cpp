@@ -21,7 +21,7 @@ Outside outside_of(const PointSet& points) {
     return outside;
 }
 
-/// The domain as the box that it is.
+/// Bounds of a domain that is a box or the unit cube; nullopt for others.
 std::optional<Box> box_of(const Domain& domain) {
     const std::string spec = domain.spec();
     if (spec != "unit-cube" && !spec.starts_with("box:")) return std::nullopt;
@@ -33,7 +33,7 @@ Norm norm_of(const std::string& metric) {
     return metric.ends_with("chebyshev") ? Norm::chebyshev : Norm::euclidean;
 }
 
-/// @throws Error(input) where float64 does not hold the square of the distance of its corners.
+/// @throws Error(input) if squared distances within the box overflow float64
 void require_squares(const Box& box, Norm norm, const char* too_wide) {
     double sum = 0;
     double squares = 0;
@@ -48,7 +48,7 @@ void require_squares(const Box& box, Norm norm, const char* too_wide) {
              widest + 1, format_number(box.low[widest]), format_number(box.high[widest]));
 }
 
-/// @throws Error(input) where a coordinate is not finite
+/// @throws Error(input) if a coordinate is not finite
 void require_finite(const PointSet& points) {
     const auto flat = points.flat();
     const auto bad = std::ranges::find_if_not(flat, [](double x) { return std::isfinite(x); });
@@ -64,7 +64,7 @@ void require_squares(const PointSet& points, Norm norm) {
                     "the points lie too far apart");
 }
 
-/// @throws Error(input) for points outside their domain, or for what is no place at all
+/// @throws Error(input) for points outside their domain, or with coordinates that are not finite
 [[noreturn]] void refuse_places(const Outside& outside, const PointSet& points, const char* hint) {
     require_finite(points);
     refuse(outside, points.count(), *points.domain, hint);
@@ -115,7 +115,7 @@ Distances distances_of(const PointSet& points, const std::string& asked) {
 Distances distances_in_box(const PointSet& points, const std::string& asked, const char* analyzer) {
     const std::optional<Box> box = box_of(*points.domain);
     if (!box) {
-        static_cast<void>(distances_of(points, asked));  // a torus is refused in its own words
+        static_cast<void>(distances_of(points, asked));  // throws its own error for a torus
         fail(ErrorKind::input, "{} takes points of the unit cube or a box; these live on {}",
              analyzer, points.domain->title());
     }

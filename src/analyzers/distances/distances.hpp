@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// How the distances between a set's points are measured: in the box that they live on with its
-// opposite faces joined (torus), or straight; Euclidean, or in another norm.
+// How the distances between a set's points are measured: straight, or in their box with opposite
+// faces joined (torus); Euclidean, or in another norm.
 #pragma once
 
 #include <optional>
@@ -24,7 +24,7 @@ inline constexpr Param<Choice> metric{
         "Across opposite faces of the unit cube or box that the points live on, or straight; "
         "default: torus, and euclidean on domains without faces"};
 
-/// The same for measures that make sense in other norms, too.
+/// The same option for measures that also make sense in other norms.
 inline constexpr Param<Choice> metric_of_any_norm{
     .name = "metric",
     .choices = "torus|euclidean|manhattan|chebyshev|torus-manhattan|torus-chebyshev",
@@ -35,42 +35,42 @@ inline constexpr Param<Choice> metric_of_any_norm{
 
 struct Distances {
     bool torus;
-    std::optional<Box> box;  ///< where all points are; none if they are in no box that is known
+    std::optional<Box> box;  ///< contains all points; nullopt if no such box is known
     Norm norm = Norm::euclidean;
 
-    /// As one asks for it.
+    /// Name as in the option --metric.
     [[nodiscard]] std::string name() const;
 
-    /// As a search tree takes them: none for straight distances.
+    /// Sides for a search tree to wrap around; empty for straight distances.
     [[nodiscard]] std::vector<double> sides() const;
 };
 
-/// What `asked` (a metric's name, or nothing) means for the points.
-/// @throws Error(usage) for a torus of what is no box
-/// @throws Error(input) for points outside the domain, unless straight distances are asked for,
-///         and for points (or their box) that float64 cannot hold the squared distances of
+/// Resolves `asked` (the name of a metric, or empty) for the points.
+/// @throws Error(usage) for a torus of a domain that is not a box
+/// @throws Error(input) for points outside the domain, unless straight distances are requested, and
+///         for points (or a box) whose squared distances overflow float64
 Distances distances_of(const PointSet& points, const std::string& asked);
 
-/// The same for measures that need to know the box. @throws Error(input) as well without one
+/// Like distances_of(), for measures that need a box. @throws Error(input) also if there is none
 Distances distances_in_box(const PointSet& points, const std::string& asked, const char* analyzer);
 
 double shortest_side(const Box& box);
 
-/// Of so many points in the box: (V / n)^(1/d).
+/// Mean distance (V / n)^(1/d) of n points in the box.
 double mean_distance(const Box& box, std::size_t n);
 
-/// Whether all points are at one place.
+/// Whether all points coincide.
 bool all_equal(const PointSet& points);
 
-/// @throws Error(input) unless there are points at two places at least
+/// @throws Error(input) unless there are at least two distinct points
 void require_places(const PointSet& points, const char* analyzer);
 
-/// Every point's nearest other one. A single point is its own neighbour on the torus, across the
-/// shortest side; elsewhere it has none, at an infinite distance. @throws Error(limit, cancelled)
+/// Nearest other point of every point. A single point is its own neighbour on the torus, across the
+/// shortest side; otherwise it has none, at an infinite distance. @throws Error(limit, cancelled)
 std::vector<Neighbor> nearest_neighbors(const PointSet& points, const Distances& distances,
                                         const RunContext& run);
 
-/// Two points that have the smallest distance, those of lowest indices.
+/// Two points with the smallest distance; of several such pairs, the one of lowest indices.
 struct ClosestPair {
     std::size_t first;
     Neighbor second;

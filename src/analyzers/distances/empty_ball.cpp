@@ -19,7 +19,7 @@
 namespace stipple::analyzers {
 namespace {
 
-/// Coordinates in order, which never takes long to stop.
+/// Coordinates in ascending order, by a sort that stops quickly on request.
 std::vector<double> sorted(const PointSet& points, double low, const RunContext& run) {
     std::vector<Placed> items(points.count());
     for (std::size_t i = 0; i < items.size(); ++i)
@@ -30,7 +30,7 @@ std::vector<double> sorted(const PointSet& points, double low, const RunContext&
     return x;
 }
 
-/// d = 1: between neighbours, and from the walls.
+/// For d = 1: half the widest gap between neighbours, or the whole gap at a wall.
 EmptyBall widest_gap(const PointSet& points, const Distances& distances, const RunContext& run) {
     const double low = distances.box->low[0];
     const double high = distances.box->high[0];
@@ -52,17 +52,17 @@ EmptyBall widest_gap(const PointSet& points, const Distances& distances, const R
     return best;
 }
 
-/// A box of the search, and what is known of its largest ball.
+/// A box of the search, and bounds of the largest ball centred in it.
 struct Part {
     std::vector<double> center;
     std::vector<double> half;
     double upper = std::numeric_limits<double>::infinity();
-    double lower = 0;  ///< the best of what was found in it
+    double lower = 0;  ///< radius of the largest ball found in it
     std::vector<double> place = {};
 };
 
-/// Of boxes about the origin, in units of the distances at hand, so that what is negligible can be
-/// said in numbers.
+/// Bound for a box around the origin, in units of the nearby distances, so that a fixed number can
+/// be the tolerance.
 using Bound = CoveringBound<0>;
 constexpr double bound_tolerance = 1e-13;
 
@@ -79,7 +79,8 @@ class Search {
           neighbors_(std::min(points.count(), 4 * (points.dimension() + 1))) {
         const auto d = static_cast<double>(points.dimension());
         const double ball = real_power(std::numbers::pi, d / 2) / exponential(log_gamma(d / 2 + 1));
-        // Balls of this radius just have the volume; no box that is larger can be done.
+        // At this radius n balls have the volume of the box, so the covering radius is not smaller.
+        // Parts with a larger half diagonal are halved without a bound.
         least_ = real_power(volume_of(box_) / ball / static_cast<double>(points.count()), 1 / d);
     }
 
@@ -116,13 +117,14 @@ class Search {
         return part;
     }
 
-    /// A box without a larger ball is done.
+    /// A part is done if its upper bound is at most this.
     [[nodiscard]] double good_enough() const {
         const bool more = best_.radius > search_.enough;
         return more ? best_.radius * (1 + search_.tolerance) : search_.enough;
     }
 
-    /// Takes the points near the box's centre, in the copies that are nearest. Returns the unit.
+    /// Adds the points near the part's centre to `bound`, in their nearest copies. Returns the
+    /// unit.
     double look_around(const Part& part, Bound& bound) const {
         const auto neighbors = tree_.nearest_several(part.center, neighbors_);
         const double unit =
@@ -168,7 +170,7 @@ class Search {
         offer(part, std::move(place));
     }
 
-    /// Takes over what a round found, and halves the boxes that are not done.
+    /// Takes over the results of a round, and halves the parts that are not done.
     void finish(std::vector<Part>& round) {
         judged_ += round.size();
         for (Part& part : round) {
@@ -187,7 +189,7 @@ class Search {
         if (judged_ > search_.max_boxes && !open_.empty()) give_up();
     }
 
-    /// Of the whole box's volume.
+    /// Fraction of the whole box's volume.
     [[nodiscard]] double share(const Part& part) const {
         double share = 1;
         for (std::size_t k = 0; k < part.half.size(); ++k)
@@ -219,7 +221,7 @@ class Search {
     const BallSearch& search_;
     const RunContext& run_;
     KdTree tree_;
-    std::size_t neighbors_;  ///< to bound with
+    std::size_t neighbors_;  ///< number of points for a bound
     double least_;
     std::vector<Part> open_;
     EmptyBall best_{0, 0, {}};

@@ -1,49 +1,49 @@
 // SPDX-License-Identifier: MIT
 //
-// Number variance: how the number N of points in a ball of radius R scatters as the ball's centre
-// goes over the whole torus of volume V, and how it grows with R,
+// Number variance: how the number N of points in a ball of radius R varies as the ball's centre
+// moves over the whole torus of volume V, and how this variance grows with R,
 //
 //     variance = <N^2> - <N>^2,   <N> = n v(R) / V,   <N^2> = 1 / V * sum over i, j of
 //                                                             overlap(|x_i - x_j|; R),
 //
-// v the volume of a ball and overlap(r; R) that of two balls of radius R at a distance r. So the
-// mean over all centres is taken exactly, through the pairs nearer than 2 R, and no window is
-// drawn. The exponent is the slope of log variance against log R, by least squares over the radii
-// given:
+// where v is the volume of a ball and overlap(r; R) that of the intersection of two balls of radius
+// R at a distance r. So the mean over all centres is exact: it needs only the pairs nearer than 2
+// R, and no windows are drawn. The exponent is the slope of log variance against log R, by least
+// squares over the given radii:
 //
 //     independent points    variance = mean (1 - v / V)       exponent d
 //     jittered grids        variance ~ R^(d-1)                exponent d - 1
 //     lattices              variance ~ R^(d-1), with waves    exponent about d - 1
 //
-// Sets between d - 1 and d are hyperuniform, too. A set of n points has one factor 1 - v / V of
-// independent points in any case, n being fixed; `dispersion` = variance / (mean (1 - v / V)) is
-// without it, and it is left out of the fit. So independent points have 1 at every radius.
+// Sets between d - 1 and d are hyperuniform, too. Since n is fixed, the variance of every set
+// contains the factor 1 - v / V of independent points. `dispersion` = variance / (mean (1 - v / V))
+// and the fit leave it out, so independent points have dispersion 1 at every radius.
 //
-// With straight distances balls would miss what is beyond the box. So they are drawn at random
-// where all of the largest is inside it, --windows of them with one centre for all radii, the same
-// in any run; mean and variance, unbiased were the windows apart, are those of their counts, and
-// every window has the same weight. A point is in a window if its distance^2, as float64 computes
+// With straight distances balls would miss points beyond the box. So --windows balls are drawn at
+// random such that the largest is inside the box, with one centre for all radii, the same in any
+// run. Mean and variance are those of their counts, with equal weights; the variance would be
+// unbiased for independent windows. A point is in a window if its distance^2, as float64 computes
 // it, is at most R^2.
 //
 // Shape   n >= 2 points of the unit cube or a box, d = 1, 2, 3, on the torus unless --metric says
-//         otherwise; R up to a quarter of the shortest side, where no two balls overlap twice.
+//         otherwise; R up to a quarter of the shortest side, so that no two balls overlap twice.
 // Units   radii in (V / n)^(1/d), the mean distance.
 // Cost    O(n + pairs nearer than 2 R): 10^6 points of the plane to 10 mean distances, 6.3e8 pairs,
 //         take 5 s on one core. By windows O(n + windows * points in the largest).
-// Promise on the torus the variance is within the error that is stated, up to rounding; of lattices
-//         that is next to nothing, of other sets some 1e-11 of the largest window's <N>^2. Pairs are
-//         summed in narrow bins, with the mean m and the variance s^2 of their distances in them. As
-//         the third derivative of the overlap is not below 0, all distances in [a, b] with these
-//         moments lead to sums between those of two: some pairs at a and the others at
-//         m + s^2 / (m - a), or some at b and the others at m - s^2 / (b - m). Never depends on the
-//         number of threads.
-// Beware  neighbouring radii share most of their pairs: the standard error of the exponent, that of
-//         a fit with independent residuals, is too small, by 15 times for 4096 independent points
-//         of the plane, whose exponent scatters by 0.09. The true one is that of --average, over
-//         sets. A lattice's waves need many radii. Of M windows drawn the variance has a
+// Promise on the torus the variance is within the reported error, up to rounding. The error is
+//         negligible for lattices, for other sets some 1e-11 of the largest window's <N>^2. Pairs
+//         are summed in narrow bins, with the mean m and the variance s^2 of their distances. The
+//         third derivative of the overlap is nonnegative. So the sum over distances in [a, b] with
+//         these moments is between two extremes: some pairs at a and the others at m + s^2 / (m -
+//         a), or some at b and the others at m - s^2 / (b - m). Never depends on the number of
+//         threads.
+// Beware  neighbouring radii share most of their pairs. So the standard error of the exponent, that
+//         of a fit with independent residuals, is too small: by a factor of 15 for 4096 independent
+//         points of the plane, whose exponent has a deviation of 0.09. --average gives the true
+//         one, over sets. A lattice's waves need many radii. The variance over M windows has a
 //         relative error of sqrt(2 / M) or more, as they overlap.
 // Source  S. Torquato, F. H. Stillinger, Phys. Rev. E 68 (2003) 041113,
-//         doi:10.1103/PhysRevE.68.041113 (variance through pairs, hyperuniformity).
+//         doi:10.1103/PhysRevE.68.041113 (variance by pairs, hyperuniformity).
 //         S. Karlin, W. J. Studden, "Tchebycheff Systems", Wiley 1966 (the two extreme sums are
 //         those of the lower and the upper principal representation of the moments).
 
@@ -100,7 +100,8 @@ constexpr Param<std::int64_t> window_count{
     .high = 1'000'000'000,
     .help = "Windows drawn with --metric euclidean; on the torus all are counted"};
 
-/// Bins in two of the smallest radius, if that is not too many for two of the largest.
+/// Number of bins within twice the smallest radius, limited by their number within twice the
+/// largest.
 constexpr double bins_in_smallest = 400;
 constexpr double fewest_bins = 4096;
 constexpr double most_bins = 16384;
@@ -114,7 +115,7 @@ struct Ball {
         return 4. / 3 * std::numbers::pi * r * r * r;
     }
 
-    /// Of two balls of radius R at the distance r; 0 from 2 R on.
+    /// Volume of the intersection of two balls of radius R at the distance r; 0 if r >= 2 R.
     [[nodiscard]] double overlap(double r, double radius) const {
         const double gap = 2 * radius - r;
         if (!(gap > 0)) return 0;
@@ -126,11 +127,11 @@ struct Ball {
     }
 };
 
-/// Radii that are whole numbers of half bins, so that no bin is cut.
+/// Radii are multiples of half a bin, so that no bin is cut.
 struct Plan {
-    double unit;                      ///< the mean distance
-    double width;                     ///< of a bin
-    std::vector<std::size_t> halves;  ///< bins in 2 R of each radius, rising
+    double unit;                      ///< mean distance (V / n)^(1/d)
+    double width;                     ///< width of a bin
+    std::vector<std::size_t> halves;  ///< for each radius R the number of bins in 2 R, ascending
 
     [[nodiscard]] double radius(std::size_t i) const {
         return static_cast<double>(halves[i]) * width / 2;
@@ -167,20 +168,20 @@ Plan plan_for(const PointSet& points, const Box& box, const Values& options) {
     return plan;
 }
 
-/// Distances that stand for those of a bin's pairs: so many pairs at each.
+/// A distance that represents some of a bin's pairs, and their number.
 struct Stand {
     double at;
     double pairs;
 };
 
-/// The pairs of a bin: the sum of a function whose third derivative is not below 0 is no less than
-/// that over the first two, and no more than that over the others.
+/// Representatives of a bin's pairs that bound sums: for a function with a nonnegative third
+/// derivative, the sum over all pairs is between those over `least` and over `most`.
 struct BinPairs {
     std::array<Stand, 2> least;
     std::array<Stand, 2> most;
 };
 
-/// All pairs at the mean, but for a share at an end of the bin that makes the variance right.
+/// Two distances with the mean and variance of the pairs, one of them at an end of the bin.
 std::array<Stand, 2> with_end(double pairs, double mean, double variance, double end) {
     const double off = mean - end;
     const double share = variance / (variance + off * off);
@@ -197,14 +198,14 @@ std::vector<BinPairs> bins_of(const PairCounts& counts, double width) {
         const double spread = counts.squared_offsets[b] / pairs - offset * offset;
         const double mean = low + (offset + 0.5) * width;
         bins[b].least = bins[b].most = {{{mean, pairs}, {mean, 0}}};
-        if (spread < 1e-14 || !(std::abs(offset) < 0.5 - 1e-7)) continue;  // that is rounding
+        if (spread < 1e-14 || !(std::abs(offset) < 0.5 - 1e-7)) continue;  // within rounding
         bins[b].least = with_end(pairs, mean, spread * width * width, low);
         bins[b].most = with_end(pairs, mean, spread * width * width, low + width);
     }
     return bins;
 }
 
-/// Sum over all pairs of the overlap of their balls.
+/// Sum of the overlap over all pairs of points, with its error.
 Estimate overlaps(std::span<const BinPairs> bins, const Plan& plan, std::size_t at,
                   const Ball& ball) {
     const double radius = plan.radius(at);
@@ -215,7 +216,7 @@ Estimate overlaps(std::span<const BinPairs> bins, const Plan& plan, std::size_t 
     };
     double least = 0;
     double most = 0;
-    for (std::size_t b = plan.halves[at]; b-- > 0;) {  // from the smallest overlap on
+    for (std::size_t b = plan.halves[at]; b-- > 0;) {  // smallest overlaps first
         if (bins[b].least[0].pairs + bins[b].least[1].pairs == 0) continue;
         const double one = sum(bins[b].least);
         least += one;
@@ -228,12 +229,12 @@ struct Curves {
     Report::Curve radius;
     Report::Curve mean;
     Report::Curve variance;
-    Report::Curve error = {};  ///< of the variance, where it is bounded
+    Report::Curve error = {};  ///< bound of the variance's error; empty for windows
     Report::Curve dispersion;
 };
 
 /// Adds the slope of log variance against log radius by least squares, with its standard error.
-/// Radii at which the variance is 0, as on a line it may be, are passed over.
+/// Skips radii with a variance of 0, which occur in one dimension.
 void add_exponent(Report& report) {
     const auto& variance = report.curve("variance");
     const auto& mean = report.curve("mean");
@@ -263,7 +264,7 @@ void add_exponent(Report& report) {
     report.add("exponent_standard_error", std::sqrt(residual / (count - 2) / xx));
 }
 
-/// Adds a radius with what was found there; `share` is the window's of the volume.
+/// Adds the results at one radius; `share` is the window's fraction of the volume.
 void add(Curves& curves, double radius, double mean, double variance, double share) {
     curves.radius.push_back(radius);
     curves.mean.push_back(mean);
@@ -292,13 +293,13 @@ Curves by_pairs(const PointSet& points, const Plan& plan, const Distances& dista
     return curves;
 }
 
-/// Over windows, for each radius: whole numbers, so that their order does not matter.
+/// Sums over windows for each radius; integers, so that their order does not matter.
 struct WindowSums {
     std::vector<std::uint64_t> counts;
     std::vector<std::uint64_t> squares;
 };
 
-constexpr std::uint64_t windows_in_block = 256;  ///< windows, of a thread
+constexpr std::uint64_t windows_in_block = 256;  ///< windows per block
 
 /// Adds the numbers of points within each radius of the window's centre.
 template <std::size_t D>
@@ -396,20 +397,20 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return results;
 }
 
-/// Of sets with different radii. @throws Error(usage)
+/// Fails for sets with different radii. @throws Error(usage)
 [[noreturn]] void refuse_mean() {
     fail_with_hint(ErrorKind::usage, "give them one --min-radius and --max-radius",
                    "--average: the sets have windows of different radii, as they have different "
                    "numbers of points");
 }
 
-/// A mean of slopes is not the slope of the mean variance, which scatters less.
+/// Takes the slope of the mean variance, which scatters less than the mean of the slopes.
 void refine(Report& mean, std::size_t, const Values&) {
     if (!mean.find("radius")) refuse_mean();
     add_exponent(mean);
 }
 
-/// Nor is a mean over different radii any.
+/// Variances at different radii cannot be averaged.
 void combine(Report&, std::span<const Report> sets, const Values&) {
     if (!alike(sets, "fit_from") || !alike(sets, "fit_to")) refuse_mean();
 }

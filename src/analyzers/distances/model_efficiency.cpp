@@ -24,7 +24,7 @@ void terms_of(std::span<const double> x, Model model, std::vector<double>& f) {
             f.push_back(x[i] * x[j]);
 }
 
-/// The lower triangle of M.
+/// Lower triangle of M.
 std::vector<double> information(std::span<const double> coded, std::size_t dimension, Model model,
                                 const RunContext& run) {
     const std::size_t p = model_terms(model, dimension);
@@ -40,7 +40,7 @@ std::vector<double> information(std::span<const double> coded, std::size_t dimen
     return m;
 }
 
-/// Replaces f by L^-1 f, from `first` on, before which it is 0; its squared length.
+/// Replaces f by L^-1 f, where f is 0 before index `first`; returns its squared length.
 double solve(std::span<const double> factor, std::size_t first, std::vector<double>& f) {
     const std::size_t p = f.size();
     double squares = 0;
@@ -65,7 +65,7 @@ double trace_of_inverse(std::span<const double> factor, std::size_t p, const Run
     return trace;
 }
 
-/// Largest f^T M^-1 f over `count` places that `place` writes.
+/// Largest f^T M^-1 f over `count` places x; place(i, x) writes the i-th.
 template <class Place>
 double largest_variance(std::span<const double> factor, std::size_t dimension, Model model,
                         std::uint64_t count, const Place& place, const RunContext& run) {

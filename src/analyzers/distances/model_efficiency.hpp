@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// How well a design of n runs estimates the p coefficients of a polynomial model. With rows f(x) of
-// its terms, x being coded to [-1, 1], and X the matrix of the runs' rows, M = X^T X,
+// Efficiency of a design of n runs for estimating the p coefficients of a polynomial model. With
+// f(x) the row of its terms at x, coded to [-1, 1], X the matrix of the runs' rows, and M = X^T X,
 //
 //     D = det(M)^(1/p) / n,     A = p / (n trace(M^-1)),     G = p / (n max_x f(x)^T M^-1 f(x)),
 //
-// which are 1 for an orthogonal design with all coordinates at -1 and 1, if there is one. All are 0
-// where M is singular. The terms are 1 and x_i (linear); x_i x_j besides (interaction); x_i^2 too
+// which are 1 for an orthogonal design with all coordinates at -1 and 1, if one exists. All are 0
+// if M is singular. The terms are 1 and x_i (linear), also x_i x_j (interaction), also x_i^2
 // (quadratic).
 //
-// Cost    O(n p^2 + p^3 + c p^2) for c places x of the maximum of G.
+// Cost    O(n p^2 + p^3 + c p^2) for c candidate places x of the maximum in G.
 // Source  A. C. Atkinson, A. N. Donev, R. D. Tobias, "Optimum Experimental Designs, with SAS",
 //         Oxford 2007, chapters 9 to 11.
 #pragma once
@@ -31,8 +31,9 @@ struct Efficiency {
     double a = 0;
     double g = 0;
 
-    /// Places of the maximum in G: corners of the cube, where it is for the first two models; the
-    /// grid of -1, 0, 1; or, where either has too many, the design's own points.
+    /// Candidate places of the maximum in G: "corners" of the cube, where it is for the first two
+    /// models; the "grid" of -1, 0, 1; or, if there are too many of either, the design's own
+    /// "points".
     const char* places = "";
 };
 

@@ -6,24 +6,24 @@
 //
 // Distances are Euclidean, or in the Manhattan or Chebyshev norm.
 //
-// On the torus (the default on the unit cube and on boxes) distances go across opposite faces. The
-// relative radius compares the minimum with the smallest distance of the densest packing of n
+// On the torus (the default on the unit cube and on boxes) distances wrap across opposite faces.
+// The relative radius compares the minimum with the smallest distance of the densest packing of n
 // points in the domain's volume V,
 //
 //     relative_radius = minimum / (2 (delta V / n)^(1/d)),
 //
 // where delta is the centre density (balls of radius 1 per volume) of the densest lattice, d <= 8:
 // 1/2, 1/(2 sqrt 3), 1/(4 sqrt 2), 1/8, 1/(8 sqrt 2), 1/(8 sqrt 3), 1/16, 1/16. In 2-D that is
-// minimum / sqrt(2 V / (sqrt 3 n)), as the literature on blue noise has it. No set is denser for
-// d = 1, 2, 3 and 8, so that the ratio is at most 1 on the torus; between, none is known. The key
-// is left out for d > 8, where the points are in no box, and in other norms. On the torus a point
-// has copies of itself, too: a minimum above the shortest side counts as that.
+// minimum / sqrt(2 V / (sqrt 3 n)), as in the literature on blue noise. No set is denser for d = 1,
+// 2, 3 and 8, so the ratio is at most 1 on the torus; for d = 4 to 7 no denser set is known. The
+// key is left out for d > 8, for points without a box, and in other norms. On the torus a point is
+// also a neighbour of its own copies: a minimum above the shortest side counts as that side.
 //
 // Shape   n >= 2 points of any dimension. A duplicate has distance 0.
 // Cost    O(n log n) for few dimensions; on one core 10^6 even points take 0.3 s in 2-D, 0.6 s in
-//         3-D; clustered ones in 2-D 1 s, as those do that a grid does not fit.
+//         3-D; clustered points in 2-D, which a grid does not fit, 1 s.
 // Promise exact: distances are the roots of sums of squares in float64, as comparing all pairs
-//         would find them. The pair is the one of lowest indices that has the smallest distance.
+//         would find them. The pair is the one of lowest indices with the smallest distance.
 //         Never depends on the number of threads.
 // Beware  straight distances have no wrap: near the faces neighbours are missing.
 // Source  J. H. Conway, N. J. A. Sloane, "Sphere Packings, Lattices and Groups", 3rd ed., 1999,
@@ -44,7 +44,7 @@
 namespace stipple::analyzers::nearest_neighbor {
 namespace {
 
-/// Squares of the centre densities' reciprocals.
+/// Squares of the reciprocal centre densities.
 constexpr std::array<double, 8> packing = {4, 12, 32, 64, 128, 192, 256, 256};
 
 /// Smallest distance of the densest known packing of n points in the box.
@@ -54,7 +54,7 @@ double packing_distance(const Box& box, double n) {
            real_power(volume_of(box) / (n * std::sqrt(packing[d - 1])), 1 / static_cast<double>(d));
 }
 
-/// Of two points, or on the torus of a point and its copy.
+/// Smallest distance of two points or, on the torus, of a point and its copy.
 double smallest(double minimum, const Distances& distances) {
     return distances.torus ? std::min(minimum, shortest_side(*distances.box)) : minimum;
 }
@@ -99,7 +99,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return results;
 }
 
-/// A mean of pairs is none.
+/// Pairs cannot be averaged.
 void refine(Report& mean, std::size_t sets, const Values&) {
     if (sets > 1) drop(mean, {"pair"});
 }

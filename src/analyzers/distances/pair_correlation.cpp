@@ -1,33 +1,34 @@
 // SPDX-License-Identifier: MIT
 //
-// Pair correlation function: how many points are at a distance t of a point, by what there would be
-// if all points were independent and uniform,
+// Pair correlation function: the number of points at a distance t from a point, relative to that
+// for independent uniform points,
 //
 //     g(t) = sum over pairs of w(|x_i - x_j|; t)  /  ( n (n - 1) / 2 * integral of w(s; t) dp(s) ),
 //
-// where p(s) is how likely two uniform points of the box are at most s apart: faces and edges are
-// accounted for exactly, at any distance (pair_measure.hpp). The weight is one of
+// where p(s) is the probability that two uniform points of the box are at most s apart. It accounts
+// for faces and edges exactly, at any distance (pair_counts.hpp). The weight is one of
 //
 //     histogram      w = 1 for distances in the bin around t, else 0
-//     epanechnikov   w = 1 - ((s - t) / h)^2 for |s - t| < h, at the rims of the bins; worked out
-//                    from the sums of each bin's distances and their squares, without rounding them
+//     epanechnikov   w = 1 - ((s - t) / h)^2 for |s - t| < h, at the edges of the bins; computed
+//                    from each bin's sums of distances and their squares, without rounding them
 //                    to bins
 //
-// Independent uniform points have g = 1 on average; where `density` is 0 there are no pairs. Beside
-// it stands `deviation`: how much g of so many independent points scatters about 1,
+// Independent uniform points have g = 1 on average; where `density` is 0 there are no pairs.
+// `deviation` is the standard deviation of g for the same number of such points,
 //
 //     sqrt( E[w^2] / E[w]^2 - 1 ) / sqrt( n (n - 1) / 2 ),
 //
-// on the torus, where the distances of different pairs are independent; for straight ones they are
-// not, and it is left out.
+// on the torus, where the distances of different pairs are independent. It is left out for straight
+// distances, which are not.
 //
 // Shape   n >= 2 points of the unit cube or a box, d = 1, 2, 3.
-// Units   distances in those of the points; with --normalize-distance in (V / n)^(1/d), so that
+// Units   distances in the unit of the points; with --normalize-distance in (V / n)^(1/d), so that
 //         sets of different n can be averaged and compared.
-// Cost    O(n + pairs within reach). 10^6 points of the plane to 10 mean distances, 1.6e8 pairs,
-//         take 1.1 s on one core.
-// Promise every pair within reach counts, and counts once. Never depends on the number of threads.
-// Beware  distances are float64: a lattice's may come out on either side of a bin's rim.
+// Cost    O(n + pairs within max-distance). 10^6 points of the plane to 10 mean distances, 1.6e8
+//         pairs, take 1.1 s on one core.
+// Promise every pair within max-distance counts exactly once. Never depends on the number of
+//         threads.
+// Beware  distances are float64: those of a lattice may fall on either side of a bin's edge.
 // Source  S. N. Chiu, D. Stoyan, W. S. Kendall, J. Mecke, "Stochastic Geometry and its
 //         Applications", 3rd ed., Wiley 2013, sections 4.3 and 4.7; A. C. Oeztireli, M. Gross, ACM
 //         Trans. Graph. 31:6 (2012) 170, doi:10.1145/2366145.2366189 (of sampling patterns).
@@ -78,14 +79,14 @@ constexpr Param<bool> normalize{
     .name = "normalize-distance",
     .help = "Gives distances, and takes --max-distance, in units of (V / n)^(1/d)"};
 
-/// What is asked of a set: `bins` of `width`, and distances given in `unit`.
+/// Resolved request: `bins` of `width`, and the `unit` of reported distances.
 struct Plan {
     Distances distances;
     std::size_t bins;
     std::size_t spread;  ///< half width of the kernel in bins, 0 for a histogram
     double width;
     double unit;
-    double pairs;  ///< of all points
+    double pairs;  ///< number of all pairs of points
 };
 
 double default_reach(const Distances& distances, double mean) {
@@ -123,8 +124,8 @@ Plan plan_for(const PointSet& points, const Values& options) {
     return plan;
 }
 
-/// How likely the distance of two independent points is below a number of bins: at their rims, and
-/// at the nodes of Gauss's rule in them.
+/// Probability that two independent points are nearer than a number of bins, at the edges of the
+/// bins and at the nodes of Gauss's rule in them.
 class Chances {
   public:
     static constexpr std::array<double, 4> nodes = {0.069431844202973714, 0.33000947820757187,
@@ -160,7 +161,7 @@ struct Curves {
     Report::Curve density;
     Report::Curve deviation;
 
-    /// From the sum of weights, and the mean and mean square of one pair's.
+    /// Adds g(t) from the sum of weights, and the mean and mean square of a single pair's weight.
     void add(double t, double sum, double mean, double mean_square, double pairs) {
         distance.push_back(t);
         density.push_back(mean > 0 ? sum / (pairs * mean) : 0);
@@ -180,7 +181,7 @@ Curves histogram(const Plan& plan, const PairCounts& counts, const RunContext& r
     return curves;
 }
 
-/// Sum over all pairs of 1 - ((s - t) / h)^2, t being the lower rim of bin `at`.
+/// Sum over all pairs of 1 - ((s - t) / h)^2, where t is the lower edge of bin `at`.
 double parabola_sum(const PairCounts& counts, std::size_t at, std::size_t spread) {
     const auto h = static_cast<double>(spread);
     double sum = 0;
@@ -194,8 +195,8 @@ double parabola_sum(const PairCounts& counts, std::size_t at, std::size_t spread
     return sum;
 }
 
-/// Mean of (1 - ((s - t) / h)^2)^power over the distances s of two independent points: by parts,
-/// so that no density of distances is needed.
+/// Mean of (1 - ((s - t) / h)^2)^power over the distances s of two independent points, integrated
+/// by parts, which needs no density of distances.
 double parabola_mean(const Chances& chances, std::size_t at, std::size_t spread, int power) {
     const auto h = static_cast<double>(spread);
     const std::size_t first = at - std::min(at, spread);
@@ -256,7 +257,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return results;
 }
 
-/// A mean over different distances is none.
+/// Functions over different distances cannot be averaged.
 void combine(Report&, std::span<const Report> sets, const Values&) {
     if (!alike(sets, "bin_width"))
         fail_with_hint(ErrorKind::usage, "give one --max-distance, or --normalize-distance",

@@ -16,18 +16,18 @@
 namespace stipple::analyzers {
 namespace {
 
-/// Candidates whose distances are worked out at a time.
+/// Number of candidates whose distances are computed at a time.
 constexpr std::size_t batch_size = 256;
 
-/// Distances of a place to points that stand axis after axis.
+/// Distances from a place to points that are stored axis by axis.
 template <std::size_t D>
 struct FromPlace {
-    std::array<const double*, D> columns;  ///< of the points
+    std::array<const double*, D> columns;  ///< coordinates of the points
     std::array<double, D> place;
-    std::array<double, D> sides;  ///< to wrap around; infinite where distances are straight
+    std::array<double, D> sides;  ///< to wrap around; infinite for straight distances
 };
 
-/// places[i] = distance of point i, times the scale, at most `last`; bins[i] its whole part.
+/// places[i] = distance of point i times `scale`, at most `last`; bins[i] is its integer part.
 template <std::size_t D>
 STIPPLE_WIDE void find_places(const FromPlace<D>& from, std::size_t count, double scale,
                               double last, double* places, std::int32_t* bins) {
@@ -56,7 +56,7 @@ void add_pairs(const double* places, const std::int32_t* bins, std::size_t count
     }
 }
 
-/// Adds what is in as many bins as the sums have.
+/// Adds the bins that `sums` has, and ignores further ones.
 template <class Number>
 void add_bins(std::vector<Number>& sums, const std::vector<Number>& more) {
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += more[i];
@@ -89,7 +89,7 @@ class PairCounter {
         const double reach = static_cast<double>(bins_) / scale_;
         std::vector<PairCounts> parts(block_count(points_.count(), size));
         for_each_block(run_, points_.count(), size, [&](const Block& b) {
-            PairCounts counts = none_in(bins_ + 1);  // the last for what is farther
+            PairCounts counts = none_in(bins_ + 1);  // the last bin is for larger distances
             points_.visit_pairs(b.first, b.last, reach, run_,
                                 [&](std::size_t s, std::size_t first, std::size_t last) {
                                     for (std::size_t t = first; t < last; t += batch_size)
@@ -107,12 +107,12 @@ class PairCounter {
     }
 
   private:
-    /// A fifth of the reach, but not below 4 points a cell.
+    /// Side of grid cells: a fifth of `reach`, but with at least 4 points per cell on average.
     static double cell_side(const Box& box, std::size_t count, double reach) {
         return std::max(nth_root(4, D) * mean_distance(box, count), reach / 5);
     }
 
-    /// Counts the pairs of point s and some points from `from` on.
+    /// Counts the pairs of point s with `size` points from `from` on.
     void measure(std::size_t s, std::size_t from, std::size_t size, PairCounts& to) const {
         FromPlace<D> here{{}, {}, sides_};
         for (std::size_t k = 0; k < D; ++k) {
@@ -136,7 +136,8 @@ class PairCounter {
     std::size_t bins_;
     bool with_offsets_;
     const RunContext& run_;
-    std::array<std::vector<double>, D> columns_;  ///< the points cell by cell, axis after axis
+    std::array<std::vector<double>, D> columns_;  ///< coordinates of the points, cell by cell, for
+                                                  ///< each axis
 };
 
 }  // namespace
@@ -155,8 +156,8 @@ PairCounts count_pairs(const PointSet& points, const Distances& distances, doubl
 
 namespace {
 
-/// One axis in units of its side L: displacements reach up to `reach`, x being as likely as
-/// 2 (1 - slope x) / (1 or 2); the integral over both signs is 1.
+/// One axis, of side L. The absolute displacement x of two uniform points has the density 2 (1 -
+/// slope x / L) / L on [0, reach()].
 struct Axis {
     double side;
     double slope;  ///< 0 on the torus, 1 for straight distances
@@ -172,17 +173,17 @@ struct Axis {
 
 double squared(double x) { return x * x; }
 
-/// Integral over x in [low, high] of a.density(x) * b.within(sqrt(r^2 - x^2)), where the root is
-/// not above b's reach.
+/// Integral over x in [low, high] of a's density at x times b.within(sqrt(r^2 - x^2)), where the
+/// root is at most b's reach.
 double under_arc(const Axis& a, const Axis& b, double r, double low, double high) {
     const auto root = [&](double x) { return std::sqrt(std::max(0.0, (r - x) * (r + x))); };
-    const auto arc = [&](double x) {  // of the root, and of what it has before it
+    const auto arc = [&](double x) {  // antiderivative of sqrt(r^2 - x^2) (1 - slope x / L)
         const double s = root(x);
         const double plain = (x * s + r * r * arc_sine(std::min(1.0, x / r))) / 2;
         const double slanted = -s * s * s / 3;
         return plain - a.slope / a.side * slanted;
     };
-    const auto parabola = [&](double x) {  // of r^2 - x^2
+    const auto parabola = [&](double x) {  // antiderivative of (r^2 - x^2) (1 - slope x / L)
         return r * r * x - x * x * x / 3 - a.slope / a.side * squared(x) * (r * r / 2 - x * x / 4);
     };
     const double roots = arc(high) - arc(low);
@@ -197,7 +198,8 @@ double within_disk(const Axis& a, const Axis& b, double r) {
     return a.within(flat) * b.within(b.reach()) + under_arc(a, b, r, flat, high);
 }
 
-/// Over the height c = r sin(angle), cut where the disk beside it meets a side or a corner.
+/// Integral over the height c = r sin(angle), split where the disk at that height meets a side or a
+/// corner.
 double within_ball(const Axis& a, const Axis& b, const Axis& c, double r) {
     const double top = r > c.reach() ? arc_sine(c.reach() / r) : std::numbers::pi / 2;
     std::array<double, 5> cuts{0, top, top, top, top};
@@ -212,7 +214,7 @@ double within_ball(const Axis& a, const Axis& b, const Axis& c, double r) {
         const double across = r * cos;
         return 2 / c.side * (1 - c.slope * z / c.side) * across * within_disk(a, b, across);
     };
-    // Beyond a cut the disk's share begins with a broken power, which this rule takes well.
+    // Beyond a cut the disk's part begins with a fractional power, which this rule handles well.
     thread_local boost::math::quadrature::tanh_sinh<double> rule;
     double sum = 0;
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Pairs of points counted by their distance, in bins of one width.
+// Counts of pairs of points by their distance, in bins of equal width.
 //
 // Shape    2 <= n < 2^32 points of a box, d = 1, 2, 3. A pair at distance t is in bin
 //          floor(t / width), as float64 computes it.
-// Cost     O(n + pairs nearby), about 1.3 candidates a pair; 16 d + 8 bytes a point.
+// Cost     O(n + pairs nearby), about 1.3 candidates per pair; 16 d + 8 bytes per point.
 // Promise  every pair counts once. The same for any number of threads, sums of offsets to the bit.
 #pragma once
 
@@ -17,10 +17,10 @@
 namespace stipple::analyzers {
 
 struct PairCounts {
-    std::vector<std::uint64_t> pairs;  ///< of each bin
+    std::vector<std::uint64_t> pairs;  ///< in each bin
 
-    /// Sums over a bin's pairs of (distance - its middle) / width, and of its square; empty unless
-    /// they were asked for.
+    /// Sums over a bin's pairs of (distance - middle of the bin) / width, and of its square; empty
+    /// unless requested.
     std::vector<double> offsets;
     std::vector<double> squared_offsets;
 };
@@ -29,13 +29,13 @@ struct PairCounts {
 PairCounts count_pairs(const PointSet& points, const Distances& distances, double width,
                        std::size_t bins, bool with_offsets, const RunContext& run);
 
-// How likely two independent uniform points of a box are at most r apart:
+// Probability that two independent uniform points of a box are at most r apart:
 //
 //     p(r) = 1 / V^2 * integral over |x| <= r of c(x) dx,
 //
-// where c is the box's set covariance: prod_k (L_k - |x_k|) for straight distances, and V within
-// half a side along each axis for the torus, whose distances are never longer. With it the edges
-// are accounted for exactly: n points have n (n - 1) / 2 * p(r) pairs on average.
+// where c is the box's set covariance: prod_k (L_k - |x_k|) for straight distances, and for the
+// torus V within half a side along each axis, since its distances are never longer. It accounts for
+// the edges exactly: n points have n (n - 1) / 2 * p(r) pairs on average.
 //
 // Shape   a box of 1, 2 or 3 dimensions and positive sides; r >= 0; p in [0, 1].
 // Cost    closed forms in 1-D and 2-D, an integral over one angle in 3-D.
@@ -45,7 +45,7 @@ PairCounts count_pairs(const PointSet& points, const Distances& distances, doubl
 
 double pair_probability(const Box& box, bool torus, double r);
 
-/// The largest distance that two points of the box can have.
+/// Largest possible distance of two points of the box.
 double longest_distance(const Box& box, bool torus);
 
 }  // namespace stipple::analyzers

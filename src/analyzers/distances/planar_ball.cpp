@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The largest empty ball of the plane: its centre is a corner of the Voronoi cells.
+// The largest empty ball of the plane; its centre is a corner of the Voronoi cells.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace {
 
 double squared_length(const Vec2& v) { return v.x * v.x + v.y * v.y; }
 
-/// The corner anew from the sites beyond its two edges, in more digits than it was cut with.
+/// Recomputes a corner from the sites beyond its two edges, more accurately than it was cut.
 Vec2 refined(const CellCorner& before, const CellCorner& corner, double squared_reach) {
     const Vec2& a = before.neighbor;
     const Vec2& b = corner.neighbor;
@@ -33,24 +33,24 @@ Vec2 refined(const CellCorner& before, const CellCorner& corner, double squared_
     };
     const Vec2 found{solved(b.y, a.y), -solved(b.x, a.x)};
     const Vec2 change{found.x - corner.at.x, found.y - corner.at.y};
-    // Nearly parallel edges: the corner as it was cut is inside what they leave.
+    // With nearly parallel edges a corner is uncertain anyway; it stays as it was cut.
     return squared_length(change) < 1e-12 * squared_reach ? found : corner.at;
 }
 
-/// A cell with its farthest corner, which is as good as any was when it was cut out.
+/// A cell whose farthest corner was as good as any when the cell was cut.
 struct Record {
     double squared_reach;
     std::size_t site;
 };
 
-/// Corners this near to each other are compared in more digits.
+/// Squared distances of corners within this ratio are compared more accurately.
 constexpr double tie = 1 - 1e-9;
 
 std::vector<Record> best_cells(const PlanarCells& cells, std::size_t count, const RunContext& run) {
     constexpr std::uint64_t size = 2048;
-    constexpr std::size_t most = 100;  // more are as good only where a set repeats itself
+    constexpr std::size_t most = 100;  // there are more ties only if a set repeats itself
     std::vector<std::vector<Record>> parts(block_count(count, size));
-    std::atomic<double> best = 0;  // when it is seen changes what is looked at, but no result
+    std::atomic<double> best = 0;  // its timing changes which cells are examined, but no result
     for_each_block(run, count, size, [&](const Block& b) {
         VoronoiCell cell;
         for (std::size_t i = b.first; i < b.last; ++i) {
@@ -75,7 +75,7 @@ std::vector<Record> best_cells(const PlanarCells& cells, std::size_t count, cons
     return records;
 }
 
-/// The distance of a place to the nearest point; `about` is nearly what it is.
+/// Distance of a place to the nearest point, which is close to `about`.
 double clearance(const SortedPoints<2>& points, const std::vector<double>& place, double about) {
     double least = std::numeric_limits<double>::infinity();
     points.visit(place.data(), about * (1 + 1e-6),
@@ -83,7 +83,7 @@ double clearance(const SortedPoints<2>& points, const std::vector<double>& place
     return std::sqrt(least);
 }
 
-/// A coordinate in the box: across its faces on the torus; of a wall's corner, on the wall.
+/// A coordinate within the box: wrapped on the torus, and clamped to the walls.
 double inside(const Distances& distances, std::size_t k, double x) {
     const Box& box = *distances.box;
     if (distances.torus && x < box.low[k]) x += box.extent(k);

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
 //
-// Whether a set is a maximal Poisson-disk set of radius R:
+// Verifies that a set is a maximal Poisson-disk set of radius R:
 //
 //     spaced    |x_i - x_j| >= R for all pairs;
 //     maximal   min_i |x - x_i| <= R for all places x of the unit cube or box.
 //
-// R is that of --radius; else that which the points' provenance tells, where it has the radius they
-// were made with; else the smallest distance that the set has, so that it is spaced. Distances go
-// across opposite faces, unless --metric or the provenance (bounded) says that they do not. Sets
-// made with a density, a map of radii or a mask are refused without --radius.
+// R is --radius; otherwise the radius that the points were made with, if their provenance has one;
+// otherwise the smallest distance of the set, which is then spaced. Distances wrap across opposite
+// faces unless --metric or the provenance (bounded) says otherwise. Sets made with a density, a map
+// of radii or a mask are rejected without --radius.
 //
-// The largest empty ball decides on the second (empty_ball.hpp). The last gaps that a generator fills
-// are as small as rounding, so a radius larger than R by less than --tolerance passes; a disk fits
-// into such a gap only within a part of R of about the tolerance's size.
+// The largest empty ball decides whether the set is maximal (empty_ball.hpp). The last gaps that a
+// generator fills are as small as rounding, so a radius above R by less than --tolerance passes. A
+// disk fits into such a gap only within a part of R of about the tolerance's size.
 //
 // Shape   points n x d, d <= 32.
-// Cost    that of `coverage`; 10^6 points in 2-D take 3 s on one core. To count conflicts takes
+// Cost    that of `coverage`; 10^6 points in 2-D take 3 s on one core. Counting conflicts takes
 //         O(n^(2 - 1/d)) at worst.
 // Promise spaced: exact, comparing sums of squares with R^2 in float64. maximal: for d <= 2 as
-//         exact as coverage; for d >= 3 certain, as boxes are cut until all are known to hold no
-//         ball larger than R (1 + tolerance), or one of them does. Never depends on the number of
-//         threads.
-// Beware  a single point is in no conflict, also when the torus is narrower than R.
+//         exact as coverage; for d >= 3 certain, as boxes are cut until either all are known to
+//         hold no ball larger than R (1 + tolerance), or one of them holds such a ball. Never
+//         depends on the number of threads.
+// Beware  a single point has no conflict, even if the torus is narrower than R.
 // Source  M. S. Ebeida et al., Computer Graphics Forum 31 (2012) 785-794,
 //         doi:10.1111/j.1467-8659.2012.03059.x (maximal Poisson-disk sampling).
 
@@ -63,7 +63,7 @@ constexpr Param<Choice> expect{
     .choices = "valid",
     .help = "Fail (exit code 1) when the set is not spaced or not maximal"};
 
-/// What the points were made with, as their provenance tells; nothing when it does not.
+/// Option that the points were made with, from their provenance; nullopt if unknown or after warps.
 std::optional<std::string> option_of(const PointSet& points, std::string_view option) {
     if (!points.provenance.warps.empty()) return std::nullopt;
     for (const auto& [name, text] : points.provenance.options)
@@ -76,7 +76,7 @@ std::string metric_of(const PointSet& points, const Values& options) {
     return options[metric];
 }
 
-/// @throws Error(input) for sets that one radius all over the box is not meant for
+/// @throws Error(input) for sets whose radius varies or that leave out a part of the box
 void require_one_radius(const PointSet& points) {
     for (const char* option : {"density", "radius-map", "mask"})
         if (const auto file = option_of(points, option); file && !file->empty())
@@ -86,7 +86,7 @@ void require_one_radius(const PointSet& points) {
                                                               : "their radius varies");
 }
 
-/// The R that is to be verified, for a set of that smallest distance (squared).
+/// The radius R to verify, for a set with this smallest squared distance.
 double radius_of(const PointSet& points, const Values& options, double squared) {
     if (options.given(radius)) return options[radius];
     require_one_radius(points);
@@ -98,13 +98,14 @@ double radius_of(const PointSet& points, const Values& options, double squared) 
     return root * root <= squared ? root : std::nextafter(root, 0.0);
 }
 
-/// Pairs that are too near, and the first of them.
+/// Pairs that are too close: their number, and the first of them.
 struct Conflicts {
     std::uint64_t count = 0;
     Report::Integers first = {};
 };
 
-/// The first is the lowest i that has a neighbour too near, with the lowest j of those.
+/// Counts the conflicts of R^2 = `squared`. The first is that of the lowest i, and of the lowest j
+/// for this i.
 Conflicts find_conflicts(const PointSet& points, const Distances& distances,
                          const std::vector<Neighbor>& neighbors, double squared,
                          const RunContext& run) {
@@ -113,7 +114,7 @@ Conflicts find_conflicts(const PointSet& points, const Distances& distances,
     std::vector<std::uint64_t> parts(block_count(points.count(), size));
     for_each_block(run.stage(0.2, 1), points.count(), size, [&](const Block& b) {
         for (std::uint64_t i = b.first; i < b.last; ++i)
-            parts[b.index] += tree.count_nearer(points[i], squared) - 1;  // itself
+            parts[b.index] += tree.count_nearer(points[i], squared) - 1;  // the point itself
     });
     Conflicts found{.count = std::accumulate(parts.begin(), parts.end(), std::uint64_t{0}) / 2};
     const auto too_near = [&](const Neighbor& neighbor) { return neighbor.squared < squared; };
@@ -126,7 +127,7 @@ Conflicts find_conflicts(const PointSet& points, const Distances& distances,
     return found;
 }
 
-/// What an expectation that does not hold is told with.
+/// Message for an expectation that is not met.
 std::string complaint(double r, const Conflicts& conflicts, const EmptyBall& ball, bool maximal) {
     std::vector<std::string> reasons;
     if (conflicts.count > 0)
@@ -168,7 +169,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return results;
 }
 
-/// A mean of places or pairs is none. It is valid where all sets are.
+/// Positions and pairs cannot be averaged. A mean is valid if all sets are.
 void refine(Report& mean, std::size_t sets, const Values& options) {
     const auto* item = mean.find("valid");
     const bool* valid = item ? std::get_if<bool>(item) : nullptr;

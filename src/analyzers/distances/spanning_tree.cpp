@@ -4,25 +4,25 @@
 //
 //     m = L / (n - 1),    L = sum of l_e,    s^2 = 1 / (n - 1) * sum of (l_e - m)^2,
 //
-// and both over (V n^(d-1))^(1/d) / (n - 1), so that sets of different n and boxes compare. In the
-// plane that is sqrt(V n) / (n - 1), and (m, s) tells kinds of patterns apart: regular ones have
-// a large m and a small s, independent points a middle m, clusters a small m and a large s. The
-// normalized m is L / (V^(1/d) n^((d-1)/d)), which has a limit for independent points.
+// and both divided by (V n^(d-1))^(1/d) / (n - 1), so that sets of different n and boxes are
+// comparable. In the plane that is sqrt(V n) / (n - 1), and (m, s) distinguishes kinds of patterns:
+// regular ones have a large m and a small s, independent points a medium m, clusters a small m and
+// a large s. The normalized m is L / (V^(1/d) n^((d-1)/d)), which converges for independent points.
 //
 //     in the plane, n -> inf       m        s
 //     hexagonal lattice            1.0746   0
 //     square lattice               1        0
 //     independent points           0.647    0.295  (measured)
 //
-// Shape   n >= 2 points of any dimension, at two places at least. Distances on the torus (default
+// Shape   n >= 2 points of any dimension, at least two of them distinct. On the torus (default
 //         on the unit cube and boxes) or straight, in any norm. Duplicates are joined by edges of
 //         length 0.
-// Cost    10^6 points take 4.2 s in the plane and 6 s in space, on one core; n^2 d from 8 dimensions
-//         on, 2 s for 2 10^4 points of 10 dimensions.
+// Cost    10^6 points take 4.2 s in the plane and 6 s in space, on one core; from 8 dimensions on
+//         n^2 d, 2 s for 2 10^4 points of 10 dimensions.
 // Promise never depends on the number of threads.
-// Beware  published values are of straight distances in a square, of few points even: there m and s
-//         are larger, as there are no neighbours across the sides. The normalization is left out
-//         for points that are in no box.
+// Beware  published values are for straight distances in a square, and some for few points: there m
+//         and s are larger, since no neighbours are across the sides. The normalization is left out
+//         for points without a box.
 // Source  C. Dussert, G. Rasigni, M. Rasigni, J. Palmari, A. Llebaria, Phys. Rev. B 34 (1986)
 //         3528-3531, doi:10.1103/PhysRevB.34.3528 (the diagram of m and s); J. Franco, O. Vasseur,
 //         B. Corre, M. Sergent, Chemom. Intell. Lab. Syst. 97 (2009) 164-169 (for designs).
@@ -39,10 +39,10 @@
 namespace stipple::analyzers::spanning_tree {
 namespace {
 
-/// The unit of edge lengths: (V n^(d-1))^(1/d) / (n - 1).
+/// Unit of edge lengths: (V n^(d-1))^(1/d) / (n - 1).
 double unit_length(const Box& box, double n) {
     const auto d = static_cast<double>(box.dimension());
-    double log_volume = 0;  // a product of many sides might be out of range
+    double log_volume = 0;  // a product of many sides might overflow or underflow
     for (std::size_t k = 0; k < box.dimension(); ++k) log_volume += logarithm(box.extent(k));
     return exponential((log_volume + (d - 1) * logarithm(n)) / d) / (n - 1);
 }

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
-// The Voronoi cells of n points in the plane: how equal and how round they are, and in what order
-// their neighbours stand. Points at the same place count once, m places in the area V.
+// Voronoi cells of n points in the plane: how equal and how round they are, and how their
+// neighbours are arranged. Points at the same place count once; there are m places in the area V.
 //
-//     area           a_i of each cell, in V / m. Their coefficient of variation; its square is the
-//                    capacity error of Balzer et al., mean (a_i m / V - 1)^2
+//     area           a_i of each cell, in V / m, and their coefficient of variation; its square is
+//                    the capacity error of Balzer et al., mean (a_i m / V - 1)^2
 //     valence        k_i, the neighbours of each; 6 on average on the torus
 //     bond order     psi_i = 1 / k_i * sum over neighbours j of exp(6 i theta_ij), as
-//                    local   mean |psi_i|                         1 where each stands in a hexagon
-//                    global  |mean psi_i|                         and all hexagons are parallel
+//                    local   mean |psi_i|      1 if each has its neighbours in a regular hexagon
+//                    global  |mean psi_i|      1 if all hexagons are also parallel
 //                    bonds   |mean over all bonds of exp(6 i theta)|
 //     Lloyd energy   E = 1 / V * integral of |x - nearest point|^2 dx; m E / (2 V) is the
 //                    normalized second moment
 //     centroids      their distances from their points, in sqrt(V / m)
 //
-// An edge shorter than --shortest-edge is a corner of four cells, and those across it are no
-// neighbours: the cells of a square lattice have 4, and no psi_i. On the torus (default) cells go
-// across opposite sides. With straight distances they end at the box; then valences and bonds are
-// of the cells that are inside, neighbours to no side.
+// An edge shorter than --shortest-edge counts as a corner of four cells, so the cells beside it are
+// not neighbours: cells of a square lattice have 4 neighbours, and psi_i = 0. On the torus
+// (default) cells cross opposite sides. With straight distances they end at the box; valences and
+// bonds are then those of the cells that touch no side.
 //
 //     for                              variation  local  global  normalized second moment
 //     hexagonal lattice                 0          1      1       5 / (36 sqrt 3) = 0.080188
@@ -25,8 +25,8 @@
 //     independent points, m -> inf      0.529      0.361  0       1 / (2 pi)
 //
 // Shape   n >= 2 points of the unit square or a rectangle, at two places at least.
-// Cost    O(n log n) where points are spread about evenly: 10^6 random points take 3.4 s on one
-//         core, 90 bytes each. Crowds take a search tree: three times that.
+// Cost    O(n log n) if points are spread roughly evenly: 10^6 random points take 3.4 s on one
+//         core, 90 bytes each. Clustered points use a search tree, three times as slow.
 // Promise never depends on the number of threads, nor on the order of the points.
 // Source  B. I. Halperin, D. R. Nelson, Phys. Rev. Lett. 41 (1978) 121-124,
 //         doi:10.1103/PhysRevLett.41.121 (bond order); M. Balzer, T. Schloemer, O. Deussen, ACM
@@ -57,13 +57,13 @@ constexpr Param<double> shortest_edge{
     .help = "Cells that share a shorter edge are no neighbours: four cells meet in a corner"};
 
 constexpr std::size_t fewest_neighbors = 3;
-constexpr std::size_t most_neighbors = 16;  ///< and more
+constexpr std::size_t most_neighbors = 16;  ///< or more
 
 double length_of(const Vec2& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 
-/// Sums over cells, lengths in sqrt(V / m).
+/// Sums over cells, with lengths in sqrt(V / m).
 struct Sums {
-    double squared_deviation = 0;  ///< of areas from 1
+    double squared_deviation = 0;  ///< of areas from their mean, 1
     double smallest = INFINITY;
     double largest = 0;
     double second_moment = 0;
@@ -96,7 +96,7 @@ struct Sums {
     }
 };
 
-/// exp(6 i theta) of the direction.
+/// exp(6 i theta) for the direction theta of v.
 std::complex<double> sixfold(const Vec2& v) {
     const double squared = v.x * v.x + v.y * v.y;
     const std::complex<double> twice((v.x * v.x - v.y * v.y) / squared, 2 * v.x * v.y / squared);
@@ -145,7 +145,7 @@ Sums sum_up(const PlanarSites& sites, double unit, double shortest, const RunCon
     std::vector<Sums> parts(block_count(sites.count(), size));
     for_each_block(run, sites.count(), size, [&](const Block& b) {
         VoronoiCell cell;
-        Sums sums;  // apart from what other threads write
+        Sums sums;  // local, apart from memory that other threads write
         for (std::uint64_t i = b.first; i < b.last; ++i) {
             if (i % 64 == 0) run.check_stop();
             cells.cut(static_cast<std::size_t>(i), cell);
