@@ -16,7 +16,7 @@
 //
 // The target is one of
 //
-//     default     the distribution of the points' own domain. Expectations over the unit cube have a
+//     default     the distribution of the points' own domain. For the unit cube expectations have a
 //                 closed form. Other domains must have independent coordinates and take integrals
 //                 over their distribution functions (math/kernels/domain_kernel.hpp); for the
 //                 periodic kernel they must be boxes, whose torus is that of the cube

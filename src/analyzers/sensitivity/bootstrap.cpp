@@ -11,7 +11,7 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// The quantile at p of numbers of which some may be no number; these do not count.
+/// Quantile at p of the finite values; NaN if there are none.
 double quantile(std::vector<double>& values, double p) {
     std::erase_if(values, [](double v) { return !std::isfinite(v); });
     if (values.empty()) return none;
@@ -24,7 +24,7 @@ double quantile(std::vector<double>& values, double p) {
     return *low + (at - static_cast<double>(below)) * (next - *low);
 }
 
-/// The means of the terms over the rows that uniform numbers pick.
+/// Means of the terms over resampled rows, one for each uniform number.
 void take_means(const TermTable& table, std::span<const double> uniform, std::span<double> means) {
     const auto rows = static_cast<double>(table.rows());
     std::ranges::fill(means, 0.0);

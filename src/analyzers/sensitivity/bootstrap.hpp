@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Bootstrap intervals of statistics of means: rows are drawn with replacement, as many as there are,
-// and the statistics worked out of the means of what was drawn.
+// Bootstrap intervals of statistics of means: rows are drawn with replacement, as many as there
+// are, and the statistics are computed from the means over the drawn rows.
 //
-// The interval's ends are quantiles of the resampled statistics, at the levels that make it Student's
-// instead of the normal's for n rows, Phi(-+ sqrt(n / (n - 1)) t_(n-1)); their distances from the
-// statistic are stretched by 1 + caution / n. Resamples show neither how skew a few terms are, nor that
-// the rows of a low-discrepancy base may be alike in some coordinates and so count for fewer.
+// The interval's ends are quantiles of the resampled statistics, at the levels Phi(-+ sqrt(n / (n -
+// 1)) t_(n-1)) that make it Student's interval for n rows instead of the normal one. Their
+// distances from the statistic are stretched by 1 + caution / n, because resamples show neither the
+// skewness of a few terms, nor that rows of a low-discrepancy base may be alike in some coordinates
+// and count as fewer.
 //
 // Cost    resamples x rows x terms additions; 0.4 s for 1000 x 2^14 x 24 on one core.
-// Promise the same for any number of threads: resample b is a function of the seed and b.
+// Promise the same for any number of threads: resample b depends only on the seed and b.
 // Source  B. Efron, R. J. Tibshirani, "An Introduction to the Bootstrap", Chapman & Hall 1993,
 //         chapter 13 (percentile intervals); T. C. Hesterberg, Amer. Statist. 69 (2015) 371-386,
 //         doi:10.1080/00031305.2015.1089789 (expanded percentiles). Caution: measured, see
@@ -24,7 +25,7 @@
 
 namespace stipple::analyzers::sensitivity {
 
-/// Rows of as many terms each.
+/// Terms of samples, one row each.
 struct TermTable {
     std::vector<double> terms;
     std::size_t width;
@@ -32,17 +33,17 @@ struct TermTable {
     [[nodiscard]] std::size_t rows() const { return terms.size() / width; }
 };
 
-/// Writes statistics of the means of the terms.
+/// Writes statistics that depend on the means of the terms.
 using Statistics = std::function<void(std::span<const double> means, std::span<double> values)>;
 
-inline constexpr std::size_t least_rows = 10;  ///< below which there are no intervals
+inline constexpr std::size_t least_rows = 10;  ///< fewer rows give no intervals
 
-/// The statistics of all rows, `count` of them, each with its interval.
+/// Returns `count` statistics of all rows, each with its interval.
 std::vector<Index> bootstrapped(const TermTable& table, std::size_t count,
                                 const Statistics& statistics, double caution,
                                 const Setting& setting, const RunContext& run);
 
-/// `count` of them from `first` on.
+/// Returns `count` indices from `first` on.
 inline std::vector<Index> part_of(std::span<const Index> all, std::size_t first,
                                   std::size_t count) {
     const auto part = all.subspan(first, count);

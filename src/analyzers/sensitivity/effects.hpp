@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the methods of sensitivity analysis take and give.
+// Inputs and results of the methods of sensitivity analysis.
 #pragma once
 
 #include <cstddef>
@@ -19,15 +19,15 @@ namespace stipple::analyzers::sensitivity {
 
 inline constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// The inputs of a model in its runs: a row each.
+/// Inputs of a model in its runs, one row each.
 struct Inputs {
     std::vector<std::string> names = {};
     PointSet values;
-    std::string generator = {};  ///< that made them; empty: not known
+    std::string generator = {};  ///< of the inputs; empty if unknown
 
-    DomainPtr domain = {};                      ///< that they are coordinates of; null: not known
-    PointSet points = {};                       ///< all coordinates on it
-    std::vector<std::size_t> coordinates = {};  ///< of these, the inputs
+    DomainPtr domain = {};  ///< whose coordinates the inputs are; null if unknown
+    PointSet points = {};   ///< all coordinates of the domain, in each run
+    std::vector<std::size_t> coordinates = {};  ///< positions of the inputs among these
 
     [[nodiscard]] std::size_t runs() const { return values.count(); }
     [[nodiscard]] std::size_t size() const { return values.dimension(); }
@@ -39,23 +39,23 @@ struct Response {
     std::vector<double> y;
 };
 
-/// How the methods estimate.
+/// Options of the estimates.
 struct Setting {
     std::size_t bootstrap = 1000;  ///< resamples; 0: no intervals from them
     double level = 0.95;
     std::uint64_t seed = 1;
-    std::optional<std::size_t> harmonics = {};  ///< of fast; else as the curves show
-    std::optional<std::size_t> degree = {};     ///< of chaos; else chosen
+    std::optional<std::size_t> harmonics = {};  ///< of fast; default: from the curves
+    std::optional<std::size_t> degree = {};     ///< of chaos; default: chosen
 };
 
-/// A number with its interval; NaN where it has none.
+/// A number with its interval; NaN if unknown.
 struct Index {
     double value = 0;
     double low = none;
     double high = none;
 };
 
-/// One kind of index, of every input.
+/// One kind of index, for every input.
 struct IndexKind {
     std::string name;
     std::vector<Index> of;
@@ -67,72 +67,72 @@ struct PairIndex {
     Index index;
 };
 
-/// What a method found of one output.
+/// Results of a method for one output.
 struct Effects {
-    std::uint64_t used = 0;     ///< runs
-    std::uint64_t samples = 0;  ///< what of them is independent, such as base rows
+    std::uint64_t used = 0;     ///< number of runs
+    std::uint64_t samples = 0;  ///< number of independent samples among them, such as base rows
     double mean = none;
     double variance = none;
     std::vector<IndexKind> kinds = {};
     std::vector<PairIndex> pairs = {};
-    Report details = {};                    ///< further numbers, of the method's own
-    std::string no_intervals = {};          ///< the reason, if intervals are left out; else empty
+    Report details = {};                    ///< further numbers of the method
+    std::string no_intervals = {};          ///< why intervals are left out; empty if they are not
     std::vector<std::string> missing = {};  ///< for each input, why it has no indices; may be empty
 };
 
-/// Whether a design has the rows that a method needs; where not, why.
+/// Rows of a design as a method groups them; if they do not fit, the reason.
 struct Layout {
-    std::size_t group = 0;      ///< rows that belong together
-    bool star = false;          ///< of morris: all rows of a group differ from its first
+    std::size_t group = 0;      ///< number of rows that belong together
+    bool star = false;          ///< of morris: whether rows move from their group's first row
     std::size_t harmonics = 0;  ///< of fast
     std::string trouble = {};
 
     explicit operator bool() const { return trouble.empty(); }
 };
 
-/// Numbers with mean 0 whose largest is 1 in size: their squares fit a double.
+/// Numbers with mean 0 and largest magnitude 1, whose squares fit a double.
 struct Centred {
     std::vector<double> z;
     double mean = 0;
-    double unit = 1;  ///< of z
+    double unit = 1;  ///< original numbers are mean + unit z
 
     /// Mean square.
     [[nodiscard]] double variance() const;
 };
 
-/// Whether numbers differ by no more than rounding may: there are no shares of their variance.
+/// Whether numbers differ at most by rounding, so that there is no variance to share.
 bool is_constant(std::span<const double> y);
 
 Centred centred(std::span<const double> y);
 
-/// The values of the runs that did not fail, and the numbers of these runs.
+/// Indices of the runs that did not fail, and the outputs of selected runs.
 std::vector<std::size_t> succeeded(std::span<const double> y);
 std::vector<double> picked(std::span<const double> y, std::span<const std::size_t> runs);
 
-/// The groups of so many consecutive runs none of which failed, by number.
+/// Indices of the groups of `group` consecutive runs without a failed one.
 std::vector<std::size_t> complete_groups(std::span<const double> y, std::size_t group);
 
-/// Runs below which methods of any design give no intervals.
+/// With fewer runs, methods for any design give no intervals.
 inline constexpr std::size_t least_for_intervals = 20;
 std::string too_few_for_intervals(std::size_t count, std::size_t least, const char* of_what);
 
-/// Student's quantile of an interval of that level.
+/// Student's quantile for a two-sided interval of this level.
 double interval_quantile(double level, std::size_t freedom);
 
-/// Inputs in [0, 1], run after run, where they are uniform as far as that is known.
+/// Inputs in [0, 1], run after run; uniform as far as their distributions are known.
 struct UnitInputs {
     std::vector<double> u;
     const char* scale;  ///< "cube", "box", "distributions", "range"
 };
 
-/// As the distributions of the inputs' domain say; else as they are where all are in [0, 1], as points
-/// without provenance are taken to be; else scaled by their extremes.
+/// Uses the distributions of the inputs' domain if they are known. Otherwise inputs stay as they
+/// are if all are in [0, 1], like points without provenance, or are scaled by their extremes.
 UnitInputs unit_inputs(const Inputs& inputs);
 
-/// (rank - 1/2) / n of each of n numbers; equal ones have the mean of theirs.
+/// (rank - 1/2) / n of each of n numbers; equal numbers have the mean of their ranks.
 std::vector<double> ranks_of(std::span<const double> values);
 
-/// The same of each coordinate of points among those of all.
+/// ranks_of() for each coordinate.
 std::vector<double> ranks_of(const PointSet& points);
 
 }  // namespace stipple::analyzers::sensitivity

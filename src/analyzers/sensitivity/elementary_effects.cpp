@@ -13,7 +13,7 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// The coordinate in which two rows differ; k if they are equal, k + 1 if several differ.
+/// Index of the coordinate in which two rows differ; k if they are equal, k + 1 if several differ.
 std::size_t moved(std::span<const double> from, std::span<const double> to) {
     const std::size_t k = from.size();
     std::size_t found = k;
@@ -22,13 +22,14 @@ std::size_t moved(std::span<const double> from, std::span<const double> to) {
     return found;
 }
 
-/// The row from which that row moves.
+/// Row from which `row` moves.
 std::size_t origin_of(std::size_t row, std::size_t group, bool star) {
     return star ? row - row % group : row - 1;
 }
 
-/// Whether rows in groups of k + 1 move one coordinate each from the one before or, of a star, from the
-/// first of their group. One that stands still, as a discrete input may, is none of these.
+/// Checks that rows in groups of k + 1 move one coordinate each, from the previous row or, in a
+/// star, from the first of their group. Skips rows that do not move, as is possible for discrete
+/// inputs.
 Layout find_moves(const PointSet& design, bool star) {
     const std::size_t k = design.dimension();
     const std::size_t group = k + 1;
@@ -56,8 +57,8 @@ Layout find_moves(const PointSet& design, bool star) {
     return {.group = group, .star = star};
 }
 
-/// EE - c, |EE|, (EE - c)^2 and 1 of each input, a trajectory a row, in which c is the mean effect; 0
-/// where it did not move.
+/// Terms EE - c, |EE|, (EE - c)^2 and 1 of each input, one row per trajectory, where c is the mean
+/// effect. All are 0 if the input did not move.
 struct EffectTable {
     TermTable terms;
     std::vector<double> centre;
@@ -94,7 +95,7 @@ EffectTable effect_table(const Layout& layout, const PointSet& design, std::span
     return table;
 }
 
-/// A power of two near the largest size of the outputs that did not fail, a normal number.
+/// Power of two near the largest magnitude of the outputs that did not fail; a normal number.
 double size_of(std::span<const double> y) {
     double largest = std::numeric_limits<double>::min();
     for (const double value : y)

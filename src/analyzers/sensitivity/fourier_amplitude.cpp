@@ -13,7 +13,7 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// Spectra of curves of N numbers.
+/// Fourier powers along curves of n outputs.
 class Spectrum {
   public:
     Spectrum(std::size_t n, std::size_t harmonics)
@@ -22,7 +22,7 @@ class Spectrum {
             turns_[s] = cos_sin_turns(static_cast<double>(s) / static_cast<double>(n));
     }
 
-    /// S and ST of numbers with mean 0; of constant ones both 0.
+    /// S and ST of outputs with mean 0; both 0 if they are constant.
     [[nodiscard]] std::pair<double, double> shares(std::span<const double> y,
                                                    const RunContext& run) const {
         double all = 0;
@@ -44,7 +44,7 @@ class Spectrum {
         return {own_share(y, all), 1 - others / all};
     }
 
-    /// The share that the harmonics of w have of `all`, the variance.
+    /// Fraction of the variance `all` that the harmonics of w contain.
     [[nodiscard]] double own_share(std::span<const double> y, double all) const {
         double own = 0;
         for (std::size_t p = 1; p <= harmonics_; ++p) own += 2 * power(y, p * frequency_);
@@ -71,7 +71,7 @@ class Spectrum {
     std::vector<CosSin> turns_;
 };
 
-/// Ranks of coordinate j along curve i of n rows, less their mean: they undo distributions.
+/// Centred ranks of coordinate j along curve i of n rows; ranks do not depend on the distribution.
 std::vector<double> along(const PointSet& design, std::size_t i, std::size_t j, std::size_t n) {
     std::vector<double> x(n);
     for (std::size_t s = 0; s < n; ++s) x[s] = design[i * n + s][j];
@@ -80,8 +80,8 @@ std::vector<double> along(const PointSet& design, std::size_t i, std::size_t j, 
     return x;
 }
 
-/// The M of a closed curve whose frequency is w = floor((n - 1) / (2 M)): it crosses its mean 2 w times.
-/// As n > 4 M^2, no other number has that w.
+/// Returns M of a closed curve with the frequency w = floor((n - 1) / (2 M)), from its 2 w
+/// crossings of the mean. As n > 4 M^2, no other M has this w. 0 if there is none.
 std::size_t harmonics_of(std::span<const double> curve) {
     std::size_t crossings = 0;
     for (std::size_t s = 0; s < curve.size(); ++s)
@@ -108,7 +108,8 @@ Layout find_curves(const PointSet& design, std::optional<std::size_t> asked,
         return {.trouble = fmt::format("curves of {} rows; {} harmonics need {}", n, harmonics,
                                        4 * harmonics * harmonics + 1)};
     const Spectrum spectrum(n, harmonics);
-    constexpr double own_least = 0.7;  // a triangle wave has 0.998 for M = 4; outcomes are steps
+    constexpr double own_least = 0.7;  // a triangle wave has 0.998 for M = 4; discrete inputs have
+                                       // less
     constexpr double others_most = 0.1;
     for (std::size_t i = 0; i < k; ++i)
         for (std::size_t j = 0; j < k; ++j) {

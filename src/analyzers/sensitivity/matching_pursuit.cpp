@@ -20,7 +20,7 @@ void subtract(std::vector<double>& from, double factor, std::span<const double> 
     for (std::size_t i = 0; i < from.size(); ++i) from[i] -= factor * b[i];
 }
 
-/// One call: the fit grows column by column, by an orthonormal basis q of the columns that are in.
+/// One fit, which grows column by column; q is an orthonormal basis of the columns in it.
 class Pursuit {
   public:
     Pursuit(const Candidates& candidates, std::span<const double> z, const RunContext& run)
@@ -65,7 +65,7 @@ class Pursuit {
         return candidates_.values.data() + candidates_.rows[i] * candidates_.columns;
     }
 
-    /// sum over the rows of term(value, residual), column by column.
+    /// Sum over the rows of term(value, residual), for each column.
     template <class Term>
     std::vector<double> column_sums(const Term& term) const {
         std::vector<double> sums(candidates_.columns, 0.0);
@@ -76,7 +76,7 @@ class Pursuit {
         return sums;
     }
 
-    /// Takes in the column that correlates most with the residual; false: none is left.
+    /// Adds the column that correlates most with the residual; false if none is left.
     bool take_next() {
         run_.check_stop();
         const auto products = column_sums([](double v, double rest) { return v * rest; });
@@ -94,12 +94,12 @@ class Pursuit {
         }
     }
 
-    /// Takes in a column; false: it depends on those that are in.
+    /// Adds a column; false if it depends linearly on those in the fit.
     bool orthogonalized(std::size_t column) {
         std::vector<double> v(n_);
         for (std::size_t i = 0; i < n_; ++i) v[i] = row(i)[column];
         std::vector<double> r(q_.size(), 0.0);
-        for (int pass = 0; pass < 2; ++pass)  // twice is enough
+        for (int pass = 0; pass < 2; ++pass)  // two passes give orthogonality
             for (std::size_t s = 0; s < r.size(); ++s) {
                 const double part = dot(q_[s], v);
                 r[s] += part;
@@ -114,7 +114,7 @@ class Pursuit {
         return true;
     }
 
-    /// Appends a basis vector, and its column (r, norm) of R.
+    /// Appends the basis vector q, whose column of R is (r, norm).
     void append(std::vector<double> q, std::span<const double> r, double norm) {
         std::vector<double> column(r.size() + 1, 0.0);
         for (std::size_t s = 0; s < r.size(); ++s)
@@ -150,14 +150,14 @@ class Pursuit {
     std::vector<double> residual_;
     std::vector<double> leverage_;
     std::vector<bool> usable_;
-    std::vector<double> norms_;  ///< squared
+    std::vector<double> norms_;  ///< squared norms of the columns
     double whole_ = 0;           ///< sum of squares about the mean
     double trace_ = 0;           ///< of the inverse of the Gram matrix
     double least_ = 1;
     std::vector<std::size_t> chosen_;
-    std::vector<std::vector<double>> q_;     ///< that of the constant first
+    std::vector<std::vector<double>> q_;     ///< orthonormal basis, the constant first
     std::vector<std::vector<double>> back_;  ///< columns of the inverse of R, upper triangular
-    std::vector<double> along_;              ///< q . z
+    std::vector<double> along_;              ///< products q . z
 };
 
 }  // namespace

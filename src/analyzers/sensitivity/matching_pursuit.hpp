@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Orthogonal matching pursuit: terms enter a least squares fit one by one, each time that which
-// correlates most with what is left. It ends with the least
+// Orthogonal matching pursuit: adds terms to a least squares fit one by one, each time the term
+// that correlates most with the residual. It keeps the number of terms t with the least
 //
-//     (mean square of e_i / (1 - h_i)) n / (n - t) (1 + trace of the inverse of the Gram matrix) P^(2t/n)
+//     (mean square of e_i / (1 - h_i)) n / (n - t) (1 + trace of the inverse of the Gram matrix)
+//     P^(2t/n)
 //
-// of t terms picked among P, in which e_i / (1 - h_i) are the leave-one-out errors. The last factor is
-// what picking the best of P candidates is worth to pure noise.
+// of terms chosen from P candidates, where e_i / (1 - h_i) are the leave-one-out errors. The last
+// factor makes up for choosing the best of P candidates, which reduces the error even of pure
+// noise.
 //
 // Source  Y. C. Pati, R. Rezaiifar, P. S. Krishnaprasad, Asilomar Conf. 27 (1993) 40-44,
 //         doi:10.1109/ACSSC.1993.342465; O. Chapelle, V. Vapnik, Y. Bengio, Mach. Learn. 48 (2002)
@@ -22,9 +24,9 @@
 
 namespace stipple::analyzers::sensitivity {
 
-inline constexpr std::size_t most_terms = 300;  ///< of a fit
+inline constexpr std::size_t most_terms = 300;  ///< largest number of terms in a fit
 
-/// Candidates: the columns of a table, row after row; the fit is one of some of the rows.
+/// Candidate terms: the columns of a table, stored row by row. The fit uses some of the rows.
 struct Candidates {
     std::span<const double> values;
     std::size_t columns;
@@ -32,14 +34,14 @@ struct Candidates {
 };
 
 struct SparseFit {
-    double error = 0;  ///< what is least, over the mean square of z
+    double error = 0;  ///< value of the criterion, relative to the mean square of z
     double constant = 0;
-    std::vector<std::size_t> chosen = {};  ///< columns, in the order in which they came
+    std::vector<std::size_t> chosen = {};  ///< columns, in the order of their choice
     std::vector<double> coefficients = {};
 };
 
-/// The fit to z, a number for each row of the table, of a constant and columns; without columns where
-/// none is worth it.
+/// Fits z, one number for each row of the table, by a constant and columns; by the constant alone
+/// if no column improves the criterion.
 SparseFit sparse_fit(const Candidates& candidates, std::span<const double> z,
                      const RunContext& run);
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Products of polynomials of single inputs, orthonormal for the distribution of each: a uniform one, or
-// that of its values in the sample, where the mean over the runs of P_a(x_i) P_b(x_i) is 1 for a = b, else
-// 0. An input with m values has polynomials of degree 0 to m - 1 there, and discrete inputs are met exactly.
+// Products of polynomials of single inputs. The polynomials are orthonormal for the distribution of
+// their input: a uniform one, or that of its values in the sample. In the latter case the mean over
+// the runs of P_a(x_i) P_b(x_i) is 1 for a = b, otherwise 0. An input with m values then has
+// polynomials of degree 0 to m - 1, which represent functions of discrete inputs exactly.
 #pragma once
 
 #include <cstddef>
@@ -14,28 +15,29 @@
 
 namespace stipple::analyzers::sensitivity {
 
-/// Values of the polynomials of one input, run after run, by rising degree.
+/// Values of the polynomials of one input, run after run, by ascending degree.
 struct Polynomials {
-    std::size_t count = 1;  ///< one more than the largest degree
+    std::size_t count = 1;  ///< largest degree plus one
     std::vector<double> values = {};
 };
 
-/// sqrt(2 m + 1) L_m(2 u - 1), with Legendre's L_m, for m from 0 to max_degree.
+/// Values of sqrt(2 m + 1) L_m(2 u - 1), with Legendre's L_m, for m from 0 to max_degree.
 Polynomials legendre_polynomials(std::span<const double> u, std::size_t max_degree);
 
-/// Those of degree up to max_degree and below the number of different values, for the distribution of these.
+/// Polynomials for the distribution of the values x, of degrees up to max_degree and below the
+/// number of distinct values.
 Polynomials sample_polynomials(std::span<const double> x, std::size_t max_degree);
 
-/// A product: inputs, rising, each with its degree above 0.
+/// A product of polynomials: inputs, ascending, each with its degree above 0.
 using BasisTerm = std::vector<std::pair<std::size_t, std::size_t>>;
 
-/// Terms of k inputs of total degree 1 to p, where no input has few values.
+/// Number of terms of k inputs with total degree 1 to p, if every input has enough values.
 double term_count(std::size_t k, std::size_t p);
 
-/// All of them that the inputs' polynomials make, by their degree.
+/// All terms of the inputs' polynomials with total degree 1 to p, by ascending degree.
 std::vector<BasisTerm> basis_terms(std::span<const Polynomials> inputs, std::size_t p);
 
-/// Their values in n runs: run after run, a column a term.
+/// Values of the terms in n runs: run after run, one column per term.
 std::vector<double> basis_values(std::span<const Polynomials> inputs, std::size_t n,
                                  std::span<const BasisTerm> terms, const RunContext& run);
 

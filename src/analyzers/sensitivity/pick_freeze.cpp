@@ -14,7 +14,7 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// Whether a row is `whole` with coordinate i of `other`.
+/// Whether a row is `whole` with coordinate i taken from `other`.
 bool is_mixed(std::span<const double> row, std::span<const double> whole,
               std::span<const double> other, std::size_t i) {
     for (std::size_t j = 0; j < row.size(); ++j)
@@ -22,7 +22,8 @@ bool is_mixed(std::span<const double> row, std::span<const double> whole,
     return true;
 }
 
-/// The first row that is not what it is in groups of that size; the number of rows if there is none.
+/// First row that does not fit groups of this size; the number of rows if all fit, 0 if first and
+/// last rows are always equal.
 std::size_t first_unfit(const PointSet& design, std::size_t group) {
     const std::size_t k = design.dimension();
     bool moves = false;
@@ -38,8 +39,8 @@ std::size_t first_unfit(const PointSet& design, std::size_t group) {
     return moves ? design.count() : 0;
 }
 
-/// Whether first and last rows of groups differ in every coordinate although these have few values, as
-/// in a factorial design: independent ones would be equal in some, less likely than exp(-most) in none.
+/// Whether first and last rows of groups differ in every coordinate although these have few values,
+/// as in a factorial design. For independent rows, this has a probability below exp(-most).
 bool is_factorial(const PointSet& design, std::size_t group) {
     constexpr double most = 2;
     const auto groups = design.count() / group;
@@ -53,14 +54,14 @@ bool is_factorial(const PointSet& design, std::size_t group) {
             ++times[a];
             ++times[b];
         }
-        if (times.size() > groups) return false;  // no few levels
+        if (times.size() > groups) return false;  // more than few levels
         for (const auto& [value, count] : times)
             expected += count * count / static_cast<double>(4 * groups);
     }
     return expected >= most;
 }
 
-/// The terms of a base row, whose outputs are `f`, behind each other: V's, first, total, pairs.
+/// Appends the terms of a base row with the outputs `f`: those of V, then first, total, pairs.
 void append_terms(std::span<const double> f, std::size_t k, std::vector<double>& terms) {
     const double a = f.front();
     const double b = f.back();
@@ -75,10 +76,10 @@ void append_terms(std::span<const double> f, std::size_t k, std::vector<double>&
         for (std::size_t j = i + 1; j < k; ++j) terms.push_back(ba[i] * ab[j] - a * b);
 }
 
-/// Mean, variance and indices from the means of such terms, in their order; none where first and last
-/// rows, whose variance it is, hardly vary but for rounding.
+/// Mean, variance and indices from the means of such terms, in their order; NaN if the first and
+/// last rows, which give the variance, vary only by rounding.
 void indices_of(std::span<const double> means, std::size_t k, std::span<double> values) {
-    constexpr double rounding = 1e-12;  // of outputs the largest of which is 1 in size
+    constexpr double rounding = 1e-12;  // for outputs with the largest magnitude 1
     const double variance = means[1] - means[0] * means[0];
     if (!(variance > rounding)) {
         std::ranges::fill(values, none);
@@ -92,8 +93,8 @@ void indices_of(std::span<const double> means, std::size_t k, std::span<double> 
         for (std::size_t j = i + 1; j < k; ++j) values[pair++] -= values[2 + i] + values[2 + j];
 }
 
-/// Drops the indices of inputs whose mixed rows vary so much more than A and B, of which they should be
-/// other samples, that V cannot be the variance of the output.
+/// Drops the indices of inputs whose mixed rows vary far more than A and B. These should be samples
+/// of the same, so V cannot be the variance of the output.
 void drop_unlike(Effects& effects, std::span<const double> f, std::size_t k, double variance) {
     constexpr double most = 10;
     const std::size_t group = f.size() / effects.samples;
@@ -111,7 +112,7 @@ void drop_unlike(Effects& effects, std::span<const double> f, std::size_t k, dou
     }
 }
 
-/// The outputs of those groups, one behind the other.
+/// Outputs of the given groups, one after another.
 std::vector<double> joined(std::span<const double> y, std::size_t group,
                            std::span<const std::size_t> groups) {
     std::vector<double> all;

@@ -22,35 +22,35 @@ namespace {
 constexpr std::size_t max_degree = 20;
 constexpr std::size_t fold_count = 5;
 
-/// The polynomials of the inputs in the runs that did not fail.
+/// Polynomials of the inputs in the runs that did not fail.
 struct Basis {
     std::string scale;
     std::vector<Polynomials> inputs = {};
-    bool known = false;  ///< for distributions that are known, not those of the sample
+    bool known = false;  ///< whether they are for known distributions, not those of the sample
 };
 
-/// Terms that are columns of a table, row after row.
+/// Terms with their values in all runs: one column per term, row after row.
 struct Table {
     std::size_t degree;
     std::vector<BasisTerm> terms;
     std::vector<double> values;
 };
 
-/// A polynomial, and the runs that it has and has not seen.
+/// A polynomial, the runs that it was fitted to (seen) and the others.
 struct Fold {
     std::vector<std::size_t> seen = {};
     std::vector<std::size_t> unseen = {};
     std::string scale = {};
-    std::size_t degree = 0;  ///< of its candidates; 0: none yet
+    std::size_t degree = 0;  ///< of its candidates; 0 before the first fit
     double error = 0;
     double constant = 0;
     std::vector<BasisTerm> terms = {};
     std::vector<double> coefficients = {};
-    std::vector<double> products = {};  ///< of coefficients and terms: a row an unseen run
+    std::vector<double> products = {};  ///< of coefficients and terms: one row per unseen run
 
     [[nodiscard]] bool is_settled(std::size_t next_degree) const {
         constexpr double enough = 1e-6;
-        constexpr std::size_t patience = 3;  // even and odd terms come by turns
+        constexpr std::size_t patience = 3;  // even and odd terms alternate
         return degree > 0 && (error < enough || next_degree > degree + patience);
     }
 };
@@ -67,7 +67,7 @@ std::vector<Fold> folds_of(std::size_t n) {
     return folds;
 }
 
-/// Takes the best polynomial with terms of the table if it is better than the one so far.
+/// Replaces the polynomial by the best one with terms of the table, if that is better.
 void improve(Fold& fold, const Table& table, const Basis& basis, std::span<const double> z,
              const RunContext& run) {
     const std::size_t columns = table.terms.size();
@@ -87,7 +87,7 @@ void improve(Fold& fold, const Table& table, const Basis& basis, std::span<const
                                     table.values[i * columns + fit.chosen[t]]);
 }
 
-/// The largest degree at which the candidates are not too many, at least 1.
+/// Largest degree with an acceptable number of candidates, at least 1.
 std::size_t bearable_degree(std::size_t k, std::size_t n) {
     const double most = std::min(600.0, 1e7 / static_cast<double>(n));
     std::size_t degree = 1;
@@ -95,7 +95,7 @@ std::size_t bearable_degree(std::size_t k, std::size_t n) {
     return degree;
 }
 
-/// Folds with their best polynomials of all degrees that are bearable and may help, or of the given one.
+/// Folds with their best polynomials of all acceptable degrees that may help, or of the given one.
 std::vector<Fold> fitted_folds(const Basis& basis, std::span<const double> z,
                                const std::optional<std::size_t>& degree, const RunContext& run) {
     std::vector<Fold> folds = folds_of(z.size());
@@ -118,13 +118,13 @@ std::vector<Fold> fitted_folds(const Basis& basis, std::span<const double> z,
     return folds;
 }
 
-/// A group of terms with an index: those with both inputs, or only they.
+/// Group of terms of an index: those with both inputs, or with only these inputs.
 struct Part {
     std::size_t first;
-    std::size_t second;  ///< the same for one input
-    bool alone;          ///< no other input may be in the term
+    std::size_t second;  ///< equal to `first` for a single input
+    bool alone;          ///< whether terms with other inputs are excluded
 
-    /// Whether a term has the inputs, and is of the group.
+    /// Whether a term contains the inputs, and whether it belongs to the group.
     [[nodiscard]] std::pair<bool, bool> holds(const BasisTerm& term) const {
         const auto has = [&](std::size_t i) {
             return std::ranges::any_of(term, [i](const auto& factor) { return factor.first == i; });
@@ -134,11 +134,11 @@ struct Part {
     }
 };
 
-/// Sums over terms in the runs, each where it was not seen.
+/// Sums over terms for each run, by the polynomial that has not seen it.
 struct Sums {
     std::vector<double> norm;    ///< squares of coefficients
     std::vector<double> own;     ///< values of the terms of the group
-    std::vector<double> around;  ///< values of all terms that have its inputs
+    std::vector<double> around;  ///< values of all terms that contain the group's inputs
 };
 
 template <class Holds>
@@ -167,11 +167,11 @@ double mean_of(std::span<const double> values) {
     return sum / static_cast<double>(values.size());
 }
 
-/// The polynomials' errors in runs that they have not seen, and the variance of the output.
+/// Errors of the polynomials in runs that they have not seen, and the variance of the output.
 struct Judgement {
-    bool known = false;  ///< the inputs' distributions
+    bool known = false;  ///< whether the inputs' distributions are known
     std::vector<double> error;
-    std::vector<double> moving = {};  ///< whose mean is V: how a run moves it
+    std::vector<double> moving = {};  ///< numbers with the mean V: how each run changes it
     double variance = 0;              ///< V
     double q2 = 0;
 };
@@ -191,13 +191,13 @@ Judgement judged(std::span<const Fold> folds, std::span<const double> z, bool kn
         out.variance += term;
         out.moving.push_back(known ? term : z[i] * z[i]);
     }
-    // A few wild predictions must not make it vanish.
+    // A few wild predictions must not make the variance vanish.
     out.variance = std::max(out.variance, whole / 2) / static_cast<double>(z.size());
     out.q2 = 1 - squares / whole;
     return out;
 }
 
-/// The standard error of mean(values) / V.
+/// Standard error of mean(values) / V.
 double error_of_ratio(std::span<const double> values, double ratio, const Judgement& judgement) {
     std::vector<double> rest(values.begin(), values.end());
     for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= ratio * judgement.moving[i];
@@ -231,7 +231,7 @@ Index index_of(const Sums& sums, const Judgement& judgement, double level) {
     return index;
 }
 
-/// Whether ranks in [0, 1] are nearly the values, scaled.
+/// Whether the values are nearly their ranks, scaled to their range.
 bool is_even(std::span<const double> x, std::span<const double> ranks) {
     const auto [low, high] = std::ranges::minmax(x);
     constexpr double most = 0.1;
@@ -241,8 +241,8 @@ bool is_even(std::span<const double> x, std::span<const double> ranks) {
     return true;
 }
 
-/// Whether the mean and the variance of different numbers in [0, 1] are as of uniform ones, within so
-/// many standard errors.
+/// Whether numbers in [0, 1] are distinct and have the mean and variance of uniform ones, within
+/// `errors` standard errors.
 bool looks_uniform(std::span<const double> u, double errors) {
     std::vector<double> sorted(u.begin(), u.end());
     std::ranges::sort(sorted);
@@ -254,7 +254,7 @@ bool looks_uniform(std::span<const double> u, double errors) {
     return std::abs(sums[1]) <= most && std::abs(sums[2]) <= most;
 }
 
-/// A column of a table, row after row of `width`, in those rows.
+/// Column j of a table with rows of `width` numbers, in the given rows.
 std::vector<double> column_of(std::span<const double> table, std::size_t width, std::size_t j,
                               std::span<const std::size_t> rows) {
     std::vector<double> column;
@@ -263,8 +263,8 @@ std::vector<double> column_of(std::span<const double> table, std::size_t width, 
     return column;
 }
 
-/// Polynomials of uniform inputs where these are known or look so, else of the values and, where that
-/// may matter, of their ranks.
+/// Legendre polynomials for inputs that are known to be uniform or look so. Otherwise polynomials
+/// of the values and, as a second basis if that may matter, of their ranks.
 std::vector<Basis> bases_of(const Inputs& inputs, std::span<const std::size_t> runs,
                             std::size_t degree) {
     const std::size_t k = inputs.size();
@@ -294,7 +294,7 @@ std::vector<Basis> bases_of(const Inputs& inputs, std::span<const std::size_t> r
     return bases;
 }
 
-/// The pairs of inputs that are together in a term of two.
+/// Pairs of inputs that form a term of two.
 std::set<std::pair<std::size_t, std::size_t>> pairs_in(std::span<const Fold> folds) {
     std::set<std::pair<std::size_t, std::size_t>> pairs;
     for (const Fold& fold : folds)

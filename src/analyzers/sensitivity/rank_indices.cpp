@@ -10,21 +10,22 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// A run of the model as one input orders it.
+/// A run of the model, sorted by one input: its value x and the centred output z.
 struct Ordered {
     double x;
     double z;
 };
 
-/// Neighbors in the order of an input.
+/// Neighbors in the order of an input, x.
 struct Window {
     double size = 0;
     double mean = 0;
     double variance = 0;  ///< of one run, unbiased
-    bool constant;        ///< the input
+    bool constant;        ///< whether x is
 };
 
-/// Windows of about as many runs, at least `least`, two or more, none of which parts equal inputs.
+/// Windows of about equal sizes, of at least `least` and two runs, that do not separate equal
+/// inputs.
 std::vector<Window> windows_of(std::span<const Ordered> runs, std::size_t least) {
     std::vector<Window> windows;
     for (std::size_t first = 0, last = 0; first < runs.size(); first = last) {
@@ -50,8 +51,8 @@ std::vector<Window> windows_of(std::span<const Ordered> runs, std::size_t least)
     return windows;
 }
 
-/// The part of sum n_g mean_g^2 that is chance: as of independent runs, or as the second differences
-/// of the means show, if that is less.
+/// Random part of sum n_g mean_g^2: that of independent runs or, if it is less, the one estimated
+/// from the second differences of the means.
 double chance_of(std::span<const Window> windows) {
     double independent = 0;
     for (const Window& window : windows) independent += window.variance;
@@ -65,8 +66,8 @@ double chance_of(std::span<const Window> windows) {
     return std::min(independent, seen * all / (all - 2));
 }
 
-/// What sum n_g mean_g^2 would lose with windows of twice the size, on both ways to join neighbors.
-/// Where the input is constant in both, windows hide nothing.
+/// Loss of sum n_g mean_g^2 if windows had twice the size, summed over both ways to join neighbors.
+/// Pairs of windows in which the input is constant are skipped, since they hide nothing.
 double hidden_in(std::span<const Window> windows) {
     double sum = 0;
     for (std::size_t g = 1; g < windows.size(); ++g) {
@@ -80,7 +81,7 @@ double hidden_in(std::span<const Window> windows) {
     return std::max(sum, 0.0);
 }
 
-/// The variance of sum n_g mean_g^2 - S sum z^2.
+/// Variance of sum n_g mean_g^2 - S sum z^2.
 double variance_of(std::span<const Window> windows, std::span<const Ordered> runs, double index) {
     double of_none = 0;
     double sum = 0;

@@ -20,7 +20,7 @@ namespace {
 using Names = std::vector<std::string>;
 using Numbers = std::vector<std::size_t>;
 
-/// A table and what its columns are called.
+/// A table with the names of its columns.
 struct Columns {
     const PointSet& table;
     Names names;
@@ -71,16 +71,16 @@ PointSet columns_of(const PointSet& table, const Numbers& columns) {
     return part;
 }
 
-// ---------------------------------------------------------------- what is known of the inputs
+// ---------------------------------------------------------------- domain of the inputs
 
-/// Domain of the inputs, with the names of its coordinates; null: not known.
+/// Domain of the inputs, with the names of its coordinates; null if unknown.
 struct Known {
     DomainPtr domain;
     Names names;
 };
 
-/// Names and domain of the inputs by the provenance; of a domain given by hand, their order alone is
-/// known.
+/// Names and domain of the inputs from the provenance; for a domain given by the user, only the
+/// order of the inputs is known.
 Known known_inputs(const Provenance& told, std::size_t inputs, const RunContext& run) {
     const bool made = !told.generator.empty();
     if (told.domain.empty() || (told.domain == "unit-cube" && !made)) return {};
@@ -91,7 +91,7 @@ Known known_inputs(const Provenance& told, std::size_t inputs, const RunContext&
     return known;
 }
 
-/// The columns of those names, in their order; none: some are not there.
+/// Columns with these names, in their order; empty if some are missing.
 Numbers named_columns(const Names& wanted, const Names& names) {
     Numbers columns;
     for (const auto& name : wanted) {
@@ -102,8 +102,8 @@ Numbers named_columns(const Names& wanted, const Names& names) {
     return columns;
 }
 
-/// The columns of the inputs that are known by name.
-/// @throws Error(input) where some are not there
+/// Columns of the inputs that are known by name.
+/// @throws Error(input) if some are missing
 Numbers known_columns(const Known& known, const Columns& from) {
     Numbers columns = named_columns(known.names, from.names);
     if (!columns.empty()) return columns;
@@ -115,8 +115,8 @@ Numbers known_columns(const Known& known, const Columns& from) {
                    from.place, join(missing, ", "), join(from.names, ", "));
 }
 
-/// The columns of the domain's coordinates; none: it is of others.
-/// @throws Error(usage) where it has no names and another dimension
+/// Columns of the domain's coordinates; empty if it belongs to other columns.
+/// @throws Error(usage) if it has no names and another dimension
 Numbers coordinates_of(const Known& known, const Columns& from, const Numbers& columns,
                        const RunContext& run) {
     const std::size_t k = known.domain->dimension();
@@ -132,8 +132,8 @@ Numbers coordinates_of(const Known& known, const Columns& from, const Numbers& c
     return {};
 }
 
-/// Whether the density is a product of the coordinates' own: then rows that exchange a coordinate have
-/// the same product of densities as before.
+/// Whether the density is a product over the coordinates. Then two points that exchange a
+/// coordinate keep the product of their densities.
 bool independent(const Domain& domain, const PointSet& points) {
     constexpr std::size_t most = 100;
     constexpr double rounding = 1e-9;
@@ -149,7 +149,7 @@ bool independent(const Domain& domain, const PointSet& points) {
                 const double after = std::log(domain.density(a)) + std::log(domain.density(b));
                 if (!std::isfinite(before)) continue;  // at the end of a range
                 if (!(std::abs(after - before) <= rounding * (1 + std::abs(before)))) return false;
-            } catch (const Error&) {  // it is not known, as constraints make it
+            } catch (const Error&) {  // unknown, as with constraints
                 return false;
             }
         }
@@ -165,7 +165,7 @@ void require_finite(const Inputs& inputs) {
                      inputs.names[j], i);
 }
 
-/// The inputs in those columns, on their domain where it is known and holds them.
+/// Inputs in the given columns, with their domain if it is known and contains them.
 Inputs inputs_of(const Columns& from, const Numbers& columns, const Known& known,
                  const RunContext& run) {
     Inputs inputs{.values = columns_of(from.table, columns)};
@@ -200,7 +200,7 @@ Inputs inputs_of(const Columns& from, const Numbers& columns, const Known& known
 
 // ---------------------------------------------------------------- outputs
 
-/// The output in a column. @throws Error(input) for words
+/// Output in a column. @throws Error(input) if it holds words
 Response response_of(const Columns& from, std::size_t c) {
     for (const auto& [column, words] : from.table.provenance.levels)
         if (column == from.names[c])
@@ -210,8 +210,8 @@ Response response_of(const Columns& from, std::size_t c) {
     return {from.names[c], column_of(from.table, c)};
 }
 
-/// The first point at which column c of a table differs from column j of another one, by more than
-/// `rounding` of the latter's range and of the number; the number of points if there is no such row.
+/// First point at which column c of a table differs from column j of the design, by more than
+/// `rounding` of the latter's range and of the number; the number of points if there is none.
 std::size_t first_difference(const PointSet& table, std::size_t c, const PointSet& design,
                              std::size_t j, double rounding) {
     double room = 0;
@@ -226,7 +226,7 @@ std::size_t first_difference(const PointSet& table, std::size_t c, const PointSe
     return i;
 }
 
-/// Columns of the table that are no copies of those columns of the design.
+/// Columns of the table that are not copies of the candidate columns of the design.
 Numbers other_columns(const Columns& table, const Columns& design, const Numbers& candidates,
                       const RunContext& run) {
     const bool named = !table.table.provenance.columns.empty();
@@ -272,13 +272,13 @@ void note_unused(const Columns& table, const Numbers& inputs, const Numbers& out
 
 // ---------------------------------------------------------------- two files, or one
 
-/// Names of the columns or, of a single output that has none, "y".
+/// Names of the columns; a single output without a name is called "y".
 Names output_names(const PointSet& table) {
     if (table.dimension() == 1 && table.provenance.columns.empty()) return {"y"};
     return coordinate_names(table.dimension(), table.provenance);
 }
 
-/// Whether the columns of a table are the domain's coordinates one by one, as no names tell otherwise.
+/// Whether the columns of a table are the domain's coordinates in order, for lack of names.
 bool by_position(const Known& known, const PointSet& table) {
     return known.names.empty() ||
            (table.provenance.columns.empty() && known.names.size() == table.dimension());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The runs of a model as tables hold them: outputs beside a file of inputs, or both in one table.
+// Runs of a model in tables: outputs with a separate file of inputs, or both in one table.
 #pragma once
 
 #include <string>
@@ -10,12 +10,11 @@
 
 namespace stipple::analyzers::sensitivity {
 
-/// Which columns are what, as they are asked for: names or numbers from 1, separated by commas;
-/// empty: automatic.
+/// Requested columns: names or numbers from 1, separated by commas; empty: automatic.
 struct ColumnsAsked {
     std::string design = {};    ///< file of the inputs; empty: they are columns of the table
-    std::string inputs = {};    ///< of the design, or of the table
-    std::string response = {};  ///< of the table
+    std::string inputs = {};    ///< columns of the design, or of the table
+    std::string response = {};  ///< columns of the table
 };
 
 struct Runs {
@@ -23,12 +22,12 @@ struct Runs {
     std::vector<Response> responses;
 };
 
-/// The inputs are the coordinates of the domain in the table's provenance, or the design's, by name;
-/// where neither knows any, all columns of the design, or all of the table but the last one. All other
-/// columns of the table are outputs, except copies of inputs: with the name and the numbers of one.
-/// Notes tell what was taken without being known, and which columns are not looked at.
-/// @throws Error(input) for another number of rows, for a column with the name of an input and other
-/// numbers, for words; Error(usage) for columns that are not there
+/// The inputs are the coordinates of the domain in the table's provenance, or the design's, by
+/// name; where neither knows any, all columns of the design, or all of the table but the last one.
+/// All other columns of the table are outputs, except copies of inputs: with the name and the
+/// numbers of one. Notes tell what was taken without being known, and which columns are not looked
+/// at. @throws Error(input) for another number of rows, for a column with the name of an input and
+/// other numbers, for words; Error(usage) for columns that are not there
 Runs runs_of(const PointSet& table, const ColumnsAsked& asked, const RunContext& run);
 
 }  // namespace stipple::analyzers::sensitivity

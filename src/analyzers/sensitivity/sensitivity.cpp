@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Global sensitivity of a model's outputs to its inputs: which part of the variance of f(x) is due to
-// which x_i, alone and together with others,
+// Global sensitivity of a model's outputs to its inputs: which part of the variance of f(x) is due
+// to which x_i, alone and together with others,
 //
 //     first  S_i  = Var E(f | x_i) / Var f,    total  ST_i = 1 - Var E(f | all but x_i) / Var f,
 //     second S_ij = Var E(f | x_i, x_j) / Var f - S_i - S_j.
 //
-// The points are a table of outputs, a row a run of the model; the inputs of these runs are those of
-// the file --design, or columns of the same table. How the indices are estimated depends on the
-// design, which is looked at itself:
+// The points are a table of outputs, one row per run of the model. The inputs of these runs are in
+// the file --design, or columns of the same table. The method of estimation depends on the design,
+// whose rows are examined:
 //
 //     saltelli  pick-freeze: S, ST and, with both mixes, S_ij          (pick_freeze.hpp)
 //     morris    trajectories: mu, mu*, sigma of elementary effects     (elementary_effects.hpp)
@@ -17,11 +17,12 @@
 //     chaos     any independent inputs: S, ST, S_ij of a polynomial    (polynomial_chaos.hpp)
 //
 // Shape   n rows of outputs, n x k inputs; a failed run has no output (NaN).
-// Cost    see there; of `auto` on a design without structure that of chaos and rank.
+// Cost    that of the method; `auto` for a design without structure takes as long as chaos and
+//         rank.
 // Promise the same for any number of threads. The bootstrap's seed is an option.
-// Beware  all indices are of independent inputs.
+// Beware  all indices are for independent inputs.
 // Source  A. Saltelli et al., "Global Sensitivity Analysis. The Primer", Wiley 2008,
-//         doi:10.1002/9780470725184; and see there.
+//         doi:10.1002/9780470725184; and those of the methods.
 
 #include <fmt/format.h>
 
@@ -101,9 +102,9 @@ constexpr Param<std::int64_t> degree{
     .optional = true,
     .help = "Of chaos: largest total degree; default: chosen for each polynomial by its own runs"};
 
-/// What there is to do.
+/// Method for a design, with the layout of its rows.
 struct Plan {
-    std::string method;  ///< empty: chaos or rank, as turns out
+    std::string method;  ///< empty: chaos or rank, decided by the fit
     Layout layout = {};
 };
 
@@ -116,7 +117,7 @@ Setting setting_of(const Values& options) {
     return setting;
 }
 
-/// The rows that a method needs.
+/// Layout of the rows for a method; it has a reason if the rows do not fit.
 Layout find_layout(const std::string& kind, const PointSet& points, const Setting& setting,
                    const RunContext& run) {
     if (kind == "saltelli") return find_pick_freeze(points);
@@ -124,7 +125,7 @@ Layout find_layout(const std::string& kind, const PointSet& points, const Settin
     return find_curves(points, setting.harmonics, run);
 }
 
-/// Says that the rows of a design are not those of the generator that made it, or only look alike.
+/// Warns if rows are not those of the generator that made them, or only resemble such rows.
 void note_broken(const Inputs& in, const std::string& trouble, const RunContext& run) {
     if (!trouble.empty())
         return run.notify(fmt::format(
@@ -143,7 +144,7 @@ void note_broken(const Inputs& in, const std::string& trouble, const RunContext&
             100 * share));
 }
 
-/// @throws Error(input) where the design has not the rows that the method needs
+/// @throws Error(input) if the design does not have the rows that the method needs
 Plan plan_of(const Inputs& in, const std::string& asked, const Setting& setting,
              const RunContext& run) {
     if (asked == "rank" || asked == "chaos") return {.method = asked};
@@ -174,7 +175,7 @@ Plan plan_of(const Inputs& in, const std::string& asked, const Setting& setting,
 Effects of_any_design(std::string& chosen, const Inputs& in, const Response& out,
                       const Setting& setting, const RunContext& run) {
     constexpr double enough = 0.8;
-    constexpr std::size_t least = 8;  // runs of chaos
+    constexpr std::size_t least = 8;  // runs that chaos needs
     if (chosen == "rank") return rank_indices(in, out, setting, run);
     const bool both = chosen.empty();
     std::string reason = fmt::format("fewer than {} runs, which chaos needs", least);
@@ -201,7 +202,7 @@ Effects of_any_design(std::string& chosen, const Inputs& in, const Response& out
     return effects;
 }
 
-/// Why an output has no indices by any method; empty: it may have.
+/// Why an output cannot have indices by any method; empty if it can.
 std::string why_none(const std::string& taken, const Response& out) {
     const auto y = picked(out.y, succeeded(out.y));
     if (y.empty()) return "all runs failed";
@@ -219,7 +220,7 @@ Effects effects_of(Plan& plan, const Runs& runs, const Response& out, const Sett
     return of_any_design(plan.method, runs.inputs, out, setting, run);
 }
 
-/// Says which runs failed, and what is left out with them.
+/// Reports which runs failed, and how many are used.
 void tell_failures(const Response& out, const Effects& effects, const RunContext& run) {
     constexpr std::size_t few = 5;
     std::vector<std::string> first;
@@ -234,14 +235,14 @@ void tell_failures(const Response& out, const Effects& effects, const RunContext
                            failed > few ? ", ..." : "", effects.used));
 }
 
-/// The name as a part of a key, another than those before it.
+/// The name as a part of a key, made different from those already taken.
 std::string key_of(std::string name, const Report& taken) {
     std::ranges::replace(name, '.', '_');
     while (name.empty() || taken.find(name) != nullptr) name += '_';
     return name;
 }
 
-/// Nothing of what is no number.
+/// Adds an index and its interval, as far as they are finite.
 void add(Report& report, const std::string& name, const Index& index) {
     if (!std::isfinite(index.value)) return;
     report.add(name, index.value);
@@ -250,7 +251,7 @@ void add(Report& report, const std::string& name, const Index& index) {
     report.add(name + "_high", index.high);
 }
 
-/// The indices of one input; why some are missing.
+/// Indices of one input and, if some are missing, the reason.
 Report report_of_input(const Effects& effects, std::size_t i) {
     Report own;
     const auto known = [i](const IndexKind& kind) { return std::isfinite(kind.of[i].value); };
@@ -281,7 +282,7 @@ Report report_of(const Effects& effects, const std::string& name, const Inputs& 
     for (const PairIndex& pair : effects.pairs) {
         Report own;
         add(own, "second", pair.index);
-        if (own.entries().empty()) continue;  // as of its inputs, which tell why
+        if (own.entries().empty()) continue;  // the reports of its inputs have the reason
         report.add(key_of(keys[pair.first] + ":" + keys[pair.second], report), std::move(own));
     }
     return report;
@@ -340,7 +341,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
                     "--parameters, --bounds and the provenance of the design tell them");
             methods.push_back(own.method);
             report.add(key, report_of(effects, own.method, runs.inputs, out));
-        } catch (const Error& error) {  // others may have indices
+        } catch (const Error& error) {  // other outputs may have indices
             if (runs.responses.size() == 1 || error.kind() != ErrorKind::input) throw;
             report.add(key, report_of_none(out, error.what()));
         }

@@ -13,11 +13,11 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-constexpr double most_work = 1e8;  ///< numbers that are looked at, a second or less
+constexpr double most_work = 1e8;  ///< numbers to examine, in a second or less
 
 struct Levels {
-    std::size_t count = 0;  ///< different values
-    double chance = 0;      ///< that two rows which are drawn have the same one
+    std::size_t count = 0;  ///< number of distinct values
+    double chance = 0;      ///< that two random rows have the same value
 };
 
 Levels levels_of(const PointSet& points, std::size_t j) {
@@ -47,14 +47,15 @@ double share_of_neighbors(const PointSet& points, const RunContext& run) {
         grid *= static_cast<double>(levels[j].count);
     }
     if (std::fmod(static_cast<double>(n), grid) == 0) return 0;
-    double neighbors = 0;  // of a row, by chance
+    double neighbors = 0;  // of one row, expected by chance
     for (std::size_t j = 0; j < k; ++j) {
         double equal = static_cast<double>(n - 1);
         for (std::size_t c = 0; c < k; ++c)
             if (c != j) equal *= levels[c].chance;
         neighbors += equal;
     }
-    // Sums of scrambled coordinates: two rows without coordinate j are equal where theirs are.
+    // Sums of hashed coordinates: without the term of coordinate j, they are equal if all others
+    // are.
     const auto code = [&](std::size_t i, std::size_t j) {
         return SplitMix64(std::bit_cast<std::uint64_t>(points[i][j] + 0.0) + j).next();
     };
@@ -101,7 +102,7 @@ void note_dependence(const Inputs& in, const RunContext& run) {
                 sum += (ranks[i * k + a] - 0.5) * (ranks[i * k + b] - 0.5);
             if (!(squares[a] * squares[b] > 0)) continue;
             const double r = sum / std::sqrt(squares[a] * squares[b]);
-            // Rows that repeat coordinates are no independent ones; levels repeat them anyway.
+            // Rows that repeat coordinates are not independent; but levels repeat in any case.
             constexpr std::size_t few = 30;
             const std::size_t values = std::max(levels[a], levels[b]);
             const double size = std::sqrt(static_cast<double>(values < few ? n : values) - 1);
@@ -111,7 +112,7 @@ void note_dependence(const Inputs& in, const RunContext& run) {
                 at = {a, b};
             }
         }
-    // Independent inputs exceed this once in 10^4 designs.
+    // Independent inputs exceed this in one of 10^4 designs.
     if (largest <= std::sqrt(2 * std::log(1e4 * pairs))) return;
     run.notify(
         fmt::format("the inputs {} and {} depend on each other: their rank correlation is "
