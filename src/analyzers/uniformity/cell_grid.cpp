@@ -13,7 +13,7 @@
 namespace stipple::analyzers {
 namespace {
 
-/// The odd prime nearest to x by ratio, and not above `cap`, which is at least 3.
+/// Odd prime nearest to x by ratio, at most `cap`, which is at least 3.
 std::size_t odd_prime_near(double x, std::size_t cap) {
     auto below = std::min(cap, std::max<std::size_t>(3, static_cast<std::size_t>(x)));
     while (!is_prime(below)) --below;
@@ -22,7 +22,7 @@ std::size_t odd_prime_near(double x, std::size_t cap) {
     return nearer && above <= cap ? above : below;
 }
 
-/// The count that a default grid is made for.
+/// Number of points for which a default grid is made.
 std::uint64_t rounded_count(std::uint64_t n) {
     std::uint64_t rounded = n;
     for (const std::uint64_t count : grid_counts)
@@ -30,13 +30,13 @@ std::uint64_t rounded_count(std::uint64_t n) {
     return rounded;
 }
 
-/// A stretch of an axis.
+/// Interval of an axis.
 struct Stretch {
     double low;
     double high;
 };
 
-/// Where the cell `place` of `m` lies; a shifted first one is in two pieces.
+/// Intervals of cell `place` of `m`; the first cell of a shifted axis has two.
 std::vector<Stretch> stretches(std::size_t place, std::size_t m, bool shifted) {
     const auto cells = static_cast<double>(m);
     const auto first = static_cast<double>(place);
@@ -46,7 +46,7 @@ std::vector<Stretch> stretches(std::size_t place, std::size_t m, bool shifted) {
     return {{0, 0.5 / cells}, {(cells - 0.5) / cells, 1}};
 }
 
-/// The boxes that make up a cell.
+/// Boxes that make up a cell.
 std::vector<Box> pieces_of(std::size_t cell, const CellGrid& grid, bool shifted) {
     const std::size_t axes = grid.size();
     std::vector<Box> pieces{{std::vector<double>(axes), std::vector<double>(axes)}};
@@ -86,8 +86,8 @@ CellGrid default_grid(std::uint64_t n, std::size_t axes) {
     const std::size_t cap = count / fewest_expected;
     const double target =
         std::min(2 * real_power(static_cast<double>(count), 0.4), static_cast<double>(cap));
-    std::size_t cut = 1;     // axes to cut
-    std::size_t others = 1;  // 3^(cut - 1): room to leave for the axes that come later
+    std::size_t cut = 1;     // number of axes to cut
+    std::size_t others = 1;  // 3^(cut - 1), reserved for the axes that follow
     while (cut < std::min(axes, most_cut_axes) && static_cast<double>(9 * others) <= target) {
         ++cut;
         others *= 3;
@@ -145,7 +145,7 @@ std::vector<Estimate> cell_masses(const Domain& domain, const CellGrid& grid, bo
     });
     Estimate sum;
     for (const Estimate& mass : masses) sum += mass;
-    // Masses that are called exact are so up to rounding, each.
+    // Exact probabilities still have a rounding error each.
     const double rounding =
         std::numeric_limits<double>::epsilon() * (64 + 4 * static_cast<double>(masses.size()));
     if (std::abs(sum.value - 1) > sum.error + rounding)

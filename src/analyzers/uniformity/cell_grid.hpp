@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Grids of cells on the cube of a domain: how many, which one a point is in, and how probable each
-// is.
+// Grids of cells on the cube of a domain: their size, the cell of a point, and the probability of
+// each cell.
 #pragma once
 
 #include <cstddef>
@@ -16,31 +16,33 @@ namespace stipple::analyzers {
 
 using CellGrid = std::vector<std::size_t>;  ///< cells along each axis
 
-inline constexpr std::uint64_t fewest_expected = 5;  ///< points in a group of cells
+inline constexpr std::uint64_t fewest_expected = 5;  ///< expected number of points in a group of
+                                                     ///< cells
 inline constexpr std::uint64_t most_cells = 100'000'000;
 
-/// Beyond the first of these the default grid is the one of the largest of them that is not above
-/// the count.
+/// Above the first of these numbers of points, the default grid is that of the largest one not
+/// above the count.
 inline constexpr std::uint64_t grid_counts[] = {1U << 20, 1U << 24, 1U << 28};
 
-/// Axes that a default grid cuts at most.
+/// Largest number of axes that a default grid cuts.
 inline constexpr std::size_t most_cut_axes = 8;
 
-/// Odd primes with a product near 2 n^(2/5), at most n / 5. @throws Error(input) for n < 15
+/// Default grid: odd primes with a product near 2 n^(2/5), at most n / 5. @throws Error(input) for
+/// n < 15
 CellGrid default_grid(std::uint64_t n, std::size_t axes);
 
-/// The grid that --cells asks for. @throws Error(usage)
+/// Grid given by --cells. @throws Error(usage)
 CellGrid asked_grid(const std::vector<std::int64_t>& extents, std::size_t axes);
 
 std::uint64_t cell_count(const CellGrid& grid);
 
-/// The cell of a point of the closed cube; coordinates beyond the grid's are not looked at. A
-/// shifted grid is so by half a cell along every axis it cuts, on the torus: cell 0 begins half a
-/// cell before 0.
+/// Index of the cell of a point of the closed cube; ignores coordinates beyond the grid's. A
+/// shifted grid is moved by half a cell along every axis that it cuts, on the torus: cell 0 begins
+/// half a cell before 0.
 std::size_t cell_of(std::span<const double> cube, const CellGrid& grid, bool shifted);
 
-/// The probabilities of all cells. Their sum is checked to be 1.
-/// @throws Error(limit) when the domain's masses contradict each other
+/// Probabilities of all cells, whose sum is checked to be 1.
+/// @throws Error(limit) if the domain's probabilities contradict each other
 std::vector<Estimate> cell_masses(const Domain& domain, const CellGrid& grid, bool shifted,
                                   const RunContext& run);
 

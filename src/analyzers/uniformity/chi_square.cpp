@@ -1,55 +1,56 @@
 // SPDX-License-Identifier: MIT
 //
-// Pearson's chi-square test that points follow the density of the domain they live on. The domain's
-// coordinates take it to a unit cube, which is cut into K equal boxes. Where these coordinates
-// preserve probability, as on all domains that have a closed form for it, each cell has probability
-// exactly 1 / K; else the domain works out the probability of each cell and states its error
-// (mass_error). Cells that expect fewer than 5 points are pooled (see pearson.hpp).
+// Pearson's chi-square test that points follow the density of their domain. The domain's
+// coordinates map it to a unit cube, which is divided into K equal boxes. If these coordinates
+// preserve probability, as for all domains that have them in closed form, each cell has probability
+// exactly 1 / K. Otherwise the domain computes the probability of each cell and its error
+// (mass_error). Cells that expect fewer than 5 points are pooled (pearson.hpp).
 //
 //     p_upper = P(chi2 >= X^2),  p_lower = P(chi2 <= X^2),  p = min(1, 2 min(p_upper, p_lower))
 //
-// (p_lower is that of whole counts, see pearson.hpp: five points in each of three cells are nothing
-// rare.)
+// (p_lower takes into account that counts are integers, see pearson.hpp: five points in each of
+// three cells are not rare.)
 //
-// p < level with the upper tail the smaller one: non-uniform, the counts differ too much from what
-// is expected. With the lower tail: stratified, they differ less than those of random points do.
-// Else: uniform. A point in a cell of probability 0 is impossible: non-uniform, p = 0. So is one in
-// a gap of the density that the domain knows of, farther from its edges than points in single
-// precision are rounded.
+// If p < level and the upper tail is the smaller one: non-uniform, the counts differ too much from
+// what is expected. If the lower tail is: stratified, they differ less than those of random points.
+// Otherwise: uniform. A point in a cell of probability 0 is impossible: non-uniform, p = 0. So is a
+// point in a known gap of the density, if its distance from the gap's edges exceeds the rounding of
+// single precision.
 //
 // The default grid has the largest product of odd primes near 2 n^(2/5) (Mann and Wald's rate), at
-// most n / 5, on as many of the first axes as take 3 cells each: odd primes, since strata are cut
-// by 2 and 10, and cells that line up with strata tell nothing. Axes beyond are cut by --cells
-// only. Above 2^20 points the grid is that of 2^20, 2^24 or 2^28 points, whichever is the largest
-// not above n: so a stream of unknown length is counted in these, and its points need not be kept.
+// most n / 5, on as many of the first axes as get 3 cells each. The primes are odd because strata
+// usually divide an axis by 2 or 10, and cells aligned with strata reveal nothing. Other axes are
+// cut by --cells only. Above 2^20 points the grid is that of 2^20, 2^24 or 2^28 points, whichever
+// is the largest not above n. So the points of a stream of unknown length are counted in these
+// grids and need not be kept.
 //
-// --shifted counts in a second grid, half a cell further along every axis that is cut (on the
+// --shifted also counts in a second grid, moved by half a cell along every axis that is cut (on the
 // torus). The two tests depend on each other; combined_p_value = 1 - (1 - p)^2 of the smaller p
-// (Sidak) does not fall below the chance for that. The verdict is by it, and non-uniform where
-// either grid alone says so at that level.
+// (Sidak) is at least the true probability. It decides the verdict, which is non-uniform if either
+// grid alone is non-uniform at that level.
 //
-// Several sets: sum, the sum of their statistics has the sum of their degrees of freedom; sidak,
-// 1 - (1 - p)^R of the smallest p; fisher, -2 sum ln p is chi-square with 2 R degrees of freedom;
-// each for the upper and the lower tails by themselves. The sum's lower tail is not below the
-// product of those of the sets.
+// Several sets: with sum, the sum of their statistics has the sum of their degrees of freedom;
+// sidak takes 1 - (1 - p)^R of the smallest p; for fisher, -2 sum ln p is chi-square with 2 R
+// degrees of freedom. The upper and the lower tails are combined separately. The sum's lower tail
+// is at least the product of those of the sets.
 //
-// Probabilities that are known within errors only leave the statistic in a range (pearson.hpp).
-// Where both ends of it would not give the same verdict, there is none: the analyzer fails.
+// Probabilities that are known only within errors leave the statistic in a range (pearson.hpp). If
+// the ends of the range have different verdicts, the analyzer fails.
 //
 // Smallest detectable effect: with cell probabilities p_i (1 + e_i), X^2 has the noncentral
 // chi-square distribution with noncentrality n sum_i p_i e_i^2 (for large n). The effect is the
-// root-mean-square e, sqrt(sum_i p_i e_i^2), at which the test says non-uniform with probability
+// root-mean-square e, sqrt(sum_i p_i e_i^2), for which the verdict is non-uniform with probability
 // 0.9.
 //
 // Shape   points n x d on any domain, also in pieces; a report of numbers and the verdict.
-// Cost    O(n d) time, O(K) memory besides the points; of a stream of unknown length, the first
-//         2^20 points are kept. About 25 ns a point in 2-D on one core.
+// Cost    O(n d) time, O(K) memory besides the points; for a stream of unknown length, the first
+//         2^20 points are kept. About 25 ns per point in 2-D on one core.
 // Promise counts, and so all results, are the same for any number of threads, and whether points
-//         come at once or in pieces. A coordinate of exactly 1 belongs to the last cell.
-// Beware  one set of low-discrepancy points is stratified, not random: its p is a description, not
-//         a chance. The p of random points is approximate where expectations are small, and with
-//         few groups, whose statistic takes few values. A density's jump to 0 at the edge of a cell
-//         leaves it to rounding which of both cells a point on the jump is in.
+//         arrive at once or in pieces. A coordinate of exactly 1 belongs to the last cell.
+// Beware  low-discrepancy points are stratified, not random: their p describes them, but is not a
+//         probability. The p of random points is approximate if expectations are small, and for few
+//         groups, whose statistic takes few values. If the density jumps to 0 at the edge of a
+//         cell, rounding decides in which cell a point on the jump is counted.
 // Source  K. Pearson, Philosophical Magazine 50 (1900) 157-175, doi:10.1080/14786440009463897.
 //         H. B. Mann, A. Wald, Annals of Mathematical Statistics 13 (1942) 306-317,
 //         doi:10.1214/aoms/1177731569 (number of cells). Z. Sidak, Journal of the American
@@ -91,9 +92,10 @@ constexpr Param<Choice> combination{
         "What makes one p of several sets (--average): the sum of their statistics, the "
         "smallest p (Sidak), or the product of the p (Fisher)"};
 
-constexpr std::uint64_t held_points = grid_counts[0];  ///< of a stream, before the grid is known
+constexpr std::uint64_t held_points = grid_counts[0];  ///< points of a stream that are kept before
+                                                       ///< the grid is known
 
-/// Where no point can be, whatever the cell it is in: the gaps of a domain's density.
+/// Gaps of a domain's density: no point can be there, whatever the probability of the cell.
 class Gaps {
   public:
     explicit Gaps(DomainPtr domain) : domain_(std::move(domain)) {
@@ -105,7 +107,7 @@ class Gaps {
                                std::max(std::abs(around.low[k]), std::abs(around.high[k])));
     }
 
-    /// How many points of these rows they hold.
+    /// Number of these points that are in gaps.
     [[nodiscard]] std::uint64_t count(std::span<const double> rows, const RunContext& run) const {
         if (support_.whole) return 0;
         const std::size_t d = domain_->dimension();
@@ -147,11 +149,11 @@ class Gaps {
     }
 
     DomainPtr domain_;
-    Support support_ = {.boxes = {}};  ///< all of the domain, where no gaps are shown
+    Support support_ = {.boxes = {}};  ///< the whole domain if it reports no gaps
     std::vector<double> margins_;
 };
 
-/// A grid with the points in each of its cells.
+/// A grid with the number of points in each of its cells.
 class Tally {
   public:
     Tally(CellGrid grid, bool with_shifted, std::uint64_t from, const RunContext& run)
@@ -163,7 +165,7 @@ class Tally {
         if (with_shifted) shifted_.resize(total);
     }
 
-    /// Takes points of the cube, `width` numbers each, of which the grid looks at the first.
+    /// Counts points of the cube with `width` numbers each, of which the grid uses the first.
     void add(std::span<const double> cubes, std::size_t width) {
         for (std::size_t i = 0; i < cubes.size(); i += width)
             ++counts_[cell_of(cubes.subspan(i, width), grid_, false)];
@@ -180,7 +182,7 @@ class Tally {
         }
     }
 
-    /// The fewest points that it is the grid of.
+    /// Smallest number of points for which this is the grid.
     [[nodiscard]] std::uint64_t from() const { return from_; }
     [[nodiscard]] const CellGrid& grid() const { return grid_; }
 
@@ -198,8 +200,8 @@ class Tally {
     std::vector<std::uint64_t> shifted_;
 };
 
-/// The tails of a statistic, and of the least and the greatest that it may be for what is known of
-/// the cells' probabilities.
+/// Tails of a statistic, and of the smallest and largest value that it may have within the errors
+/// of the cells' probabilities.
 struct Judged {
     Tails found;
     Tails least;
@@ -220,8 +222,8 @@ Report& add_tails(Report& report, const Tails& tails) {
         .add("p_method", tails.exact ? "exact" : "corrected");
 }
 
-/// Both tails on one grid or two, as a verdict; none that the errors of the cells' probabilities
-/// could turn. @throws Error(limit)
+/// Adds the tails on one grid or two, and the verdict. @throws Error(limit) if the errors of the
+/// cells' probabilities could change the verdict
 void conclude(Report& report, const Judged& plain, const std::optional<Judged>& second,
               const Values& options) {
     const auto of_second = [&](Tails Judged::*which) {
@@ -242,7 +244,7 @@ void conclude(Report& report, const Judged& plain, const std::optional<Judged>& 
     add_verdict(report, verdict, p, options[expect_uniformity_option]);
 }
 
-/// With points where none can be, nothing is left to chance.
+/// Tails of a fit. Points where none can be leave nothing to chance.
 Judged judge(const Fit& fit) {
     const Tails never{.upper = 0, .lower = 1};
     if (fit.impossible > 0) return {never, never, never};
@@ -258,7 +260,7 @@ Report shifted_report(const Fit& fit) {
         .add("statistic_error", fit.statistic_error);
 }
 
-/// Counts points in cells as they come.
+/// Counts points in cells as they arrive.
 class Counter final : public SharedAccumulator {
   public:
     Counter(const Arrival& arrival, const Values& options, const RunContext& run)
@@ -314,7 +316,7 @@ class Counter final : public SharedAccumulator {
     }
 
   private:
-    /// Points with their coordinates in the cube.
+    /// Takes points, also as coordinates of the cube.
     void take(std::span<const double> rows, std::span<const double> cubes, const RunContext& run) {
         in_gaps_ += gaps_.count(rows, run);
         for (Tally& tally : tallies_) tally.add(cubes, axes_);
@@ -325,7 +327,7 @@ class Counter final : public SharedAccumulator {
         }
     }
 
-    /// All grids that it may be in the end, each with the points that were held.
+    /// Makes all grids that may be the final one, and counts the kept points in each.
     void lay_grids(const RunContext& run) {
         for (const std::uint64_t from : grid_counts) {
             tallies_.emplace_back(default_grid(from, axes_), options_[shifted], from, run);
@@ -367,8 +369,8 @@ class Counter final : public SharedAccumulator {
     Gaps gaps_;
     Values options_;
     std::size_t axes_;
-    std::uint64_t first_ = 0;  ///< index of the first point that comes
-    std::size_t width_ = 0;    ///< coordinates of the cube that are held
+    std::uint64_t first_ = 0;  ///< index of the first point to arrive
+    std::size_t width_ = 0;    ///< number of cube coordinates that are kept per point
     std::uint64_t n_ = 0;
     std::uint64_t in_gaps_ = 0;
     std::vector<Tally> tallies_;
@@ -385,7 +387,7 @@ void refine(Report& mean, std::size_t sets, const Values& options) {
              mean.number("smallest_detectable_effect") * std::sqrt(shrink));
 }
 
-/// Of several sets: the sum of their statistics has the sum of their degrees of freedom.
+/// Tails over several sets: the sum of their statistics has the sum of their degrees of freedom.
 Judged summed(const Report& mean, std::span<const Report> sets, const std::string& prefix) {
     const Tails never{.upper = 0, .lower = 1};
     if (mean.number(prefix + "impossible_points") > 0) return {never, never, never};
@@ -401,7 +403,7 @@ Judged summed(const Report& mean, std::span<const Report> sets, const std::strin
                  });
 }
 
-/// What a set's own report says of it.
+/// Tails of a set, from its own report.
 Judged judged_set(const Report& set, const std::string& prefix) {
     const Tails found{set.number(prefix + "p_upper"), set.number(prefix + "p_lower")};
     const double error = set.number(prefix + "statistic_error");
@@ -418,7 +420,7 @@ Judged judged_set(const Report& set, const std::string& prefix) {
     return judged;
 }
 
-/// The tails of each set, made one.
+/// Combined tails of several sets.
 Judged combined(std::span<const Report> sets, const std::string& prefix, const std::string& how) {
     Judged one;
     for (const auto which : {&Judged::found, &Judged::least, &Judged::greatest}) {

@@ -13,13 +13,13 @@ namespace stipple::analyzers {
 namespace {
 
 constexpr double most_steps = 2e6;
-constexpr double tie = 1e-12;  ///< by which equal statistics may differ in rounding
+constexpr double tie = 1e-12;  ///< tolerance for statistics that differ only by rounding
 
-/// Sums over the counts of equal groups, of how far each is above m: weights m! m^e / (m + e)! by
-/// the sum of e and the sum of its squares.
+/// Sums over the counts m + e of equal groups, with weights m! m^e / (m + e)!, indexed by the sum
+/// of e and the sum of e^2.
 class EqualCounts {
   public:
-    /// @param squares most that the sum of squares may be
+    /// @param squares largest sum of e^2
     EqualCounts(std::int64_t m, std::int64_t squares)
         : squares_(squares), least_(-std::min(root(squares), m)) {
         const auto count = static_cast<double>(m);
@@ -31,9 +31,10 @@ class EqualCounts {
             weights_[k] = weights_[k + 1] * ((count - static_cast<double>(zero - k - 1)) / count);
     }
 
-    /// The sum over all counts of `groups` groups, e summing to `rest`, below `groups`.
+    /// Sum over all counts of `groups` groups whose e add up to `rest`, which is less than
+    /// `groups`.
     double sum(std::int64_t groups, std::int64_t rest) {
-        if (rest > squares_) return 0;  // whole numbers have no smaller squares than sizes
+        if (rest > squares_) return 0;  // the sum of squares of integers is at least their sum
         reach_ = root(groups * squares_) + 1;
         std::vector<double> from(table_size());
         from[at(0, 0)] = 1;
@@ -54,7 +55,7 @@ class EqualCounts {
         return static_cast<std::size_t>((sum + reach_) * (squares_ + 1) + squares);
     }
 
-    /// One more group, of `left` that are to come; sums from which `rest` is out of reach end.
+    /// Adds one of `left` remaining groups; drops sums from which `rest` cannot be reached.
     [[nodiscard]] std::vector<double> with_group(const std::vector<double>& from, std::int64_t left,
                                                  std::int64_t rest) const {
         std::vector<double> to(table_size());
@@ -73,12 +74,12 @@ class EqualCounts {
 
     std::int64_t squares_;
     std::int64_t least_;
-    std::int64_t reach_ = 0;  ///< the sum of e is at most so far from 0
+    std::int64_t reach_ = 0;  ///< bound of the absolute sum of e
     std::vector<double> weights_;
 };
 
-/// The chance that `count` of n points are where `expected` of them are, by n! / (k! (n - k)!) with
-/// the powers of n, k and n - k taken apart: so nothing cancels.
+/// Probability that `count` of n points are where `expected` are expected. The powers of n, k and n
+/// - k are separated from n! / (k! (n - k)!), so that nothing cancels.
 double binomial_chance(double count, double n, double expected) {
     const auto off = [](double found, double right) {
         const double e = (found - right) / right;
@@ -88,7 +89,7 @@ double binomial_chance(double count, double n, double expected) {
                        off(count, expected) - off(n - count, n - expected));
 }
 
-/// Counts of unequal groups, the one that expects the most last.
+/// Counts of unequal groups, the one with the largest expectation last.
 class UnequalCounts {
   public:
     explicit UnequalCounts(std::span<const double> expected)
@@ -99,7 +100,7 @@ class UnequalCounts {
             behind_[k] = behind_[k + 1] + expected_[k + 1];
     }
 
-    /// No fewer counts than there are with so small a statistic.
+    /// Upper bound of the number of counts with such a small statistic.
     [[nodiscard]] double most(double statistic) const {
         double count = 1;
         for (std::size_t k = 0; k + 1 < expected_.size(); ++k)
@@ -107,7 +108,8 @@ class UnequalCounts {
         return count;
     }
 
-    /// The chance that groups k, k + 1, ... share `left` points so that they add at most `room`.
+    /// Probability that groups k, k + 1, ... share `left` points and add at most `room` to the
+    /// statistic.
     [[nodiscard]] double chance(std::size_t k, std::uint64_t left, double room) const {
         const double here = expected_[k];
         const double rest = behind_[k];
@@ -134,7 +136,7 @@ class UnequalCounts {
 
   private:
     std::vector<double> expected_;
-    std::vector<double> behind_;  ///< expected in all groups behind
+    std::vector<double> behind_;  ///< expected in all later groups
 };
 
 }  // namespace

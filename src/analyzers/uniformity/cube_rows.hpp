@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Points as points of the cube of their domain, on which what is uniform there is uniform here.
+// Points mapped to the cube of their domain, where points that follow the domain's density are
+// uniform.
 #pragma once
 
 #include <fmt/format.h>
@@ -19,26 +20,27 @@
 
 namespace stipple::analyzers {
 
-/// @throws Error(input) where the domain's coordinates do not preserve probability
+/// @throws Error(input) if the domain's coordinates do not preserve probability
 void require_even(const Domain& domain, std::string_view analyzer);
 
-/// Outcomes, which have the middles of their cells, to random numbers in these: points that follow the
-/// density are uniform then. The numbers depend on the points' indices alone.
+/// Moves outcomes of discrete distributions, which are at the middles of their cells, to random
+/// places in these. Points that follow the density are uniform then. The random numbers depend only
+/// on the points' indices.
 ///
 /// Source  L. Rueschendorf, J. Statist. Plann. Inference 139 (2009) 3921-3927,
 ///         doi:10.1016/j.jspi.2009.05.030 (distributional transform).
 void spread_outcomes(const Domain& domain, std::span<double> cubes, std::uint64_t first,
                      const RunContext& run);
 
-/// Adds "axes" with the names of the cube's axes, where they are more than x1, x2, ...
+/// Adds "axes" with the names of the cube's axes, unless these are x1, x2, ....
 void tell_axes(const Domain& domain, Report& report);
 
-/// Coordinates of the cube for points of which the first is point `first`; those outside the domain
-/// are counted, and get numbers that mean nothing.
+/// Coordinates of points in the cube; the first has the index `first`. Points outside the domain
+/// are counted, and their coordinates are meaningless.
 std::vector<double> cube_rows(const Domain& domain, std::span<const double> rows,
                               std::uint64_t first, Outside& outside, const RunContext& run);
 
-// What tests of points have in common: the level that decides, and the end of their reports.
+// Common parts of tests of points: the significance level, and the verdict of their reports.
 
 inline constexpr Param<double> level_option{
     .name = "level",
@@ -55,8 +57,8 @@ inline constexpr Param<Choice> expect_uniformity_option{
 
 inline constexpr std::string_view uniformity_verdicts = "uniform|non-uniform|stratified";
 
-/// One of these verdicts, by the tails on one grid or two: which of them is the smaller, and whether
-/// the p-value is below the level.
+/// Verdict from the tails on one grid or two: the smaller tail, and whether the p-value is below
+/// the level.
 inline std::string verdict_of(const Tails& plain, const Tails* second, double level) {
     const auto clumped = [&](const Tails& tails) {
         return tails.upper < tails.lower && p_value_of(tails, second ? &tails : nullptr) < level;
@@ -65,7 +67,7 @@ inline std::string verdict_of(const Tails& plain, const Tails* second, double le
     return clumped(plain) || (second && clumped(*second)) ? "non-uniform" : "stratified";
 }
 
-/// Adds the verdict that a p-value led to, and complains if another one was wanted; no word: any.
+/// Adds the verdict for a p-value, and complains if it is not the wanted one; "" accepts any.
 inline void add_verdict(Report& report, const std::string& verdict, double p,
                         const std::string& wanted) {
     report.add("verdict", verdict);

@@ -19,11 +19,11 @@ using std::numbers::pi;
 /// A square matrix times 2^exponent.
 struct Scaled {
     std::size_t size = 0;
-    std::vector<double> at;  ///< row after row
+    std::vector<double> at;  ///< row by row
     double exponent = 0;
 };
 
-/// Brings the largest number near 1, by a power of two.
+/// Scales the numbers by a power of two so that the largest is near 1.
 void rescale(std::vector<double>& numbers, double& exponent) {
     int power = 0;
     std::frexp(*std::ranges::max_element(numbers), &power);
@@ -54,7 +54,7 @@ std::vector<double> times(const std::vector<double>& row, const Scaled& a) {
     return out;
 }
 
-/// The transition matrix of Marsaglia, Tsang and Wang, for k cells on either side and the rest h.
+/// Transition matrix of Marsaglia, Tsang and Wang, for k cells on either side and the remainder h.
 Scaled transitions(std::size_t k, double h) {
     const std::size_t m = 2 * k - 1;
     Scaled a{m, std::vector<double>(m * m), 0};
@@ -73,8 +73,8 @@ Scaled transitions(std::size_t k, double h) {
     return a;
 }
 
-/// Sums of the expansion: over all whole k of f((k + 1/2)^2 pi^2), and of g(k^2 pi^2), weighed by
-/// exp(-that / (2 z^2)).
+/// Sum of the expansion over all integers k of term(q^2) exp(-q^2 / (2 z^2)), where q = pi (k +
+/// offset).
 template <class F>
 double theta_sum(double z, double offset, const F& term) {
     double sum = 0;
@@ -82,7 +82,7 @@ double theta_sum(double z, double offset, const F& term) {
         const double q = pi * (k + offset);
         const double weight = exponential(-q * q / (2 * z * z));
         if (weight == 0) break;
-        // k and -k - 1 (half numbers), k and -k (whole ones) give the same.
+        // k and -k - 1 (offset 1/2), or k and -k (offset 0), give the same.
         sum += (offset > 0 || k > 0 ? 2 : 1) * weight * term(q * q);
     }
     return sum;

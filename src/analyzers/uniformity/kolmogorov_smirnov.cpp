@@ -1,36 +1,36 @@
 // SPDX-License-Identifier: MIT
 //
-// The Kolmogorov-Smirnov test along each axis of the domain's cube, on which points that follow the
-// domain's density are uniform: with u_1 <= ... <= u_n one coordinate of all points, sorted,
+// Kolmogorov-Smirnov test along each axis of the domain's cube, on which points that follow the
+// domain's density are uniform. With u_1 <= ... <= u_n the sorted coordinates of all points on an
+// axis,
 //
 //     D = max_i max(i/n - u_i, u_i - (i - 1)/n)
 //     p_upper = P(D_n >= D),  p_lower = P(D_n <= D),  p = min(1, 2 min(p_upper, p_lower))
 //
-// for D_n of independent uniform numbers (kolmogorov.hpp). A small p_upper is a density that is
-// wrong, a small p_lower a coordinate that is more even than random. Over T axes each tail is
+// for D_n of independent uniform numbers (kolmogorov.hpp). A small p_upper indicates a wrong
+// density, a small p_lower a coordinate that is more even than random. Over T axes each tail is
 // combined by 1 - (1 - p)^T of its smallest p (Sidak): exact, as the axes of random points are
 // independent. Several sets are combined in the same way.
 //
-// Sets of more than 2^26 coordinates (--exact-points says otherwise) are not kept: the points are
-// counted in as many cells of each axis (a power of two, at least 4096 and at most 2^26 / d), of
-// which the ends are exact. There D is a maximum over the ends of cells, and below what it is by no
-// more than
+// Sets of more than 2^26 coordinates (or --exact-points) are not kept. Their points are counted in
+// equal cells of each axis (a power of two, at least 4096 and at most 2^26 / d), whose ends are
+// exact. D is then a maximum over the ends of cells, and below the true value by at most
 //
-//     statistic_error = the longest way from one end of a cell to the next, of i/n and of u,
+//     statistic_error = the longest step from one end of a cell to the next, of i/n and of u,
 //
 // about 2^-25 d + 1/n times the points of the fullest cell.
 //
-// Outcomes of a discrete distribution are spread at random over the cells that they have in the cube,
-// the same for every run, which makes them uniform.
+// Outcomes of a discrete distribution are spread at random over their cells in the cube, in the
+// same way in every run, which makes them uniform.
 //
-// Shape   points n x d on any domain whose coordinates preserve probability (all but a few) or are
-//         outcomes, also in pieces.
-// Cost    O(n) time, about 45 ns a point for each axis; 1.5 GiB at most, however many points there
-//         are; half a second for each axis at most for the distribution.
-// Promise where statistic_error is 0, D is exact up to the rounding of i/n; on the unit interval it
+// Shape   points n x d on any domain whose coordinates preserve probability (all except a few) or
+//         are outcomes, also in pieces.
+// Cost    O(n) time, about 45 ns per point for each axis; at most 1.5 GiB for any number of points;
+//         half a second for each axis at most for the distribution.
+// Promise if statistic_error is 0, D is exact up to the rounding of i/n; on the unit interval it
 //         is the star discrepancy. p is exact up to 10^4 points (relative error below 1e-9), and
-//         within 1e-9 above. The same for any number of threads, and however points are portioned.
-// Beware  one axis by itself tells nothing of how coordinates depend on each other.
+//         within 1e-9 above. The same for any number of threads, and for any pieces.
+// Beware  single axes do not show how coordinates depend on each other.
 // Source  A. N. Kolmogorov, Giornale dell'Istituto Italiano degli Attuari 4 (1933) 83-91.
 
 #include <algorithm>
@@ -59,9 +59,10 @@ constexpr Param<std::int64_t> exact_points{
         "Sets of up to so many points are kept and sorted; larger ones are counted in cells "
         "[default: 2^26 / d]"};
 
-constexpr std::uint64_t most_numbers = std::uint64_t{1} << 26;  // kept, and cells of all axes
+constexpr std::uint64_t most_numbers = std::uint64_t{1} << 26;  // coordinates to keep, and cells of
+                                                                // all axes
 
-/// D, at least, and what it may be above that.
+/// Lower bound of D, and by how much D may exceed it.
 struct Distance {
     double statistic = 0;
     double error = 0;
@@ -77,7 +78,7 @@ double statistic_of(std::span<const Placed> sorted) {
     return most;
 }
 
-/// From the counts of equal cells.
+/// D from the counts of equal cells.
 Distance distance_of(std::span<const std::uint64_t> cells, double n) {
     const double width = 1 / static_cast<double>(cells.size());
     Distance found;
@@ -95,7 +96,7 @@ Distance distance_of(std::span<const std::uint64_t> cells, double n) {
     return found;
 }
 
-/// The combined p-value, and what it means.
+/// Adds the combined p-value and the verdict.
 void conclude(Report& report, const Tails& all, const Values& options) {
     report.add("combined_p_value", all.two_sided())
         .add("combined_p_upper", all.upper)
@@ -104,7 +105,7 @@ void conclude(Report& report, const Tails& all, const Values& options) {
     add_verdict(report, verdict, all.two_sided(), options[expect_uniformity_option]);
 }
 
-/// Keeps the coordinates of the cube while they are few, and counts them when they are many.
+/// Keeps the coordinates of the cube while they are few, and counts them in cells if they are many.
 class Collector final : public SharedAccumulator {
   public:
     Collector(const Arrival& arrival, const Values& options, const RunContext& run)
@@ -179,7 +180,7 @@ class Collector final : public SharedAccumulator {
                         "the sorted coordinates");
     }
 
-    /// Points will be too many to keep.
+    /// Switches from keeping points to counting them in cells.
     void count_from_now(const RunContext& run) {
         run.need_memory(8.0 * static_cast<double>(axes_ * cells_), "the cells of all axes");
         counts_.resize(axes_ * cells_);
@@ -187,7 +188,7 @@ class Collector final : public SharedAccumulator {
         buffer_ = {};
     }
 
-    /// Every axis on a thread: its counts are its own.
+    /// Counts each axis on a single thread, since the axes have separate counts.
     void count(std::span<const double> cubes, const RunContext& run) {
         const auto cells = static_cast<double>(cells_);
         for_each_block(silent(run), axes_, 1, [&](const Block& axis) {
@@ -204,7 +205,7 @@ class Collector final : public SharedAccumulator {
             return distance_of(std::span(counts_).subspan(axis * cells_, cells_),
                                static_cast<double>(n_));
         for (std::uint64_t i = 0; i < n_; ++i)
-            sorted[i] = {buffer_[i * axes_ + axis] + 0.0, 0};  // no -0
+            sorted[i] = {buffer_[i * axes_ + axis] + 0.0, 0};  // turns -0 into 0
         radix_sort(sorted, run);
         return {.statistic = statistic_of(sorted)};
     }
@@ -212,13 +213,14 @@ class Collector final : public SharedAccumulator {
     DomainPtr domain_;
     Values options_;
     std::size_t axes_;
-    std::uint64_t most_;   ///< points to keep
-    std::uint64_t cells_;  ///< of each axis
+    std::uint64_t most_;   ///< number of points to keep
+    std::uint64_t cells_;  ///< per axis
     std::uint64_t first_ = 0;
     std::uint64_t n_ = 0;
     Outside outside_;
-    std::vector<double> buffer_;         ///< coordinates of the cube, point after point
-    std::vector<std::uint64_t> counts_;  ///< of each cell, axis after axis; empty: points are kept
+    std::vector<double> buffer_;         ///< coordinates of the cube, point by point
+    std::vector<std::uint64_t> counts_;  ///< in each cell, axis after axis; empty while points are
+                                         ///< kept
 };
 
 void combine(Report& mean, std::span<const Report> sets, const Values& options) {

@@ -80,7 +80,7 @@ void MomentSums::add(std::span<const double> rows, const RunContext& run) {
     count_ += count;
 }
 
-/// Adds batches that are a pair, as long as there are such at the end.
+/// Appends a node, and adds up pairs at the end as long as there are any.
 void MomentSums::take(Node node) {
     nodes_.push_back(std::move(node));
     while (nodes_.size() > 1) {

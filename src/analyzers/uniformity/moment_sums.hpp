@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// Sums of powers of rows of numbers, and the moments of a sample that they make.
+// Sums of powers of rows of numbers, and the moments of a sample that follow from them.
 //
 //     S_p = sum (x - c)^p, p = 1..6, and for each pair of columns sum (x - c)^p (y - c')^q, p, q in
 //     {1, 2}; c is near the mean, so that central moments lose little by cancellation.
 //
-// A batch is summed by blocks, and the blocks' sums in their order with their rounding carried
-// along (Neumaier). Sums of batches are added in pairs, pairs of pairs and so on, as a binary
-// counter does it: batches 2i and 2i + 1, then 4i to 4i + 3, ...; what no pair is left for, from
+// A batch is summed by blocks; the blocks' sums are added in order with compensation for rounding
+// (Neumaier). Sums of batches are added in pairs, pairs of pairs and so on, like a binary counter:
+// batches 2i and 2i + 1, then 4i to 4i + 3, .... Those that are left without a pair are added from
 // the end.
 //
-// Shape   memory: the sums once for each binary place of the number of batches.
-// Promise the same for any number of threads, and however the batches are shared out: the sums of
-//         batches that follow each other may be merged in any order.
+// Shape   memory: one set of sums for each binary digit of the number of batches.
+// Promise the same for any number of threads, and for any distribution of the batches: the sums of
+//         consecutive batches may be merged in any order.
 // Source  A. Neumaier, Zeitschrift fuer Angewandte Mathematik und Mechanik 54 (1974) 39-51.
 #pragma once
 
@@ -27,15 +27,15 @@
 
 namespace stipple::analyzers {
 
-/// Of a sample: per column, and for covariances per pair, row after row.
+/// Moments of a sample: one number per column, and a matrix of covariances, row by row.
 struct SampleMoments {
     std::vector<double> mean;
     std::vector<double> variance;  ///< unbiased
-    std::vector<double> skewness;  ///< m3 / m2^(3/2); 0 where all numbers are the same
+    std::vector<double> skewness;  ///< m3 / m2^(3/2); 0 if all numbers are equal
     std::vector<double> covariance;
 };
 
-/// With the standard error of each.
+/// Moments with the standard error of each.
 struct SampleAndErrors {
     SampleMoments value;
     SampleMoments error;
@@ -43,17 +43,17 @@ struct SampleAndErrors {
 
 class MomentSums {
   public:
-    /// Of columns, about these numbers; `first` is the number of the batch that comes first.
+    /// Sums for columns, about these numbers; `first` is the number of the first batch.
     explicit MomentSums(std::vector<double> about, std::uint64_t first = 0);
 
     /// Takes the next batch.
     void add(std::span<const double> rows, const RunContext& run);
 
     void pack(Packer& to) const;
-    /// Takes in the sums of the batches right behind its own.
+    /// Adds the sums of the batches directly after its own.
     void merge(Unpacker& from);
 
-    /// Of at least two rows. @throws Error(limit) when powers are beyond the largest double
+    /// Moments of at least two rows. @throws Error(limit) if powers exceed the largest double
     [[nodiscard]] SampleAndErrors moments() const;
 
   private:
@@ -62,7 +62,7 @@ class MomentSums {
         std::uint64_t first = 0;  ///< a multiple of 2^level
         std::uint64_t level = 0;
         std::vector<double> sums = {};
-        std::vector<double> carries = {};  ///< what rounding took from them
+        std::vector<double> carries = {};  ///< compensation for rounding
 
         [[nodiscard]] double sum(std::size_t i) const { return sums[i] + carries[i]; }
         void add(std::span<const double> more);
@@ -71,7 +71,7 @@ class MomentSums {
 
     [[nodiscard]] std::size_t width() const { return about_.size(); }
     [[nodiscard]] std::size_t size() const;
-    /// Where the products of columns i < j begin: sums of x y, x^2 y, x y^2, x^2 y^2.
+    /// Index of the sums of products of columns i < j: x y, x^2 y, x y^2, x^2 y^2.
     [[nodiscard]] std::size_t pair(std::size_t i, std::size_t j) const;
     void add_block(std::span<const double> rows, std::span<double> sums) const;
     void take(Node node);
@@ -80,7 +80,7 @@ class MomentSums {
     void cross(const Node& all, std::size_t i, std::size_t j, SampleAndErrors& out) const;
 
     std::vector<double> about_;
-    std::uint64_t next_ = 0;  ///< number of the batch that comes next
+    std::uint64_t next_ = 0;  ///< number of the next batch
     std::uint64_t count_ = 0;
     std::vector<Node> nodes_;  ///< in the order of their batches
 };

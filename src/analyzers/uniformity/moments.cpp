@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Mean, variance, skewness and covariances of the coordinates, with standard errors, beside the
-// exact values of the domain's law where these are known (exact.known says whether):
+// exact values of the domain's distribution if these are known (exact.known):
 //
 //     mean = (1/n) sum x,                           error sqrt(variance / n)
 //     variance = 1/(n - 1) sum (x - mean)^2,        error sqrt((m4 - m2^2 (n - 3)/(n - 1)) / n)
@@ -10,19 +10,20 @@
 //     covariance = 1/(n - 1) sum (x - mx)(y - my),  error sqrt((m22 - covariance^2) / n)
 //
 // with m_p the central moments of the sample, g_p = m_p / m2^(p/2). The errors hold for independent
-// points (that of the skewness for many); points that are more even have smaller ones.
+// points (that of the skewness for many of them); more even points have smaller ones.
 //
-// The same is said of the points on the domain's cube, where points that follow the domain's
-// density are uniform: mean 1/2, variance 1/12, skewness 0, covariances 0, whatever the domain.
-// largest_z is the largest |value - exact| among them in the standard errors that n independent
-// uniform points would have, which are exact but for the skewness:
+// The same numbers are reported for the points on the domain's cube, where points that follow the
+// domain's density are uniform: mean 1/2, variance 1/12, skewness 0, covariances 0, for any domain.
+// largest_z is the largest |value - exact| among them, in the standard errors that n independent
+// uniform points would have. These are exact except for the skewness:
 //
 //     mean sqrt(1 / (12 n)),    variance sqrt((1/80 - (n - 3)/(n - 1)/144) / n),
 //     skewness sqrt(72 / (35 n)),    covariance 1 / (12 sqrt(n - 1))
 //
-// Shape   points n x d, n >= 2, on any domain, also in pieces. Matrices row after row.
-// Cost    O(n d^2) time, O(d^2) memory besides the points; about 25 ns a point in 2-D on one core.
-// Promise the same for any number of threads, and whether points come at once or in pieces.
+// Shape   points n x d, n >= 2, on any domain, also in pieces. Matrices row by row.
+// Cost    O(n d^2) time, O(d^2) memory besides the points; about 25 ns per point in 2-D on one
+//         core.
+// Promise the same for any number of threads, and whether points arrive at once or in pieces.
 // Source  M. G. Kendall, A. Stuart, "The Advanced Theory of Statistics", volume 1, chapter 10
 //         (standard errors by the delta method).
 
@@ -42,7 +43,7 @@
 namespace stipple::analyzers::moments {
 namespace {
 
-/// Column means of the rows: what later sums are taken about.
+/// Column means of the rows, about which later sums are taken.
 std::vector<double> means_of(std::span<const double> rows, std::size_t d) {
     std::vector<double> means(d);
     const double n = static_cast<double>(rows.size()) / static_cast<double>(d);
@@ -65,7 +66,7 @@ SampleMoments exact_of(const Moments& moments) {
     return exact;
 }
 
-/// Those that are numbers, and which are not.
+/// The moments that are finite, and the names of the others.
 Report finite_of(const SampleMoments& exact) {
     Report report;
     std::vector<std::string> missing;
@@ -86,7 +87,7 @@ Report finite_of(const SampleMoments& exact) {
     return report;
 }
 
-/// The largest |value - exact| of n points on the cube, in standard errors of independent ones.
+/// Largest |value - exact| of n points on the cube, in standard errors of independent points.
 double largest_z(const SampleMoments& found, double n) {
     const std::size_t d = found.mean.size();
     const double mean = std::sqrt(1 / (12 * n));
@@ -155,7 +156,7 @@ class Summation final : public SharedAccumulator {
     }
 
   private:
-    /// Looks at the first batch of the set.
+    /// Starts the sums, about means of the set's first batch.
     void begin(std::span<const double> rows) {
         const std::uint64_t batch = first_ / arrival_batch(domain_->dimension());
         raw_.emplace(means_of(rows, domain_->dimension()), batch);
@@ -164,7 +165,7 @@ class Summation final : public SharedAccumulator {
         level_ = is_level(rows);
     }
 
-    /// Whether the domain's density is level, as far as its first points tell.
+    /// Whether the domain's density is constant, judged by the first points.
     [[nodiscard]] bool is_level(std::span<const double> rows) const {
         constexpr std::size_t some = 64;
         const std::size_t d = domain_->dimension();
@@ -186,7 +187,7 @@ class Summation final : public SharedAccumulator {
     }
 
     DomainPtr domain_;
-    std::uint64_t first_ = 0;  ///< index of the first point that comes
+    std::uint64_t first_ = 0;  ///< index of the first point to arrive
     std::uint64_t n_ = 0;
     std::optional<MomentSums> raw_;
     std::optional<MomentSums> cube_;

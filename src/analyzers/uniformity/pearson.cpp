@@ -17,10 +17,11 @@
 namespace stipple::analyzers {
 namespace {
 
-constexpr std::size_t most_unequal = 8;  ///< groups; counts of more are too many to be gone through
+constexpr std::size_t most_unequal = 8;  ///< number of groups; more have too many counts to
+                                         ///< enumerate
 
-/// Equal cells to a group so that its expectation is at least 5. @throws Error(input) if fewer than
-/// two groups come of it.
+/// Number of equal cells in a group, so that its expectation is at least 5. @throws Error(input) if
+/// that leaves fewer than two groups
 std::uint64_t group_size(std::uint64_t n, std::uint64_t total) {
     const std::uint64_t size = (fewest_expected * total + n - 1) / n;
     if (size > total / 2) {
@@ -31,8 +32,8 @@ std::uint64_t group_size(std::uint64_t n, std::uint64_t total) {
     return size;
 }
 
-/// The chance that independent points fall into equal groups as evenly as can be: n mod K groups
-/// hold one point more than the others. Chi-square, being continuous, takes it for 0.
+/// Probability that independent points fall into equal groups as evenly as possible: n mod K groups
+/// have one point more than the others. The continuous chi-square distribution gives 0 for this.
 double most_even_chance(std::uint64_t n, std::uint64_t groups) {
     const auto k = static_cast<double>(groups);
     const auto more = static_cast<double>(n % groups);
@@ -43,12 +44,12 @@ double most_even_chance(std::uint64_t n, std::uint64_t groups) {
     return std::min(1.0, exponential(ways + counts - static_cast<double>(n) * logarithm(k)));
 }
 
-/// q_1, q_2, ... of groups that expect this, the least first: all, or those above 1e-30.
+/// q_1, q_2, ... of groups, in the order of their expectations; stops below 1e-30.
 class ModalProbabilities {
   public:
     explicit ModalProbabilities(std::uint64_t n) : whole_(static_cast<double>(n)), rest_(whole_) {}
 
-    /// Not for the last group, whose count is what the others leave.
+    /// Adds a group, but not the last one, whose count follows from the others.
     void add(double expected) {
         if (!found_.empty() && found_.back() < 1e-30) return;
         rest_ -= expected;
@@ -60,12 +61,12 @@ class ModalProbabilities {
 
   private:
     double whole_;
-    double rest_;  ///< expected in groups to come
+    double rest_;  ///< expected in later groups
     double log_ = 0;
     std::vector<double> found_;
 };
 
-/// Cells that points can be in, the least probable first; counts the points that are in others.
+/// Cells with a probability above 0, the least probable first; counts the points in other cells.
 std::vector<std::uint64_t> possible_cells(std::span<const std::uint64_t> counts,
                                           std::span<const Estimate> masses, Fit& found) {
     std::vector<std::uint64_t> cells;
@@ -80,10 +81,10 @@ std::vector<std::uint64_t> possible_cells(std::span<const std::uint64_t> counts,
     return cells;
 }
 
-/// Cells with what is expected and counted in all of them.
+/// Cells with their total expected and observed numbers of points.
 struct Group {
     double expected = 0;
-    double error = 0;  ///< of what is expected
+    double error = 0;  ///< of `expected`
     std::uint64_t observed = 0;
     std::uint64_t cells = 0;
 
@@ -95,7 +96,7 @@ struct Group {
     }
 };
 
-/// Groups of single cells in order, each expecting enough. @throws Error(input) for fewer than two
+/// Pools consecutive cells into groups that expect enough. @throws Error(input) for fewer than two
 std::vector<Group> pool(const std::vector<Group>& cells, std::uint64_t n) {
     std::vector<Group> groups;
     Group open;
@@ -114,7 +115,7 @@ std::vector<Group> pool(const std::vector<Group>& cells, std::uint64_t n) {
     return groups;
 }
 
-/// The most by which the statistic may be off, for what is expected is known within errors.
+/// Largest error of the statistic due to the errors of expectations.
 double statistic_error_of(double statistic, const std::vector<Group>& groups) {
     double square = 0;
     double ratio = 0;
@@ -147,7 +148,7 @@ Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunC
         const std::uint64_t last = g + 1 < found.groups ? first + size : total;
         std::uint64_t observed = 0;
         for (std::uint64_t c = first; c < last; ++c) observed += counts[c];
-        // K (O - E) and K n E are whole numbers.
+        // K (O - E) and K n E are integers.
         const auto scaled = static_cast<double>(static_cast<Int128>(observed) * total -
                                                 static_cast<Int128>(last - first) * n);
         const double expected = static_cast<double>(n) *

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Whether points depend on the ones before them: along each axis of the domain's cube, on which
-// the coordinate u of a point that follows the domain's density is uniform,
+// Whether points depend on the ones before them. Along each axis of the domain's cube, where the
+// coordinate u of a point that follows the domain's density is uniform,
 //
 //     r_L = 12/(n - L) sum (u_i - 1/2)(u_(i+L) - 1/2),    mean 0, variance 1/(n - L)
 //     runs up and down: 1 + number of i where the sequence turns, mean (2 n - 1)/3,
@@ -10,17 +10,17 @@
 //                       variance (n - 1)/4
 //
 // for independent points. These means and variances are exact (mean and variance of u are not
-// estimated); the p-values take the values for normal, which they are for many points. All tests
-// are combined by 1 - (1 - p)^T of the smallest of their T two-sided p (Sidak), which for tests
-// that depend on each other is close to right or too large a p.
+// estimated). The p-values assume normal distributions, which hold for many points. All tests are
+// combined by 1 - (1 - p)^T of the smallest of their T two-sided p (Sidak). For dependent tests
+// this is nearly right or too large.
 //
 // Shape   points n x d, n > lags + 1 and n >= 3, in their order, on any domain whose coordinates
 //         preserve probability; also in pieces.
-// Cost    O(n d lags) time, 20 ns a point in 2-D with 5 lags on one core; O(d lags) memory besides
-//         the points.
-// Promise runs are counted in whole numbers; the same for any number of threads, and whether points
-//         come at once or in pieces. Equal neighbours count as rising, and 1/2 as above.
-// Beware  low-discrepancy points come in an order that depends on itself; that is no fault.
+// Cost    O(n d lags) time, 20 ns per point in 2-D with 5 lags on one core; O(d lags) memory
+//         besides the points.
+// Promise runs are counted in integers; the same for any number of threads, and whether points
+//         arrive at once or in pieces. Equal neighbours count as rising, and 1/2 as above.
+// Beware  consecutive low-discrepancy points depend on each other; that is not a defect.
 // Source  H. Levene, J. Wolfowitz, Annals of Mathematical Statistics 15 (1944) 58-69,
 //         doi:10.1214/aoms/1177731307 (runs up and down). A. Wald, J. Wolfowitz, Annals of
 //         Mathematical Statistics 11 (1940) 147-162, doi:10.1214/aoms/1177731909 (runs about a
@@ -52,7 +52,7 @@ constexpr Param<Choice> expect{.name = "expect",
                                .choices = "independent|dependent",
                                .help = "Fail (exit code 1) when the verdict is another"};
 
-/// What is summed along one axis.
+/// Sums along one axis.
 struct AxisSums {
     std::vector<double> products;  ///< of (u_i - 1/2)(u_(i-L) - 1/2), for each lag
     std::uint64_t turns = 0;
@@ -66,7 +66,8 @@ struct AxisSums {
     }
 };
 
-/// Sums for rows [first, last) of `cubes`, each with the rows before it that are there.
+/// Sums for rows [first, last) of `cubes`, each with those of the preceding rows that are in
+/// `cubes`.
 void sum_axis(std::span<const double> cubes, std::size_t axes, std::size_t axis, std::size_t first,
               std::size_t last, AxisSums& sums) {
     const auto u = [&](std::size_t i) { return cubes[i * axes + axis]; };
@@ -134,7 +135,7 @@ class Order final : public Accumulator {
     }
 
   private:
-    /// Rows [first, last) of tail_, in blocks that add up in order.
+    /// Adds rows [first, last) of tail_, in blocks whose sums are added in order.
     void add_rows(std::size_t first, std::size_t last, const RunContext& run) {
         const std::size_t axes = sums_.size();
         const std::size_t block = std::max<std::size_t>(1, 16384 / axes);
