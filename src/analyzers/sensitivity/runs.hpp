@@ -22,12 +22,13 @@ struct Runs {
     std::vector<Response> responses;
 };
 
-/// The inputs are the coordinates of the domain in the table's provenance, or the design's, by
-/// name; where neither knows any, all columns of the design, or all of the table but the last one.
-/// All other columns of the table are outputs, except copies of inputs: with the name and the
-/// numbers of one. Notes tell what was taken without being known, and which columns are not looked
-/// at. @throws Error(input) for another number of rows, for a column with the name of an input and
-/// other numbers, for words; Error(usage) for columns that are not there
+/// Finds the inputs and outputs. Inputs are, by name, the coordinates of the domain in the
+/// provenance of the table or of the design. If neither has a domain, they are all columns of the
+/// design, or all of the table except the last. All other columns of the table are outputs, except
+/// copies of inputs, which have both the name and the numbers of one. Notes report assumptions and
+/// unused columns. @throws Error(input) for different numbers of rows, for a column with the name
+/// of an input and other
+///         numbers, and for words; Error(usage) for columns that do not exist
 Runs runs_of(const PointSet& table, const ColumnsAsked& asked, const RunContext& run);
 
 }  // namespace stipple::analyzers::sensitivity
