@@ -16,8 +16,7 @@ namespace stipple::analyzers {
 
 struct Outside {
     std::uint64_t count = 0;
-    std::uint64_t first = std::numeric_limits<std::uint64_t>::max();  ///< lowest index of a point
-                                                                      ///< outside
+    std::uint64_t first = std::numeric_limits<std::uint64_t>::max();  ///< lowest index outside
     std::vector<double> point = {};                                   ///< the point with that index
 
     /// Adds point `i`; indices must ascend.

@@ -22,8 +22,8 @@ inline constexpr Param<Text> scramble_seed{
 
 /// Describes the set to scramble.
 struct ScrambleRequest {
-    std::vector<std::size_t> coordinates = {};  ///< those to scramble, as positions in a row, from
-                                                ///< 0
+    /// Coordinates to scramble, as positions in a row, from 0.
+    std::vector<std::size_t> coordinates = {};
     std::uint64_t seed = 1;
     std::uint64_t count = 1;  ///< points in the whole set
 };

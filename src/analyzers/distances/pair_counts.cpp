@@ -136,8 +136,7 @@ class PairCounter {
     std::size_t bins_;
     bool with_offsets_;
     const RunContext& run_;
-    std::array<std::vector<double>, D> columns_;  ///< coordinates of the points, cell by cell, for
-                                                  ///< each axis
+    std::array<std::vector<double>, D> columns_;  ///< coordinates cell by cell, for each axis
 };
 
 }  // namespace

@@ -286,8 +286,7 @@ struct Uniform {
     };
     How how = none;
     double measure = 0;               ///< of the domain of these points
-    std::optional<Tally> found = {};  ///< estimate of the measure by the weights, if it is not
-                                      ///< known
+    std::optional<Tally> found = {};  ///< estimate of an unknown measure, by the weights
 };
 
 /// Sums the values of all integrands at points of the domain.

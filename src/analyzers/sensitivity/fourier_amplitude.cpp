@@ -108,8 +108,8 @@ Layout find_curves(const PointSet& design, std::optional<std::size_t> asked,
         return {.trouble = fmt::format("curves of {} rows; {} harmonics need {}", n, harmonics,
                                        4 * harmonics * harmonics + 1)};
     const Spectrum spectrum(n, harmonics);
-    constexpr double own_least = 0.7;  // a triangle wave has 0.998 for M = 4; discrete inputs have
-                                       // less
+    // A triangle wave has 0.998 for M = 4; discrete inputs have less.
+    constexpr double own_least = 0.7;
     constexpr double others_most = 0.1;
     for (std::size_t i = 0; i < k; ++i)
         for (std::size_t j = 0; j < k; ++j) {

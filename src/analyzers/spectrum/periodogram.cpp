@@ -148,8 +148,7 @@ constexpr Param<std::int64_t> slice{
 
 constexpr double floor_of_floats = 1e-13;
 constexpr std::uint64_t buffered_points = std::uint64_t{1} << 20;
-constexpr std::uint64_t most_points = std::uint64_t{1} << 30;  // count for which the transform of
-                                                               // larger sets is planned
+constexpr std::uint64_t most_points = std::uint64_t{1} << 30;  // count assumed for larger sets
 
 std::size_t default_frequency(std::uint64_t count, std::size_t dimension) {
     constexpr double most[] = {0, 65536, 1024, 64};

@@ -16,8 +16,8 @@ namespace stipple::analyzers {
 
 using CellGrid = std::vector<std::size_t>;  ///< cells along each axis
 
-inline constexpr std::uint64_t fewest_expected = 5;  ///< expected number of points in a group of
-                                                     ///< cells
+/// Points that a group of cells expects at least.
+inline constexpr std::uint64_t fewest_expected = 5;
 inline constexpr std::uint64_t most_cells = 100'000'000;
 
 /// Above the first of these numbers of points, the default grid is that of the largest one not

@@ -92,8 +92,7 @@ constexpr Param<Choice> combination{
         "What makes one p of several sets (--average): the sum of their statistics, the "
         "smallest p (Sidak), or the product of the p (Fisher)"};
 
-constexpr std::uint64_t held_points = grid_counts[0];  ///< points of a stream that are kept before
-                                                       ///< the grid is known
+constexpr std::uint64_t held_points = grid_counts[0];  ///< points kept until the grid is known
 
 /// Gaps of a domain's density: no point can be there, whatever the probability of the cell.
 class Gaps {

@@ -59,8 +59,8 @@ constexpr Param<std::int64_t> exact_points{
         "Sets of up to so many points are kept and sorted; larger ones are counted in cells "
         "[default: 2^26 / d]"};
 
-constexpr std::uint64_t most_numbers = std::uint64_t{1} << 26;  // coordinates to keep, and cells of
-                                                                // all axes
+/// Coordinates to keep at most, and cells of all axes together.
+constexpr std::uint64_t most_numbers = std::uint64_t{1} << 26;
 
 /// Lower bound of D, and by how much D may exceed it.
 struct Distance {
@@ -218,9 +218,9 @@ class Collector final : public SharedAccumulator {
     std::uint64_t first_ = 0;
     std::uint64_t n_ = 0;
     Outside outside_;
-    std::vector<double> buffer_;         ///< coordinates of the cube, point by point
-    std::vector<std::uint64_t> counts_;  ///< in each cell, axis after axis; empty while points are
-                                         ///< kept
+    std::vector<double> buffer_;  ///< coordinates of the cube, point by point
+    /// Numbers of points in cells, axis after axis; empty while points are kept.
+    std::vector<std::uint64_t> counts_;
 };
 
 void combine(Report& mean, std::span<const Report> sets, const Values& options) {

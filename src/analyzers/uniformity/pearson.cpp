@@ -17,8 +17,8 @@
 namespace stipple::analyzers {
 namespace {
 
-constexpr std::size_t most_unequal = 8;  ///< number of groups; more have too many counts to
-                                         ///< enumerate
+/// Largest number of unequal groups whose counts may be enumerated.
+constexpr std::size_t most_unequal = 8;
 
 /// Number of equal cells in a group, so that its expectation is at least 5. @throws Error(input) if
 /// that leaves fewer than two groups

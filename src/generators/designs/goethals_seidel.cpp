@@ -12,8 +12,8 @@ namespace {
 struct Functions {
     std::uint64_t outer;
     std::uint64_t inner;
-    std::array<std::string_view, 4> values;  ///< hexadecimal, highest bit first; a bit 1 means the
-                                             ///< value 1
+    /// Bits as hexadecimal digits, highest first; 1 bits are the value 1, others -1.
+    std::array<std::string_view, 4> values;
 };
 
 constexpr Functions functions[] = {

@@ -45,8 +45,8 @@ class GoethalsSeidel {
     [[nodiscard]] std::uint64_t sum(std::uint64_t x, std::uint64_t y) const;
     [[nodiscard]] std::uint64_t negative(std::uint64_t x) const;
 
-    std::uint64_t outer_ = 1;  ///< element (i, j) has the number i inner + j; i modulo outer, j
-                               ///< modulo inner
+    /// Element i inner + j is the pair (i, j), i modulo outer and j modulo inner.
+    std::uint64_t outer_ = 1;
     std::uint64_t inner_ = 1;
     std::array<std::vector<bool>, 4> positive_;  ///< A, B, C, D
 };

@@ -13,7 +13,7 @@
 //                                matrix of order q - 1
 //     n = 2 m                    H_m H_m / H_m -H_m (Sylvester)
 //
-// tried in this order. q is a prime or a power of one.
+// They are tried in this order; q may also be a power of a prime.
 //
 // Shape   multiples of 4 up to 2^20: all up to 664, most of those beyond.
 // Cost    O(q) memory; O(log n) an entry.

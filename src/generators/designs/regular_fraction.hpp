@@ -20,8 +20,8 @@
 namespace stipple::generators {
 
 struct RegularFraction {
-    std::vector<std::size_t> basic;  ///< basic factors; the j-th is high in run i if bit j of i is
-                                     ///< 1
+    /// Basic factors; the j-th has its high level in run i if bit j of i is 1.
+    std::vector<std::size_t> basic;
     std::vector<std::uint64_t> columns;  ///< column of every factor
     std::vector<bool> negative = {};     ///< factors whose sign is reversed; may be empty
 

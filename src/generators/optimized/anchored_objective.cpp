@@ -93,9 +93,7 @@ class AnchoredObjective final : public Objective {
     double value(std::span<const double> rows, double sharpness, std::span<double> gradient,
                  const RunContext& run) override {
         sort_axes(rows);
-        if (last_ == 0)
-            last_ = static_cast<double>(d_ + 1) / static_cast<double>(n_);  // initial
-                                                                            // guess
+        if (last_ == 0) last_ = static_cast<double>(d_ + 1) / static_cast<double>(n_);  // a guess
         double most = 0;
         for (double least = last_ * (1 - reach / sharpness); most == 0; least *= 0.8) {
             look(static_cast<float>(std::max(least, 0.0)), run);

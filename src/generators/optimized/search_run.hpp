@@ -13,8 +13,7 @@ struct OptimizedRows {
     std::vector<double> rows;
     double value = 0;
     bool stopped = false;  ///< before the budget was used up, for a run that keeps the best
-    bool certain = true;   ///< whether the value is exact; a descent that was cut short may report
-                           ///< too small a value
+    bool certain = true;   ///< whether the value is exact, not possibly too small
 };
 
 }  // namespace stipple::optimized

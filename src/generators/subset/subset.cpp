@@ -255,8 +255,8 @@ struct Task {
 };
 
 std::vector<Rows> choose(const Task& task, const RunContext& run) {
-    constexpr double start = 0.05;  // fraction of the kernel evaluations if star measurements
-                                    // follow
+    // Fraction of the kernel evaluations if star measurements follow.
+    constexpr double start = 0.05;
     const double share = task.star ? start : 1;
     const RunContext first = run.stage(0, share);
     const RunContext second = run.stage(share, 1);
