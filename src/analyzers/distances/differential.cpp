@@ -23,7 +23,8 @@
 //         take 2 s on one core.
 // Promise every pair counts twice, once on either side of 0: the image is its own mirror image
 //         exactly. Never depends on the number of threads.
-// Beware  a difference on the edge of a pixel counts in one of the pixels beside it.
+// Beware  a difference on the edge of pixels counts in one of them, so the peaks of a lattice are
+//         single pixels.
 // Source  L.-Y. Wei, R. Wang, ACM Trans. Graph. 30:4 (2011) 50, doi:10.1145/2010324.1964945.
 
 #include <algorithm>

@@ -8,10 +8,9 @@
 // d = 2   the maximum is at a corner of a point's Voronoi cell (math/neighbors/planar_sites.hpp). A
 //         cell is abandoned as soon as all its corners are nearer than the best corner so far.
 // d >= 3  branch and bound over boxes. The points near a box give an upper bound for the balls
-// centred
-//         in it, and a place where the bound is attained up to the square of the box's size
-//         (math/neighbors/covering_bound.hpp). A box is done if its bound is at most (1 +
-//         tolerance) times the largest distance found so far; others are halved.
+//         centred in it, and a place where the bound is attained up to the square of the box's size
+//         (math/neighbors/covering_bound.hpp). A box is done if its bound is at most
+//         (1 + tolerance) times the largest distance found so far; others are halved.
 //
 // Cost    d = 2: O(n log n) for even sets; 10^6 points take 2.5 s on one core. d >= 3: grows with
 //         the number of places that are nearly as empty as the emptiest, and exponentially with d.

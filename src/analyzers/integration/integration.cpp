@@ -31,8 +31,7 @@
 //
 // If the density is constant, on any domain, both use the same points. If the domain has no such
 // coordinates (mixtures, formulas, supports with gaps), or the density is not its own, the variance
-// of uniform points is computed from the weights of the given points, estimator's variance is
-// worked out from the same points by their weights,
+// of uniform points is computed from the weights of the given points,
 //
 //     n / (n - 1) (measure mean(f^2 / p) - mean(f / p)^2),
 //

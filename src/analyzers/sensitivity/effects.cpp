@@ -32,7 +32,7 @@ Centred centred(std::span<const double> y) {
     const auto [low, high] = std::ranges::minmax(y);
     const double largest = std::max(std::abs(low), std::abs(high));
     if (!(largest > 0)) return {.z = {y.begin(), y.end()}};
-    // Differences from the middle keep their own last bits in sums, not only those of the numbers.
+    // Sums of differences from the middle are as accurate as the differences, not as the numbers.
     const double middle = low / 2 + high / 2;
     const double reach = std::max(high / 2 - low / 2, std::numeric_limits<double>::min());
     Centred out{.z = {y.begin(), y.end()}, .unit = reach};

@@ -3,8 +3,7 @@
 // Orthogonal matching pursuit: adds terms to a least squares fit one by one, each time the term
 // that correlates most with the residual. It keeps the number of terms t with the least
 //
-//     (mean square of e_i / (1 - h_i)) n / (n - t) (1 + trace of the inverse of the Gram matrix)
-//     P^(2t/n)
+//     (mean square of e_i / (1 - h_i)) n / (n - t) (1 + trace of inverse Gram matrix) P^(2t/n)
 //
 // of terms chosen from P candidates, where e_i / (1 - h_i) are the leave-one-out errors. The last
 // factor makes up for choosing the best of P candidates, which reduces the error even of pure

@@ -27,8 +27,8 @@
 // second is due to pairs of runs. The upper end is extended by what windows may hide of E(f | x_i),
 // the loss with windows of twice the size,
 //
-//     sum_g (n_g n_(g+1) (z_g - z_(g+1))^2 - n_(g+1) s_g^2 - n_g s_(g+1)^2) / (n_g + n_(g+1)) / (n
-//     V),
+//     sum_g (n_g n_(g+1) (z_g - z_(g+1))^2 - n_(g+1) s_g^2 - n_g s_(g+1)^2)
+//         / (n_g + n_(g+1)) / (n V),
 //
 // for both ways to join neighbors. If x_i is constant in both, they hide nothing. Intervals at the
 // level of 95 % contain the index in at least 90 % of samples, for n from 20 to 1000, on the

@@ -26,9 +26,9 @@ struct Runs {
 /// provenance of the table or of the design. If neither has a domain, they are all columns of the
 /// design, or all of the table except the last. All other columns of the table are outputs, except
 /// copies of inputs, which have both the name and the numbers of one. Notes report assumptions and
-/// unused columns. @throws Error(input) for different numbers of rows, for a column with the name
-/// of an input and other
-///         numbers, and for words; Error(usage) for columns that do not exist
+/// unused columns.
+/// @throws Error(input) for different numbers of rows, for a column with the name of an input and
+///         other numbers, and for words; Error(usage) for columns that do not exist
 Runs runs_of(const PointSet& table, const ColumnsAsked& asked, const RunContext& run);
 
 }  // namespace stipple::analyzers::sensitivity

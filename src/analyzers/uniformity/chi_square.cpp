@@ -243,7 +243,7 @@ void conclude(Report& report, const Judged& plain, const std::optional<Judged>& 
     add_verdict(report, verdict, p, options[expect_uniformity_option]);
 }
 
-/// Tails of a fit. Points where none can be leave nothing to chance.
+/// Tails of a fit; the upper tail is 0 if there are points where none can be.
 Judged judge(const Fit& fit) {
     const Tails never{.upper = 0, .lower = 1};
     if (fit.impossible > 0) return {never, never, never};
@@ -315,7 +315,7 @@ class Counter final : public SharedAccumulator {
     }
 
   private:
-    /// Takes points, also as coordinates of the cube.
+    /// Counts points, given as rows and as coordinates of the cube, or keeps them.
     void take(std::span<const double> rows, std::span<const double> cubes, const RunContext& run) {
         in_gaps_ += gaps_.count(rows, run);
         for (Tally& tally : tallies_) tally.add(cubes, axes_);

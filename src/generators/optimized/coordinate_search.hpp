@@ -50,8 +50,8 @@ struct CoordinateSearch {
     std::size_t sets_a_start = 16;
 };
 
-/// Runs the search. Reports progress after `words`, with the lowest value so far as reports show
-/// it.
+/// Runs the search. Progress notes begin with `words` and have the lowest value so far, as
+/// Objective::reported() converts it.
 /// @throws Error(cancelled)
 OptimizedRows search_coordinates(const CoordinateSearch& search, const std::string& words,
                                  const RunContext& run);

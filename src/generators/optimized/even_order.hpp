@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Order of points in which every prefix has a small L2 discrepancy, chosen greedily. After m points
-// p follows the point x that minimizes
+// p comes the point x that minimizes
 //
 //     2 sum_p K(x, p) + K(x, x) - 2 (m + 1) int K(x, y) dy.
 //

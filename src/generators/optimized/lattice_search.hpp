@@ -18,8 +18,8 @@
 
 namespace stipple::optimized {
 
-/// Runs the search. Reports progress after `words`, with the lowest value so far as reports show
-/// it.
+/// Runs the search. Progress notes begin with `words` and have the lowest value so far, as
+/// Objective::reported() converts it.
 /// @throws Error(cancelled)
 OptimizedRows least_lattice(std::size_t count, std::size_t dimension,
                             const std::function<std::unique_ptr<Objective>()>& objective,

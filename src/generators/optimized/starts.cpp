@@ -29,7 +29,7 @@ double wraparound_sum(std::size_t count, const std::vector<std::size_t>& vector)
     return sum;
 }
 
-/// Number of random vectors to try: more if there are more, without many repetitions.
+/// Number of random vectors to try: grows with the number of distinct ones, so that few repeat.
 std::size_t vectors_to_draw(std::size_t count, std::size_t dimension) {
     double all = 1;
     for (std::size_t j = 1; j < dimension; ++j) all *= static_cast<double>(count);

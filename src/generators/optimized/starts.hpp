@@ -12,8 +12,8 @@
 
 namespace stipple::optimized {
 
-/// Rows of multiples of the golden ratio modulo 1, in one dimension, or in two after i / n; shifted
-/// at random.
+/// Rows of multiples of the golden ratio modulo 1, alone in one dimension, after i / n in two;
+/// shifted at random.
 std::vector<double> golden_rows(std::size_t count, std::size_t dimension, SplitMix64& draws);
 
 /// Rows of a lattice of rank 1: i times a vector over n, plus a shift, modulo 1.
