@@ -37,7 +37,7 @@ struct Scramble {
     std::string name;
     std::string summary;
     std::string source;
-    std::string family = {};  ///< such as "blue noise"; set by the registry from the folder
+    std::string family = {};  ///< family name such as "blue noise", set by the registry
     /// Search words that are not names of it: a kind, a part or a use.
     std::vector<std::string> related = {};
     Schema options;

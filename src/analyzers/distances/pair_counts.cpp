@@ -24,7 +24,7 @@ template <std::size_t D>
 struct FromPlace {
     std::array<const double*, D> columns;  ///< coordinates of the points
     std::array<double, D> place;
-    std::array<double, D> sides;  ///< to wrap around; infinite for straight distances
+    std::array<double, D> sides;  ///< periods; infinite for straight distances
 };
 
 /// places[i] = distance of point i times `scale`, at most `last`; bins[i] is its integer part.

@@ -17,7 +17,7 @@
 namespace stipple::analyzers {
 
 struct PairCounts {
-    std::vector<std::uint64_t> pairs;  ///< in each bin
+    std::vector<std::uint64_t> pairs;  ///< number in each bin
 
     /// Sums over a bin's pairs of (distance - middle of the bin) / width, and of its square; empty
     /// unless requested.

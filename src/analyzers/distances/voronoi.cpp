@@ -63,7 +63,7 @@ double length_of(const Vec2& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 
 /// Sums over cells, with lengths in sqrt(V / m).
 struct Sums {
-    double squared_deviation = 0;  ///< of areas from their mean, 1
+    double squared_deviation = 0;  ///< deviations of areas from 1, squared
     double smallest = INFINITY;
     double largest = 0;
     double second_moment = 0;

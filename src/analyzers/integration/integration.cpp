@@ -251,7 +251,7 @@ struct Fault {
     std::size_t task = 0;
     double value = 0;
     double density = 0;
-    bool uniform = false;  ///< at the uniform point made from that point
+    bool uniform = false;  ///< value is at the uniform point made from `point`
 
     void add(const Fault& other) {
         if (other.point < point) *this = other;
@@ -284,7 +284,7 @@ struct Uniform {
         weighed,      ///< no uniform points; sums of measure x f^2 / p give their variance
     };
     How how = none;
-    double measure = 0;               ///< of the domain of these points
+    double measure = 0;               ///< measure of the domain of these points
     std::optional<Tally> found = {};  ///< estimate of an unknown measure, by the weights
 };
 

@@ -73,7 +73,7 @@ using Unequal = std::vector<std::size_t>;
 
 /// Projections, all of one size, that have the t of the whole set.
 struct Worst {
-    std::size_t unequal = 0;  ///< R
+    std::size_t unequal = 0;  ///< R of these projections
     std::vector<Combination> along = {};
 };
 

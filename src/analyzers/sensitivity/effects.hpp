@@ -23,9 +23,9 @@ inline constexpr double none = std::numeric_limits<double>::quiet_NaN();
 struct Inputs {
     std::vector<std::string> names = {};
     PointSet values;
-    std::string generator = {};  ///< of the inputs; empty if unknown
+    std::string generator = {};  ///< generator of the inputs; empty if unknown
 
-    DomainPtr domain = {};  ///< whose coordinates the inputs are; null if unknown
+    DomainPtr domain = {};  ///< domain with the inputs as coordinates; null if unknown
     PointSet points = {};   ///< all coordinates of the domain, in each run
     std::vector<std::size_t> coordinates = {};  ///< positions of the inputs among these
 
@@ -44,8 +44,8 @@ struct Setting {
     std::size_t bootstrap = 1000;  ///< resamples; 0: no intervals from them
     double level = 0.95;
     std::uint64_t seed = 1;
-    std::optional<std::size_t> harmonics = {};  ///< of fast; default: from the curves
-    std::optional<std::size_t> degree = {};     ///< of chaos; default: chosen
+    std::optional<std::size_t> harmonics = {};  ///< M of fast; default: from the curves
+    std::optional<std::size_t> degree = {};     ///< degree of chaos; default: chosen
 };
 
 /// A number with its interval; NaN if unknown.
@@ -77,14 +77,14 @@ struct Effects {
     std::vector<PairIndex> pairs = {};
     Report details = {};                    ///< further numbers of the method
     std::string no_intervals = {};          ///< why intervals are left out; empty if they are not
-    std::vector<std::string> missing = {};  ///< for each input, why it has no indices; may be empty
+    std::vector<std::string> missing = {};  ///< reason for each input without indices; may be empty
 };
 
 /// Rows of a design as a method groups them; if they do not fit, the reason.
 struct Layout {
     std::size_t group = 0;      ///< number of rows that belong together
-    bool star = false;          ///< of morris: whether rows move from their group's first row
-    std::size_t harmonics = 0;  ///< of fast
+    bool star = false;          ///< morris: whether rows move from their group's first row
+    std::size_t harmonics = 0;  ///< M of fast
     std::string trouble = {};
 
     explicit operator bool() const { return trouble.empty(); }

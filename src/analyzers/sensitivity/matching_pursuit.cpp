@@ -152,7 +152,7 @@ class Pursuit {
     std::vector<bool> usable_;
     std::vector<double> norms_;  ///< squared norms of the columns
     double whole_ = 0;           ///< sum of squares about the mean
-    double trace_ = 0;           ///< of the inverse of the Gram matrix
+    double trace_ = 0;           ///< trace of the inverse of the Gram matrix
     double least_ = 1;
     std::vector<std::size_t> chosen_;
     std::vector<std::vector<double>> q_;     ///< orthonormal basis, the constant first

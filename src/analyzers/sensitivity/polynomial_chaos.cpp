@@ -41,12 +41,12 @@ struct Fold {
     std::vector<std::size_t> seen = {};
     std::vector<std::size_t> unseen = {};
     std::string scale = {};
-    std::size_t degree = 0;  ///< of its candidates; 0 before the first fit
+    std::size_t degree = 0;  ///< largest degree of candidates; 0 before the first fit
     double error = 0;
     double constant = 0;
     std::vector<BasisTerm> terms = {};
     std::vector<double> coefficients = {};
-    std::vector<double> products = {};  ///< of coefficients and terms: one row per unseen run
+    std::vector<double> products = {};  ///< coefficients times terms: one row per unseen run
 
     [[nodiscard]] bool is_settled(std::size_t next_degree) const {
         constexpr double enough = 1e-6;
@@ -172,7 +172,7 @@ struct Judgement {
     bool known = false;  ///< whether the inputs' distributions are known
     std::vector<double> error;
     std::vector<double> moving = {};  ///< numbers with the mean V: how each run changes it
-    double variance = 0;              ///< V
+    double variance = 0;              ///< V, of the output
     double q2 = 0;
 };
 

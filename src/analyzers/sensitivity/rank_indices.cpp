@@ -20,8 +20,8 @@ struct Ordered {
 struct Window {
     double size = 0;
     double mean = 0;
-    double variance = 0;  ///< of one run, unbiased
-    bool constant;        ///< whether x is
+    double variance = 0;  ///< unbiased variance of a single run
+    bool constant;        ///< whether x is constant
 };
 
 /// Windows of about equal sizes, of at least `least` and two runs, that do not separate equal

@@ -24,7 +24,7 @@ using Numbers = std::vector<std::size_t>;
 struct Columns {
     const PointSet& table;
     Names names;
-    std::string place;  ///< for messages
+    std::string place;  ///< name in messages
 };
 
 bool in(const Numbers& columns, std::size_t c) {
@@ -147,7 +147,7 @@ bool independent(const Domain& domain, const PointSet& points) {
             try {
                 const double before = std::log(domain.density(x)) + std::log(domain.density(y));
                 const double after = std::log(domain.density(a)) + std::log(domain.density(b));
-                if (!std::isfinite(before)) continue;  // at the end of a range
+                if (!std::isfinite(before)) continue;  // infinite at the end of a range
                 if (!(std::abs(after - before) <= rounding * (1 + std::abs(before)))) return false;
             } catch (const Error&) {  // unknown, as with constraints
                 return false;

@@ -17,7 +17,7 @@ constexpr double most_work = 1e8;  ///< numbers to examine, in a second or less
 
 struct Levels {
     std::size_t count = 0;  ///< number of distinct values
-    double chance = 0;      ///< that two random rows have the same value
+    double chance = 0;      ///< probability that two random rows have the same value
 };
 
 Levels levels_of(const PointSet& points, std::size_t j) {
@@ -47,7 +47,7 @@ double share_of_neighbors(const PointSet& points, const RunContext& run) {
         grid *= static_cast<double>(levels[j].count);
     }
     if (std::fmod(static_cast<double>(n), grid) == 0) return 0;
-    double neighbors = 0;  // of one row, expected by chance
+    double neighbors = 0;  // expected number for one row, by chance
     for (std::size_t j = 0; j < k; ++j) {
         double equal = static_cast<double>(n - 1);
         for (std::size_t c = 0; c < k; ++c)

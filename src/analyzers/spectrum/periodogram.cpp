@@ -154,7 +154,7 @@ std::size_t default_frequency(std::uint64_t count, std::size_t dimension) {
     constexpr double most[] = {0, 65536, 1024, 64};
     const double twice =
         2 * real_power(static_cast<double>(count), 1 / static_cast<double>(dimension));
-    // A root such as 1000^(1/3) may come out a little above the whole number that it is.
+    // Rounding may leave a root such as 1000^(1/3) a little above its integer value.
     return static_cast<std::size_t>(std::clamp(std::ceil(twice - 1e-9), 16.0, most[dimension]));
 }
 

@@ -214,7 +214,7 @@ class Collector final : public SharedAccumulator {
     Values options_;
     std::size_t axes_;
     std::uint64_t most_;   ///< number of points to keep
-    std::uint64_t cells_;  ///< per axis
+    std::uint64_t cells_;  ///< number per axis
     std::uint64_t first_ = 0;
     std::uint64_t n_ = 0;
     Outside outside_;

@@ -82,7 +82,7 @@ class MomentSums {
     std::vector<double> about_;
     std::uint64_t next_ = 0;  ///< number of the next batch
     std::uint64_t count_ = 0;
-    std::vector<Node> nodes_;  ///< in the order of their batches
+    std::vector<Node> nodes_;  ///< ordered by their batches
 };
 
 }  // namespace stipple::analyzers

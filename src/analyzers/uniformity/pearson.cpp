@@ -84,7 +84,7 @@ std::vector<std::uint64_t> possible_cells(std::span<const std::uint64_t> counts,
 /// Cells with their total expected and observed numbers of points.
 struct Group {
     double expected = 0;
-    double error = 0;  ///< of `expected`
+    double error = 0;  ///< error of `expected`
     std::uint64_t observed = 0;
     std::uint64_t cells = 0;
 

@@ -51,7 +51,7 @@ struct Fit {
     double most_even = 0;          ///< probability of the smallest possible statistic; 0: unknown
     std::vector<double> modal_probabilities = {};  ///< q_1, q_2, ... as far as they matter
     std::uint64_t points = 0;
-    std::vector<double> expected = {};  ///< of the groups, if they are few and unequal
+    std::vector<double> expected = {};  ///< expectations of groups, if few and unequal
     bool equal = false;                 ///< whether all groups have the same expectation
 
     [[nodiscard]] double freedom() const { return static_cast<double>(groups - 1); }

@@ -54,7 +54,7 @@ constexpr Param<Choice> expect{.name = "expect",
 
 /// Sums along one axis.
 struct AxisSums {
-    std::vector<double> products;  ///< of (u_i - 1/2)(u_(i-L) - 1/2), for each lag
+    std::vector<double> products;  ///< sums of (u_i - 1/2)(u_(i-L) - 1/2), for each lag
     std::uint64_t turns = 0;
     std::uint64_t crossings = 0;
 

@@ -95,7 +95,7 @@ std::size_t level(const Places& places, std::size_t log_runs, std::uint64_t run,
     if (at < 0) return 1;
     const auto bits = static_cast<unsigned>(run & ((std::uint64_t{1} << log_runs) - 1));
     if (at < 4) return (bits >> at & 1) != 0 ? 2 : 0;
-    return std::popcount(bits) % 2 == 0 ? 2 : 0;  // E = ABCD
+    return std::popcount(bits) % 2 == 0 ? 2 : 0;  // the fifth factor, E = ABCD
 }
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {

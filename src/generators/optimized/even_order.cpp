@@ -51,7 +51,7 @@ class Greedy {
     const std::vector<double>& rows_;
     std::size_t d_;
     std::vector<Factor> factors_;
-    std::vector<double> sums_;  ///< of kernels with the points already taken
+    std::vector<double> sums_;  ///< sums of kernels with the points already taken
     std::vector<bool> taken_;
     std::vector<double> means_;
     std::vector<double> own_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The square of an L2 discrepancy and its gradient. With the factors K_j of math/l2/kinds.hpp,
+// The square of an L2 discrepancy and its gradient. With the factors K_j of math/l2/kinds.hpp and
+// their means f_j(x) = int K_j(x, y) dy,
 //
 //     d/dx_ij  =  -2/n f_j'(x_ij) prod_{l != j} f_l(x_il)
 //                 + 2/n^2 sum_k d_1 K_j(x_ij, x_kj) prod_{l != j} K_l(x_il, x_kl),

@@ -69,7 +69,7 @@ struct Best {
 /// Chosen points, and the cost of choosing each of the others.
 struct Chosen {
     Rows members;                    ///< in the order in which exchanges are tried
-    std::vector<double> potentials;  ///< P
+    std::vector<double> potentials;  ///< P_j of every point
     std::vector<double> halves;      ///< K_jj / 2; infinite for chosen points
 };
 
