@@ -63,7 +63,7 @@ double length_of(const Vec2& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 
 /// Sums over cells, with lengths in sqrt(V / m).
 struct Sums {
-    double squared_deviation = 0;  ///< deviations of areas from 1, squared
+    double squared_deviation = 0;  ///< sum over areas of (a - 1)^2
     double smallest = INFINITY;
     double largest = 0;
     double second_moment = 0;
