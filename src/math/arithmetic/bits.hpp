@@ -8,7 +8,7 @@
 
 namespace stipple {
 
-/// The 64 bits from last to first: the radical inverse in base 2, as a fraction.
+/// Reverses the 64 bits: the base-2 radical inverse of x, as a fraction.
 constexpr std::uint64_t reversed_bits(std::uint64_t x) {
     x = ((x >> 1) & 0x5555555555555555U) | ((x & 0x5555555555555555U) << 1);
     x = ((x >> 2) & 0x3333333333333333U) | ((x & 0x3333333333333333U) << 2);
@@ -16,9 +16,9 @@ constexpr std::uint64_t reversed_bits(std::uint64_t x) {
     return __builtin_bswap64(x);
 }
 
-/// The fraction as a double in [0, 1): its 53 upper bits, exactly. There is no vector instruction
-/// from 64-bit whole numbers to doubles, but every double in [2^20, 2^21) holds 32 digits behind
-/// the point in its low bits, and every one in [1/2, 1) the 21 digits after those.
+/// Returns the upper 53 bits of the fraction as a double in [0, 1), exactly. Vector instructions
+/// cannot convert 64-bit integers to doubles, so two halves are placed in mantissas: a double in
+/// [2^20, 2^21) holds the first 32 binary digits after the point, one in [1/2, 1) the next 21.
 constexpr double fraction_to_unit(std::uint64_t fraction) {
     constexpr auto above = std::bit_cast<std::uint64_t>(0x1p20);
     constexpr auto below = std::bit_cast<std::uint64_t>(0.5);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Numbers of twice the digits of a double: unevaluated sums of two doubles.
+// Numbers with twice the precision of a double: unevaluated sums of two doubles.
 //
-// Errors  A sum of numbers of one sign, and a product, are off by at most 2^-100 of themselves. No
-//         result may leave the doubles' range, nor come within 2^106 of its lower end.
+// Errors  The relative error of a product, and of a sum of numbers of one sign, is at most 2^-100.
+//         No result may overflow or be within a factor of 2^106 of the smallest double.
 // Promise the same bits on every machine with IEEE 754 arithmetic.
 // Source  T. J. Dekker, Numer. Math. 18 (1971) 224-242, doi:10.1007/BF01397083.
 #pragma once
@@ -17,7 +17,7 @@
 
 namespace stipple {
 
-/// high + low, low at most half a unit in the last place of high.
+/// high + low, with |low| at most half a unit in the last place of high.
 struct DoubleDouble {
     double high = 0;
     double low = 0;
@@ -30,21 +30,22 @@ inline DoubleDouble exact_sum(double a, double b) {
     return {sum, (a - (sum - part)) + (b - part)};
 }
 
-/// The same for |a| >= |b| or a = 0, with half of the additions.
+/// Exact sum for |a| >= |b| or a = 0, with half the additions.
 inline DoubleDouble ordered_sum(double a, double b) {
     const double sum = a + b;
     return {sum, b - (sum - a)};
 }
 
-/// Product of two doubles, exact. Quick where the processor has fused multiply-adds.
+/// Product of two doubles, exact. Fast on processors with fused multiply-adds.
 inline DoubleDouble exact_product(double a, double b) {
     const double product = a * b;
     return {product, std::fma(a, b, -product)};
 }
 
-/// The same without a fused multiply-add, for loops that are compiled for all processors.
+/// Product of two doubles, exact, without fused multiply-adds: for loops compiled for all
+/// processors.
 inline DoubleDouble split_product(double a, double b) {
-    constexpr std::uint64_t upper = ~0x7ffffffULL;  // 26 bits: products of two are exact
+    constexpr std::uint64_t upper = ~0x7ffffffULL;  // keeps 26 bits, so that products are exact
     const auto a_high = std::bit_cast<double>(std::bit_cast<std::uint64_t>(a) & upper);
     const auto b_high = std::bit_cast<double>(std::bit_cast<std::uint64_t>(b) & upper);
     const double a_low = a - a_high;
@@ -65,13 +66,13 @@ inline DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
     return exact_sum(high.high, high.low + (a.high * b.low + a.low * b.high));
 }
 
-// Running sums of numbers, each rounded once or nearly so, by carrying along what additions lose.
+// Running sums that carry the rounding errors along, so that each sum is rounded about once.
 //
-// Promise sums of numbers >= 0 rise, and stay as they are where a number is 0; off by 2^-53 of
-//         themselves and n 2^-106. The same bits on every machine.
+// Promise sums of numbers >= 0 never decrease, and do not change if a number is 0; relative error
+//         at most 2^-53 + n 2^-106. The same bits on every machine.
 // Source  A. Neumaier, Z. angew. Math. Mech. 54 (1974) 39-51, doi:10.1002/zamm.19740540106.
 
-/// x_1, x_1 + x_2, ... for numbers >= 0.
+/// Returns x_1, x_1 + x_2, ... for numbers >= 0.
 inline std::vector<double> running_sums(std::span<const double> numbers) {
     std::vector<double> sums;
     sums.reserve(numbers.size());
@@ -82,7 +83,7 @@ inline std::vector<double> running_sums(std::span<const double> numbers) {
         const double next = sum + x;
         lost += sum >= x ? (sum - next) + x : (x - next) + sum;
         sum = next;
-        if (x > 0) last = std::max(last, sum + lost);  // rounding must not make them fall
+        if (x > 0) last = std::max(last, sum + lost);  // rounding must not make sums decrease
         sums.push_back(last);
     }
     return sums;

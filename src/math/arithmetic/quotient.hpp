@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Quotients of numbers of twice the digits of a double, off by at most 2^-98 of themselves.
+// Quotients of double-double numbers, with a relative error of at most 2^-98.
 #pragma once
 
 #include "math/arithmetic/double_double.hpp"

@@ -18,8 +18,8 @@ int bit_width(Wide x) {
                      : static_cast<int>(std::bit_width(static_cast<std::uint64_t>(x)));
 }
 
-/// Numbers that are divided in one loop before they go to their places: stores at a stride would
-/// keep compilers from dividing several at once.
+/// Quotients computed in a buffer before they are copied: strided stores would keep compilers from
+/// vectorising the divisions.
 constexpr std::size_t side_by_side = 128;
 
 STIPPLE_WIDE void divide(const double* numbers, double factor, double term, double whole,
@@ -37,8 +37,8 @@ constexpr std::array<double, side_by_side> from_0() {
 
 double detail::wide_ratio(Wide numerator, Wide denominator) {
     if (numerator == 0) return 0;
-    // A quotient of 55 or 56 bits: two more than a double holds. The remainder joins as one sticky
-    // bit below them, so that the conversion to double is the one and only rounding.
+    // The quotient has 55 or 56 bits, two more than a double. The remainder becomes a sticky bit
+    // below them, so that only the conversion to double rounds.
     const int shift = bit_width(denominator) - bit_width(numerator) + 55;
     const Wide scaled = numerator << shift;
     const auto quotient = static_cast<std::uint64_t>(scaled / denominator);
@@ -64,7 +64,7 @@ void fill_ratios(Wide first, Wide step, Wide whole, std::size_t count, double* x
         for (std::size_t j = 0; j < count; ++j) x[j * stride] = ratio(first + step * j, whole);
         return;
     }
-    // Every number here is whole and at most 2^53: only the division rounds.
+    // All numbers here are integers of at most 2^53: only the division rounds.
     const auto number = [](Wide y) { return static_cast<double>(static_cast<std::uint64_t>(y)); };
     static constexpr auto counted = from_0();
     for (std::size_t at = 0; at < count; at += side_by_side)
