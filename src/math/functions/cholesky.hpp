@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Cholesky's factor: the lower triangular L with positive diagonal and L L^T = A, row by row.
+// Cholesky factor: the lower triangular L with positive diagonal and L L^T = A, row by row.
 //
 // Shape   A symmetric, d x d, row after row; its lower triangle is read.
 // Cost    d^3 / 3 multiplications and additions.
-// Promise the same bits on every machine: + - * / and square roots.
+// Promise the same bits on every machine: only + - * / and square roots are used.
 #pragma once
 
 #include <cmath>
@@ -17,8 +17,8 @@ namespace stipple {
 
 struct Cholesky {
     std::vector<double> factor;  ///< d x d, row after row; complete if `failed` is 0
-    std::size_t failed = 0;      ///< size of the first leading minor that is not above rounding
-    double minor = 1;            ///< its value, or the determinant
+    std::size_t failed = 0;      ///< size of the first leading minor not above rounding, or 0
+    double minor = 1;            ///< value of that minor, or the determinant
 };
 
 inline Cholesky cholesky(std::span<const double> a, std::size_t d) {

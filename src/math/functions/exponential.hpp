@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// exp(x) by additions, multiplications and the bits of a double: the mathematics library's own
+// exp(x) from additions, multiplications and the bits of a double, because the C library's exp
 // differs between machines.
 //
 //     x = k ln 2 + r,  |r| <= ln 2 / 2,    exp(x) = 2^k (1 + r + r^2 q(r)),    q by Taylor's series.
 //
 // Shape   x <= 709; exp(x) is exactly 0 below -708.
-// Cost    no branch and no table, so that compilers vectorise loops of it.
-// Promise within 1 unit in the last place, exp(x) - 1 within 2, also near 0; exp(0) = 1; the same
-//         bits on every machine with IEEE 754 arithmetic, compiled without contraction into fused
-//         multiply-adds.
+// Cost    no branches or tables, so that compilers vectorise loops over it.
+// Promise within 1 unit in the last place, exp_minus_1(x) within 2, also near 0; exp(0) = 1; the
+//         same bits on every machine with IEEE 754 arithmetic, compiled without contraction into
+//         fused multiply-adds.
 #pragma once
 
 #include <bit>
@@ -31,16 +31,16 @@ struct Exponential {
 
 [[gnu::always_inline]] inline Exponential exponential_parts(double x) {
     constexpr double per_log = 1.4426950408889634;  // 1 / ln 2
-    constexpr double head = 0x1.62e42fee00000p-1;   // ln 2, its last 33 bits 0: k * head is exact
+    constexpr double head = 0x1.62e42fee00000p-1;   // ln 2, 33 low bits cleared: k * head is exact
     constexpr double tail = 0x1.a39ef35793c76p-33;
-    constexpr double round = 0x1.8p52;  // adding it leaves the nearest whole number in the low bits
+    constexpr double round = 0x1.8p52;  // adding it puts the nearest integer into the low bits
     const double sum = x * per_log + round;
     const double k = sum - round;
     const double high = x - k * head;
     const double low = k * tail;
     const double r = high - low;
 
-    // 1/14!, then 1/13!, ...
+    // Coefficients 1/14!, 1/13!, ..., 1/2!.
     const double q = horner(r, 1 / 87178291200.0, 1 / 6227020800.0, 1 / 479001600.0, 1 / 39916800.0,
                             1 / 3628800.0, 1 / 362880.0, 1 / 40320.0, 1 / 5040.0, 1 / 720.0,
                             1 / 120.0, 1 / 24.0, 1 / 6.0, 0.5);

@@ -5,7 +5,8 @@
 
 namespace stipple {
 
-/// (...(first x + second) x + ...) x + last; no loop, so that compilers vectorise loops of it.
+/// Returns (...(first x + second) x + ...) x + last. Has no loop, so that compilers vectorise loops
+/// over it.
 template <class... Coefficients>
 [[gnu::always_inline]] constexpr double horner(double x, double first, Coefficients... rest) {
     double sum = first;

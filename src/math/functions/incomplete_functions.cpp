@@ -20,7 +20,7 @@ namespace {
 using Number = PortableDouble;
 constexpr detail::NoErrors no_errors;
 
-/// Below this, both integrals are x^a over a constant, up to 1e-18 of themselves.
+/// Below this, both functions equal x^a over a constant, with a relative error of 1e-18.
 constexpr double tiny = 1e-24;
 constexpr double log_tiny = -55;
 
@@ -30,22 +30,21 @@ double log_or_none(double x) { return x > 0 ? logarithm(x) : -no_end; }
 
 double near_0(double a, double p, Number constant) { return real_power(p * constant.value, 1 / a); }
 
-/// Of a density in proportion to x^(a - 1), `level` for a = 1.
+/// Density at 0 if it is proportional to x^(a - 1) there and equals `level` for a = 1.
 double density_at_0(double a, double level) {
     if (a == 1) return level;
     return a < 1 ? no_end : 0;
 }
 
-/// The logarithm of a probability, and how it rises.
+/// Logarithm of a probability, and its derivative.
 struct Rise {
     double log;
     double slope;
 };
 
-/// The t at which a probability that rises with t has this logarithm. In log x and log(x / (1 - x)),
-/// densities of gamma and beta distributions are log-concave, so that the logarithm of the
-/// probability is concave, for which Newton's steps close in from below, wherever they begin; where
-/// numbers end, the interval is halved.
+/// Returns the t at which the logarithm of an increasing probability is log_p. In log x and log(x /
+/// (1 - x)), gamma and beta densities are log-concave, and so are their probabilities: Newton steps
+/// from any start converge from below. Bisection replaces them if a value is not finite.
 template <class Function>
 double solve(const Function& probability, double log_p, double t) {
     double low = -745;
@@ -61,7 +60,7 @@ double solve(const Function& probability, double log_p, double t) {
     return t;
 }
 
-/// Watches the factors of a continued fraction until they are 1, up to what roundings make of them.
+/// Detects that the factors of a continued fraction have reached 1, up to rounding.
 class Convergence {
   public:
     bool reached(double factor) {
@@ -79,13 +78,13 @@ DoubleDouble log_of(const DoubleDouble& x) {
     return logarithm_parts(x.high) + DoubleDouble{x.low / x.high, 0};
 }
 
-/// Down to the smallest doubles.
+/// exp(x), accurate down to the smallest doubles.
 double exp_of(const DoubleDouble& x) {
     const double power = x.high > 709 ? no_end : exponential(x.high < -700 ? x.high + 100 : x.high);
     return (power + power * x.low) * (x.high < -700 ? exponential(-100) : 1);
 }
 
-/// The cube of a normal variable, nearly: Wilson and Hilferty's.
+/// Approximate gamma quantile, the cube of a normal variable (Wilson and Hilferty).
 double gamma_start(double a, double z) {
     const double root = std::max(1 - 1 / (9 * a) + z / (3 * std::sqrt(a)), 0.05);
     return a * root * root * root;
@@ -111,12 +110,13 @@ DoubleDouble gamma_log_power(double a, double x) {
            DoubleDouble{-log_excess(a), 0};
 }
 
-/// Where Boost's powers lose digits: large parameters, outside Temme's expansion.
+/// True if a is large and x far from a, where Boost's powers lose digits and Temme's expansion does
+/// not apply.
 bool far_out(double a, double x) {
     return a > 200 && x > 0 && (x - a) * (x - a) > 19 * a && x < no_end;
 }
 
-/// Q for x > a, and P for x < a, by the continued fraction and the series of powers.
+/// Returns Q by the continued fraction for x > a, and P by the power series for x < a.
 double gamma_tail(double a, double x) {
     const double power = exp_of(gamma_log_power(a, x));
     double sum = 1;
@@ -125,7 +125,7 @@ double gamma_tail(double a, double x) {
         for (double n = a + 1; term > 1e-17 * sum; ++n) sum += term *= x / n;
         return power * sum;
     }
-    // Lentz's way from the top, for 1 / (x + 1 - a - 1 (1 - a) / (x + 3 - a - ...)).
+    // Lentz's method for the continued fraction 1 / (x + 1 - a - 1 (1 - a) / (x + 3 - a - ...)).
     double b = x + 1 - a;
     double c = no_end;
     double d = 1 / b;
@@ -176,7 +176,7 @@ double gamma_quantile(double a, double p) {
 double gamma_upper_quantile(double a, double q) {
     if (q > 0.5) return gamma_quantile(a, 1 - q);
     const double log = -logarithm(q);
-    const double most = a + std::sqrt(2 * a * log) + log;  // the quantile is not above this
+    const double most = a + std::sqrt(2 * a * log) + log;  // upper bound of the quantile
     const double start = std::min(most, gamma_start(a, -normal_quantile(q)));
     const auto above = [a](double t) {
         const double x = exponential(-t);
@@ -188,7 +188,7 @@ double gamma_upper_quantile(double a, double q) {
 
 namespace {
 
-/// x and 1 - x.
+/// x and 1 - x, each to twice the precision of a double.
 struct Parts {
     DoubleDouble x;
     DoubleDouble rest;
@@ -196,14 +196,14 @@ struct Parts {
 
 Parts parts_of(double x) { return {{x, 0}, exact_sum(1, -x)}; }
 
-/// x, or by 1 - x where that is nearer to 0.
+/// Computes both parts from the smaller of x and 1 - x.
 Parts parts_of(const Shares& at) {
     if (at.x < at.rest) return parts_of(at.x);
     const auto [x, rest] = parts_of(at.rest);
     return {rest, x};
 }
 
-/// I_x(a, b) over and over, for the same a and b.
+/// I_x(a, b) for fixed a and b and many x.
 class BetaFunction {
   public:
     BetaFunction(double a, double b)
@@ -212,7 +212,7 @@ class BetaFunction {
           sum_(exact_sum(a, b)),
           front_(log_excess(sum_.high) - log_excess(a) - log_excess(b)) {}
 
-    /// log(x^a (1 - x)^b / B(a, b)), from what is 0 where x = a / (a + b).
+    /// log(x^a (1 - x)^b / B(a, b)), from logarithms that vanish at x = a / (a + b).
     DoubleDouble log_power(const Parts& at) const {
         return log_share(a_, quotient(sum_ * at.x, {a_, 0})) +
                log_share(b_, quotient(sum_ * at.rest, {b_, 0})) +
@@ -226,7 +226,7 @@ class BetaFunction {
         return log.high + (log.low - (front_ + logarithm(b_ / sum_.high)));
     }
 
-    /// Whether I_x is the one of both tails to begin with.
+    /// True if I_x is to be computed directly, false if from 1 - I_x.
     bool lower_first(const Parts& at) const { return at.x.high * (sum_.high + 0.6) <= a_ + 0.3; }
 
     double below(const Parts& at) const {
@@ -235,7 +235,7 @@ class BetaFunction {
     }
     double above(const Parts& at) const { return mirrored().below({at.rest, at.x}); }
 
-    /// Of log I_x in log(x / (1 - x)).
+    /// log I_x and its derivative in log(x / (1 - x)).
     Rise rise(const Parts& at) const {
         const DoubleDouble log = log_power(at);
         if (lower_first(at)) {
@@ -253,14 +253,14 @@ class BetaFunction {
         return other;
     }
 
-    /// x^a (1 - x)^b / B(a, b) over I_x, from the first to the last term.
+    /// x^a (1 - x)^b / (B(a, b) I_x), by the continued fraction evaluated from its first term.
     double fraction(const Parts& at) const {
         const double x = at.x.high;
         const double y = at.rest.high;
         const double sum = sum_.high;
         const DoubleDouble a_y = DoubleDouble{a_, 0} * at.rest;
         const DoubleDouble b_x = DoubleDouble{-b_, 0} * at.x;
-        const double off = (a_y + b_x).high;  // 0 where x = a / (a + b)
+        const double off = (a_y + b_x).high;  // 0 at x = a / (a + b)
         double value = a_ * (off + 1) / (a_ + 1);
         double c = value;
         double d = 0;
@@ -302,7 +302,7 @@ double beta_density(double a, double b, double x) {
 
 namespace {
 
-/// x and 1 - x for log(x / (1 - x)).
+/// x and 1 - x from t = log(x / (1 - x)).
 Shares shares_of(double t) {
     const double odds = exponential(-std::abs(t));
     const double small = odds / (1 + odds);

@@ -3,8 +3,8 @@
 // Eigenvalues and eigenvectors of a small symmetric matrix, by Jacobi's rotations.
 //
 // Shape   A symmetric, d x d, row after row.
-// Cost    some 10 d^3 multiplications and additions a sweep, of which there are some six.
-// Promise the same bits on every machine: + - * / and square roots.
+// Cost    about six sweeps, each about 10 d^3 multiplications and additions.
+// Promise the same bits on every machine: only + - * / and square roots are used.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace stipple {
 
 struct Eigen {
     std::vector<double> values;
-    std::vector<double> vectors;  ///< columns of d x d
+    std::vector<double> vectors;  ///< d x d, an eigenvector in each column
 };
 
 inline Eigen jacobi_eigen(std::vector<double> a, std::size_t d) {

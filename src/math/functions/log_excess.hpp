@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Factorials of real numbers n >= 0, by Stirling's series from 30 on and steps of 1 below.
+// Factorials of real numbers n >= 0, by Stirling's series for n >= 30 and by recurrence below.
 //
-// Promise within 4e-15, log_factorial within 4e-15 of n log n. The same bits on every machine.
+// Promise absolute error 4e-15; for log_factorial 4e-15 n log n. The same bits on every machine.
 #pragma once
 
 #include <numbers>
@@ -11,10 +11,10 @@
 
 namespace stipple {
 
-/// ln(n! / (n^n e^-n)), which is nearly ln(2 pi n) / 2; 0 at 0.
+/// ln(n! / (n^n e^-n)), approximately ln(2 pi n) / 2; 0 at n = 0.
 inline double log_excess(double n) {
     if (n < 1e-300) return 0;
-    double rise = 0;  // that of n + 1 is more by 1 - n ln(1 + 1 / n)
+    double rise = 0;  // log_excess(n + 1) = log_excess(n) + 1 - n ln(1 + 1 / n)
     for (; n < 30; ++n) rise += 1 - n * log_1p(1 / n);
     // Stirling's series; the next term is below 1e-15.
     const double s = 1 / (n * n);

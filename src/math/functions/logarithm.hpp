@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Natural logarithm by additions, multiplications, one division and the bits of a double: the
-// mathematics library's own differs between machines.
+// Natural logarithm from additions, multiplications, one division and the bits of a double, because
+// the C library's log differs between machines.
 //
 //     x = 2^k (1 + f),  sqrt(1/2) <= 1 + f < sqrt(2);    s = f / (2 + f)
 //     log(1 + f) = 2 artanh(s) = 2 s + (2/3) s^3 + (2/5) s^5 + ...
 //                = f - f^2/2 + s (f^2/2 + (2/3) s^2 + (2/5) s^4 + ...)
 //
 // Shape   logarithm(x): finite x > 0; log_1p(x) = log(1 + x): finite x > -1.
-// Cost    no branch and no table, so that compilers vectorise loops of it.
+// Cost    no branches or tables, so that compilers vectorise loops over it.
 // Promise within 1 unit in the last place, log_1p also near 0; log(1) = 0 = log_1p(0); the same
 //         bits on every machine with IEEE 754 arithmetic, compiled without contraction into fused
 //         multiply-adds. logarithm_parts is log(x) to 63 bits.
@@ -27,7 +27,7 @@ namespace stipple {
 
 namespace detail {
 
-constexpr double log_2_head = 0x1.62e42fee00000p-1;  // ln 2, its last 33 bits 0: k * head is exact
+constexpr double log_2_head = 0x1.62e42fee00000p-1;  // ln 2, 33 low bits cleared: k * head is exact
 constexpr double log_2_tail = 0x1.a39ef35793c76p-33;
 
 /// x = 2^k (1 + f) with 1 + f in [sqrt(1/2), sqrt(2)).
@@ -44,13 +44,13 @@ inline Fraction fraction_of(double x) {
     const auto bits = std::bit_cast<std::uint64_t>(tiny ? x * 0x1p54 : x);
     const std::uint64_t biased = (bits + (one - root_half)) >> 52;
     const auto mantissa = std::bit_cast<double>(bits - (biased << 52) + one);
-    // 2^52 + biased, as bits: so vectors convert it, too.
+    // 2^52 + biased, built from bits, because vectors cannot convert 64-bit integers.
     const double k = std::bit_cast<double>(0x4330000000000000 | biased) - (0x1p52 + 1023);
     return {tiny ? k - 54 : k, mantissa - 1};
 }
 
-/// log(x (1 + rest)) for a rest of at most a unit in the last place. Always inlined, like all that
-/// loops call: a call would keep them from being vectorised.
+/// log(x (1 + rest)) for |rest| of at most a unit in the last place. Always inlined: a call would
+/// keep loops from being vectorised.
 [[gnu::always_inline]] inline double log_near(double x, double rest) {
     const auto [k, f] = fraction_of(x);
     const double s = f / (2 + f);
@@ -66,7 +66,7 @@ inline Fraction fraction_of(double x) {
 /// log(x) for finite x > 0.
 [[gnu::always_inline]] inline double logarithm(double x) { return detail::log_near(x, 0); }
 
-/// log(1 + x) for finite x > -1, accurate also where 1 + x is rounded.
+/// log(1 + x) for finite x > -1, accurate even if 1 + x is rounded.
 [[gnu::always_inline]] inline double log_1p(double x) {
     const double sum = 1 + x;
     const double part = sum - 1;
@@ -74,7 +74,7 @@ inline Fraction fraction_of(double x) {
     return detail::log_near(sum, lost / sum);
 }
 
-/// log(x) for finite x > 0, off by at most 2^-63 of itself.
+/// log(x) for finite x > 0, with a relative error of at most 2^-63.
 [[gnu::always_inline]] inline DoubleDouble logarithm_parts(double x) {
     const auto [k, f] = detail::fraction_of(x);
     const double below = 2 + f;
@@ -84,7 +84,7 @@ inline Fraction fraction_of(double x) {
     const double s_rest = (((f - back) - back_rest) - s * below_rest) / below;
     const auto [z, z_rest] = split_product(s, s);
 
-    // z (2/5 + (2/7) z + ...) needs no second part
+    // The terms z (2/5 + (2/7) z + ...) need only one double.
     const double r = horner(z, 2 / 23.0, 2 / 21.0, 2 / 19.0, 2 / 17.0, 2 / 15.0, 2 / 13.0, 2 / 11.0,
                             2 / 9.0, 2 / 7.0, 2 / 5.0);
 
@@ -104,23 +104,22 @@ inline Fraction fraction_of(double x) {
     return ordered_sum(all, rest);
 }
 
-// Powers with real exponents, without the C library's pow, whose results differ from machine to
-// machine:
+// Powers with real exponents, without the C library's pow, whose results differ between machines:
 //
-//     x^y = exp(y log x),    log x to 63 bits, so that its product with y keeps its last bits.
+//     x^y = exp(y log x),    log x to 63 bits, so that y log x keeps its last bits.
 //
 // Shape   x >= 0 and finite, any finite y; results below exp(-708) = 3.3e-308 are 0, above exp(709)
 //         = 8.2e307 infinite.
-// Cost    no branch and no table, so that compilers vectorise loops of it.
-// Promise within 2 units in the last place; x^0 = 1 = 1^y; 0^y is 0, 1 or infinite as y is above,
-//         at or below 0; the same bits on every machine with IEEE 754 arithmetic, compiled without
-//         contraction into fused multiply-adds.
+// Cost    no branches or tables, so that compilers vectorise loops over it.
+// Promise within 2 units in the last place; x^0 = 1 = 1^y; 0^y is 0 for y > 0, 1 for y = 0 and
+//         infinite for y < 0; the same bits on every machine with IEEE 754 arithmetic, compiled
+//         without contraction into fused multiply-adds.
 
 /// x^y for finite x >= 0 and finite y.
 [[gnu::always_inline]] inline double real_power(double x, double y) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     constexpr double most = 709;
-    constexpr double large = 0x1p63;  // beyond, x = 1 alone has a finite power that is not 0
+    constexpr double large = 0x1p63;  // for larger |y|, x^y is 0, 1 or infinite
     const double bounded = y > large ? large : (y < -large ? -large : y);
     const auto [high, low] = logarithm_parts(x > 0 ? x : 0x1p-1022);
     const auto [exponent, rest] = split_product(high, bounded);

@@ -12,7 +12,7 @@
 namespace stipple {
 namespace {
 
-/// erf(x) / x from x^2, for x <= 15/32.
+/// erf(x) / x as a function of xx = x^2, for x <= 15/32.
 double central_ratio(double xx) {
     return horner(xx, 1.85777706184603153e-1, 3.16112374387056560e0, 1.13864154151050156e2,
                   3.77485237685302021e2, 3.20937758913846947e3) /
@@ -30,7 +30,7 @@ double middle_ratio(double x) {
                   3.43936767414372164e3, 1.23033935480374942e3);
 }
 
-/// The same for x >= 4.
+/// erfc(x) exp(x^2) for x >= 4.
 double far_ratio(double x) {
     const double y = 1 / (x * x);
     const double ratio =
@@ -43,9 +43,9 @@ double far_ratio(double x) {
 
 constexpr std::size_t most = 128;
 
-/// Whether all are done; else those of the far tails are left for later. The marks are small, so
-/// that vectors of them hold many numbers, and that many chains of operations run side by side, as
-/// Clang has to be told.
+/// Computes quantiles without the far tail. Returns whether all are valid; otherwise the caller
+/// computes the batch again. The marks are 16-bit, so that a vector holds many and many chains of
+/// operations run in parallel, which Clang needs a pragma for.
 STIPPLE_WIDE [[gnu::flatten]] bool quantiles(const double* p, double* x, std::size_t count) {
     constexpr double far = 1.4e-11;  // a little above exp(-25)
     std::array<std::uint16_t, most> marks;
@@ -65,7 +65,7 @@ STIPPLE_WIDE [[gnu::flatten]] bool quantiles(const double* p, double* x, std::si
 }  // namespace
 
 double normal_distribution(double z) {
-    const double size = std::min(std::abs(z), 40.0);  // beyond, all is 0 or 1
+    const double size = std::min(std::abs(z), 40.0);  // 0 or 1 beyond
     const double x = size * (std::numbers::sqrt2 / 2);
     if (x <= 15 / 32.0) return 0.5 + 0.5 * std::copysign(x, z) * central_ratio(0.5 * size * size);
     const auto [square, rest] = split_product(size, size);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The standard normal distribution: its distribution function, without the C library's erfc, whose
-// results differ from machine to machine,
+// The standard normal distribution. Its distribution function avoids the C library's erfc, whose
+// results differ between machines:
 //
 //     Phi(z) = erfc(-z / sqrt(2)) / 2,    x = |z| / sqrt(2):
 //
@@ -9,15 +9,15 @@
 //     x <= 4        erfc(x) = exp(-x^2) C(x)
 //     beyond        erfc(x) = exp(-x^2) (1 / sqrt(pi) - P(x^-2) / x^2) / x
 //
-// with rational functions A, C and P. exp(-x^2) is exp(-z^2 / 2), whose exponent is taken to twice
-// the working precision. And its quantiles, the x with Phi(x) = p, by other rational functions, of
+// with rational functions A, C and P. exp(-x^2) is exp(-z^2 / 2), whose exponent is computed to
+// twice the working precision. Quantiles, the x with Phi(x) = p, use other rational functions:
 //
 //     q = p - 1/2  where |q| <= 0.425,  x = q B(0.180625 - q^2);    else, with m = min(p, 1 - p),
 //     r = sqrt(-log m),  x = -+ D(r - 1.6) where r <= 5,  x = -+ E(r - 5) beyond.
 //
-// Shape   any z that is not NaN, also infinite; p in (0, 1), down to 1e-300; 1 - p is exact above
-//         1/2, but no p is nearer to 1 than 2^-53.
-// Cost    of a quantile: no branch and no table, so that compilers vectorise loops of it.
+// Shape   any z that is not NaN, also infinite; p from 1e-300 up to 1 - 2^-53, the largest double
+//         below 1; 1 - p is exact above 1/2.
+// Cost    a quantile has no branches or tables, so that compilers vectorise loops over it.
 // Promise within 8 units in the last place: Phi(z) down to Phi(-37.5) = 4.6e-308, and 0 below;
 //         quantiles in the tails, too. 1 - Phi(z) is Phi(-z) up to rounding; x(1 - p) = -x(p) where
 //         1 - p is a double. The same bits on every machine with IEEE 754 arithmetic, compiled
@@ -37,15 +37,15 @@
 
 namespace stipple {
 
-/// Phi(z), accurate in the lower tail, too.
+/// Phi(z), also accurate in the lower tail.
 double normal_distribution(double z);
 
-/// erf(x), accurate near 0, too; within 4 units in the last place.
+/// erf(x), also accurate near 0; within 4 units in the last place.
 double error_function(double x);
 
 namespace detail {
 
-/// Two polynomials of degree 7, from the constant term on.
+/// Quotient of two polynomials of degree 7; coefficients from the constant term on.
 struct Rational {
     std::array<double, 8> above;
     std::array<double, 8> below;
@@ -85,7 +85,7 @@ constexpr Rational quantile_far_tail{
      7.86869131145613259100e-4, 1.84631831751005468180e-5, 1.42151175831644588870e-7,
      2.04426310338993978564e-15}};
 
-/// The quantile of p = 1/2 + q, with m the smaller of p and 1 - p.
+/// Quantile of p = 1/2 + q, with m = min(p, 1 - p).
 inline double normal_quantile(double q, double m) {
     const double middle = q * quantile_middle(0.180625 - q * q);
     const double r = std::sqrt(-logarithm(m));
@@ -95,14 +95,14 @@ inline double normal_quantile(double q, double m) {
     return std::abs(q) <= 0.425 ? middle : tail;
 }
 
-/// The same for m of at least exp(-25) = 1.39e-11, without the far tail.
+/// Quantile of p = 1/2 + q without the far tail, for m = min(p, 1 - p) >= exp(-25) = 1.39e-11.
 [[gnu::always_inline]] inline double near_normal_quantile(double q, double m) {
     const double middle = q * quantile_middle(0.180625 - q * q);
     const double tail = std::copysign(quantile_tail(std::sqrt(-logarithm(m)) - 1.6), q);
     return std::abs(q) <= 0.425 ? middle : tail;
 }
 
-/// The smaller of p and 1 - p, where that is not 0; 1e-300 for what is below it.
+/// min(p, 1 - p), at least 1e-300. A p of 0 or 1 gives 2^-54 or 2^-55.
 inline double bounded_tail(double p) {
     const double m = std::min(p, 1 - p);
     const double least = p < 0.5 ? 0x1p-54 : 0x1p-55;
@@ -116,13 +116,14 @@ inline double normal_quantile(double p) {
     return detail::normal_quantile(p - 0.5, std::min(p, 1 - p));
 }
 
-/// The same for p in [0, 1], from 1e-300 on. 0 is taken as 2^-54, the middle of the step of random numbers there:
-/// -8.2924. 1, which random numbers never are, is taken as 1 - 2^-55: 8.3744.
+/// The x with Phi(x) = p, for p in [0, 1], raised to 1e-300 if positive. p = 0 is replaced by
+/// 2^-54, the middle of the lowest step of random numbers: x = -8.2924. p = 1, which random numbers
+/// never reach, is replaced by 1 - 2^-55: x = 8.3744.
 inline double bounded_normal_quantile(double p) {
     return detail::normal_quantile(p - 0.5, detail::bounded_tail(p));
 }
 
-/// The same for many numbers p, in place; the far tails, where few are, by themselves.
+/// Applies bounded_normal_quantile to many p in place; batches with far tails are slower.
 void bounded_normal_quantiles(std::span<double> p);
 
 }  // namespace stipple

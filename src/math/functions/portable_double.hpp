@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A double whose elementary functions are those of this folder. Boost.Math's functions are
-// templates on the type of numbers: of this one, they call no function of the C library whose last
-// bit differs between machines, and do not change to wider types where there are some.
+// A double with the elementary functions of this folder. Boost.Math's functions are templates on
+// the number type. With this type they call no function of the C library whose last bit differs
+// between machines, and do not promote to wider types on machines that have them.
 //
 // Promise + - * / and square roots are those of double; exp, log and powers as in exponential.hpp
 //         and logarithm.hpp; sine, cosine, and their inverses for x in [0, 1], within 1e-15. The
@@ -48,7 +48,7 @@ struct PortableDouble {
     friend auto operator<=>(PortableDouble a, PortableDouble b) { return a.value <=> b.value; }
     friend bool operator==(PortableDouble a, PortableDouble b) { return a.value == b.value; }
 
-    /// For the messages of Boost's errors.
+    /// Lets Boost print the value in its error messages.
     template <class Stream>
     friend Stream& operator<<(Stream& out, PortableDouble x) {
         out << x.value;
@@ -89,7 +89,7 @@ namespace detail {
 
 namespace policies = boost::math::policies;
 
-/// Infinity or NaN for what has no value, and no exceptions.
+/// Returns infinity or NaN if a function has no value, without exceptions.
 using NoErrors = policies::policy<policies::domain_error<policies::ignore_error>,
                                   policies::pole_error<policies::ignore_error>,
                                   policies::overflow_error<policies::ignore_error>,

@@ -18,7 +18,7 @@ std::uint64_t floor_root(std::uint64_t value, std::size_t exponent) {
     std::uint64_t high = exponent == 1 ? value : std::uint64_t{1} << 32;
     while (low < high) {
         const std::uint64_t middle = low + (high - low) / 2 + (high - low) % 2;
-        // A power that does not fit is beyond every value, also beyond the largest.
+        // A saturated power exceeds every value, even the largest 64-bit number.
         const std::uint64_t power = saturating_power(middle, exponent);
         if (power <= value && power != std::numeric_limits<std::uint64_t>::max())
             low = middle;
@@ -37,7 +37,7 @@ std::uint64_t nearest_power(std::uint64_t value, std::size_t exponent) {
 
 std::uint64_t rounded_root(std::uint64_t value) {
     const std::uint64_t k = floor_root(value, 2);
-    return value - k * k > k ? k + 1 : k;  // (k + 1/2)^2 = k^2 + k + 1/4
+    return value - k * k > k ? k + 1 : k;  // rounds up if value > (k + 1/2)^2 = k^2 + k + 1/4
 }
 
 double real_power_of(std::size_t base, std::size_t exponent) {

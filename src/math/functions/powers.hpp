@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Powers and roots of counts, in whole numbers; whole powers of real numbers.
+// Integer powers and roots of counts; integer powers of real numbers.
 #pragma once
 
 #include <cstddef>
@@ -8,16 +8,16 @@
 
 namespace stipple {
 
-/// base^exponent, or the largest 64-bit number when it does not fit.
+/// base^exponent, or the largest 64-bit number if it overflows.
 std::uint64_t saturating_power(std::uint64_t base, std::size_t exponent);
 
-/// The largest k with k^exponent <= value; value and exponent at least 1.
+/// The largest k with k^exponent <= value; value and exponent must be at least 1.
 std::uint64_t floor_root(std::uint64_t value, std::size_t exponent);
 
-/// The k^exponent nearest to value, k >= 1; the smaller of two that are equally near.
+/// The power k^exponent, k >= 1, nearest to value; the smaller one on a tie.
 std::uint64_t nearest_power(std::uint64_t value, std::size_t exponent);
 
-/// x^exponent by multiplications.
+/// x^exponent by repeated squaring.
 inline double whole_power(double x, std::size_t exponent) {
     double power = 1;
     for (; exponent > 0; exponent /= 2, x *= x)
@@ -25,10 +25,10 @@ inline double whole_power(double x, std::size_t exponent) {
     return power;
 }
 
-/// base^exponent as a real number.
+/// base^exponent as a double.
 double real_power_of(std::size_t base, std::size_t exponent);
 
-/// The square root, rounded to the nearest whole number.
+/// The square root, rounded to the nearest integer.
 std::uint64_t rounded_root(std::uint64_t value);
 
 }  // namespace stipple

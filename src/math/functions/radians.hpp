@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Trigonometric functions of angles in radians, by those of turns.
+// Trigonometric functions of angles in radians, from those of turns.
 //
-// Promise arcs within 1e-15; sine and cosine within (1 + |angle|) 2^-52, the error of an angle in
-//         turns. The same bits on every machine, as in trigonometry.hpp.
+// Promise arc cosine and arc sine within 1e-15; sine and cosine within (1 + |angle|) 2^-52, the
+//         error of an angle in turns. The same bits on every machine, as in trigonometry.hpp.
 #pragma once
 
 #include <cmath>
@@ -20,17 +20,17 @@ inline CosSin cos_sin_radians(double angle) {
     return {cos, angle < 0 ? -sin : sin};
 }
 
-/// The angle in [0, pi] with this cosine in [-1, 1].
+/// The angle in [0, pi] with cosine x in [-1, 1].
 inline double arc_cosine(double x) {
     return 2 * std::numbers::pi * turns_of(x, std::sqrt((1 - x) * (1 + x)));
 }
 
-/// The angle in [0, pi / 2] with this sine in [0, 1].
+/// The angle in [0, pi / 2] with sine x in [0, 1].
 inline double arc_sine(double x) {
     return 2 * std::numbers::pi * turns_of(std::sqrt((1 - x) * (1 + x)), x);
 }
 
-/// The angle in (-pi, pi] of the vector (x, y), as atan2(y, x) is.
+/// The angle in (-pi, pi] of the vector (x, y), like atan2(y, x).
 inline double signed_angle(double y, double x) {
     const double turns = turns_of(x, std::abs(y));
     return std::copysign(2 * std::numbers::pi * turns, y);

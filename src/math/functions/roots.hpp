@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// d-th roots of doubles, without the C library's pow and cbrt, whose results differ from machine to
-// machine.
+// d-th roots of doubles, without the C library's pow and cbrt, whose results differ between
+// machines.
 //
 // Promise the same bits on every machine with IEEE 754 arithmetic; within 4 units in the last
-//         place, the cube root within 1, and exact for cubes.
+//         place; the cube root within 1, and exact for cubes.
 // Source  The cube root's last step is that of FDLIBM's s_cbrt.c (Sun Microsystems, 1993).
 #pragma once
 
@@ -24,7 +24,7 @@ inline double nth_root(double value, std::size_t degree) {
     const double fraction = std::frexp(value, &exponent);  // in [1/2, 1)
     const int whole = (exponent >= 0 ? exponent : exponent - d + 1) / d;
     const double rest = std::ldexp(fraction, exponent - whole * d);  // in [1/2, 2^(d-1))
-    // Newton's steps fall from any start that is not below the root, until rounding stops them.
+    // Newton steps decrease from any start at or above the root, until rounding stops them.
     double root = 2;
     for (double last = 3; root < last;) {
         last = root;
@@ -40,20 +40,20 @@ namespace detail {
 /// size = t 8^(third - 341) with t in [1/2, 4), and a first guess of the cube root of t.
 struct CubeRootStart {
     double t;
-    double root;          ///< within 2e-7 of itself
+    double root;          ///< relative error 2e-7
     std::uint64_t third;  ///< 341 is a third of the exponent's bias 1023
 };
 
-/// For a number that is at least 2^-1022.
+/// Splits a number of at least 2^-1022.
 [[gnu::always_inline]] inline CubeRootStart cube_root_start(double size) {
-    constexpr double round = 0x1.8p52;  // adding it leaves the nearest whole number in the low bits
+    constexpr double round = 0x1.8p52;  // adding it puts the nearest integer into the low bits
     const auto bits = std::bit_cast<std::uint64_t>(size);
     const std::uint64_t exponent = bits >> 52;
     const double sum =
         (std::bit_cast<double>(0x4330000000000000 | exponent) - 0x1p52) * (1 / 3.0) + round;
     const std::uint64_t third = std::bit_cast<std::uint64_t>(sum) & 0x7ff;
     const auto t = std::bit_cast<double>(bits - ((3 * third - 1023) << 52));
-    // Within 0.6 %, then by a step of Halley's, which cubes the error.
+    // Polynomial with an error of 0.6 %, then a Halley step, which cubes the error.
     const double y = 0.541053 + t * (0.578653 + t * (-0.137501 + t * 0.0146881));
     const double cube = y * y * y;
     return {t, y * (cube + 2 * t) / (2 * cube + t), third};
@@ -65,12 +65,13 @@ inline double cube_root_power(std::uint64_t third) {
 
 }  // namespace detail
 
-/// The cube root of any finite number, with its sign; no branch, so that loops are vectorised.
+/// The cube root of any finite number, with its sign. Has no branches, so that loops are
+/// vectorised.
 inline double cube_root(double value) {
     const double size = std::abs(value);
     const bool tiny = size < 0x1p-1022;
     const auto [t, near, third] = detail::cube_root_start(tiny ? size * 0x1p54 : size);
-    // The last step starts from 26 bits, whose square is exact.
+    // Keeps 26 bits, so that the square in the last step is exact.
     double y = std::bit_cast<double>(std::bit_cast<std::uint64_t>(near) & ~0x7ffffffULL);
     const double ratio = t / (y * y);
     y += y * ((ratio - y) / (2 * y + ratio));
@@ -79,7 +80,7 @@ inline double cube_root(double value) {
     return std::copysign(size > 0 ? root : 0, value);
 }
 
-/// The cube root of a number that is at least 2^-1022, within 2e-7 of itself: for a start.
+/// The cube root of a number of at least 2^-1022, with a relative error of 2e-7: a starting value.
 inline double rough_cube_root(double value) {
     const auto [t, root, third] = detail::cube_root_start(value);
     return root * detail::cube_root_power(third);
