@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Uniform numbers 0, 1, 2, ... of a stream one after the other, made in batches.
+// Uniform random numbers of a stream, returned one at a time in order of index and generated in
+// batches.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@ class DrawStream {
   public:
     explicit DrawStream(const Rng& rng) : rng_(rng) {}
 
-    /// Uniform in [0, 1).
+    /// Next number, uniform in [0, 1).
     double next() {
         if (used_ == batch_.size()) {
             rng_.fill(first_, batch_);
@@ -26,7 +27,8 @@ class DrawStream {
         return batch_[used_++];
     }
 
-    /// A point uniform in [low, high), also where rounding reaches the upper faces.
+    /// Uniform point in [low, high); coordinates that rounding puts on an upper face are drawn
+    /// again.
     void point(const Box& box, double* p) {
         for (std::size_t k = 0; k < box.dimension(); ++k) do
                 p[k] = box.low[k] + next() * box.extent(k);

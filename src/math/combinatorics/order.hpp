@@ -9,7 +9,7 @@
 
 namespace stipple {
 
-/// 0, ..., n - 1 in the order of at(i), equal ones by i.
+/// Indices 0, ..., n - 1 sorted by at(i); ties by i.
 template <class At>
 std::vector<std::uint32_t> order_by(std::size_t n, const At& at) {
     std::vector<std::uint32_t> order(n);

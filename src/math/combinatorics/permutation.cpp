@@ -15,7 +15,7 @@ using Cipher = Permutation::Cipher;
 constexpr std::size_t lanes = 256;
 constexpr std::uint64_t most_entries = std::uint64_t{1} << 20;  ///< of a family's table
 
-/// The keys in the words that they are used on.
+/// Cipher keys converted to the word type that the cipher works in.
 template <class Word>
 struct Keys {
     explicit Keys(const Cipher& cipher)
@@ -27,7 +27,7 @@ struct Keys {
         }
     }
 
-    /// A bijection of the words of cipher.width bits.
+    /// Applies the cipher, a bijection of the words of cipher.width bits.
     [[nodiscard]] Word operator()(Word x) const {
 #pragma GCC unroll 12
         for (std::size_t t = 0; t < Permutation::rounds; ++t) {
@@ -43,13 +43,14 @@ struct Keys {
     std::array<Word, Permutation::rounds> factors;
 };
 
-// The keys are copied so that the compiler sees that the words are not among them.
+// The keys are passed by value so that the compiler knows that they do not overlap x.
 template <class Word>
 STIPPLE_WIDE void encipher(Keys<Word> keys, Word* x, std::size_t count) {
     for (std::size_t j = 0; j < count; ++j) x[j] = keys(x[j]);
 }
 
-/// Images of first, first + 1, ...; those that fall outside are gathered and go on together.
+/// Computes images of first, first + 1, ... Those that are not below `size` are gathered and
+/// enciphered again together.
 template <class Word>
 void images(const Cipher& cipher, std::uint64_t size, std::uint64_t first, std::size_t count,
             double* out) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The first 1000 primes: 2, 3, 5, ..., 7919, whether a number is one, and the next that is.
+// The first 1000 primes, 2, 3, 5, ..., 7919; primality test, next prime and smallest factor.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ consteval std::array<std::uint32_t, 1000> first_primes() {
 
 inline constexpr std::array<std::uint32_t, 1000> primes = detail::first_primes();
 
-/// The smallest factor of n >= 2 that is not 1; n itself for a prime. O(sqrt(n)).
+/// The smallest factor of n >= 2 other than 1; n itself if prime. Cost O(sqrt(n)).
 constexpr std::uint64_t smallest_factor(std::uint64_t n) {
     for (std::uint64_t factor = 2; factor * factor <= n; ++factor)
         if (n % factor == 0) return factor;
@@ -34,7 +34,7 @@ constexpr std::uint64_t smallest_factor(std::uint64_t n) {
 
 constexpr bool is_prime(std::uint64_t n) { return n >= 2 && smallest_factor(n) == n; }
 
-/// The smallest prime that is not below n.
+/// The smallest prime p >= n.
 constexpr std::uint64_t next_prime(std::uint64_t n) {
     while (!is_prime(n)) ++n;
     return n;

@@ -12,9 +12,9 @@ namespace stipple {
 namespace {
 
 constexpr unsigned digit_bits = 11;
-constexpr unsigned digits = 6;  // 66 bits
+constexpr unsigned digits = 6;  // cover 66 bits, at least the 64 of a double
 constexpr std::size_t radix = std::size_t{1} << digit_bits;
-constexpr std::size_t stretch = std::size_t{1} << 20;  // between two looks at the stop token
+constexpr std::size_t stretch = std::size_t{1} << 20;  // between checks of the stop token
 
 using Histogram = std::array<std::uint32_t, radix>;
 
@@ -22,7 +22,7 @@ std::size_t digit(const Placed& item, unsigned d) {
     return std::bit_cast<std::uint64_t>(item.value) >> (d * digit_bits) & (radix - 1);
 }
 
-/// Calls body(i) for all i below n, and looks for a stop now and then.
+/// Calls body(i) for all i < n, with regular stop checks.
 template <class Body>
 void each(std::size_t n, const RunContext& run, Body&& body) {
     for (std::size_t first = 0; first < n; first += stretch) {
@@ -44,7 +44,7 @@ void radix_sort(std::vector<Placed>& items, const RunContext& run) {
     fill_with_zeros(other, n);
     for (unsigned d = 0; d < digits; ++d) {
         Histogram& next = counts[d];
-        if (std::ranges::find(next, n) != next.end()) continue;  // all have the same digit
+        if (std::ranges::find(next, n) != next.end()) continue;  // all items have the same digit
         std::uint32_t before = 0;
         for (auto& count : next) before += std::exchange(count, before);
         each(n, run, [&](std::size_t i) { other[next[digit(items[i], d)]++] = items[i]; });

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The order of doubles in [0, inf), by counting their bits 11 at a time: such doubles sort as their
-// bit patterns do.
+// Radix sort of doubles in [0, inf), 11 bits at a time: such doubles have the order of their bit
+// patterns.
 //
-// Cost    6 passes of O(n), fewer where digits are all the same; 32 bytes a number.
-// Promise stable; asks for a stop every few milliseconds.
+// Cost    6 passes of O(n), skipping digits that all numbers share; 32 bytes a number.
+// Promise stable; checks for a stop every few milliseconds.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace stipple {
 
-/// A number with where it stood. The number is never -0.
+/// A number and its original index. The number must not be -0.
 struct Placed {
     double value;
     std::uint32_t place;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Short streams of numbers from a 64-bit key, where a block cipher for each would be too slow: the
-// outputs of SplitMix64. Number 0 of two keys differ whenever the keys do.
+// SplitMix64: short streams of random numbers from a 64-bit key, if a block cipher for each number
+// is too slow. The first outputs for different keys differ.
 //
-// Beware  no substitute for Rng: keys are to be numbers of an Rng, not seeds or indices.
+// Beware  no substitute for Rng: keys must come from an Rng, not from seeds or indices.
 // Source  G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators",
 //         OOPSLA (2014), 453-472, doi:10.1145/2660193.2660195.
 #pragma once
@@ -25,7 +25,7 @@ class SplitMix64 {
         return z ^ (z >> 31);
     }
 
-    /// Uniform in {0, ..., n - 1}, each within 2^-64 of 1/n.
+    /// Uniform in {0, ..., n - 1}; each probability is within 2^-64 of 1/n.
     constexpr std::uint64_t below(std::uint64_t n) {
         return static_cast<std::uint64_t>((Uint128{next()} * n) >> 64);
     }
