@@ -7,21 +7,21 @@
 //     corner-peak    (1 + sum a_i x_i)^-(d + 1)
 //     gaussian       exp(-sum a_i^2 (x_i - u_i)^2)
 //     continuous     exp(-sum a_i |x_i - u_i|)
-//     discontinuous  exp(sum a_i x_i), but 0 where x_1 > u_1 or x_2 > u_2
+//     discontinuous  exp(sum a_i x_i), but 0 if x_1 > u_1 or x_2 > u_2
 //
 // with u_i and a_i drawn uniformly in [0, 1) from the seed, and the a_i scaled so that their sum is
 // the difficulty.
 //
-// Shape   d coordinates; u_i and the a_i's proportions do not depend on d. product-peak and
-//         corner-peak up to d = 100, beyond which their values leave the range of doubles.
-// Promise integrals within 1e-13 relative. All are products of integrals in one variable but the
-//         corner peak: there 1 / s^(d + 1) = 1/d! int_0^inf t^d e^(-s t) dt makes it
+// Shape   d coordinates; u_i and the ratios of the a_i do not depend on d. product-peak and
+//         corner-peak allow d <= 100, because values would overflow or underflow beyond.
+// Promise integrals within 1e-13 relative. All except the corner peak are products of integrals in
+//         one variable. For it, 1 / s^(d + 1) = 1/d! int_0^inf t^d e^(-s t) dt gives
 //
 //             1/d! int_0^inf t^d e^-t prod (1 - e^(-a_i t)) / (a_i t) dt,
 //
-//         positive throughout. Inclusion and exclusion over the corners,
-//         1 / (d! prod a_i) sum_S (-1)^|S| / (1 + sum_S a_i), is the same but cancels: in 10
-//         dimensions with difficulty 0.1 it has no right digit, where this has 15.
+//         whose integrand is positive. Inclusion and exclusion over the corners,
+//         1 / (d! prod a_i) sum_S (-1)^|S| / (1 + sum_S a_i), is equal but cancels: in 10
+//         dimensions with difficulty 0.1 it has no correct digit, the integral 15.
 // Source  A. Genz, "Testing multidimensional integration routines", in B. Ford, J. C. Rault,
 //         F. Thomasset (eds.), Tools, Methods and Languages for Scientific and Engineering
 //         Computation, North-Holland (1984) 81-94.
@@ -57,13 +57,13 @@ Param<double> difficulty(double fallback) {
             .help = "Sum of the steepnesses a_i"};
 }
 
-/// What is drawn: steepness and place on each axis.
+/// Random parameters of an integrand: steepness a and position u on each axis.
 struct Draw {
     std::vector<double> a;
     std::vector<double> u;
     [[nodiscard]] std::size_t dimension() const { return a.size(); }
 
-    /// Product over the axes of f(a_i, u_i).
+    /// Product of f(a_i, u_i) over the axes.
     template <class F>
     [[nodiscard]] double product(const F& f) const {
         double product = 1;
@@ -71,7 +71,7 @@ struct Draw {
         return product;
     }
 
-    /// Sum over the axes of f(a_i, u_i, x_i).
+    /// Sum of f(a_i, u_i, x_i) over the axes.
     template <class F>
     [[nodiscard]] double sum(std::span<const double> x, const F& f) const {
         double sum = 0;
@@ -120,8 +120,8 @@ Integrand product_peak(Draw g) {
             exact};
 }
 
-/// The integral over t = e^y by the trapezoidal rule, whose error falls exponentially: the
-/// integrand is analytic, has one maximum and falls off at both ends.
+/// Integrates over t = e^y by the trapezoidal rule. Its error decreases exponentially, because the
+/// integrand is analytic, has one maximum and decays at both ends.
 double corner_peak_integral(const std::vector<double>& a) {
     const auto d = static_cast<double>(a.size());
     const auto term = [&](double y) {
@@ -175,7 +175,7 @@ Integrand continuous(Draw g) {
             exact};
 }
 
-/// exp(x) - 1
+/// exp(x) - 1, infinite if it would overflow.
 double grown(double x) {
     return x > 709 ? std::numeric_limits<double>::infinity() : exp_minus_1(x);
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Functions whose integrals are known, to integrate by points.
+// Test functions with known integrals.
 //
 //     genz-gaussian:seed=3,difficulty=5
 //
-// A kind of integrand has a name, typed options and the region that it is defined on; for a number
-// of dimensions and values of its options it makes one function with its exact integral.
+// A kind of integrand has a name, typed options and a region of definition. Given a dimension and
+// option values, it makes one function with its exact integral.
 #pragma once
 
 #include <cstddef>
@@ -19,17 +19,17 @@
 
 namespace stipple {
 
-/// What an integrand is defined on.
+/// The region on which an integrand is defined.
 enum class Region {
     cube,        ///< [0, 1]^d
-    hemisphere,  ///< unit vectors with z >= 0, by solid angle
-    anywhere,    ///< any domain whose measure is finite
+    hemisphere,  ///< unit vectors with z >= 0, measured by solid angle
+    anywhere,    ///< any domain of finite measure
 };
 
 struct Integrand {
     std::function<double(std::span<const double>)> value;
 
-    /// Its integral over the region; `anywhere`: divided by the region's measure.
+    /// Integral over the region; for `anywhere`, the mean over the region.
     double exact = 0;
 };
 
@@ -43,10 +43,10 @@ struct IntegrandKind {
     std::function<Integrand(std::size_t dimension, const Values&)> make;
 };
 
-/// All of them, those of a family together.
+/// All kinds, grouped by family.
 const std::vector<IntegrandKind>& integrand_kinds();
 
-/// @throws Error(usage) naming the nearest one.
+/// Returns the kind with this name. @throws Error(usage) suggesting the nearest name.
 const IntegrandKind& integrand_kind(std::string_view name);
 
 /// The six families of A. Genz.
@@ -55,7 +55,7 @@ std::vector<IntegrandKind> genz_integrands();
 /// Indicators in the unit square: disk, half-plane and the visible part of a light.
 std::vector<IntegrandKind> planar_integrands();
 
-/// One formula each: constant, Gaussian, zone plate, Owen, Sobol' g, sky.
+/// Single formulas: Gaussian, zone plate, Owen, Sobol' g, sky, and the constant `measure`.
 std::vector<IntegrandKind> smooth_integrands();
 
 }  // namespace stipple

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Indicator functions on the unit square, with their areas: the discontinuities that pictures have.
+// Indicator functions on the unit square with their areas: discontinuities as in rendered pictures.
 //
 //     disk-indicator        |x - c| <= r          c uniform in the square, r in [1/10, 1/2]
 //     half-plane-indicator  n . (x - p) <= 0      p uniform in the square, n any direction
-//     soft-shadow           the point c + x a + y b of a light is seen from the origin past a card
+//     soft-shadow           the point c + x a + y b of a light is visible from 0 past a card
 //
-// all drawn from the seed. The light is a parallelogram 2 above the receiver, its sides about 1
-// long and a little askew; the card is a rectangle about halfway, turned at random, that hides 10
-// to 90 % of the light. Whether a point of the light is seen is found by the ray to it; the area by
-// projecting the card onto the light and clipping.
+// with all parameters drawn from the seed. The light is a slightly skewed parallelogram at height 2
+// above the receiver, with sides of about 1. The card is a randomly rotated rectangle about halfway
+// that hides 10 to 90 % of the light. A ray from the origin decides whether a point of the light is
+// visible; the area comes from projecting the card onto the light and clipping.
 //
 // Shape   2 coordinates; values 0 and 1.
 // Promise areas to a few rounding errors.
@@ -35,7 +35,7 @@ DrawStream draws(const Values& values, std::uint64_t what) {
     return DrawStream(Rng(static_cast<std::uint64_t>(values[placing_seed]), stream + what));
 }
 
-/// A direction in the plane.
+/// Random direction in the plane.
 PlanePair direction(DrawStream& numbers) {
     const auto [cos, sin] = cos_sin_turns(numbers.next());
     return {cos, sin};
@@ -67,11 +67,12 @@ Vector3 sum(const Vector3& a, double s, const Vector3& b, double t, const Vector
     return {a[0] + s * b[0] + t * c[0], a[1] + s * b[1] + t * c[1], a[2] + s * b[2] + t * c[2]};
 }
 
-/// A parallelogram, and the coordinates in it of where a ray from the origin meets its plane.
+/// A parallelogram, and its intersection with rays from the origin.
 struct Parallelogram {
     Vector3 corner, side, other;
 
-    /// Coordinates (s, t) and how far along `ray` it is met; at infinity or never: not finite.
+    /// Intersects the parallelogram's plane with `ray`: coordinates (s, t) in the parallelogram,
+    /// and the ray parameter. Not finite if they are parallel.
     [[nodiscard]] Vector3 met_by(const Vector3& ray) const {
         const Vector3 normal = cross(side, other);
         const double far = dot(normal, corner) / dot(normal, ray);
@@ -91,7 +92,7 @@ struct Scene {
         return !(s >= 0 && s <= 1 && t >= 0 && t <= 1 && far > 0 && far < 1);
     }
 
-    /// The share of the light that is seen.
+    /// Visible fraction of the light's area.
     [[nodiscard]] double seen() const {
         Polygon shadow;
         for (const auto& [s, t] : unit_square()) {

@@ -4,7 +4,7 @@
 //
 //     smooth-gaussian  exp(-|x - 1/2|^2 / (2 width^2)), all coordinates 1/2 in the middle
 //     zone-plate       (1 + cos(k (x^2 + y^2))) / 2
-//     owen             the sum over all sets u of `order` axes of prod_{j in u} sqrt(12) (x_j - 1/2),
+//     owen             sum over all sets u of `order` axes of prod_{j in u} sqrt(12) (x_j - 1/2),
 //                      divided by the root of their number: integral 0, and variance 1, all of it in
 //                      interactions of exactly so many coordinates
 //     sobol-g          prod (|4 x_j - 2| + a_j) / (1 + a_j), integral 1; a_j = j - 1, else given,
