@@ -9,7 +9,7 @@
 namespace stipple::kernels {
 namespace {
 
-/// The middle one of some numbers, or the mean of both in the middle.
+/// Median; the mean of the two middle numbers if the count is even, 0 if it is 0.
 double median_of(std::vector<double>& numbers) {
     if (numbers.empty()) return 0;
     const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);

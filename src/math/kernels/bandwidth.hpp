@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Length scales for points of which nobody said one.
+// Default length scales of kernels.
 //
 // Source  the median heuristic: A. Gretton, K. M. Borgwardt, M. J. Rasch, B. Schoelkopf, A. Smola,
 //         J. Mach. Learn. Res. 13 (2012) 723-773.
@@ -14,17 +14,17 @@
 namespace stipple::kernels {
 
 struct MedianDistance {
-    double value = 0;         ///< of an even number of pairs the mean of both in the middle
-    std::uint64_t pairs = 0;  ///< it is of so many
-    bool of_all = true;       ///< pairs; else of pairs drawn at random, always the same
+    double value = 0;         ///< mean of the two middle distances if `pairs` is even
+    std::uint64_t pairs = 0;  ///< number of pairs used
+    bool of_all = true;       ///< false if the pairs are a random sample, always the same
 };
 
-/// The median distance of two of the points and the others, put together, by their first
-/// coordinates: of all pairs, or of 2^22 where there are more.
+/// Median distance between two of the union of `points` and `others`, from the first `dimension`
+/// coordinates. Uses all pairs, or a sample of 2^22 if there are more.
 MedianDistance median_distance(const Columns& points, const Columns& others, std::size_t dimension,
                                const RunContext& run = {});
 
-/// The root mean square distance of two uniform points of the unit cube, sqrt(d / 6).
+/// Root mean square distance of two uniform points in the unit cube, sqrt(d / 6).
 double uniform_distance(std::size_t dimension);
 
 }  // namespace stipple::kernels

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Kernels with a known mean over the unit cube, each a product over the axes. On one axis, with
-// t = |x - y|,
+// Kernels with a known mean over the unit cube, products over the axes. On one axis, with t = |x -
+// y|,
 //
 //     periodic   1 + 2 pi^2 (1/6 - t + t^2)                    mean 1
 //     gaussian   exp(-t^2 / (2 h^2))      mean (erf(s x) + erf(s (1 - x))) sqrt(pi) / (2 s),
@@ -9,13 +9,12 @@
 //     matern     p(a) exp(-a), a = c t    mean (I(c x) + I(c (1 - x))) / c
 //     L2 kinds   k or 1 + k (math/l2/kinds.hpp)
 //
-// with I(A) the integral of p(a) exp(-a) from 0 to A. That is g(0) - g(A) exp(-A), with the
-// polynomial g = p + g'; the mean of the mean is 2/c (g(0) - (f(0) - f(c) exp(-c)) / c) with
-// f = g + f'.
-// For small c, where that cancels, it is 2 sum_m q_m c^m / ((m + 1) (m + 2)) by the series of
-// p(a) exp(-a) = sum_m q_m a^m.
+// with I(A) the integral of p(a) exp(-a) from 0 to A, equal to g(0) - g(A) exp(-A) with the
+// polynomial g = p + g'. The mean over both arguments is 2/c (g(0) - (f(0) - f(c) exp(-c)) / c)
+// with f = g + f'. For small c, where this formula cancels, the mean is 2 sum_m q_m c^m / ((m + 1)
+// (m + 2)), with the series p(a) exp(-a) = sum_m q_m a^m.
 //
-// Source  closed forms worked out here; the kernels: C. E. Rasmussen, C. K. I. Williams, "Gaussian
+// Source  closed forms derived here; kernels: C. E. Rasmussen, C. K. I. Williams, "Gaussian
 //         Processes for Machine Learning" (2006), section 4.2.
 
 #include <array>
@@ -113,12 +112,12 @@ class Gaussian final : public Kernel {
 
 // ---------------------------------------------------------------- Matern
 
-/// p(a) of degree 2.
+/// Coefficients of a polynomial p(a) of degree 2.
 using Parabola = std::array<double, 3>;
 
 double value_at(const Parabola& p, double a) { return p[0] + a * (p[1] + a * p[2]); }
 
-/// The g with g = p + g'.
+/// Returns the g with g = p + g'.
 Parabola with_derivatives(const Parabola& p) {
     const double linear = p[1] + 2 * p[2];
     return {p[0] + linear, linear, p[2]};
@@ -176,12 +175,12 @@ class Matern final : public Kernel {
     }
 
   private:
-    /// Of p(a) exp(-a) from 0 to `end`.
+    /// Integral of p(a) exp(-a) from 0 to `end`.
     [[nodiscard]] double integral(double end) const {
         return -g_[0] * exp_minus_1(-end) - end * (g_[1] + end * g_[2]) * exponential(-end);
     }
 
-    /// The total on an axis for c <= 1.
+    /// Mean over both arguments on one axis, for c <= 1.
     [[nodiscard]] double series() const {
         std::array<double, 3> term = {1, 0, 0};  // (-1)^m / m! for m, m - 1 and m - 2
         double sum = 0;
@@ -203,7 +202,8 @@ class Matern final : public Kernel {
 
 // ---------------------------------------------------------------- L2 discrepancies
 
-/// Of x, for one y: at[0] + at[1] x + at[2] x^2 + at[3] |x - 1/2| + sigma |x - y|.
+/// Kernel on one axis as a function of x, for fixed y: at[0] + at[1] x + at[2] x^2 + at[3] |x -
+/// 1/2| + sigma |x - y|.
 struct AxisCurve {
     std::array<double, 4> at;
     double sigma;
@@ -217,7 +217,7 @@ STIPPLE_WIDE void multiply_curve(const double* x, double y, const AxisCurve& cur
                      sigma * std::abs(x[j] - y);
 }
 
-/// The same curve with two terms less, for kernels that have no use for them.
+/// Multiplies by a curve with at[2] = at[3] = 0.
 STIPPLE_WIDE void multiply_bent_line(const double* x, double y, const AxisCurve& curve,
                                      std::size_t count, double* values) {
     const auto [c, sigma] = curve;
@@ -271,7 +271,7 @@ class OfL2 final : public Kernel {
   private:
     static double number(std::int64_t coefficient) { return static_cast<double>(coefficient); }
 
-    /// What is left of the kernel on an axis as a function of x.
+    /// Kernel on one axis as a function of x.
     [[nodiscard]] AxisCurve curve_at(double y) const {
         const double bend = std::abs(y - 0.5);
         AxisCurve curve{

@@ -11,10 +11,10 @@
 namespace stipple::kernels {
 namespace {
 
-/// The distribution functions of a domain's coordinates.
+/// Distribution functions F_k of the coordinates of a domain.
 class Marginals {
   public:
-    /// A point that is changed along one coordinate, and its place in the cube.
+    /// A scratch point, and its image in the cube.
     struct Place {
         std::vector<double> point;
         std::vector<double> cube;
@@ -33,7 +33,7 @@ class Marginals {
 
     [[nodiscard]] std::size_t count() const { return inside_.size(); }
 
-    /// F of a coordinate.
+    /// F_k(x).
     [[nodiscard]] double below(std::size_t k, double x, Place& place) const {
         place.point[k] = x;
         if (!domain_->contains(place.point)) return x < inside_[k] ? 0 : 1;
@@ -41,7 +41,7 @@ class Marginals {
         return falls_[k] ? 1 - u : u;
     }
 
-    /// The x with F(x) = u, by halves.
+    /// Returns the x with F_k(x) = u, by bisection.
     [[nodiscard]] double quantile(std::size_t k, double u) const {
         Place place = here();
         double low = box_.low[k];
@@ -55,7 +55,7 @@ class Marginals {
         }
     }
 
-    /// Where the distribution begins and ends, or is cut for pictures.
+    /// Bounds of the coordinate; of an unbounded domain, those used for plots.
     [[nodiscard]] std::array<double, 2> ends(std::size_t k) const {
         return {box_.low[k], box_.high[k]};
     }
@@ -69,8 +69,8 @@ class Marginals {
 
     DomainPtr domain_;
     Box box_;
-    std::vector<double> inside_;  ///< a place of which one coordinate is changed
-    std::vector<bool> falls_;     ///< whether the cube's coordinate is 1 - F
+    std::vector<double> inside_;  ///< point of which one coordinate at a time is changed
+    std::vector<bool> falls_;     ///< true if the cube's coordinate is 1 - F
 };
 
 class DomainKernel final : public Kernel {
@@ -106,14 +106,15 @@ class DomainKernel final : public Kernel {
   private:
     static constexpr double fine = 1e-11;
 
-    /// -k'(a) of a distance in units.
+    /// -k'(a) for a distance a in multiples of unit_.
     [[nodiscard]] double falling(double a) const {
         if (!order_) return a * exponential(-0.5 * a * a);
         const double part = *order_ == 0 ? 1 : *order_ == 1 ? a : a * (1 + a) / 3;
         return part * exponential(-a);
     }
 
-    /// By panels on which k is smooth, and F as a rule; halved where it is not.
+    /// Integrates over panels on which k, and usually F, is smooth; bisects panels with too large
+    /// an error.
     [[nodiscard]] Estimate mean_of(std::size_t k, double x) const {
         run_.check_stop();
         Marginals::Place place = marginals_.here();
@@ -152,9 +153,9 @@ class DomainKernel final : public Kernel {
     Marginals marginals_;
     std::optional<unsigned> order_;
     RunContext run_;
-    double unit_;  ///< of distances
+    double unit_;  ///< length scale of distances
     double total_ = 1;
-    double error_ = 0;  ///< of means, beside rounding
+    double error_ = 0;  ///< relative error of means without rounding
 };
 
 }  // namespace
@@ -169,8 +170,8 @@ bool has_independent_axes(const Domain& domain, std::span<const double> points) 
     std::vector<double> moved(d);
     std::vector<double> cube(d);
     std::vector<double> other(d);
-    // Points with one coordinate after the other moved, to places all over the box, then to those of
-    // the next point.
+    // Moves each point along one coordinate at a time: the first to positions all over the box,
+    // then to the coordinate of the next point.
     for (std::size_t i = 0; i < std::max(places, std::min(count, most)); ++i) {
         const auto point = points.subspan(i % count * d, d);
         domain.to_cube(point, cube);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Positive definite kernels K(x, y), and points stored so that loops over them vectorise.
+// Positive definite kernels K(x, y), and points stored by column so that loops vectorise.
 //
-// Promise the same bits on every machine with IEEE 754 arithmetic: subsets of points are chosen by
-//         them.
+// Promise the same bits on every machine with IEEE 754 arithmetic, because subsets of points are
+//         chosen by kernel values.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace stipple::kernels {
 
-/// Points by columns: all first coordinates, all second ones, and so on.
+/// Points stored by column: all first coordinates, then all second ones, and so on.
 class Columns {
   public:
     Columns(std::span<const double> rows, std::size_t width);
@@ -24,7 +24,7 @@ class Columns {
     [[nodiscard]] std::size_t width() const { return width_; }
     [[nodiscard]] const double* axis(std::size_t k) const { return numbers_.data() + k * count_; }
 
-    /// Writes point i as a row.
+    /// Copies point i to to[0 .. width - 1].
     void row(std::size_t i, double* to) const {
         for (std::size_t k = 0; k < width_; ++k) to[k] = axis(k)[i];
     }
@@ -35,7 +35,7 @@ class Columns {
     std::vector<double> numbers_;
 };
 
-/// Points that Kernel::fill takes at a time, at most.
+/// Maximum number of points in one call of Kernel::fill.
 inline constexpr std::size_t tile = 512;
 
 class Kernel {
@@ -45,42 +45,42 @@ class Kernel {
     Kernel& operator=(const Kernel&) = delete;
     virtual ~Kernel() = default;
 
-    /// values[j] = K(y, x_(first + j)) for j < count, up to `tile` of them.
+    /// Sets values[j] = K(y, x_(first + j)) for j < count <= tile.
     virtual void fill(const double* y, const Columns& x, std::size_t first, std::size_t count,
                       double* values) const = 0;
 
     /// K(x, x)
     [[nodiscard]] virtual double diagonal(const double* x) const = 0;
 
-    /// The mean of K(x, y) over the y of the target: the unit cube, or what scores belong to.
+    /// Mean of K(x, y) over y in the target: the unit cube, a domain, or the density of the scores.
     [[nodiscard]] virtual double mean(const double* x) const = 0;
 
-    /// The mean of that.
+    /// Mean of K over both arguments in the target.
     [[nodiscard]] virtual double total() const = 0;
 
-    /// The mean of K(x, x) over the unit cube; 0 where the target is not known.
+    /// Mean of K(x, x) over the target; 0 if unknown.
     [[nodiscard]] virtual double mean_diagonal() const = 0;
 
-    /// No value is off by more than this times the largest K(x, x).
+    /// Maximum error of a value, relative to the largest K(x, x).
     [[nodiscard]] virtual double rounding() const = 0;
 };
 
 using KernelPtr = std::unique_ptr<const Kernel>;
 
-/// prod (1 + 2 pi^2 (1/6 - t + t^2)), t = |x - y|, on the unit cube: the diaphony's.
+/// prod (1 + 2 pi^2 (1/6 - t + t^2)), t = |x - y|, on the unit cube: kernel of the diaphony.
 KernelPtr periodic(std::size_t dimension);
 
 /// exp(-|x - y|^2 / (2 h^2))
 KernelPtr gaussian(std::size_t dimension, double bandwidth);
 
-/// prod p(a) exp(-a), a = sqrt(2 nu) |x - y| / h, with nu = 1/2, 3/2, 5/2 for the order 0, 1, 2 of
-/// p(a) = 1, 1 + a, 1 + a + a^2 / 3.
+/// prod p(a) exp(-a), a = sqrt(2 nu) |x - y| / h. Orders 0, 1, 2 have nu = 1/2, 3/2, 5/2 and p(a) =
+/// 1, 1 + a, 1 + a + a^2 / 3.
 KernelPtr matern(std::size_t dimension, double bandwidth, unsigned order);
 
-/// Of an L2 discrepancy, on the unit cube.
+/// Kernel of an L2 discrepancy on the unit cube.
 KernelPtr of_l2(std::size_t dimension, l2::Kind kind);
 
-/// The Langevin Stein kernel; points have d coordinates and d scores. See stein.cpp.
+/// Langevin Stein kernel; points have d coordinates followed by d scores. See stein.cpp.
 KernelPtr stein(std::size_t dimension, double bandwidth);
 
 }  // namespace stipple::kernels

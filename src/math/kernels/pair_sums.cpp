@@ -19,15 +19,16 @@ namespace {
 
 using Integer = boost::multiprecision::cpp_int;
 
-constexpr int high_places = 26;  ///< of values below 1: 2^37 of them fit 64 bits
-constexpr int low_places = 70;   ///< of the rest, at most 2^43: 2^20 of them fit
+constexpr int high_places = 26;  ///< for values below 1: sums of 2^37 fit 64 bits
+constexpr int low_places = 70;   ///< for remainders of at most 2^43 units: sums of 2^20 fit
 
-/// A sum of numbers up to 2^exponent in absolute value, in multiples of 2^(exponent - low_places).
+/// Sum of numbers of at most 2^exponent in absolute value, in multiples of 2^(exponent -
+/// low_places).
 class FixedSum {
   public:
     explicit FixedSum(int exponent) : scale_(std::ldexp(1.0, -exponent)) {}
 
-    /// Up to `tile` numbers.
+    /// Adds `times` the sum of up to `tile` values.
     void add(const double* values, std::size_t count, unsigned times) {
         std::array<std::uint64_t, 2> parts = parts_of(values, count, scale_);
         const auto high = static_cast<Int128>(std::bit_cast<std::int64_t>(parts[0]));
@@ -40,8 +41,9 @@ class FixedSum {
     [[nodiscard]] Integer value() const { return Integer(sum_); }
 
   private:
-    /// Sums of the numbers' multiples of 2^-high_places, and of what is left of them. Adding 1.5 *
-    /// 2^52 units leaves the nearest whole number of them in a double's low bits.
+    /// Splits values into multiples of 2^-high_places and remainders in multiples of 2^-low_places,
+    /// and sums both. Adding 1.5 * 2^52 units puts the nearest integer into the low bits of a
+    /// double.
     STIPPLE_WIDE static std::array<std::uint64_t, 2> parts_of(const double* values,
                                                               std::size_t count, double scale) {
         const double high_round = std::ldexp(1.5, 52 - high_places);
@@ -65,8 +67,8 @@ class FixedSum {
 
 constexpr std::size_t rows_at_once = 64;
 
-/// Sums of a block of rows with columns [0, count), or, in the same points, with those up to each
-/// row, twice but for itself.
+/// Sum of K over a block of rows and all columns. If both are the same points, each row takes the
+/// columns up to itself, counting all but the diagonal twice.
 class BlockSum {
   public:
     BlockSum(const Kernel& kernel, const Columns& rows, const Columns& columns, int exponent)
@@ -117,7 +119,7 @@ Integer pair_sum(const Kernel& kernel, const Columns& rows, const Columns& colum
     return sum.value();
 }
 
-/// The sum of the kernel's means.
+/// Sum of the kernel's means at the points.
 Integer mean_sum(const Kernel& kernel, const Columns& points, int exponent, const RunContext& run) {
     std::vector<FixedSum> parts(block_count(points.count(), rows_at_once), FixedSum(exponent));
     for_each_block(silent(run), points.count(), rows_at_once, [&](const Block& block) {
@@ -132,7 +134,7 @@ Integer mean_sum(const Kernel& kernel, const Columns& points, int exponent, cons
     return sum.value();
 }
 
-/// What is known of the values K(x, x) of some points; no K(x, y) is larger than the largest.
+/// Largest and mean K(x, x) of some points; |K(x, y)| never exceeds the largest.
 struct Diagonal {
     double largest = 0;
     double mean = 0;
@@ -150,10 +152,10 @@ struct Diagonal {
     }
 };
 
-/// An exponent with room for values of K, means and rounding.
+/// Exponent with headroom for values of K, means and rounding.
 int exponent_above(double largest) { return std::ilogb(std::max(largest, 0x1p-900)) + 2; }
 
-/// numerator / denominator in units of 2^(exponent - low_places), rounded to some 60 bits.
+/// numerator / denominator in units of 2^(exponent - low_places), rounded to about 60 bits.
 double quotient(const Integer& numerator, const Integer& denominator, int exponent) {
     const Integer size = abs(numerator);
     if (size == 0) return 0;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Squared maximum mean discrepancies of points x_1, ..., x_n from a target, by sums over all pairs:
+// Squared maximum mean discrepancy of points x_1, ..., x_n from a target, by sums over all pairs:
 //
 //     squared = total - 2/n sum_i mean(x_i) + n^-2 sum_i sum_k K(x_i, x_k)        (known mean)
 //     squared = m^-2 sum K(y, y') - 2/(n m) sum K(x, y) + n^-2 sum K(x, x')       (points y)
 //
-// Values of K are rounded to multiples of 2^-70 of a bound of them all and added as whole numbers;
-// the terms are combined as such, and rounded once.
+// Values of K are rounded to multiples of 2^-70 times their upper bound. These are added, and the
+// terms combined, as integers, so that the result is rounded only once.
 //
-// Cost    n^2 / 2 values of K, with points y m^2 / 2 + n m more; O(n + m) memory.
-// Promise the same for any number of threads and any order of the points; 0 from points that are
-//         the same as the target's.
+// Cost    n^2 / 2 values of K, plus m^2 / 2 + n m for target points y; O(n + m) memory.
+// Promise the same result for any number of threads and any order of the points; 0 if points and
+//         target points are equal.
 #pragma once
 
 #include "math/kernels/kernel.hpp"
@@ -20,16 +20,17 @@ namespace stipple::kernels {
 
 struct SquaredDiscrepancy {
     double squared;
-    double error;     ///< `squared` is off by at most this, by the rounding of K
-    double expected;  ///< of n independent points of the target: (mean of K(x,x) - total) / n
+    double error;     ///< bound on the error of `squared` from the rounding of K
+    double expected;  ///< for n random points of the target: (mean of K(x,x) - total) / n
 };
 
-/// From what the kernel knows the mean of; where its target is unknown, `expected` takes the mean
-/// of the points' own K(x, x). @throws Error(limit) where values are too large for a double
+/// Squared discrepancy from the kernel's target, whose means it knows. If mean_diagonal() is
+/// unknown, `expected` uses the mean K(x, x) of the points. @throws Error(limit) if values are too
+/// large for a double
 SquaredDiscrepancy squared_from_mean(const Kernel& kernel, const Columns& points,
                                      const RunContext& run);
 
-/// From other points. @throws as above
+/// Squared discrepancy from target points. @throws Error(limit) like squared_from_mean
 SquaredDiscrepancy squared_from_points(const Kernel& kernel, const Columns& points,
                                        const Columns& target, const RunContext& run);
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// The Langevin Stein kernel of a density p by its scores s(x) = grad log p(x), which need no
-// normalization of p. With u = x - y, q = 1 + |u|^2 / h^2 and the base kernel k = q^(-1/2), the
-// inverse multiquadric,
+// Langevin Stein kernel of a density p, from its scores s(x) = grad log p(x), for which p need not
+// be normalized. With u = x - y, q = 1 + |u|^2 / h^2 and the base kernel k = q^(-1/2), the inverse
+// multiquadric,
 //
 //     K(x, y) = s(x).s(y) k + s(x).grad_y k + s(y).grad_x k + div_x grad_y k
 //             = q^(-1/2) s(x).s(y) + q^(-3/2) ((s(x) - s(y)).u + d) / h^2
 //               - 3 q^(-5/2) |u|^2 / h^4,
 //
-// and its mean over points of the density p is 0 for every x. K(x, x) = |s(x)|^2 + d / h^2.
+// Its mean over y with density p is 0 for every x. K(x, x) = |s(x)|^2 + d / h^2.
 //
 // Source  J. Gorham, L. Mackey, "Measuring sample quality with kernels", ICML 2017,
 //         arXiv:1703.01717 (this base kernel); Q. Liu, J. D. Lee, M. Jordan, ICML 2016,
@@ -23,7 +23,7 @@
 namespace stipple::kernels {
 namespace {
 
-/// Sums over the axes, of the points of a tile.
+/// Sums over the axes, for each point of a tile.
 struct SteinSums {
     std::array<double, tile> distance;  ///< |u|^2
     std::array<double, tile> scores;    ///< s(x).s(y)
