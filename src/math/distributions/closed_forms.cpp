@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Distributions whose quantiles are closed forms, through math/functions. With E(p) = -log(1 - p),
+// Distributions with closed-form quantiles, computed with math/functions. With E(p) = -log(1 - p),
 // the quantile of the standard exponential distribution, and Phi^-1 that of the normal:
 //
 //     uniform      low + p (high - low)            log-uniform  low (high / low)^p
@@ -8,7 +8,7 @@
 //     gumbel       location - scale log(-log p)    lognormal    exp(mu + sigma Phi^-1(p))
 //     triangular   low + sqrt(p (high - low) (mode - low)), and its mirror image above the mode
 //
-// Beware  exp(y) is off by |y| / 2^53 of itself, at most 8e-14.
+// Beware  exp(y) has a relative error of |y| / 2^53, at most 8e-14.
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +65,7 @@ struct LogUniform {
     std::pair<double, double> support() const { return {low, high}; }
 
   private:
-    /// From E (x / high)^n = (1 - (low / high)^n) / (n log_ratio).
+    /// Uses E (x / high)^n = (1 - (low / high)^n) / (n log_ratio).
     MarginalMoments wide_moments() const {
         const auto raw = [&](double n) { return -exp_minus_1(-n * log_ratio) / (n * log_ratio); };
         const double m = raw(1);
@@ -74,7 +74,7 @@ struct LogUniform {
         return {high * m, high * high * variance, third / (variance * std::sqrt(variance))};
     }
 
-    /// With h = log_ratio / 2 and g^2 = low high, central moments as series of terms above 0:
+    /// Central moments as series of positive terms, with h = log_ratio / 2 and g^2 = low high:
     ///
     ///     mean / g = sinh(h) / h,    variance / g^2 = sum_k 2 k (2 h)^(2 k) / (2 k + 2)!,
     ///     third / g^3 = sum_k (9^k (2 k + 2) (2 k + 3) - 3/4 (9^(k+1) - 1) (2 k + 3)
@@ -105,9 +105,9 @@ struct Triangular {
     double mode;
     double high;
     double below = (mode - low) / (high - low);   ///< probability below the mode
-    double above = (high - mode) / (high - low);  ///< and above it
+    double above = (high - mode) / (high - low);  ///< probability above the mode
 
-    /// From the nearer end, by sums of numbers above 0.
+    /// Measured from the nearer end, using sums of positive numbers only.
     double quantile(double p, Tail tail) const {
         const double from_low = tail == Tail::lower ? p : 1 - p;
         const double from_high = tail == Tail::lower ? 1 - p : p;
@@ -115,7 +115,7 @@ struct Triangular {
         const double rise = std::sqrt(left ? from_low * below : from_high * above);
         const double rest =
             (left ? from_high + above * from_low : from_low + below * from_high) / (1 + rise);
-        const double share = left ? rise : rest;  // of the width, from low
+        const double share = left ? rise : rest;  // fraction of the width, from low
         const double width = high - low;
         return share < 0.5 ? low + share * width : high - (left ? rest : rise) * width;
     }
@@ -143,7 +143,7 @@ struct Triangular {
     std::pair<double, double> support() const { return {low, high}; }
 };
 
-/// Of the normal distribution, from either tail.
+/// Standard normal quantile, from either tail.
 double standard_quantile(double p, Tail tail) {
     const double z = normal_quantile(p);
     return tail == Tail::lower ? z : -z;
@@ -196,7 +196,7 @@ struct Lognormal {
     double place(double x) const { return (logarithm(x) - mu) / sigma; }
 };
 
-/// E(p), or with 1 - p in place of p.
+/// E(p), or E(1 - p) for the upper tail.
 double standard_decay(double p, Tail tail) {
     return tail == Tail::lower ? 0.0 - log_1p(-p) : 0.0 - logarithm(p);
 }
@@ -241,7 +241,7 @@ struct Weibull {
     std::pair<double, double> support() const { return {0, infinite}; }
 
   private:
-    /// Where raw ones would lose digits.
+    /// By quadrature, for large shapes whose raw moments would cancel.
     MarginalMoments narrow_moments() const {
         const auto [mean, variance, skewness] = moments_by_quadrature(*weibull_law(shape, 1));
         return {scale * mean, scale * scale * variance, skewness};
@@ -256,7 +256,7 @@ struct Gumbel {
     double scale;
 
     double quantile(double p, Tail tail) const {
-        const double small = tail == Tail::lower ? 1 - p : p;  // exact where it is small
+        const double small = tail == Tail::lower ? 1 - p : p;  // exact if small
         const double near = 0.0 - log_1p(-small);
         const double far = 0.0 - logarithm(p);
         const double decay = tail == Tail::lower && p < 0.5 ? far : near;

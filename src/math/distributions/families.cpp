@@ -57,7 +57,7 @@ MarginalPtr triangular_of(const ParameterValues& p) {
     return triangular_law(p["low"], p["mode"], p["high"]);
 }
 
-/// By mean and standard deviation of the logarithm, or of the number itself.
+/// Takes mean and standard deviation of either the logarithm or the number itself.
 MarginalPtr lognormal_of(const ParameterValues& p) {
     const auto mean = p.find("mean");
     const auto deviation = p.find("deviation");
@@ -168,7 +168,7 @@ std::vector<MarginalFamily> all_families() {
     };
 }
 
-/// @throws Error(usage)
+/// Checks range and integrality of a parameter. @throws Error(usage)
 void check(const Parameter& parameter, double x, std::string_view where) {
     if (!(x >= parameter.low && x <= parameter.high))
         fail(ErrorKind::usage, "{}{}: {} is outside [{}, {}]", where, parameter.name, x,
@@ -213,7 +213,7 @@ MarginalPtr make_marginal(std::string_view name, const NamedNumbers& given,
     ParameterValues values{where, {}};
     for (const auto& [parameter, x] : given) {
         check(family.parameter(parameter), x, where);
-        values.numbers.emplace_back(parameter, x + 0.0);  // -0 would show in points
+        values.numbers.emplace_back(parameter, x + 0.0);  // avoids -0, which would appear in points
     }
     for (const Parameter& parameter : family.parameters)
         if (parameter.fallback && !values.find(parameter.name))
@@ -225,7 +225,7 @@ MarginalPtr measured_law(std::vector<double> numbers, bool linear, ErrorKind kin
                          const std::string& where) {
     for (double& x : numbers) {
         if (!(std::abs(x) <= 1e150)) fail(kind, "{}: {} is outside [-1e150, 1e150]", where, x);
-        x += 0.0;  // -0 would show in points
+        x += 0.0;  // avoids -0, which would appear in points
     }
     if (!linear) return empirical_law(std::move(numbers));
     std::ranges::sort(numbers);

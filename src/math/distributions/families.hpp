@@ -4,7 +4,7 @@
 //
 //     MarginalPtr law = make_marginal("gamma", {{"shape", 2}, {"scale", 0.5}});
 //
-// and those of numbers that were measured.
+// and distributions of measured numbers.
 #pragma once
 
 #include <functional>
@@ -22,22 +22,22 @@ namespace stipple {
 struct MarginalParameter {
     std::string_view name;
     std::string_view help;
-    std::optional<double> fallback;  ///< none: it may be left out
+    std::optional<double> fallback;  ///< nullopt: the parameter is optional
     double low = -1e150;
     double high = 1e150;
-    bool whole = false;  ///< a whole number
+    bool whole = false;  ///< true if only integers are allowed
 };
 
-/// Parameters with their values.
+/// Parameter names with values.
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
 
-/// What a family is made from: all parameters that were given or have defaults, in their ranges.
+/// Input of a family: all parameters that were given or have defaults, checked for their ranges.
 struct ParameterValues {
     std::string_view where;
     NamedNumbers numbers;
 
     [[nodiscard]] std::optional<double> find(std::string_view name) const;
-    /// Of a parameter that has a value.
+    /// Value of a parameter that was given or has a default.
     [[nodiscard]] double operator[](std::string_view name) const { return find(name).value(); }
 };
 
@@ -49,19 +49,19 @@ struct MarginalFamily {
     [[nodiscard]] const MarginalParameter& parameter(std::string_view wanted) const;
 };
 
-/// In alphabetical order.
+/// All families, in alphabetical order.
 const std::vector<MarginalFamily>& marginal_families();
 
-/// @throws Error(usage) for a name that none has
+/// Returns the family with this name. @throws Error(usage) if there is none
 const MarginalFamily& marginal_family(std::string_view name);
 
-/// @param where what stands before a parameter's name in messages: "--", "x3: "
-/// @throws Error(usage): unknown names, numbers out of range or that do not go together
+/// @param where prefix of parameter names in messages: "--", "x3: "
+/// @throws Error(usage) for unknown names, numbers out of range or inconsistent parameters
 MarginalPtr make_marginal(std::string_view family, const NamedNumbers& given,
                           std::string_view where = {});
 
-/// Each of these numbers as often as it stands there or, with `linear`, straight between them.
-/// @param where what messages call the numbers
+/// Distribution of measured numbers by their frequencies, or interpolated if `linear`.
+/// @param where name of the numbers in messages
 /// @throws Error(kind) "WHERE: 3 stands twice; ..."
 MarginalPtr measured_law(std::vector<double> numbers, bool linear, ErrorKind kind,
                          const std::string& where);

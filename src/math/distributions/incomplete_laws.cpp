@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Distributions by the incomplete gamma and beta functions: gamma, beta, and Student's t, whose
-// tail is
+// Gamma, beta and Student's t distributions, by incomplete gamma and beta functions. The tail of
+// Student's t is
 //
 //     P(T > t) = I_z(nu / 2, 1 / 2) / 2,    z = nu / (nu + t^2),
 //
-// so that t = sqrt(nu (1 - z) / z); for small z, I_z(a, b) = z^a / (a B(a, b)) up to z of itself, and
-// P(T > t) = (t / sqrt(nu))^-nu / (nu B(nu / 2, 1 / 2)).
+// so that t = sqrt(nu (1 - z) / z). For small z, I_z(a, b) = z^a / (a B(a, b)) with a relative
+// error of z, and P(T > t) = (t / sqrt(nu))^-nu / (nu B(nu / 2, 1 / 2)).
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +55,7 @@ struct Beta {
         const double from_high = tail == Tail::lower ? at.rest : at.x;
         return from_low < 0.5 ? low + from_low * (high - low) : high - from_high * (high - low);
     }
-    /// From the nearer end, whose distance is a double.
+    /// Measured from the nearer end, whose distance has no rounding error.
     double probability(double x, Tail tail) const {
         const double y = (x - low) / (high - low);
         const double rest = (high - x) / (high - low);
@@ -84,7 +84,7 @@ struct StudentT {
     double ratio = gamma_ratio(0.5 * degrees, 0.5);                ///< sqrt(pi) / B(nu / 2, 1 / 2)
     double peak = ratio / std::sqrt(degrees * std::numbers::pi);   ///< density at 0
     double slope = degrees * std::sqrt(std::numbers::pi) / ratio;  ///< nu B(nu / 2, 1 / 2)
-    double far_out = 1e15 * std::sqrt(degrees);                    ///< beyond, t^2 + nu is t^2
+    double far_out = 1e15 * std::sqrt(degrees);                    ///< t^2 + nu = t^2 beyond
 
     double quantile(double p, Tail tail) const {
         if (p == 0.5) return location;
@@ -113,7 +113,7 @@ struct StudentT {
     std::pair<double, double> support() const { return {-endless, endless}; }
 
   private:
-    /// The t > 0 beyond which p < 1/2 lies.
+    /// The t > 0 with P(T > t) = p, for p < 1/2.
     double standard_tail(double p) const {
         const auto [z, rest] = beta_quantile(0.5 * degrees, 0.5, 2 * p);
         if (z > 1e-30) return std::sqrt(degrees * rest / z);

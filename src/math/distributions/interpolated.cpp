@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A column of numbers as a distribution, straight between its order statistics: with x_0 < ... <
-// x_n-1 and h = p (n - 1), the quantile is x_i + (h - i) (x_i+1 - x_i) for i = floor(h).
+// Distribution of a column of numbers, interpolated linearly between its order statistics: with x_0
+// < ... < x_n-1 and h = p (n - 1), the quantile is x_i + (h - i) (x_i+1 - x_i) for i = floor(h).
 //
 // Source  R. J. Hyndman, Y. Fan, "Sample quantiles in statistical packages", The American
 //         Statistician 50 (1996) 361-365, doi:10.1080/00031305.1996.10473566: definition 7.
@@ -47,8 +47,8 @@ class Interpolated final : public Marginal {
         const std::size_t i = piece_of(x);
         return 1 / (pieces_ * (x_[i + 1] - x_[i]));
     }
-    /// Of uniform distributions on the pieces, mixed; in units of the width, from a number in the
-    /// middle.
+    /// Moments of a mixture of uniform distributions on the pieces, computed relative to a middle
+    /// number in units of the width.
     MarginalMoments moments() const override {
         const double middle = x_[x_.size() / 2];
         const double unit = x_.back() - x_.front();

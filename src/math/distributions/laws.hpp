@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Makers of distributions, whose parameters are not checked here: that is for families.hpp.
+// Constructors of distributions. Parameters are not checked here but in families.hpp.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ MarginalPtr exponential_law(double rate);
 MarginalPtr weibull_law(double shape, double scale);
 MarginalPtr gumbel_law(double location, double scale);
 
-// By incomplete functions.
+// By incomplete gamma and beta functions.
 MarginalPtr gamma_law(double shape, double scale);
 MarginalPtr beta_law(double a, double b, double low, double high);
 MarginalPtr student_t_law(double degrees, double location, double scale);
@@ -30,11 +30,11 @@ MarginalPtr student_t_law(double degrees, double location, double scale);
 MarginalPtr integers_law(double low, double high);
 MarginalPtr poisson_law(double mean);
 MarginalPtr binomial_law(double trials, double probability);
-/// Each number of a list as likely as it often stands there.
+/// Probability of each value in proportion to its frequency in the list.
 MarginalPtr empirical_law(std::vector<double> values);
 
-/// Straight between the sorted numbers of a list, no two of them the same: between two neighbours
-/// of n there lies the probability 1 / (n - 1).
+/// Linear interpolation between the sorted values, which must be distinct: probability 1 / (n - 1)
+/// between any two neighbours of n values.
 MarginalPtr interpolated_law(std::vector<double> values);
 
 }  // namespace stipple

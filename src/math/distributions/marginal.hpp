@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A distribution on the line, F(x) = P(X <= x), seen from either tail: what is far out in the upper
-// tail has a probability near 0 there, and is lost in the last digits of 1 - F:
+// A distribution on the line, F(x) = P(X <= x), with access from both tails. Small probabilities in
+// the upper tail keep their digits there, but lose them in 1 - F(x).
 //
 //     quantile(p, lower)     the x with F(x) = p
 //     quantile(p, upper)     the x with 1 - F(x) = p
@@ -9,11 +9,12 @@
 //     probability(x, upper)  1 - F(x)
 //
 // Shape   p in [0, 1]: 0 and 1 are the ends of the support, which may be infinite.
-// Promise quantiles, probabilities and densities within 1e-13 of themselves, for probabilities from
-//         1e-300 on, where a distribution does not say otherwise; a quantile that is a difference
-//         from a location or an end, within 1e-13 of the larger of both; a probability or density,
-//         as near as a change of x by 4 units in the last place leaves it. Moments within 1e-9 of
-//         themselves, skewness within 1e-9. The same bits on every machine.
+// Promise relative error 1e-13 of quantiles, probabilities and densities, for probabilities from
+//         1e-300 on, unless a distribution states otherwise. A quantile that is a difference from a
+//         location or an end has an error of 1e-13 of the larger of the two. Probabilities and
+//         densities may also have the error from changing x by 4 units in the last place. Relative
+//         error 1e-9 of mean and variance, absolute error 1e-9 of the skewness. The same bits on
+//         every machine.
 #pragma once
 
 #include <memory>
@@ -25,7 +26,7 @@ namespace stipple {
 
 enum class Tail { lower, upper };
 
-/// Infinite or NaN where the distribution has none.
+/// Infinite or NaN if a moment does not exist.
 struct MarginalMoments {
     double mean = 0;
     double variance = 0;
@@ -35,7 +36,7 @@ struct MarginalMoments {
 class Marginal;
 using MarginalPtr = std::shared_ptr<const Marginal>;
 
-/// Immutable; safe to use from several threads.
+/// Immutable, hence safe to share between threads.
 class Marginal {
   public:
     Marginal() = default;
@@ -43,34 +44,34 @@ class Marginal {
     Marginal& operator=(const Marginal&) = delete;
     virtual ~Marginal() = default;
 
-    /// "gamma": for messages.
+    /// Name for messages, such as "gamma".
     [[nodiscard]] virtual std::string_view name() const = 0;
 
-    /// Of a discrete distribution: the smallest outcome x with F(x) > p, or with 1 - F(x) < p; for
-    /// F(x) = 1, the largest outcome that any p below 1 gives.
+    /// For a discrete distribution, the smallest outcome x with F(x) > p, or with 1 - F(x) < p in
+    /// the upper tail; if there is none, the largest outcome that some p below 1 gives.
     [[nodiscard]] virtual double quantile(double p, Tail tail = Tail::lower) const = 0;
     [[nodiscard]] virtual double probability(double x, Tail tail = Tail::lower) const = 0;
 
-    /// Of a discrete distribution: the probability of x.
+    /// Density, or the probability of x for a discrete distribution.
     [[nodiscard]] virtual double density(double x) const = 0;
     [[nodiscard]] virtual MarginalMoments moments() const = 0;
     [[nodiscard]] virtual std::pair<double, double> support() const = 0;
 
-    /// How many outcomes a discrete distribution has; 0: it is continuous.
+    /// Number of outcomes of a discrete distribution; 0 for a continuous one.
     [[nodiscard]] virtual double outcomes() const { return 0; }
     [[nodiscard]] bool discrete() const { return outcomes() > 0; }
 
-    /// quantile(p) of many p in (0, 1), in place; other p give any number.
+    /// Replaces each p in (0, 1) by quantile(p); results for other p are unspecified.
     virtual void quantiles(std::span<double> p) const = 0;
 };
 
-/// By quadrature over p, for continuous distributions; not finite where more than a share of 1e-12
-/// lies beyond p = 1e-300, as of all that are infinite.
+/// Moments of a continuous distribution by quadrature over p. Not finite if the part beyond p =
+/// 1e-300 exceeds a fraction of 1e-12, as for infinite moments.
 MarginalMoments moments_by_quadrature(const Marginal& law);
 
-/// The distribution between two ends, either of which may be infinite, divided by its probability
-/// there. @throws Error(usage) if that is too small to be divided by; `where` stands in front of
-/// the names of the ends in messages
+/// Restricts the distribution to [low, high], either of which may be infinite, and normalizes it.
+/// @throws Error(usage) if its probability there is too small; `where` precedes the names of the
+/// ends in messages
 MarginalPtr truncated(MarginalPtr law, double low, double high, std::string_view where = {});
 
 }  // namespace stipple

@@ -7,7 +7,7 @@
 //         double quantile(double p, Tail tail) const;      // inline, and without a branch on p
 //         double probability(double x, Tail tail) const;   // x in the support
 //         double density(double x) const;                  // x in the support
-//         MarginalMoments moments() const;                 // or none: by quadrature
+//         MarginalMoments moments() const;                 // if missing: by quadrature
 //         std::pair<double, double> support() const;
 //     };
 #pragma once
@@ -20,8 +20,8 @@
 
 namespace stipple {
 
-// The law is taken by value: what is written cannot change it, so that its constants stay in
-// registers. All calls are inlined: one that is not keeps the loop from being widened.
+// Takes the law by value, so that stores to `numbers` cannot change it and its constants stay in
+// registers. All calls must be inlined, or else the loop is not vectorised.
 template <class Law>
 STIPPLE_WIDE [[gnu::flatten]] void lower_quantiles(const Law law, std::span<double> numbers) {
     for (double& x : numbers) x = law.quantile(x, Tail::lower);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Discrete distributions: a table of outcomes with their running sums from both ends, and whole
-// numbers of a range. The weights of Poisson's and the binomial distribution are products of ratios
+// Discrete distributions: tables of outcomes with running sums from both ends, and integers of a
+// range. The weights of the Poisson and binomial distributions are products of ratios
 //
 //     p(k + 1) / p(k) = mean / (k + 1)    or    (n - k) / (k + 1) * p / (1 - p)
 //
-// from the likeliest outcome on, to twice the digits of a double, and divided by their sum.
+// starting from the mode, computed to twice the precision of a double, and divided by their sum.
 //
-// Cost    32 bytes an outcome; the tables reach as far as outcomes are not 1e-306 times as likely
-//         as the likeliest: 75 standard deviations where those are many.
+// Cost    32 bytes an outcome; tables include outcomes more than 1e-306 times as likely as the
+//         mode, up to about 75 standard deviations away.
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ std::vector<double> sums_from_above(const std::vector<double>& weights) {
     return sums;
 }
 
-/// F at each outcome, from whichever end is nearer.
+/// F at each outcome, computed from the nearer end.
 std::vector<double> cell_ends(const std::vector<double>& weights,
                               const std::vector<double>& above) {
     std::vector<double> ends = running_sums(weights);
@@ -72,7 +72,7 @@ double Outcomes::density(double x) const {
     return at != values_.end() && *at == x ? weights_[i] : 0;
 }
 
-/// From a value in the middle, in units of the largest distance.
+/// Computed relative to the median, in units of the largest distance from it.
 MarginalMoments Outcomes::moments() const {
     const double middle = quantile(0.5, Tail::lower);
     const double unit = std::max(middle - values_.front(), values_.back() - middle);
@@ -135,7 +135,8 @@ MarginalPtr Integers::between(double low, double high) const {
 
 namespace {
 
-/// Weights of first, ..., mode, ..., last, from ratios up(k) = p(k + 1) / p(k).
+/// Table of the weights of all outcomes from 0 to `last` that are likely enough, from up(k) = p(k +
+/// 1) / p(k).
 template <class Ratio>
 MarginalPtr by_ratios(std::string_view name, double mode, double last, const Ratio& up) {
     constexpr double rare = 1e-306;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Discrete distributions: a table of outcomes, and whole numbers of a range, each as likely.
+// Discrete distributions: tables of outcomes, and equally likely integers of a range.
 #pragma once
 
 #include <span>
@@ -13,16 +13,17 @@
 
 namespace stipple {
 
-/// Discrete distributions can be cut exactly.
+/// A discrete distribution, which can be truncated exactly.
 class DiscreteMarginal : public Marginal {
   public:
-    /// The outcomes in [low, high] alone; nothing where there are none, or none likely enough.
+    /// Restricts to the outcomes in [low, high]; null if there are none, or if they are too
+    /// unlikely.
     [[nodiscard]] virtual MarginalPtr between(double low, double high) const = 0;
 };
 
 class Outcomes final : public DiscreteMarginal {
   public:
-    /// Rising values, and weights >= 0 of any sum; `name` lives on.
+    /// Takes increasing values and weights >= 0 with any sum; `name` must outlive this object.
     Outcomes(std::string_view name, std::vector<double> values, std::vector<double> weights);
 
     std::string_view name() const override { return name_; }
@@ -39,8 +40,8 @@ class Outcomes final : public DiscreteMarginal {
     std::string_view name_;
     std::vector<double> values_;
     std::vector<double> weights_;
-    GuideTable ends_;            ///< F at each of them
-    std::vector<double> above_;  ///< 1 - F
+    GuideTable ends_;            ///< F at each outcome
+    std::vector<double> above_;  ///< 1 - F at each outcome
 };
 
 class Integers final : public DiscreteMarginal {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// A distribution between two ends a and b. With m = F(b) - F(a), all of it by sums of numbers above
-// 0, in whichever tail the probability is smaller:
+// A distribution truncated to [a, b]. With m = F(b) - F(a), probabilities are sums of positive
+// numbers in the tail where they are smaller:
 //
-//     quantile of p:   of F(a) + p m from below, or of (1 - F(b)) + (1 - p) m from above.
+//     quantile(p) = quantile of F(a) + p m from below, or of (1 - F(b)) + (1 - p) m from above.
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@
 namespace stipple {
 namespace {
 
-/// Probability between a < b, without digits lost to that of both sides.
+/// Probability between a < b, without the cancellation of 1 minus both tails if it is small.
 double mass_between(const Marginal& law, double a, double b) {
     const double below = law.probability(a, Tail::lower);
     const double above = law.probability(b, Tail::upper);
@@ -79,8 +79,8 @@ class Truncated final : public Marginal {
     double mass_;
 };
 
-/// E ((x - about) / unit)^n over both halves, with p = exp(-w) / 2 from their ends. NaN where it is
-/// infinite, or more of it than 1e-12 is beyond p = 1e-300.
+/// E ((x - about) / unit)^n, integrated over both halves with p = exp(-w) / 2 from their ends. NaN
+/// if more than a fraction of 1e-12 is beyond p = 1e-300, or if it is infinite.
 double moment_about(const Marginal& law, double about, double unit, int n) {
     double sum = 0, size = 0, beyond = 0;
     for (const Tail tail : {Tail::lower, Tail::upper}) {
@@ -95,7 +95,7 @@ double moment_about(const Marginal& law, double about, double unit, int n) {
             integrate_interval(f, 0, 10).value + integrate_interval(f, 10, deepest).value;
         sum += part;
         size += std::abs(part);
-        // As if it went on to fall as it does at the end.
+        // Extrapolates the tail from the exponential decay at its end.
         const double last = std::abs(f(deepest));
         const double fall = logarithm(std::abs(f(deepest - 10)) / last) / 10;
         if (last > 0) beyond += fall > 0 ? last / fall : std::numeric_limits<double>::infinity();
