@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Two maps of equal areas between the unit square and the unit disk, both ways:
+// Two area-preserving maps between the unit square and the unit disk, with inverses:
 //
 //     polar       r = sqrt(u),  theta = 2 pi v
-//     concentric  a = 2 u - 1, b = 2 v - 1;  r = a, theta = (pi / 4) b / a where |a| > |b|,
+//     concentric  a = 2 u - 1, b = 2 v - 1;  r = a, theta = (pi / 4) b / a if |a| > |b|,
 //                 else r = b, theta = pi / 2 - (pi / 4) a / b: concentric squares become circles
 //
-// Cost    no branch, so that compilers vectorise loops of them.
-// Promise the way back may leave the square by rounding; callers clamp. All v of polar meet in the
-//         centre, which goes back to v = 0. The same bits on every machine.
+// Cost    no branches, so that compilers vectorise loops over them.
+// Promise rounding may move inverse images out of the square; callers clamp. The polar map sends
+//         all v at u = 0 to the centre, whose inverse has v = 0. The same bits on every machine.
 // Source  Concentric: P. Shirley, K. Chiu, "A low distortion map between disk and square",
 //         J. Graphics Tools 2(3) (1997) 45-52, doi:10.1080/10867651.1997.10487479.
 #pragma once

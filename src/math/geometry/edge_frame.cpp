@@ -10,7 +10,8 @@
 namespace stipple {
 namespace {
 
-/// The cross product, from exact products: areas of slivers are small differences of large ones.
+/// Cross product from exact products, because areas of slivers are small differences of large
+/// numbers.
 Vector3 exact_cross(const ExactEdge& e, const ExactEdge& f) {
     const auto product = [&](std::size_t i, std::size_t j, double sign) {
         return DoubleDouble{sign * e.high[i], sign * e.low[i]} * DoubleDouble{f.high[j], f.low[j]};
@@ -41,7 +42,7 @@ EdgeFrame::EdgeFrame(const Vector3& corner, const ExactEdge& a, const ExactEdge&
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
     lengths_ = {length(a.high), length(b.high), length(minus(b.high, a.high))};
     const double longest = *std::ranges::max_element(lengths_);
-    // In units of a power of 2 near the longest edge nothing over- or underflows or is rounded.
+    // Scaling by a power of 2 near the longest edge avoids overflow, underflow and rounding.
     const double unit = longest > 1e-140 ? std::ldexp(1.0, std::ilogb(longest)) : 1;
     const Vector3 e = times(a.high, 1 / unit);
     const Vector3 f = times(b.high, 1 / unit);

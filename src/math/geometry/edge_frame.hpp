@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Coordinates along two edges e and f that leave one corner c, in the plane or in space:
+// Coordinates along two edges e and f that start at a corner c, in the plane or in space:
 //
-//     p = c + s e + t f  (+ what p is off the plane)     s = g . (p - c),  t = h . (p - c)
+//     p = c + s e + t f  (+ p's offset from the plane)     s = g . (p - c),  t = h . (p - c)
 //
 // where g and h lie in the plane of e and f, g . e = h . f = 1 and g . f = h . e = 0.
 //
-// Promise nothing over- or underflows for edges between 1e-140 and 1e150.
+// Promise no overflow or underflow for edges between 1e-140 and 1e150.
 #pragma once
 
 #include <array>
@@ -17,12 +17,12 @@
 
 namespace stipple {
 
-/// A point of two or three coordinates in space; the plane is z = 0.
+/// Converts a point with two or three coordinates to space; two coordinates get z = 0.
 [[gnu::always_inline]] inline Vector3 space_point(std::span<const double> point) {
     return {point[0], point[1], point.size() > 2 ? point[2] : 0};
 }
 
-/// The vector high + low between two points, exact where they are within 2^53 of another.
+/// The difference high + low of two points, exact if they are within a factor of 2^53.
 struct ExactEdge {
     Vector3 high;
     Vector3 low{};
@@ -37,11 +37,11 @@ class EdgeFrame {
         double t;
     };
 
-    /// `size` is the largest coordinate of the points that are made with it.
+    /// @param size largest coordinate of the points generated with this frame
     EdgeFrame(const Vector3& corner, const ExactEdge& e, const ExactEdge& f, double size);
     EdgeFrame() = default;
 
-    /// Whether the edges span no area, but for rounding; nothing else may be asked then.
+    /// True if the edges span no area beyond rounding; then no other function may be called.
     [[nodiscard]] bool flat() const { return flat_; }
 
     [[nodiscard, gnu::always_inline]] Coordinates coordinates(const Vector3& point) const {
@@ -54,14 +54,14 @@ class EdgeFrame {
         return std::abs(dot(normal_, minus(point, corner_)));
     }
 
-    /// Area of the parallelogram of the edges, within 4 epsilon of itself however flat it is.
+    /// Area of the parallelogram, with a relative error of 4 epsilon however flat it is.
     [[nodiscard]] double area() const { return area_; }
 
     /// Lengths of e, f and f - e.
     [[nodiscard]] const std::array<double, 3>& lengths() const { return lengths_; }
 
-    /// How far rounding takes a point that was made: 16 epsilon (largest coordinate) (longest edge
-    /// / smallest height).
+    /// Bound on how far rounding moves a generated point: 16 epsilon (largest coordinate) (longest
+    /// edge / smallest height).
     [[nodiscard]] double slack() const { return slack_; }
 
   private:

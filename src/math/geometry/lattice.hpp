@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The cells of a rectangular lattice, one after the other, the first coordinate fastest.
+// Cells of a rectangular lattice in order, with the first coordinate varying fastest.
 #pragma once
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 
 namespace stipple {
 
-/// Calls row(cell, offset, length) for the rows of cells that make up cells first, first + 1, ...,
-/// first + count - 1: `length` cells that begin at `cell` and go on along the first coordinate, the
-/// `offset`-th of the stretch and those after it.
+/// Splits cells first, ..., first + count - 1 into rows along the first coordinate, and calls
+/// row(cell, offset, length) for each: `length` cells from `cell` on, the first of which is number
+/// first + offset.
 template <class Row>
 void for_each_lattice_row(std::span<const std::uint64_t> shape, std::uint64_t first,
                           std::size_t count, const Row& row) {

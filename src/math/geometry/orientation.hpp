@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Exact predicates of the plane: on which side of a line a point is, and which of two edges that
-// pass the same row is on the left.
+// Exact predicates in the plane: the side of a line that a point is on, and which of two edges that
+// cross the same row is on the left.
 //
 //     det = (a_x - c_x) (b_y - c_y) - (a_y - c_y) (b_x - c_x)
 //
-// Where rounding could change the sign of the determinant, its six products are added without any.
+// If rounding could change the sign of the determinant, its six products are added exactly.
 //
 // Shape   coordinates within [-1e150, 1e150].
-// Promise the right sign, unless products are below 1e-290.
+// Promise the correct sign, unless products are below 1e-290.
 // Source  J. R. Shewchuk, Discrete Comput. Geom. 18 (1997) 305-363, doi:10.1007/PL00009321.
 #pragma once
 
@@ -24,7 +24,7 @@ namespace stipple {
 /// Sign of a sum of n products of two doubles.
 template <std::size_t n>
 int exact_sign(const std::array<DoubleDouble, n>& products) {
-    std::array<double, 2 * n> parts{};  // they do not overlap, and rise in size
+    std::array<double, 2 * n> parts{};  // do not overlap; in increasing order of size
     std::size_t count = 0;
     for (const DoubleDouble& product : products)
         for (double term : {product.low, product.high}) {
@@ -40,22 +40,22 @@ int exact_sign(const std::array<DoubleDouble, n>& products) {
     return 0;
 }
 
-/// 1 if c is on the left of the line from a to b, -1 if on the right, 0 if on it.
+/// Returns 1 if c is left of the line from a to b, -1 if right, 0 if on it.
 inline int orientation(PlanePoint a, PlanePoint b, PlanePoint c) {
     constexpr double rounding = 2 * std::numeric_limits<double>::epsilon();
     const double left = (a.x - c.x) * (b.y - c.y);
     const double right = (a.y - c.y) * (b.x - c.x);
-    const double twice = left - right;  // the area
+    const double twice = left - right;  // twice the area of the triangle
     if (std::abs(twice) > rounding * (std::abs(left) + std::abs(right))) return twice > 0 ? 1 : -1;
     return exact_sign<6>({exact_product(a.x, b.y), exact_product(-a.x, c.y),
                           exact_product(-c.x, b.y), exact_product(-a.y, b.x),
                           exact_product(a.y, c.x), exact_product(c.y, b.x)});
 }
 
-/// Whether p comes before q in the order of rows, upwards, and from left to right in each.
+/// Row order: upwards, and from left to right within a row.
 inline bool is_before(PlanePoint p, PlanePoint q) { return p.y < q.y || (p.y == q.y && p.x < q.x); }
 
-/// An edge upwards, or to the right if it is level.
+/// An edge directed upwards, or to the right if it is horizontal.
 struct UpwardEdge {
     PlanePoint low;
     PlanePoint high;
@@ -65,8 +65,8 @@ inline UpwardEdge upward(PlanePoint p, PlanePoint q) {
     return is_before(p, q) ? UpwardEdge{p, q} : UpwardEdge{q, p};
 }
 
-/// On which side of f the edge e is, where both are passed by one row and do not cross: 1 left,
-/// -1 right, 0 if they overlap.
+/// Side of f that edge e is on: 1 left, -1 right, 0 if they overlap. Some row must cross both, and
+/// they must not cross each other.
 inline int side_of_edge(const UpwardEdge& f, const UpwardEdge& e) {
     if (is_before(e.low, f.low)) return -side_of_edge(e, f);
     const int start = orientation(f.low, f.high, e.low);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// A polygon is cut by a half-plane edge by edge (Sutherland and Hodgman). Its area within a disk is
-// the sum over its edges p -> q of the signed area that the disk shares with the triangle of its
-// centre, p and q: along the part of the edge inside, half the cross product; outside, a sector.
+// A polygon is clipped to a half-plane edge by edge (Sutherland and Hodgman). Its area within a
+// disk is a sum over its edges p -> q: the signed area that the disk shares with the triangle of
+// its centre, p and q. The part of the edge inside the disk contributes half a cross product, the
+// part outside a sector.
 //
 // Source  I. E. Sutherland, G. W. Hodgman, Communications of the ACM 17 (1974) 32-42,
 //         doi:10.1145/360767.360802.
@@ -25,7 +26,7 @@ PlanePair between(const PlanePair& a, const PlanePair& b, double t) {
     return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
 }
 
-/// What a disk about 0 shares with the triangle 0, p, q.
+/// Signed area that a disk about 0 shares with the triangle 0, p, q.
 double triangle_in_disk(const PlanePair& p, const PlanePair& q, double radius) {
     const auto sector = [&](const PlanePair& from, const PlanePair& to) {
         return radius * radius * signed_angle(planar_cross(from, to), planar_dot(from, to)) / 2;

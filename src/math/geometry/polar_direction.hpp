@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Directions about the z axis by the cosine of their angle from it and their longitude, the angle
-// from x towards y in turns. In place of the cosine, 1 - cos and 1 + cos: each keeps the digits
-// near its own pole that the cosine has lost there.
+// Directions given by the cosine of their angle from the z axis and their longitude, the angle from
+// x towards y in turns. Instead of the cosine, 1 - cos and 1 + cos are used: each keeps digits near
+// its pole that the cosine loses there.
 //
-// A part of the sphere has the area of its rectangle of cosines and longitudes, times 2 pi
-// (Archimedes).
+// Areas on the sphere are 2 pi times areas in the plane of cosine and longitude (Archimedes).
 //
-// Promise 1 - cos and 1 + cos come back within a few units in their last places.
+// Promise 1 - cos and 1 + cos are recovered from the vector within a few units in the last place.
 #pragma once
 
 #include <cmath>
@@ -17,14 +16,14 @@
 
 namespace stipple {
 
-/// The unit vector with this 1 - cos and 1 + cos, which sum to 2; longitude in [0, 1].
+/// Unit vector from 1 - cos and 1 + cos, which must sum to 2, and a longitude in [0, 1].
 inline Vector3 polar_direction(double one_minus_cos, double one_plus_cos, double longitude) {
     const double r = std::sqrt(one_minus_cos * one_plus_cos);
     const auto [c, s] = cos_sin_turns(longitude);
     return {r * c, r * s, 0.5 * (one_plus_cos - one_minus_cos)};
 }
 
-/// 1 - |cos| of a vector of any length but 0, for which it is 1.
+/// 1 - |cos| of a vector of any length; 1 for the null vector.
 inline double one_minus_abs_cos(const Vector3& v) {
     const double rr = v[0] * v[0] + v[1] * v[1];
     const double size = std::sqrt(rr + v[2] * v[2]);

@@ -13,13 +13,13 @@
 namespace stipple {
 namespace {
 
-/// On which side of the line a b the point c is: 1 left, -1 right, 0 on it but for rounding.
+/// Returns 1 if c is left of the line a b, -1 if right, 0 if on it within rounding.
 int side_of(PlanePoint a, PlanePoint b, PlanePoint c) {
     constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
     const double left = (a.x - c.x) * (b.y - c.y);
     const double right = (a.y - c.y) * (b.x - c.x);
     const double bound = rounding * (std::abs(left) + std::abs(right));
-    const double twice = left - right;  // the area
+    const double twice = left - right;  // twice the area of the triangle
     if (std::abs(twice) <= bound) return 0;
     return twice > 0 ? 1 : -1;
 }
@@ -29,24 +29,25 @@ bool in_box(const RingSegment& e, PlanePoint p) {
            p.y >= std::min(e.a.y, e.b.y) && p.y <= std::max(e.a.y, e.b.y);
 }
 
-/// Edges a b and b c: do they go back upon each other?
+/// True if the edge b c runs back along the edge a b.
 bool is_spike(PlanePoint a, PlanePoint b, PlanePoint c) {
     const double along = (a.x - b.x) * (c.x - b.x) + (a.y - b.y) * (c.y - b.y);
     return along > 0 && side_of(a, b, c) == 0;
 }
 
-/// A vertex of one ring on an edge of another.
+/// A vertex of one ring on an edge of another ring.
 struct Touch {
     std::size_t segment;
     PlanePoint at;
-    std::size_t by;  ///< a segment that ends there
+    std::size_t by;  ///< a segment with this vertex as its end
 };
 
 Contact contact_between(const RingEdge& e, const RingEdge& f, bool crossing) {
     return e < f ? Contact{e, f, crossing} : Contact{f, e, crossing};
 }
 
-/// One pass over all edges, by rows: contacts that are not allowed, and those that cut an edge.
+/// One sweep over all edges by rows: finds the first forbidden contact, and the touches that must
+/// cut edges.
 class ContactSweep {
   public:
     ContactSweep(const std::vector<Ring>& rings, const std::vector<RingSegment>& segments)
@@ -100,7 +101,7 @@ class ContactSweep {
         if (!contact) contact = contact_between(segments_[i].name, segments_[j].name, crossing);
     }
 
-    /// Whether one edge follows the other around their ring, or both are parts of one.
+    /// True if the edges are neighbours in their ring, or both parts of one edge.
     bool are_neighbors(const RingEdge& e, const RingEdge& f) const {
         if (e.ring != f.ring) return false;
         const std::size_t n = rings_[e.ring].size();
@@ -137,7 +138,7 @@ class ContactSweep {
     std::vector<UpwardEdge> edges_;
 };
 
-/// Cuts segments where they are touched.
+/// Cuts segments at the vertices that touch them.
 void cut_at(std::vector<RingSegment>& segments, std::vector<Touch> touches) {
     const auto along = [&](const Touch& t) {
         const RingSegment& s = segments[t.segment];
@@ -162,21 +163,22 @@ void cut_at(std::vector<RingSegment>& segments, std::vector<Touch> touches) {
     }
 }
 
-/// The end of a segment at a vertex that rings share.
+/// Half of a segment, seen from its end at a shared vertex.
 struct Arm {
     PlanePoint at;
     PlanePoint away;
     RingEdge name;
 };
 
-/// Counterclockwise from the right on.
+/// Order of directions, counterclockwise from the right.
 bool turns_before(const Arm& a, const Arm& b) {
     const bool up_a = is_before(a.at, a.away);
     const bool up_b = is_before(b.at, b.away);
     return up_a != up_b ? up_a : orientation(a.at, a.away, b.away) > 0;
 }
 
-/// Some crossing of rings in a vertex that they share, or a ring that passes it twice.
+/// Returns a crossing of rings in a shared vertex, or a ring that passes it twice; nullopt if there
+/// is none.
 std::optional<Contact> crossing_among(std::span<Arm> arms) {
     std::ranges::sort(arms, {}, &Arm::name);
     for (std::size_t i = 2; i < arms.size(); ++i)
@@ -222,7 +224,7 @@ std::optional<Contact> find_contact(const std::vector<Ring>& rings, const RunCon
     for (std::size_t r = 0; r < rings.size(); ++r)
         for (std::size_t i = 0; i < rings[r].size(); ++i)
             parts.push_back({rings[r][i], rings[r][(i + 1) % rings[r].size()], {r, i}});
-    constexpr int most_passes = 16;  // rounding could make touches without end
+    constexpr int most_passes = 16;  // because rounding could create touches forever
     for (int pass = 0;; ++pass) {
         if (const auto contact = crossing_in_vertex(parts)) return contact;
         ContactSweep sweep(rings, parts);

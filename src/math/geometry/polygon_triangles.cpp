@@ -6,7 +6,7 @@
 namespace stipple {
 namespace {
 
-/// Places of corners, each followed by another one.
+/// Indices of the corners that differ from the next one.
 std::vector<std::uint32_t> different(const Ring& corners) {
     std::vector<std::uint32_t> places;
     for (std::uint32_t i = 0; i < corners.size(); ++i)
@@ -14,7 +14,7 @@ std::vector<std::uint32_t> different(const Ring& corners) {
     return places;
 }
 
-/// 1 counterclockwise, -1 clockwise, by the lowest corner; 0 if it is flat there.
+/// Orientation at the lowest corner: 1 counterclockwise, -1 clockwise, 0 if the corner is straight.
 int direction(const Ring& ring) {
     std::size_t low = 0;
     for (std::size_t i = 1; i < ring.size(); ++i)
@@ -23,8 +23,8 @@ int direction(const Ring& ring) {
     return orientation(ring[(low + n - 1) % n], ring[low], ring[(low + 1) % n]);
 }
 
-/// Whether all turns go one way, and once around: one corner is lower than both beside it. Or all
-/// corners are on a line.
+/// True if all turns have the direction `sign` and the ring goes around once, so that a single
+/// corner is lower than both neighbours. For sign 0, true if all corners are collinear.
 bool is_convex(const Ring& ring, int sign) {
     const std::size_t n = ring.size();
     std::size_t lowest = 0;
@@ -38,7 +38,7 @@ bool is_convex(const Ring& ring, int sign) {
     return lowest == 1;
 }
 
-/// A polygon that loses its ears.
+/// Cuts ears off a polygon until a triangle is left.
 class EarCutter {
   public:
     EarCutter(const Ring& ring, int sign) : ring_(ring), sign_(sign) {
@@ -53,7 +53,7 @@ class EarCutter {
         }
     }
 
-    /// Triangles by places in the ring.
+    /// Returns triangles of indices into the ring.
     PolygonTriangles cut(const RunContext& run) {
         PolygonTriangles triangles;
         std::uint32_t at = 0;
@@ -91,8 +91,8 @@ class EarCutter {
         return true;
     }
 
-    /// The corner at which to look on, which is not next to the one that is gone, so that triangles
-    /// do not become a fan of slivers.
+    /// Removes corner i. Returns the next corner to test, which is not a neighbour of i, so that
+    /// triangles do not become a fan of slivers.
     std::uint32_t take_off(std::uint32_t i) {
         const std::uint32_t a = before_[i];
         const std::uint32_t b = after_[i];
@@ -111,7 +111,7 @@ class EarCutter {
     std::vector<std::uint32_t> before_;
     std::vector<std::uint32_t> after_;
     std::vector<bool> sharp_;
-    std::vector<std::uint32_t> blunt_;  ///< corners that are not sharp
+    std::vector<std::uint32_t> blunt_;  ///< corners that are not convex
 };
 
 }  // namespace

@@ -23,7 +23,7 @@ struct Bezout {
     std::int64_t t;
 };
 
-/// s a + t b = divisor, the greatest common one; a, b >= 0.
+/// Coefficients with s a + t b = divisor, the greatest common divisor of a, b >= 0.
 Bezout bezout(std::int64_t a, std::int64_t b) {
     Bezout now{a, 1, 0};
     Bezout next{b, 0, 1};
@@ -37,8 +37,8 @@ Bezout bezout(std::int64_t a, std::int64_t b) {
 
 constexpr Int128 modulo(Int128 a, Int128 m) { return (a % m + m) % m; }
 
-/// The v with u x v = n that is nearest to half of u, or minus that, along u; none if there is no
-/// v.
+/// Returns the v with u x v = n whose component along u is closest to u / 2 or -u / 2; nullopt if
+/// there is no v.
 std::optional<Vector> partner(Vector u, std::int64_t n) {
     const Bezout unit = bezout(u.x, u.y);
     const std::int64_t g = unit.divisor;
@@ -47,7 +47,7 @@ std::optional<Vector> partner(Vector u, std::int64_t n) {
     const Int128 vy = Int128{unit.s} * (n / g);
     const Int128 norm = Int128{u.x} * u.x + Int128{u.y} * u.y;
     const Int128 along = vx * u.x + vy * u.y;
-    const Int128 step = norm / g;  // of `along`, when u / g is added to v
+    const Int128 step = norm / g;  // change of `along` if u / g is added to v
     const Int128 upper = norm / 2 - modulo(norm / 2 - along, step);
     const Int128 lower = -(norm / 2) + modulo(norm / 2 + along, step);
     const Int128 turns = ((upper >= -lower ? upper : lower) - along) / step;
@@ -64,7 +64,8 @@ struct Basis {
     Vector v;
 };
 
-/// The best basis with low <= |u|^2 <= high, 0 <= u.y <= u.x: symmetries of the torus give others.
+/// Best basis with low <= |u|^2 <= high and 0 <= u.y <= u.x; others follow by symmetry of the
+/// torus.
 std::optional<Basis> best_within(std::uint64_t low, std::uint64_t high, std::int64_t n) {
     std::optional<Basis> best;
     for (std::uint64_t a = floor_root(high, 2); 2 * a * a >= low; --a) {
@@ -80,7 +81,7 @@ std::optional<Basis> best_within(std::uint64_t low, std::uint64_t high, std::int
     return best;
 }
 
-/// The lattice in rows of equal y.
+/// Describes the lattice by rows of equal y.
 TorusPacking rows_of(const Basis& basis, std::int64_t n) {
     const auto [u, v] = basis;
     const Bezout unit = bezout(std::abs(u.y), std::abs(v.y));
@@ -94,7 +95,7 @@ TorusPacking rows_of(const Basis& basis, std::int64_t n) {
 
 // ---------------------------------------------------------------- on a rectangle
 
-/// Lengths of whole-number vectors on a rectangle.
+/// Lengths of integer vectors on a rectangle.
 struct Metric {
     double x2;  ///< square of the unit of x
     double y2;
@@ -106,12 +107,12 @@ struct Metric {
     double norm(Vector v) const { return dot(v, v); }
 };
 
-/// As partner().
+/// Like partner(u, n), with lengths by `metric`.
 std::optional<Vector> partner(Vector u, std::int64_t n, const Metric& metric) {
     const Bezout unit = bezout(u.x, u.y);
     const std::int64_t g = unit.divisor;
     if (n % g != 0) return std::nullopt;
-    // Some solution, without the part of it that is along u, up to one step.
+    // A solution whose component along u is less than a step.
     const Int128 far_x = -Int128{unit.t} * (n / g);
     const Int128 far_y = Int128{unit.s} * (n / g);
     const Int128 turns = u.x > u.y ? far_x / (u.x / g) : far_y / (u.y / g);
@@ -119,7 +120,7 @@ std::optional<Vector> partner(Vector u, std::int64_t n, const Metric& metric) {
                    static_cast<std::int64_t>(far_y - turns * (u.y / g))};
     const double half = metric.norm(u) / 2;
     const double step = metric.norm(u) / static_cast<double>(g);
-    constexpr double rounding = 1e-9;  // of a step: the best may be half of u, exactly
+    constexpr double rounding = 1e-9;  // of a step: the best may be exactly half of u
     const double along = metric.dot(u, v);
     const auto up = static_cast<std::int64_t>(std::floor((half - along) / step + rounding));
     const auto down = static_cast<std::int64_t>(std::ceil((-half - along) / step - rounding));
@@ -130,7 +131,7 @@ std::optional<Vector> partner(Vector u, std::int64_t n, const Metric& metric) {
     return moved(above ? up : down);
 }
 
-/// The best basis with low <= |u|^2 <= high; mirrors of the torus give others.
+/// Best basis with low <= |u|^2 <= high; others follow by reflection of the torus.
 std::optional<Basis> best_within(double low, double high, std::int64_t n, const Metric& metric) {
     std::optional<Basis> best;
     const auto last = static_cast<std::int64_t>(std::sqrt(high / metric.x2));
@@ -151,7 +152,7 @@ std::optional<Basis> best_within(double low, double high, std::int64_t n, const 
 }  // namespace
 
 TorusPacking densest_torus_packing(std::uint64_t n, double ratio) {
-    const bool wide = ratio >= 1;  // else x and y change places
+    const bool wide = ratio >= 1;  // if false, x and y are exchanged
     const Metric metric{wide ? ratio : 1 / ratio, wide ? 1 / ratio : ratio};
     const auto count = static_cast<double>(n);
     const double width = 4 * std::sqrt(count);
@@ -170,11 +171,12 @@ TorusPacking densest_torus_packing(std::uint64_t n, double ratio) {
 }
 
 TorusPacking densest_torus_packing(std::uint64_t n) {
-    // floor(2 n / sqrt(3)): the largest h with 3 h^2 <= 4 n^2.
+    // Computes floor(2 n / sqrt(3)), the largest h with 3 h^2 <= 4 n^2.
     auto high = static_cast<std::uint64_t>(1.1547005383792515 * static_cast<double>(n));
     while (Wide{3} * (high + 1) * (high + 1) <= Wide{4} * n * n) ++high;
     while (Wide{3} * high * high > Wide{4} * n * n) --high;
-    // In a shell of this width a lattice is expected; (1, 0) is the shortest u of some.
+    // A shell of this width is expected to contain a lattice. The search ends, since (1, 0) is the
+    // shortest u of some lattice.
     const std::uint64_t width = 4 * floor_root(n, 2);
     for (;;) {
         const std::uint64_t low = high > width ? high - width : 1;

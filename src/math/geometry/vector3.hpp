@@ -2,8 +2,8 @@
 //
 // Vectors in space, and right-handed frames of three orthogonal unit vectors.
 //
-// Promise no vector but what is written: plain + - * / and square roots, the same bits on every
-//         machine with IEEE 754 arithmetic.
+// Promise only + - * / and square roots, so the same bits on every machine with IEEE 754
+//         arithmetic.
 // Source  T. Duff, J. Burgess, P. Christensen, C. Hery, A. Kensler, M. Liani, R. Villemin,
 //         "Building an orthonormal basis, revisited", J. Computer Graphics Techniques 6(1) (2017)
 //         1-8.
@@ -35,22 +35,22 @@ inline double largest(const Vector3& a) {
     return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
 }
 
-/// The unit vector along a finite vector that is not null, however long or short.
+/// Unit vector in the direction of any finite vector that is not null.
 inline Vector3 normalized(const Vector3& a) {
     const double size = largest(a);
     const Vector3 scaled = {a[0] / size, a[1] / size, a[2] / size};
     return times(scaled, 1 / length(scaled));
 }
 
-/// Three axes in space.
+/// Right-handed orthonormal axes.
 struct Frame {
     Vector3 x{1, 0, 0};
     Vector3 y{0, 1, 0};
     Vector3 z{0, 0, 1};
 
-    /// The vector whose coordinates along the axes are `v`.
+    /// Vector with coordinates v along the axes.
     [[nodiscard]] Vector3 out(const Vector3& v) const {
-        return {v[0] * x[0] + v[1] * y[0] + v[2] * z[0] + 0.0,  // never -0
+        return {v[0] * x[0] + v[1] * y[0] + v[2] * z[0] + 0.0,  // avoids -0
                 v[0] * x[1] + v[1] * y[1] + v[2] * z[1] + 0.0,
                 v[0] * x[2] + v[1] * y[2] + v[2] * z[2] + 0.0};
     }
@@ -59,7 +59,7 @@ struct Frame {
     [[nodiscard]] Vector3 in(const Vector3& v) const { return {dot(v, x), dot(v, y), dot(v, z)}; }
 };
 
-/// A frame about a unit vector z; for (0, 0, 1) the axes of space themselves.
+/// Frame with a given unit vector z; the coordinate axes for (0, 0, 1).
 inline Frame frame_about(const Vector3& z) {
     const double sign = std::copysign(1.0, z[2]);
     const double a = -1 / (sign + z[2]);
@@ -69,7 +69,7 @@ inline Frame frame_about(const Vector3& z) {
             z};
 }
 
-// A point, or a vector, of the plane, and the place of a shape in it.
+// Points of the plane, and placements of shapes in it.
 
 struct PlanePoint {
     double x = 0;
@@ -77,11 +77,11 @@ struct PlanePoint {
     bool operator==(const PlanePoint&) const = default;
 };
 
-/// Where a shape is put: at c + R (cos a  -sin a; sin a  cos a) q for its points q.
+/// Placement of a shape: its points q move to c + R (cos a  -sin a; sin a  cos a) q.
 struct Placement {
     PlanePoint center;
     double size = 1;  ///< R
-    double turn = 0;  ///< in turns, in [0, 1)
+    double turn = 0;  ///< angle a in turns, in [0, 1)
     double cos = 1;
     double sin = 0;
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double full_turn = 2 * std::numbers::pi;
 
-/// Where a circle meets the half-circle of a longitude, and that opposite of it.
+/// Adds the heights at which a circle meets the meridian of a longitude, or the opposite one.
 void add_meridian(const SphereCircle& circle, double turn, std::vector<double>& cuts) {
     const auto& [n, h] = circle;
     const auto [cos, sin] = cos_sin_turns(turn);
@@ -25,7 +25,7 @@ void add_meridian(const SphereCircle& circle, double turn, std::vector<double>& 
         cuts.push_back((h * n[2] + sign * std::abs(p) * std::sqrt(root)) / a);
 }
 
-/// Where two circles meet.
+/// Adds the heights at which two circles meet.
 void add_corners(const SphereCircle& p, const SphereCircle& q, std::vector<double>& cuts) {
     const double g = dot(p.normal, q.normal);
     const double rest = 1 - g * g;
@@ -56,7 +56,7 @@ std::vector<double> height_cuts(const Zone& zone, const Discontinuities& discont
     return ends_of(std::move(cuts), zone.z_low, zone.z_high);
 }
 
-/// Longitudes, in turns, at which circles are at this height.
+/// Longitudes, in turns, at which circles cross this height.
 std::vector<double> turn_cuts(double z, const Zone& zone, const Discontinuities& discontinuities) {
     std::vector<double> cuts;
     const double r = std::sqrt((1 - z) * (1 + z));
@@ -72,7 +72,7 @@ std::vector<double> turn_cuts(double z, const Zone& zone, const Discontinuities&
     return ends_of(std::move(cuts), zone.turn_low, zone.turn_high);
 }
 
-/// Over the longitudes of one height.
+/// Integral over the longitudes at one height.
 Estimate integrate_row(const SphereDensity& f, double z, const Zone& zone,
                        const Discontinuities& discontinuities) {
     const double r = std::sqrt((1 - z) * (1 + z));

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// Integrals over zones of the unit sphere, between two heights and two longitudes, of densities
-// that jump or bend at circles:
+// Integrals over zones of the unit sphere, bounded by two heights and two longitudes, of densities
+// with jumps or kinks at circles:
 //
 //     integral of dz integral of dphi f(x(z, phi)),    cut in z where a circle begins, ends, meets
 //                                                      a side of the zone or another circle,
 //                                                      and in phi where a circle is at that z
 //
-// Between the cuts all is smooth but for square roots at the ends (integrate_smooth).
+// Between the cuts the integrand is smooth except for square roots at the ends (integrate_smooth).
 //
-// Cost    31 values of f or more for each piece of z where f is level, else as many for each of
-//         phi.
-// Promise the error told is that of the quadrature; 0 for what is level without a circle.
+// Cost    at least 31 values of f for each piece of z if f is level, otherwise as many for each
+//         piece of phi at every such z.
+// Promise the returned error is that of the quadrature; 0 if f is level and there is no circle.
 #pragma once
 
 #include <functional>
