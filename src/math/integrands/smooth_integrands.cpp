@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// Integrands that are one formula each, with their integrals.
+// Integrands given by a single formula each, with their integrals.
 //
-//     smooth-gaussian  exp(-|x - 1/2|^2 / (2 width^2)), all coordinates 1/2 in the middle
+//     smooth-gaussian  exp(-|x - 1/2|^2 / (2 width^2)), centred at (1/2, ..., 1/2)
 //     zone-plate       (1 + cos(k (x^2 + y^2))) / 2
 //     owen             sum over all sets u of `order` axes of prod_{j in u} sqrt(12) (x_j - 1/2),
-//                      divided by the root of their number: integral 0, and variance 1, all of it in
-//                      interactions of exactly so many coordinates
-//     sobol-g          prod (|4 x_j - 2| + a_j) / (1 + a_j), integral 1; a_j = j - 1, else given,
-//                      the last one for all axes beyond
-//     sky-radiance     cos theta (1 + 2 cos theta) / 3: the light that a level plane has from an
+//                      divided by the root of their number: integral 0, and variance 1, all from
+//                      interactions of exactly `order` coordinates
+//     sobol-g          prod (|4 x_j - 2| + a_j) / (1 + a_j), integral 1; a_j = j - 1 by default;
+//                      a single given a applies to all axes
+//     sky-radiance     cos theta (1 + 2 cos theta) / 3: the light on a level plane from an
 //                      overcast sky of zenith radiance 1; integral over the hemisphere 7 pi / 9
 //     measure          1: its integral is the domain's length, area, volume or solid angle
 //
-// Promise integrals within 1e-15 relative or a few rounding errors. That of the zone plate is
-//         (1 + Re (int_0^1 e^(i k x^2) dx)^2) / 2, by the Gauss-Kronrod rule of 31 points on
-//         pieces over which the phase turns by at most 4: within 1e-15.
+// Promise integrals within 1e-15 relative or a few rounding errors. For the zone plate it is (1 +
+//         Re (int_0^1 e^(i k x^2) dx)^2) / 2, by the 31-point Gauss-Kronrod rule on pieces whose
+//         phase changes by at most 4 radians: within 1e-15.
 // Source  A. B. Owen, "The dimension distribution and quadrature test functions", Statistica Sinica
 //         13 (2003) 1-17 (functions whose interactions have a chosen order). A. Saltelli,
 //         I. M. Sobol', Reliability Engineering and System Safety 50 (1995) 225-239 (g-function).
