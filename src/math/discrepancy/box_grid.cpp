@@ -29,19 +29,19 @@ Dyadic dyadic(double x) {
 /// above / (below * 2^places), rounded to the nearest double, ties to even. Needs above >= 0.
 double quotient(const Integer& above, std::uint64_t below, unsigned places) {
     if (above == 0) return 0;
-    const unsigned shift = 128;  // so that the quotient has 64 bits and more
+    const unsigned shift = 128;  // gives the quotient at least 64 bits
     Integer rest = 0;
     Integer whole = 0;
     divide_qr(Integer(above << shift), Integer(below), whole, rest);
     const auto spare = static_cast<unsigned>(msb(whole)) - 54;
     const bool inexact = rest != 0 || lsb(whole) < spare;
-    // 55 bits: those of the double, the next one, and whether anything follows.
+    // Keeps 55 bits: the 53 of a double, a round bit and a sticky bit.
     const auto top = static_cast<std::uint64_t>(Integer(whole >> spare)) | (inexact ? 1U : 0U);
     return std::ldexp(static_cast<double>(top),
                       static_cast<int>(spare) - static_cast<int>(shift + places));
 }
 
-/// Points with a coordinate 1, for half-open boxes; none for others.
+/// Points with a coordinate 1, which no half-open box contains; empty for other families.
 std::vector<std::uint32_t> in_no_box(const PointSet& points, Family family) {
     std::vector<std::uint32_t> found;
     if (family != Family::half_open) return found;
@@ -51,7 +51,7 @@ std::vector<std::uint32_t> in_no_box(const PointSet& points, Family family) {
     return found;
 }
 
-/// Appends the new ones of sorted values to `values`; gives the rank there of every item.
+/// Appends the distinct values of sorted items to `values`; returns the rank of every item in it.
 std::vector<std::uint32_t> ranks_among(const std::vector<Placed>& items,
                                        std::vector<double>& values, const RunContext& run) {
     std::vector<std::uint32_t> ranks;
@@ -65,7 +65,7 @@ std::vector<std::uint32_t> ranks_among(const std::vector<Placed>& items,
     return ranks;
 }
 
-/// Sorts one axis; `at_one` are taken to be at 1.
+/// Sorts the coordinates of one axis; those of the points `at_one` are replaced by 1.
 void index_axis(const PointSet& points, std::size_t axis, const std::vector<std::uint32_t>& at_one,
                 BoxGrid& grid, const RunContext& run) {
     std::vector<Placed> items;
@@ -96,7 +96,7 @@ Integer scaled(double x, unsigned places) {
 RankSet ranks_between(Interval ends, Side side, bool wraps) {
     const auto [lower, upper] = ends;
     const bool with_ends = (side == Side::closed) != wraps;
-    const std::uint32_t low = wraps ? upper : lower;  // of what is inside or, if it wraps, outside
+    const std::uint32_t low = wraps ? upper : lower;  // of the ranks inside, or outside if it wraps
     const std::uint32_t high = wraps ? lower : upper;
     const std::uint32_t first = with_ends ? low : low + 1;
     const std::uint32_t behind = with_ends ? high + 1 : high;
@@ -136,7 +136,7 @@ BoxGrid box_grid(const PointSet& points, Family family, const RunContext& run, M
                  .family = family,
                  .measure = measure,
                  .scale = empty ? 1 : points.count(),
-                 .weight = empty ? 2U : 1U,  // twice the cube's volume outweighs any box
+                 .weight = empty ? 2U : 1U,  // one point outweighs any volume
                  .values = std::vector<std::vector<double>>(d),
                  .ranks = std::vector<std::vector<std::uint32_t>>(d),
                  .order = std::vector<std::vector<std::uint32_t>>(d),

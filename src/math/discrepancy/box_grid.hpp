@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// What all searches for the worst box share: the grid of coordinates at which boxes begin and end,
-// and the worst box found so far, compared without rounding. A box of volume V with P points inside
-// has the excess, its signed discrepancy times n,
+// Base of all searches for the worst box: the grid of coordinates at which boxes begin and end, and
+// the worst box found so far, compared without rounding. A box of volume V with P points inside has
+// an excess, its signed discrepancy times n:
 //
 //     open box:  scale V - weight P        closed box:  weight P - scale V
 //
-// with scale n and weight 1 for discrepancies; for the largest empty box open boxes alone, scale 1
-// and a weight that forbids any point. An open box has no points on its faces, but for faces of an
-// anchored box at 0, a closed one has all of them. Half-open boxes [0,c) alone have the same
-// supremum as anchored open and closed ones, but for points with a coordinate 1, which are in none
-// of them, as c is at most 1. The closed box up to (1,...,1), which is never too full, is the one
-// place where such a point does no harm, so it is moved there.
+// with scale n and weight 1 for discrepancies. The search for the largest empty box uses only open
+// boxes, scale 1 and a weight that excludes boxes with points. An open box contains no points on
+// its faces, except on faces of an anchored box at 0; a closed box contains all of them. Half-open
+// boxes [0,c) have the same supremum as anchored open and closed ones if no point has a coordinate
+// 1. Such a point is in no half-open box, since c is at most 1. It is moved to (1,...,1): only the
+// closed box up to there contains it, and that box never has too many points.
 //
 // Source  H. Niederreiter, "Discrepancy and convex programming", Ann. Mat. Pura Appl. 93 (1972)
 //         89-97, doi:10.1007/BF02412017 (the finite grid).
@@ -30,33 +30,34 @@ namespace stipple::discrepancy {
 
 using Integer = boost::multiprecision::cpp_int;
 
-/// x * 2^places for an x in [0, 1] that has no more binary places than that.
+/// x * 2^places, for x in [0, 1] with at most `places` binary digits.
 Integer scaled(double x, unsigned places);
 
 enum class Side { open, closed };
 
-/// Which boxes there are.
+/// The boxes to search.
 enum class Family {
-    anchored,   ///< at 0, [0,c) and [0,c]
-    half_open,  ///< [0,c) and their limits
+    anchored,   ///< from 0: [0,c) and [0,c]
+    half_open,  ///< [0,c) and limits of these
     cube,       ///< all axis-parallel boxes
-    torus,      ///< the same where 1 is 0: a side may wrap, from its lower end to 1 and on from 0
+    torus,      ///< boxes of the torus, where 1 is 0: a side may wrap from 1 to 0
 };
 
 enum class Measure { discrepancy, emptiness };
 
-/// Ranks on one axis where a box begins and ends. An anchored box begins at 0, whatever `lower` is.
+/// Ranks on one axis at which a box begins and ends. Anchored boxes begin at 0 and ignore `lower`.
 struct Interval {
     std::uint32_t lower = 0;
     std::uint32_t upper = 0;
 
-    /// Whether it goes across 1 (torus): an open one whose ends meet is the circle less a point.
+    /// True if the interval contains 1 = 0 on the torus. An open interval with equal ends is the
+    /// circle without a point.
     [[nodiscard]] bool wraps(Side side) const {
         return side == Side::open ? lower >= upper : lower > upper;
     }
 };
 
-/// The ranks inside an interval: `size` of them from `first` on, or all but those.
+/// The ranks inside an interval: `size` ranks from `first` on, or all others if `complement`.
 struct RankSet {
     std::uint32_t first = 0;
     std::uint32_t size = 0;
@@ -67,41 +68,41 @@ struct RankSet {
     }
 };
 
-/// Those between two ends, or if it wraps, above the lower or below the upper one.
+/// Ranks between two ends; if it wraps, ranks above the lower or below the upper one.
 RankSet ranks_between(Interval ends, Side side, bool wraps);
 
-/// The distinct coordinates on each axis (with 1, and for boxes of the cube with 0), and the points
-/// as ranks among them.
+/// Distinct coordinates on each axis, including 1 and for boxes of the cube 0, and the ranks of the
+/// points' coordinates among them.
 struct BoxGrid {
     std::size_t count = 0;
     Family family = Family::anchored;
     Measure measure = Measure::discrepancy;
     std::uint64_t scale = 1;
     std::uint64_t weight = 1;
-    std::vector<std::vector<double>> values;        ///< of each axis, ascending
-    std::vector<std::vector<std::uint32_t>> ranks;  ///< of each axis: rank of every point
-    std::vector<std::vector<std::uint32_t>> order;  ///< the points, ascending; not if anchored
-    std::vector<unsigned> digits;                   ///< binary ones of each axis's coordinates
-    unsigned all_digits = 0;                        ///< sum of these
+    std::vector<std::vector<double>> values;        ///< by axis, ascending
+    std::vector<std::vector<std::uint32_t>> ranks;  ///< by axis: rank of every point
+    std::vector<std::vector<std::uint32_t>> order;  ///< by axis: sorted points; empty if anchored
+    std::vector<unsigned> digits;                   ///< binary digits of the coordinates, by axis
+    unsigned all_digits = 0;                        ///< sum of `digits`
 
     [[nodiscard]] std::size_t dimension() const { return values.size(); }
     [[nodiscard]] bool anchored() const { return family <= Family::half_open; }
     [[nodiscard]] bool torus() const { return family == Family::torus; }
 
-    /// What an excess may be off by when it is worked out in doubles; 0 where that is exact.
+    /// Bound on the rounding error of an excess computed in doubles; 0 if it is exact.
     [[nodiscard]] double rounding() const;
 
     /// Length of an interval, as a double.
     [[nodiscard]] double length(std::size_t axis, Interval interval, Side side) const;
 
-    /// The same times 2^digits of the axis, exact.
+    /// Length of an interval times 2^digits[axis], exact.
     [[nodiscard]] Integer exact_length(std::size_t axis, Interval interval, Side side) const;
 
-    /// Ranks inside an interval.
+    /// Ranks of the coordinates inside an interval.
     [[nodiscard]] RankSet inside(Interval interval, Side side) const;
 };
 
-/// Bytes that a grid takes for each point and axis.
+/// Bytes of a grid per point and axis.
 constexpr std::size_t axis_bytes(bool anchored) {
     return sizeof(double) + (anchored ? 1 : 2) * sizeof(std::uint32_t);
 }
@@ -109,7 +110,7 @@ constexpr std::size_t axis_bytes(bool anchored) {
 BoxGrid box_grid(const PointSet& points, Family family, const RunContext& run,
                  Measure measure = Measure::discrepancy);
 
-/// Points of each rank on an axis.
+/// Number of points at each rank of an axis.
 std::vector<std::uint32_t> points_at(const BoxGrid& grid, std::size_t axis);
 
 struct GridBox {
@@ -117,43 +118,44 @@ struct GridBox {
     std::vector<Interval> axes;
 };
 
-/// The worst box offered so far; of boxes that are equally bad, the first. Before any offer: none,
-/// or if boxes are anchored the cube, closed; the value is 0.
+/// Worst box offered so far; the first of equally bad ones. Before any offer its value is 0, and
+/// there is no box or, if boxes are anchored, the closed cube.
 class WorstBox {
   public:
     /// Keeps a reference to the grid.
     explicit WorstBox(const BoxGrid& grid);
 
-    /// Takes the box, with the number of points in it, if it is worse than the one before; nothing
-    /// where it is none.
+    /// Replaces the worst box by this one, which contains `points`, if it is worse. Ignores a box
+    /// without axes.
     void offer(const GridBox& box, std::uint64_t points);
 
-    /// Counts the points in the box first.
+    /// Offers the box after counting the points in it.
     void offer(const GridBox& box);
 
-    /// The same for an anchored box, given the ranks of its upper corner.
+    /// Offers an anchored box, given the ranks of its upper corner.
     void offer(Side side, std::span<const std::uint32_t> corner, std::uint64_t points);
 
-    /// Takes the other's box if it is worse.
+    /// Replaces the worst box by the other's if that is worse.
     void offer(const WorstBox& other);
 
-    /// Discrepancy or volume of the box: its excess over the scale, rounded to the nearest double.
+    /// Discrepancy or volume of the box: its excess divided by the scale, rounded to the nearest
+    /// double.
     [[nodiscard]] double value() const { return value_; }
 
-    /// A box whose value comes out smaller than this in doubles is not worse.
+    /// A box with a value below this in doubles cannot be worse.
     [[nodiscard]] double threshold() const { return value_ - rounding_; }
 
-    /// Its excess, rounded to the nearest double.
+    /// Excess of the box, rounded to the nearest double.
     [[nodiscard]] double excess() const { return excess_; }
 
-    /// Its excess times 2^all_digits, exact.
+    /// Excess of the box times 2^all_digits, exact.
     [[nodiscard]] const Integer& exact_excess() const { return exact_; }
 
     [[nodiscard]] const GridBox& box() const { return box_; }
     [[nodiscard]] bool closed() const { return box_.side == Side::closed; }
     [[nodiscard]] std::uint64_t points() const { return points_; }
 
-    /// &Interval::lower or &Interval::upper.
+    /// Lower or upper corner. @param end &Interval::lower or &Interval::upper
     [[nodiscard]] std::vector<double> corner(std::uint32_t Interval::*end) const;
 
     /// Volume of the box, rounded to the nearest double.

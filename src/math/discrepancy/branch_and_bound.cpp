@@ -23,7 +23,7 @@ void offer_packed(Unpacker& from, WorstBox& worst) {
     worst.offer({.side = side, .axes = from.take_all<Interval>()}, points);
 }
 
-/// How many open cells fit into a part of the memory.
+/// Number of open cells that fit into a quarter of the memory.
 std::size_t most_cells(const Cell& cell, const RunContext& run) {
     constexpr std::size_t of_two_blocks = 32;
     const double bytes = static_cast<double>(sizeof(Cell) + of_two_blocks +
@@ -45,14 +45,14 @@ class Search {
           cells_(problem.all_cells()),
           most_cells_(most_cells(cells_.front(), run)) {}
 
-    /// A peer that was told to stop, or whose time is over, still speaks with the others, so that
-    /// all of them end in the same round.
+    /// Runs the search. A peer that was stopped or is out of time still exchanges messages, so that
+    /// all peers end in the same round.
     SearchResult go() {
         agree();
         while (!stopped_ && !ending()) {
             std::vector<Task> tasks;
             unless_interrupted([&] { problem_.look_around(known_, limits_.work); });
-            if (limits_.timed()) agree();  // how far each came depends on its clock
+            if (limits_.timed()) agree();  // progress depends on each peer's clock
             if (!stopped_) tasks = next_tasks();
             unless_interrupted([&] { explore_some(tasks); });
             exchange(tasks);
@@ -71,7 +71,7 @@ class Search {
         return {};
     }
 
-    /// Does it, unless this peer was told to stop; notes if it is told so meanwhile.
+    /// Does the work unless this peer was stopped; records a stop during the work.
     template <class Work>
     void unless_interrupted(const Work& work) {
         if (interrupted_ || stopped_) return;
@@ -83,7 +83,7 @@ class Search {
         }
     }
 
-    /// From now on all peers know what the first one knows.
+    /// Replaces the state of every peer by that of the first.
     void agree() {
         Packer packer;
         packer.put(limits_.work).put(known_.upper).put(known_.work);
@@ -97,8 +97,8 @@ class Search {
         offer_packed(first, known_.worst);
     }
 
-    /// Exchanges what each says; last of it, whether its time is over and whether it was told to
-    /// stop.
+    /// Exchanges messages, with flags at the end: whether this peer is out of time, and whether it
+    /// was stopped.
     std::vector<std::string> speak(Packer& packer) {
         packer.put(limits_.late(run_)).put(run_.stop.stop_requested() || interrupted_);
         const auto all = peers_.exchange(packer.take());
@@ -110,7 +110,7 @@ class Search {
         return all;
     }
 
-    /// This peer's tasks.
+    /// Explores this peer's share of the tasks.
     void explore_some(std::vector<Task>& tasks) {
         const auto size = static_cast<std::size_t>(peers_.size());
         const auto rank = static_cast<std::size_t>(peers_.rank());
@@ -120,7 +120,7 @@ class Search {
         });
     }
 
-    /// Tells the others what came of this peer's tasks, and takes in all of them in their order.
+    /// Sends the results of this peer's tasks, and merges those of all peers in the order of tasks.
     void exchange(std::vector<Task>& tasks) {
         const auto size = static_cast<std::size_t>(peers_.size());
         Packer packer;
@@ -128,7 +128,7 @@ class Search {
             pack_task(tasks[i], packer);
         const auto all = speak(packer);
         std::vector<Unpacker> found(all.begin(), all.end());
-        if (stopped_) return;  // tasks may be unexplored: what was certain before still is
+        if (stopped_) return;  // tasks may be unexplored; earlier bounds remain valid
         for (std::size_t i = 0; i < tasks.size(); ++i) take_task(found[i % size]);
     }
 
@@ -154,7 +154,7 @@ class Search {
 
     [[nodiscard]] bool full() const { return cells_.size() >= most_cells_; }
 
-    /// The cells with the highest bounds, each with a share of what work is left.
+    /// Takes the cells with the highest bounds, and gives each a fraction of the remaining work.
     std::vector<Task> next_tasks() {
         constexpr std::size_t together = 64;
         const std::uint64_t size = grid_.count * grid_.dimension();
@@ -171,10 +171,10 @@ class Search {
         return tasks;
     }
 
-    /// 0 when cells are to be explored to the end.
+    /// Bound below which parts of cells are left for later; 0 to explore cells to the end.
     [[nodiscard]] double next_target() const {
         constexpr double step = 0.6;
-        constexpr double close = 0.1;  // relative; not far from the end
+        constexpr double close = 0.1;  // relative gap that is nearly closed
         const double lower = known_.worst.value();
         const double gap = known_.upper - lower;
         if (!problem_.by_stages(known_) || full() || gap < close * lower) return 0;
@@ -188,7 +188,7 @@ class Search {
         return cell;
     }
 
-    /// Drops what can't matter any more and says what is certain now.
+    /// Drops cells that cannot contain a worse box, and updates the upper bound.
     void update_bounds() {
         const double lower = known_.worst.value();
         if (!cells_.empty() && cells_.front().bound < lower) cells_.clear();
@@ -203,12 +203,12 @@ class Search {
     const RunContext& run_;
     Peers& peers_;
     Known known_;
-    std::vector<Cell> cells_;  ///< that are open; a heap, the highest bound first
-    std::size_t most_cells_;   ///< to keep; with more, cells are explored to the end
+    std::vector<Cell> cells_;  ///< open cells; a heap with the highest bound first
+    std::size_t most_cells_;   ///< when this many are open, cells are explored to the end
 
-    bool interrupted_ = false;  ///< this peer was told to stop
-    bool stopped_ = false;      ///< one of them was
-    bool late_ = false;         ///< the time of one of them is over
+    bool interrupted_ = false;  ///< this peer was stopped
+    bool stopped_ = false;      ///< some peer was stopped
+    bool late_ = false;         ///< some peer is out of time
 };
 
 }  // namespace

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Branch and bound over cells of boxes. The cells with the highest bounds are explored first, some
-// at a time: each is split, depth first, until its parts have bounds below a target between the
-// known bounds of the value, or its budget is used up; what is left goes back to the heap. So the
-// upper bound falls steadily, and cells that only an exact answer asks for come last. Those
-// explored together know of each other's finds only when all are done, so that what happens does
-// not depend on the number of threads.
+// Branch and bound over cells of boxes. Cells with the highest bounds are explored first, several
+// at a time. Each is split, depth first, until its parts have bounds below a target between the
+// known bounds of the value, or until its budget is used up. Remaining parts return to the heap. So
+// the upper bound falls steadily, and cells that only an exact answer needs are explored last.
+// Cells explored together share their results only when all are done, so that the search does not
+// depend on the number of threads.
 //
-// Peers share the cells of a round out among themselves and then tell each other what came of them,
-// so that all of them know the same before the next round; all else each of them does by itself. A
-// process without others is its own only peer.
+// Peer processes divide the cells of a round among themselves and then exchange the results, so
+// that all have the same state before the next round. Each does all other work redundantly. A
+// single process is its own only peer.
 #pragma once
 
 #include <deque>
@@ -22,25 +22,25 @@
 
 namespace stipple::discrepancy {
 
-/// Boxes of one side, given by ranges of some numbers, the meaning of which the kind of box knows.
+/// Boxes of one side, given by ranges lo to hi of numbers; their meaning depends on the Problem.
 struct Cell {
     Side side;
-    double bound;  ///< no box of the cell has a value above this
+    double bound;  ///< upper bound on the values of its boxes
     std::vector<std::uint32_t> lo;
     std::vector<std::uint32_t> hi;
 };
 
-/// A cell to explore, and what came of it.
+/// A cell to explore, and the results.
 struct Task {
     Cell cell;
     WorstBox worst;
-    double target;             ///< parts with lower bounds are left for later
-    std::uint64_t budget;      ///< of comparisons
-    std::vector<Cell> rest{};  ///< parts that are still open
+    double target;             ///< parts with bounds up to this are left for later
+    std::uint64_t budget;      ///< limit on `work`
+    std::vector<Cell> rest{};  ///< parts that remain open
     std::uint64_t work = 0;
 };
 
-/// What is certain while a search goes on.
+/// Certain bounds during a search.
 struct Known {
     WorstBox worst;
     double upper = 1;
@@ -55,31 +55,32 @@ class Problem {
     Problem& operator=(const Problem&) = delete;
     virtual ~Problem() = default;
 
-    /// All boxes.
+    /// Cells that together contain all boxes.
     [[nodiscard]] virtual std::vector<Cell> all_cells() const = 0;
 
-    /// Explores a task; called by several threads at once.
+    /// Explores a task; called concurrently by several threads.
     virtual void explore(Task& task) const = 0;
 
-    /// Whether cells are explored no further than to a target: more work on the whole, the more so
-    /// the less a cell costs against finding its points anew, but bounds get closer steadily.
+    /// True if cells are explored only down to a target. This takes more work in total, especially
+    /// if exploring a cell is cheap compared with finding its points again, but bounds converge
+    /// steadily.
     [[nodiscard]] virtual bool by_stages(const Known& /*known*/) const { return false; }
 
-    /// Improves bounds by other means; called before every round, with the work that may be done in
-    /// all.
+    /// Improves bounds by other means. Called before every round with the limit on the total work.
     virtual void look_around(Known& /*known*/, std::uint64_t /*work*/) {}
 };
 
-/// Searches on from what is known. Once a stop is requested, it ends with what is certain. The
-/// result does not depend on the number of threads, nor of peers, unless a deadline or a stop ends
-/// it; all peers get the same.
+/// Continues a search from known bounds. A requested stop ends it with the bounds so far. The
+/// result does not depend on the number of threads or peers, unless a deadline or a stop ends the
+/// search; all peers get the same result.
 SearchResult branch_and_bound(Problem& problem, const BoxGrid& grid, Known known,
                               const SearchLimits& limits, const RunContext& run, Peers* peers);
 
-/// Explores the cell of a task depth first. A bounder knows the points that matter in a cell:
-/// tighten(cell, from, mine) finds them among those of a larger cell (`mine` may be `from`),
-/// shrinks and bounds the cell, offers boxes, and is false where nothing is left to split;
-/// split(cell) takes a part away from the cell that was tightened last; work() counts comparisons.
+/// Explores the cell of a task depth first. A bounder provides three functions. tighten(cell, from,
+/// mine) selects the relevant points of a cell from those of a larger cell (`mine` may be `from`),
+/// shrinks and bounds the cell, and offers boxes; it returns false if nothing is left to split.
+/// split(cell) removes a part from the cell last tightened and returns it. work() counts
+/// comparisons.
 template <class Bounder>
 class Explorer {
   public:
@@ -95,7 +96,7 @@ class Explorer {
     }
 
   private:
-    /// `from` is this call's to use up, but for all points.
+    /// May overwrite `from`, unless it is all_.
     void descend(Cell cell, const Points& from, std::size_t depth) {
         if (points_.size() < depth + 1) points_.emplace_back();
         Points& mine = points_[depth];
@@ -109,7 +110,7 @@ class Explorer {
         }
     }
 
-    /// Looks at the clock now and then, and at the stop token.
+    /// Checks the clock and the stop token at intervals of work.
     bool late() {
         constexpr std::uint64_t looks_apart = 1U << 14;
         if (bounder_.work() < next_look_) return late_;
@@ -123,7 +124,7 @@ class Explorer {
     Task& task_;
     const SearchLimits& limits_;
     const RunContext& run_;
-    std::deque<Points> points_;  ///< of the cells on the way down to this one
+    std::deque<Points> points_;  ///< of the cells on the path to the current one
     std::uint64_t next_look_ = 0;
     bool late_ = false;
 };

@@ -14,21 +14,21 @@
 namespace stipple::discrepancy {
 namespace {
 
-/// One ascent at a time from given boxes; keeps its buffers between them.
+/// Runs ascents from given boxes one at a time; reuses its buffers.
 class BoxAscent {
   public:
-    /// Ascents end where they are at the limits or, each, after `most` comparisons.
+    /// Each ascent ends at the limits or after `most` comparisons.
     BoxAscent(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
               std::uint64_t most = std::numeric_limits<std::uint64_t>::max())
         : grid_(grid), limits_(limits), run_(run), most_(most), outside_(grid.count) {}
 
-    /// Gives the excess of the box that it reaches.
+    /// Ascends from `box` and returns the excess reached.
     double run(GridBox box, WorstBox& worst) {
         const std::uint64_t before = work_;
         box_ = std::move(box);
         count_outside();
         measure();
-        std::size_t idle = 0;  // axes in a row that gave nothing
+        std::size_t idle = 0;  // consecutive axes without improvement
         for (std::size_t axis = 0; idle < grid_.dimension();
              axis = (axis + 1) % grid_.dimension()) {
             idle = improve(axis) ? 0 : idle + 1;
@@ -39,10 +39,10 @@ class BoxAscent {
         return excess_;
     }
 
-    /// Where the last ascent ended.
+    /// Box in which the last ascent ended.
     [[nodiscard]] const GridBox& box() const { return box_; }
 
-    /// Comparisons of coordinates until now.
+    /// Comparisons of coordinates so far.
     [[nodiscard]] std::uint64_t work() const { return work_; }
 
   private:
@@ -61,14 +61,14 @@ class BoxAscent {
         }
     }
 
-    /// The box's volume anew, without the rounding of all the moves.
+    /// Recomputes the volume, to remove the rounding errors of moves.
     void multiply() {
         volume_ = 1;
         for (std::size_t k = 0; k < grid_.dimension(); ++k)
             volume_ *= grid_.length(k, box_.axes[k], box_.side);
     }
 
-    /// The same, with the excess; gives the number of points inside.
+    /// Recomputes volume and excess; returns the number of points inside.
     std::uint64_t measure() {
         multiply();
         const auto inside = static_cast<std::uint64_t>(std::ranges::count(outside_, 0U));
@@ -78,8 +78,8 @@ class BoxAscent {
         return inside;
     }
 
-    /// Volume of the box on the other axes. In many dimensions a product each time would take
-    /// longer than the counting.
+    /// Volume of the box on the other axes. By division if possible: in many dimensions, a product
+    /// would take longer than the counting.
     [[nodiscard]] double section(std::size_t axis) const {
         constexpr double tiny = 1e-280;
         if (volume_ > tiny) return volume_ / grid_.length(axis, box_.axes[axis], box_.side);
@@ -89,7 +89,7 @@ class BoxAscent {
         return section;
     }
 
-    /// Moves the box to the worst interval of the axis; false if that gains nothing.
+    /// Moves the box to the worst interval of the axis; returns false if that gains nothing.
     bool improve(std::size_t axis) {
         work_ += 2 * grid_.count + grid_.values[axis].size();
         const auto& ranks = grid_.ranks[axis];
@@ -114,8 +114,7 @@ class BoxAscent {
         return true;
     }
 
-    /// The worst interval from 0, where the box's volume on the other axes times the scale is
-    /// `all`.
+    /// Worst interval from 0. `all` is the scale times the volume on the other axes.
     [[nodiscard]] Found worst_end(std::size_t axis, double all) const {
         const auto& values = grid_.values[axis];
         const auto weight = static_cast<double>(grid_.weight);
@@ -132,7 +131,7 @@ class BoxAscent {
         return worst;
     }
 
-    /// The worst of all intervals.
+    /// Worst of all intervals.
     [[nodiscard]] Found worst_ends(std::size_t axis, double all) {
         const auto& values = grid_.values[axis];
         line_.clear();
@@ -161,13 +160,13 @@ class BoxAscent {
     double volume_ = 1;
     double excess_ = 0;
     GridBox box_;
-    std::vector<std::uint32_t> outside_;    ///< for each point, axes on which it is outside
-    std::vector<std::uint32_t> points_at_;  ///< inside on the other axes, of each rank on this one
+    std::vector<std::uint32_t> outside_;    ///< by point: number of axes on which it is outside
+    std::vector<std::uint32_t> points_at_;  ///< points inside on other axes, by rank on this one
     std::vector<std::uint32_t> line_;       ///< ranks of these points, ascending
 };
 
-/// The largest of d numbers of the generator, those from `first` on; of so many it takes one, drawn
-/// from the distribution of the largest.
+/// Maximum of d uniform numbers: the generator's numbers from `first` on or, for large d, one
+/// number with the distribution of the maximum.
 double largest_of(std::size_t d, const Rng& rng, std::uint64_t first) {
     constexpr std::size_t many = 64;
     if (d > many) return real_power(rng.uniform(first), 1 / static_cast<double>(d));
@@ -176,7 +175,8 @@ double largest_of(std::size_t d, const Rng& rng, std::uint64_t first) {
     return most;
 }
 
-/// Each coordinate is distributed as u^(1/d), so that the box's volume is not tiny.
+/// Draws a random anchored box; coordinates are distributed as u^(1/d), so that its volume is not
+/// tiny.
 GridBox random_anchored_box(const BoxGrid& grid, Side side, std::uint64_t stream) {
     const std::size_t d = grid.dimension();
     const Rng rng(0, stream);
@@ -190,8 +190,8 @@ GridBox random_anchored_box(const BoxGrid& grid, Side side, std::uint64_t stream
     return box;
 }
 
-/// An open box between any ranks, the first one as large as can be, as most have no volume to speak
-/// of in many dimensions; a closed one around two points, for the same reason.
+/// Draws a random box. In many dimensions most have a negligible volume, so the first open box is
+/// the largest possible, and closed ones span two points.
 GridBox random_free_box(const BoxGrid& grid, Side side, std::uint64_t stream) {
     const Rng rng(0, stream);
     const std::uint64_t one = rng.below(0, grid.count);
@@ -209,7 +209,7 @@ GridBox random_free_box(const BoxGrid& grid, Side side, std::uint64_t stream) {
             upper = grid.torus() ? 0 : ranks - 1;
         }
         if (!grid.torus() && lower > upper) std::swap(lower, upper);
-        // On the cube an open interval needs two ends.
+        // An open interval of the cube needs two different ends.
         if (!grid.torus() && side == Side::open && lower == upper) lower == 0 ? ++upper : --lower;
         box.axes.push_back({lower, upper});
     }
@@ -221,16 +221,16 @@ GridBox random_box(const BoxGrid& grid, Side side, std::uint64_t stream) {
                            : random_free_box(grid, side, stream);
 }
 
-/// How many ascents a set is given, and how much each may cost.
+/// Number of ascents, and the limit on the work of each.
 struct Plan {
     std::uint64_t starts;
     std::uint64_t most;
 
     Plan(const BoxGrid& grid, const SearchLimits& limits) {
-        constexpr std::uint64_t effort = 1U << 24;  // a fraction of a second
+        constexpr std::uint64_t effort = 1U << 24;  // comparisons: a fraction of a second
         const std::uint64_t size = grid.count * grid.dimension();
-        constexpr std::uint64_t share = 8;    // of the work, at most
-        constexpr std::uint64_t ascent = 16;  // what one costs, in sizes, for both sides
+        constexpr std::uint64_t share = 8;    // at most 1 / share of the work
+        constexpr std::uint64_t ascent = 16;  // cost of an ascent on both sides, in sizes
         const std::uint64_t affordable = limits.work / (share * ascent * size);
         const std::uint64_t wanted = std::clamp<std::uint64_t>(effort / size, 8, 200);
         starts = std::clamp<std::uint64_t>(affordable, 1, wanted);
@@ -238,8 +238,8 @@ struct Plan {
     }
 };
 
-/// Moves the corner of an anchored box a bit on two to four axes, one of them maybe twice; the
-/// first of `drawn` numbers of the generator are used.
+/// Moves the corner of an anchored box a bit on two to four axes, possibly one axis twice. Uses the
+/// generator's numbers from `drawn` on.
 void perturb(const BoxGrid& grid, const Rng& rng, std::uint64_t drawn, GridBox& box) {
     const std::size_t d = grid.dimension();
     const std::uint64_t axes = 2 + rng.below(drawn, 3);
@@ -255,13 +255,13 @@ void perturb(const BoxGrid& grid, const Rng& rng, std::uint64_t drawn, GridBox& 
 
 constexpr std::uint64_t draws_of_a_perturbation = 9;
 
-/// One walk of the search by thresholds.
+/// One walk of threshold accepting.
 void walk(const BoxGrid& grid, BoxAscent& ascent, Side side, std::uint64_t number, WorstBox& worst,
           const SearchLimits& limits, const RunContext& run) {
     constexpr std::uint64_t effort = 1U << 23;
     const std::uint64_t size = grid.count * grid.dimension();
     const std::uint64_t steps = std::clamp<std::uint64_t>(effort / size, 4, 64);
-    constexpr std::uint64_t other_streams = 1U << 20;  // than those of ascend()
+    constexpr std::uint64_t other_streams = 1U << 20;  // different from those of ascend()
     double here = ascent.run(random_anchored_box(grid, side, other_streams + number), worst);
     GridBox box = ascent.box();
     const Rng rng(1, number);
@@ -270,7 +270,7 @@ void walk(const BoxGrid& grid, BoxAscent& ascent, Side side, std::uint64_t numbe
         perturb(grid, rng, step * draws_of_a_perturbation, next);
         const double reached = ascent.run(std::move(next), worst);
         const double left = 1 - static_cast<double>(step + 1) / static_cast<double>(steps);
-        if (reached < here - 0.1 * left * here) continue;  // the first threshold found by trial
+        if (reached < here - 0.1 * left * here) continue;  // initial threshold found by trial
         here = reached;
         box = ascent.box();
     }
@@ -280,19 +280,19 @@ void walk(const BoxGrid& grid, BoxAscent& ascent, Side side, std::uint64_t numbe
 
 Ascent ascend(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run) {
     const Plan plan(grid, limits);
-    constexpr std::size_t together = 4;  // starts in one block
+    constexpr std::size_t together = 4;  // starts per block
     Ascent all{WorstBox(grid), 0};
     std::vector<Ascent> found(block_count(plan.starts, together), all);
     const auto ascend_all = [&](const Block& block, Side side) {
         BoxAscent ascent(grid, limits, run, plan.most);
         Ascent& mine = found[block.index];
         for (std::uint64_t start = block.first; start < block.last; ++start) {
-            if (start > 0 && limits.over(run)) break;  // one box there must be
+            if (start > 0 && limits.over(run)) break;  // at least one box is needed
             ascent.run(random_box(grid, side, start), mine.worst);
         }
         mine.work += ascent.work();
     };
-    // Ascents end by themselves, with what they found.
+    // Ascents end early on their own and keep their results.
     for_each_block(silent(unstopped(run)), plan.starts, together, [&](const Block& block) {
         ascend_all(block, Side::open);
         if (grid.measure == Measure::discrepancy) ascend_all(block, Side::closed);

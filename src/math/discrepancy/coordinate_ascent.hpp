@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Good lower bounds quickly: coordinate ascent from random boxes, and from boxes near those where
-// it ended.
+// Fast lower bounds by coordinate ascent from random boxes, and from boxes near previous results.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +16,17 @@ struct Ascent {
     std::uint64_t work;  ///< comparisons of coordinates
 };
 
-/// The worst box that ascents from up to 200 boxes on each side reach, fewer for large sets; a
-/// lower bound for little work, often the worst of all. Each takes the worst interval on one axis
-/// with the others fixed, until none is worse. Open boxes alone for the largest empty box. One step
-/// there is at least. Deterministic, unless the time or a stop ends it: then with what it has.
+/// Worst box reached by ascents from up to 200 boxes on each side, fewer for large sets: a cheap
+/// lower bound, and often the worst box of all. Each ascent moves to the worst interval on one axis
+/// with the others fixed, until no axis gains. The largest empty box uses only open boxes. At least
+/// one step is done. Deterministic, unless time or a stop ends it with the results so far.
 Ascent ascend(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run);
 
-/// A round of a search without end for bad anchored boxes, by threshold accepting: ascents start
-/// where others ended, perturbed on some axes; a worse end is taken for one that is better by less
-/// than a threshold, which falls. Offers what they find. Deterministic, unless the time ends it.
-/// @param round its number from 0; each takes other ways
-/// @returns the comparisons of coordinates that it took.
+/// One round of an endless search for bad anchored boxes by threshold accepting. Each ascent starts
+/// from the previous box, perturbed on some axes. The new box replaces the previous one unless its
+/// excess is smaller by more than a threshold, which decreases. Offers all boxes reached.
+/// Deterministic, unless time ends it. @param round number from 0, which selects the random numbers
+/// @returns the comparisons of coordinates.
 ///
 /// Source  M. Gnewuch, M. Wahlstroem, C. Winzen, SIAM J. Numer. Anal. 50 (2012) 781-807 (threshold
 ///         accepting for star discrepancies, there without ascents).

@@ -6,7 +6,7 @@
 namespace stipple::discrepancy {
 namespace {
 
-/// Keys in a row; the highest of a stretch of them in O(log n).
+/// Keys by position, with the maximum over a range of positions in O(log n).
 class HighestKey {
   public:
     explicit HighestKey(std::size_t n) : n_(n), keys_(2 * n) {}
@@ -15,7 +15,7 @@ class HighestKey {
         for (std::size_t i = position + n_; i > 0 && keys_[i] < key; i /= 2) keys_[i] = key;
     }
 
-    /// Of the positions from `first` to before `last`; 0 if there are none.
+    /// Maximum over positions in [first, last); 0 if empty.
     [[nodiscard]] std::uint32_t among(std::size_t first, std::size_t last) const {
         std::uint32_t highest = 0;
         for (first += n_, last += n_; first < last; first /= 2, last /= 2) {
@@ -30,16 +30,17 @@ class HighestKey {
     std::vector<std::uint32_t> keys_;
 };
 
-/// A stretch of positions that may go past either end of the row, once round the torus at most, and
-/// the ranks that bound it.
+/// A range of positions, and the ranks that bound it. On the torus it may extend past either end,
+/// by at most one turn.
 struct Width {
     std::int64_t first;
     std::int64_t last;
     Interval between;
 };
 
-/// Points have positions in the order of their first coordinate. A point's key tells how high it is
-/// among those below the present one: on the torus, those above are below it, once round.
+/// Sweeps upwards over points. Points have positions in the order of their first coordinate. A
+/// point's key gives its height order among the points below the current one; on the torus, the
+/// points above are also below, one turn down.
 class Sweep {
   public:
     Sweep(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run)
@@ -67,7 +68,7 @@ class Sweep {
     }
 
   private:
-    /// False if it is cut short.
+    /// Returns false if cut short.
     bool sweep() {
         const auto& upward = grid_.order[1];
         const std::size_t n = upward.size();
@@ -85,7 +86,7 @@ class Sweep {
                 }
                 follow_below(upward[last]);
             }
-            // Points on the ceiling are on the rim of what ends there.
+            // Points on the ceiling bound no rectangle from below.
             for (std::size_t i = first; i < last && (torus_ || top != ceiling); ++i)
                 enter(upward[i], i + 1 + (torus_ ? n : 0));
         }
@@ -94,7 +95,7 @@ class Sweep {
         return true;
     }
 
-    /// Rectangles between neighbouring ranks on the first axis.
+    /// Offers rectangles between neighbouring ranks on the first axis.
     void offer_gaps() {
         const auto top = static_cast<std::uint32_t>(grid_.values[1].size() - 1);
         const Interval whole = torus_ ? Interval{0, 0} : Interval{0, top};
@@ -105,7 +106,7 @@ class Sweep {
         keys_.set(position_of_[point], static_cast<std::uint32_t>(key));
     }
 
-    /// The point with that key, which is not 0.
+    /// The point with this key, which must not be 0.
     [[nodiscard]] std::uint32_t point_of(std::uint32_t key) const {
         return grid_.order[1][(key - 1) % grid_.count];
     }
@@ -123,7 +124,7 @@ class Sweep {
         return among(first, last);
     }
 
-    /// Takes the rectangle if it is larger than the largest one so far.
+    /// Replaces the largest rectangle so far if this one is larger.
     void offer(Interval across, Interval along) {
         const double area =
             grid_.length(0, across, Side::open) * grid_.length(1, along, Side::open);
@@ -131,12 +132,13 @@ class Sweep {
         worst_.offer({.side = Side::open, .axes = {across, along}}, 0);
     }
 
-    /// Whether no rectangle so wide and up to so high is larger than the largest so far.
+    /// True if no rectangle with this width and a height up to `reach` can be larger than the
+    /// largest so far.
     [[nodiscard]] bool is_too_small(const Width& width, double reach) const {
         return grid_.length(0, width.between, Side::open) * reach <= worst_.value() - margin_;
     }
 
-    /// Leaves out what is beyond the points at that rank, as seen from another; they are inside.
+    /// Cuts off the part of the width beyond the points at `rank`, as seen from position `from`.
     void shrink(Width& width, std::uint32_t rank, std::int64_t from) const {
         const auto begin = static_cast<std::int64_t>(first_at_[rank]);
         const auto end = static_cast<std::int64_t>(first_at_[rank + 1]);
@@ -150,7 +152,7 @@ class Sweep {
         }
     }
 
-    /// All rectangles that have the point inside their upper side.
+    /// Offers all rectangles with this point on their upper side.
     void follow_below(std::uint32_t point) {
         const std::uint32_t rank = grid_.ranks[0][point];
         const std::uint32_t top = grid_.ranks[1][point];
@@ -169,8 +171,8 @@ class Sweep {
         }
     }
 
-    /// On the torus: offers the rectangle as wide as the circle below a point, which may be cut
-    /// anywhere, and cuts it where its lower side meets a point. False if nothing is below that.
+    /// On the torus, offers the rectangle of full width below a point. It is cut at the point on its
+    /// lower side. Sets `width` to that cut; returns false if that point is straight below.
     bool cut_circle(std::uint32_t rank, std::uint32_t top, Width& width) {
         const std::uint32_t lowest = point_of(keys_.among(0, grid_.count));
         const std::uint32_t cut = grid_.ranks[0][lowest];
@@ -182,8 +184,8 @@ class Sweep {
         return cut != rank;
     }
 
-    /// All rectangles that end at the ceiling of the square: below the highest point of each
-    /// stretch, and on to its left and to its right.
+    /// Offers all rectangles that reach the ceiling of the square: each range of positions ends at
+    /// its highest point, and splits there to the left and right.
     void offer_below_ceiling() {
         const auto top = static_cast<std::uint32_t>(grid_.values[1].size() - 1);
         std::vector<Interval> open{{0, end_}};
@@ -201,7 +203,7 @@ class Sweep {
         }
     }
 
-    /// All rectangles of the torus between neighbouring ranks that go once round upwards.
+    /// Offers all rectangles of the torus between neighbouring ranks that have full height.
     void offer_full_heights() {
         for (std::uint32_t a = 0; a < end_; ++a) offer({a, a + 1}, {0, 0});
         offer({end_, 0}, {0, 0});
@@ -212,11 +214,11 @@ class Sweep {
     const RunContext& run_;
     bool torus_;
     std::int64_t n_;
-    std::uint32_t end_;  ///< the last rank on the first axis
-    double margin_;      ///< of areas in doubles; 0 where they are exact
+    std::uint32_t end_;  ///< last rank on the first axis
+    double margin_;      ///< rounding error of areas in doubles; 0 if they are exact
     HighestKey keys_;
-    std::vector<std::uint32_t> first_at_;     ///< of each rank: the first of its points' positions
-    std::vector<std::uint32_t> position_of_;  ///< of each point
+    std::vector<std::uint32_t> first_at_;     ///< position of the first point at each rank
+    std::vector<std::uint32_t> position_of_;  ///< position of each point
     WorstBox worst_;
 };
 

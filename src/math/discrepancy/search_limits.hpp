@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// When searches for a worst box end before they found the worst of all: by the clock, by the work
-// done, or when the bounds that are certain are near enough.
+// Limits that end searches for a worst box early: time, work, or certain bounds that are close
+// enough.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace stipple::discrepancy {
 
-/// The options.
+/// Options of the searches.
 namespace limit {
 
 inline constexpr Param<Choice> method{
@@ -55,79 +55,79 @@ inline constexpr Param<std::int64_t> max_work{
 
 }  // namespace limit
 
-/// When to stop before the worst box is found.
+/// Conditions to stop before the worst box is found.
 struct SearchLimits {
     std::uint64_t work = std::numeric_limits<std::uint64_t>::max();  ///< comparisons of coordinates
-    double deadline = std::numeric_limits<double>::infinity();       ///< in the run's seconds
-    double tolerance = 0;  ///< enough if upper - lower <= tolerance * lower
+    double deadline = std::numeric_limits<double>::infinity();       ///< by the run's clock, in s
+    double tolerance = 0;  ///< stops if upper - lower <= tolerance * lower
 
-    /// Comparisons of about a quarter of a second.
+    /// Comparisons that take about a quarter of a second.
     static constexpr std::uint64_t short_work = 1U << 28;
 
-    /// Whether bounds may be all that is wanted.
+    /// True if bounds may suffice.
     [[nodiscard]] bool wants_bounds() const {
         return tolerance > 0 || work < 4 * short_work || timed();
     }
 
     [[nodiscard]] bool timed() const { return deadline < std::numeric_limits<double>::infinity(); }
 
-    /// Whether the time is over.
+    /// True if the deadline has passed.
     [[nodiscard]] bool late(const RunContext& run) const {
         return timed() && run.seconds && run.seconds() >= deadline;
     }
 
-    /// Whether the time is over or a stop was requested.
+    /// True if the deadline has passed or a stop was requested.
     [[nodiscard]] bool over(const RunContext& run) const {
         return run.stop.stop_requested() || late(run);
     }
 
-    /// What is left when so many comparisons are done.
+    /// Limits that remain after `spent` comparisons.
     [[nodiscard]] SearchLimits after(std::uint64_t spent) const;
 };
 
 enum class Ending { complete, tolerance, work, time, stopped };
 
-/// What is certain when a search ended.
+/// Bounds that are certain at the end of a search.
 struct SearchResult {
     WorstBox worst;
-    double upper;   ///< no value is above this
-    Ending ending;  ///< if `complete`, the worst box is the worst of all
+    double upper;   ///< upper bound of all values
+    Ending ending;  ///< if `complete`, `worst` is the worst of all boxes
 
-    /// Whether upper - lower <= tolerance * lower.
+    /// True if upper - lower <= tolerance * lower.
     [[nodiscard]] bool within(double tolerance) const {
         return upper - worst.value() <= tolerance * worst.value();
     }
 };
 
-/// Of one that found the worst of all, or was cut short, so that any value may be its upper bound.
+/// Result of a sweep. If it was cut short, the upper bound is 1.
 SearchResult result_of_sweep(WorstBox worst, bool complete, const SearchLimits& limits,
                              const RunContext& run);
 
-/// The results that every search has: lower, upper, exact, method; and value, where these are within
+/// Results common to all searches: lower, upper, exact, method; and value, if the bounds are within
 /// the tolerance.
 Report report_of(const SearchResult& found, double tolerance, const char* method);
 
-/// Progress of a search for what is between these bounds: how much of the gap is closed, and words
-/// that say where it is. Ticks.
+/// Reports progress of a search between these bounds: the fraction of the gap closed, and the
+/// bounds as text. Checks for a stop.
 void report_gap(double lower, double upper, const RunContext& run);
 
-/// What the options say, for a run whose clock is at `start`.
+/// Limits from the options; `start` is the run's clock when they are read.
 class Limits {
   public:
     /// @throws Error(usage)
     Limits(const Values& options, const RunContext& run);
 
-    /// Those of a part of the whole, which has these shares of the work and of the time left.
+    /// Limits for a part with these fractions of the work and of the remaining time.
     [[nodiscard]] Limits part(double of_work, double of_time, const RunContext& run) const;
 
-    /// Says where bounds are all that is known of `what`, "the star discrepancy".
-    /// @throws Error(limit) where nothing but the exact value will do
+    /// Prints a note if only bounds of `what`, such as "the star discrepancy", are known.
+    /// @throws Error(limit) if the exact value is required
     void judge(const SearchResult& found, const std::string& what, const PointSet& points,
                const RunContext& run) const;
 
     SearchLimits search;
-    bool exact = false;    ///< or nothing
-    bool bounded = false;  ///< bounds will do
+    bool exact = false;    ///< only the exact value is accepted
+    bool bounded = false;  ///< bounds suffice
     double start = 0;
 
   private:

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// The worst interval of points on a line: a maximum-subarray problem. A box with these points
-// inside on all other axes, where its volume is h, has the excess h x length - w points. Let P_i
-// and Q_i be that of the open interval from 0 to point i, without the points at and before i's own
-// place in the line, and with them:
+// The worst interval of points on a line: a maximum-subarray problem. A box of volume h on the
+// other axes, which contains these points there, has the excess h x length - w points. Let P_i and
+// Q_i be the excess of the interval from 0 to point i, without and with the point itself:
 //
 //     P_i = h x_i - w #{before i},      Q_i = P_i - w;
 //
-// then the open intervals between two points have P_j - Q_i, i < j, the closed ones P_i - Q_j, i <=
-// j. On the circle, those that wrap have (h - w n) + P_i - Q_j, i <= j, and (w n - h) + P_j - Q_i,
-// i < j: the same two maxima. So one pass with the highest P and the lowest Q so far finds the
-// worst. Points at the same place only make some of these less than the truth, never more.
+// Then open intervals between two points have the excess P_j - Q_i, i < j, and closed ones P_i -
+// Q_j, i <= j. On the circle, those that wrap have (h - w n) + P_i - Q_j, i <= j, and (w n - h) +
+// P_j - Q_i, i < j: the same two maxima. So one pass with the highest P and the lowest Q so far
+// finds the worst interval. Points with equal coordinates can only make some of these too small,
+// never too large.
 //
 // Source  J. Bentley, "Programming pearls: algorithm design techniques", Comm. ACM 27 (1984)
 //         865-873, doi:10.1145/358234.381162 (the pass, due to J. Kadane).
@@ -23,7 +23,7 @@
 
 namespace stipple::discrepancy {
 
-/// One end of the line, in place of one of its points.
+/// An end of the line, instead of the index of a point.
 inline constexpr std::size_t line_end = std::numeric_limits<std::size_t>::max();
 
 template <class Number>
@@ -33,7 +33,7 @@ struct WorstInterval {
     std::size_t upper = line_end;
 };
 
-/// What is known of a line, in a type without rounding or in doubles.
+/// Parameters of a line, in doubles or in a type without rounding.
 template <class Number>
 struct LineTerms {
     Number all;     ///< h
@@ -43,7 +43,7 @@ struct LineTerms {
     bool torus;
 };
 
-/// The worst interval of the line of n points; height(i) = h x_i and before(i) = w times the number
+/// Worst interval of a line of n points, with height(i) = h x_i and before(i) = w times the number
 /// of points before i.
 template <class Number, class Height, class Before>
 WorstInterval<Number> worst_interval(std::size_t n, const LineTerms<Number>& line,
@@ -52,10 +52,10 @@ WorstInterval<Number> worst_interval(std::size_t n, const LineTerms<Number>& lin
     const bool torus = line.torus;
     const Number around = open ? line.all - line.points : line.points - line.all;
     WorstInterval<Number> best{around};
-    // On the circle, the whole is no worse than the best of the intervals cut at a point.
+    // On the circle, the whole is no worse than the best interval cut at a point.
     if (torus && n > 0) best.excess = -(line.all + line.points);
     Number highest = 0;
-    Number lowest = 0;  // of the beginning, where an open interval may start
+    Number lowest = 0;  // of the line's start, at which an open interval may begin
     std::size_t at_highest = line_end;
     std::size_t at_lowest = line_end;
     const auto take = [&](Number excess, std::size_t lower, std::size_t upper) {
