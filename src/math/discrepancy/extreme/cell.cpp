@@ -9,14 +9,14 @@
 namespace stipple::discrepancy::extreme {
 namespace {
 
-/// More than any excess.
+/// Exceeds every excess.
 constexpr double huge = 1e300;
 
-/// Maxima of differences of P and Q, one point after the other; see worst_interval.hpp.
+/// Maxima of differences of P and Q, updated point by point; see worst_interval.hpp.
 struct Maxima {
-    double all;         ///< section of the boxes, times the scale
+    double all;         ///< scale times the section of the boxes
     double weight;      ///< of a point
-    double before = 0;  ///< weight of the points that went by
+    double before = 0;  ///< weight of the points so far
     double highest = -huge;
     double lowest = huge;
     double ordered = -huge;   ///< P_j - Q_i, i < j
@@ -34,7 +34,7 @@ struct Maxima {
     }
 };
 
-/// What a cell has for each axis: ranges of the lower end, of the upper end, of whether it wraps.
+/// Number of ranges of a cell per axis: lower end, upper end, and whether the interval wraps.
 constexpr std::size_t parts = 3;
 
 struct Range {
@@ -44,7 +44,7 @@ struct Range {
     [[nodiscard]] bool single() const { return first == last; }
 };
 
-/// The intervals on one axis that a cell's boxes have there.
+/// Ranges of the intervals on one axis.
 struct Ends {
     Range lower;
     Range upper;
@@ -68,13 +68,13 @@ Interval interval_of(const Ends& ends, Extent extent) {
                                    : Interval{ends.lower.last, ends.upper.first};
 }
 
-/// Ranks inside some (outer) or all intervals.
+/// Ranks inside some (outer) or all (inner) intervals.
 RankSet ranks_of(const Ends& ends, Extent extent, Side side) {
     if (!ends.wraps.single()) return {0, 0, extent == Extent::outer};
     return ranks_between(interval_of(ends, extent), side, ends.wraps.first == 1);
 }
 
-/// Length of the cell's largest or smallest interval on an axis, as a Number in units of `one`.
+/// Length of the cell's largest or smallest interval on an axis. `one` is the Number for length 1.
 template <class Number, class ValueAt>
 Number length_of(const Ends& ends, Extent extent, const Number& one, const ValueAt& value_at) {
     if (!ends.wraps.single()) return extent == Extent::outer ? one : Number(0);
@@ -90,7 +90,8 @@ double length_of(const BoxGrid& grid, std::size_t axis, const Ends& ends, Extent
     return length_of<double>(ends, extent, 1, [&](std::uint32_t i) { return values[i]; });
 }
 
-/// Product of the lengths on all axes but the first.
+/// Section of a cell's largest or smallest boxes: product of their lengths on all axes but the
+/// first.
 double section(const BoxGrid& grid, const Cell& cell, Extent extent) {
     double product = 1;
     for (std::size_t k = 0; k < axes_of(cell); ++k)
@@ -98,7 +99,7 @@ double section(const BoxGrid& grid, const Cell& cell, Extent extent) {
     return product;
 }
 
-/// The same times 2^digits of all these axes.
+/// Section times 2^digits of all its axes, exact.
 Integer exact_section(const BoxGrid& grid, const Cell& cell, Extent extent) {
     Integer product = 1;
     for (std::size_t k = 0; k < axes_of(cell); ++k) {
@@ -110,7 +111,7 @@ Integer exact_section(const BoxGrid& grid, const Cell& cell, Extent extent) {
     return product;
 }
 
-/// The points of a line that a bound counts, with how many are before each.
+/// Entries of a line that a bound counts, and the number of points before each.
 struct Counted {
     std::vector<std::uint32_t> entries;
     std::vector<std::uint32_t> before;
@@ -130,7 +131,7 @@ Counted counted_of(const Line& line, Side side) {
     return counted;
 }
 
-/// The worst interval of a cell's line, times 2^all_digits, where the section of the cell is `all`.
+/// Worst interval on a cell's line, times 2^all_digits; `all` is the section times the scale.
 WorstInterval<Integer> worst_on(const BoxGrid& grid, Side side, const Line& line,
                                 const Counted& counted, const Integer& all) {
     const auto height = [&](double x) { return Integer(all * scaled(x, grid.digits[0])); };
@@ -146,7 +147,7 @@ WorstInterval<Integer> worst_on(const BoxGrid& grid, Side side, const Line& line
         [&](std::size_t i) { return Integer(weight * counted.before[i]); });
 }
 
-/// A single cell's box with that interval on the first axis.
+/// Box of a cell with a single section, with the interval found on the first axis.
 GridBox box_of(const BoxGrid& grid, const Cell& cell, const Line& line, const Counted& counted,
                const WorstInterval<Integer>& found) {
     const auto rank = [&](std::size_t i) {
@@ -161,8 +162,8 @@ GridBox box_of(const BoxGrid& grid, const Cell& cell, const Line& line, const Co
     return box;
 }
 
-/// How much an axis may gain when its ends are halved: the share of the length that they leave
-/// open, and that of the ranks.
+/// Expected gain from halving an axis: the fraction of its length and that of its ranks that are
+/// not yet decided.
 double openness(const BoxGrid& grid, std::size_t axis, const Ends& ends, Range range) {
     if (range.single()) return -1;
     const auto& values = grid.values[axis];
@@ -172,12 +173,13 @@ double openness(const BoxGrid& grid, std::size_t axis, const Ends& ends, Range r
            static_cast<double>(range.last - range.first) / static_cast<double>(values.size());
 }
 
-/// Leaves out ends that no interval of the cell has; false if none is left.
+/// Removes ends that no interval of the cell can have; returns false if none remain.
 bool trim(Cell& cell) {
     const bool open = cell.side == Side::open;
     for (std::size_t at = 0; at < cell.lo.size(); at += parts) {
         if (cell.lo[at + 2] != cell.hi[at + 2]) continue;
-        // A plain interval has lower < upper if open, else lower <= upper; others wrap.
+        // An interval that does not wrap has lower < upper if open, lower <= upper if closed. One
+        // that wraps has the reverse.
         const bool plain = cell.lo[at + 2] == 0;
         const std::size_t below = plain ? at : at + 1;
         const std::size_t above = plain ? at + 1 : at;
@@ -189,10 +191,10 @@ bool trim(Cell& cell) {
     return true;
 }
 
-/// Points that are looked at together when a line is pruned.
+/// Maximum number of points that are pruned together.
 inline constexpr std::size_t longest_stretch = 32;
 
-/// Where the stretch of decided points that begins here ends; an undecided one is alone.
+/// End of the run of decided points that begins at `first`; an undecided point is a run of its own.
 std::size_t end_of_stretch(const Line& line, std::size_t first) {
     const auto& entries = line.entries;
     const std::size_t most = std::min(first + longest_stretch, entries.size());
@@ -202,12 +204,12 @@ std::size_t end_of_stretch(const Line& line, std::size_t first) {
     return last;
 }
 
-/// Bounds cells; keeps its buffers.
+/// Bounds cells; reuses its buffers.
 class CellBounder {
   public:
     using Points = Line;
 
-    /// Keeps references to both.
+    /// Keeps references to both arguments.
     CellBounder(const BoxGrid& grid, WorstBox& worst)
         : grid_(grid),
           worst_(worst),
@@ -215,8 +217,9 @@ class CellBounder {
           weight_(static_cast<double>(grid.weight)),
           rounding_(grid.rounding()) {}
 
-    /// Shrinks and bounds the cell, given the line of a larger one; offers its box if it is a
-    /// single one. False if it holds none worse than the worst box, or nothing is left to split.
+    /// Shrinks and bounds the cell, given the line of a larger one, and sets `mine` to its line.
+    /// Offers the box of a cell with a single section. Returns false if no box can be worse than
+    /// the worst, or if there is nothing left to split.
     bool tighten(Cell& cell, const Line& from, Line& mine) {
         work_ += 2 * grid_.dimension() * (from.entries.size() + 1);
         if (!trim(cell)) return false;
@@ -227,12 +230,12 @@ class CellBounder {
         const double most = bound(mine);
         cell.bound = std::min(cell.bound, (most + rounding_) * (1 + 0x1p-50) / scale_);
         if (most <= worst_.excess() - rounding_ || !check_exactly(cell, mine, most)) return false;
-        if (!grid_.torus()) prune(mine);  // there it takes longer than it saves
+        if (!grid_.torus()) prune(mine);  // on the torus this takes longer than it saves
         return true;
     }
 
-    /// Halves a cell on the axis where that promises most; takes the half with the larger boxes
-    /// away. A half may have no boxes.
+    /// Halves a cell on the axis that promises the largest gain. Removes the half with the larger
+    /// boxes and returns it; either half may be without boxes.
     Cell split(Cell& cell) const {
         Cell larger = cell;
         std::size_t at = 0;
@@ -259,17 +262,17 @@ class CellBounder {
         return larger;
     }
 
-    /// Comparisons of coordinates until now.
+    /// Comparisons of coordinates so far.
     [[nodiscard]] std::uint64_t work() const { return work_; }
 
   private:
-    /// Decided points of a line next to each other.
+    /// A run of decided points.
     struct Stretch {
         std::size_t first;
         std::size_t last;
     };
 
-    /// The line of a cell, of that of a larger one, which it may replace.
+    /// Filters the line of a larger cell to that of this cell; `from` and `to` may be the same.
     void refine(const Cell& cell, const Line& from, Line& to) {
         outer_.clear();
         inner_.clear();
@@ -301,7 +304,7 @@ class CellBounder {
         to.entries.resize(kept);
     }
 
-    /// Excess of the cell's worst box at most, up to rounding.
+    /// Upper bound on the excess of the cell's boxes, without allowance for rounding.
     double bound(const Line& line) const {
         const bool open = side_ == Side::open;
         const bool torus = grid_.torus();
@@ -320,7 +323,8 @@ class CellBounder {
         return torus ? std::max(found.reversed, found.ordered - rest) : found.reversed;
     }
 
-    /// Whether the bound, without rounding, is above the worst box; offers the box of a single cell.
+    /// True if the exact bound exceeds the worst box's excess and the cell can be split; offers the
+    /// box of a single cell.
     bool check_exactly(const Cell& cell, const Line& line, double bound) {
         const bool single = cell.lo == cell.hi;
         if (!single && (rounding_ == 0 || bound > worst_.excess() + rounding_)) return true;
@@ -333,7 +337,7 @@ class CellBounder {
         return !single;
     }
 
-    /// Excess of the worst interval between two points of a stretch.
+    /// Excess of the worst interval between two points of a run.
     double worst_inside(const Stretch& stretch, const Line& line) const {
         const bool open = side_ == Side::open;
         Maxima found{.all = open ? largest_ : smallest_, .weight = weight_};
@@ -341,16 +345,17 @@ class CellBounder {
         return open ? found.ordered : found.reversed;
     }
 
-    /// Whether no interval inside the stretch is worse than the worst box.
+    /// True if no interval inside the run is worse than the worst box.
     bool may_prune(const Stretch& stretch, const Line& line) const {
         return stretch.last - stretch.first > 2 &&
                worst_inside(stretch, line) <= worst_.excess() - rounding_;
     }
 
-    /// Finds which points of a stretch may be ends of a worst interval for a section of the cell. One
-    /// is none if its line is nowhere between the smallest and the largest section beyond that of
-    /// another: one with a larger slope may only be dominated at the smallest, with a smaller one at
-    /// the largest. P and Q differ by a constant here, and are wanted highest and lowest.
+    /// Marks the points of a run that may be ends of a worst interval for some section of the cell.
+    /// The excess up to a point is a linear function of the section, with slope x. A point is
+    /// dominated if another one is better for all sections: it suffices to compare with points of
+    /// larger x at the smallest section, and with those of smaller x at the largest. P and Q differ
+    /// by a constant here; P is wanted highest and Q lowest.
     void find_useful(const Stretch& stretch, const Line& line) {
         const std::size_t first = stretch.first;
         const std::size_t n = stretch.last - first;
@@ -384,7 +389,8 @@ class CellBounder {
         }
     }
 
-    /// Drops dominated points: decided ones that make no difference for boxes worse than the worst.
+    /// Drops decided points that are dominated, because they make no difference for boxes worse
+    /// than the worst.
     void prune(Line& line) {
         Stretch stretch{.first = 0, .last = 0};
         auto& entries = line.entries;
@@ -417,13 +423,13 @@ class CellBounder {
     double rounding_;
     std::uint64_t work_ = 0;
 
-    // What is known of the cell at hand.
+    // State of the current cell.
     Side side_ = Side::open;
-    std::vector<RankSet> outer_;  ///< on every axis but the first, inside for some box
-    std::vector<RankSet> inner_;  ///< and inside for all
-    double largest_ = 0;          ///< section of the cell's boxes, times the scale
+    std::vector<RankSet> outer_;  ///< ranks inside for some box, on all axes but the first
+    std::vector<RankSet> inner_;  ///< ranks inside for all boxes
+    double largest_ = 0;          ///< scale times the section of the largest boxes
     double smallest_ = 0;
-    std::array<bool, longest_stretch> useful_{};  ///< of the points of a stretch
+    std::array<bool, longest_stretch> useful_{};  ///< for the points of a run
 };
 
 }  // namespace

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// A cell is a set of boxes: their sides on the first axis are free, the others begin and end in
-// given ranges. With V the product of the other sides, and the points inside on the other axes in a
-// line along the first one,
+// A cell is a set of boxes with arbitrary sides on the first axis, whose other sides begin and end
+// in given ranges. Let V be the product of the other sides, and arrange the points inside on the
+// other axes in a line along the first one. Then
 //
-//     open:    excess <= that of the worst interval for the largest V and the points inside for all
+//     open:    excess <= excess of the worst interval for the largest V and the points inside all
 //                        boxes of the cell (decided),
-//     closed:  the same for the smallest V and the points inside for some (decided or not).
+//     closed:  likewise for the smallest V and the points inside some box (decided or not).
 //
-// Between two undecided points most decided ones cannot be an end of a worst interval for any V of
-// the cell, as a neighbour dominates each; on the cube these are pruned, and counted where they
-// were. So a cell's line is about as long as there are undecided points.
+// Between two undecided points, most decided ones are dominated by a neighbour, so they cannot be
+// ends of a worst interval for any V of the cell. On the cube these are pruned, and only their
+// number is kept. So the length of a cell's line is about the number of undecided points.
 //
 // Source  J. Barbay, T. M. Chan, G. Navarro, P. Perez-Lantero, "Maximum-weight planar boxes in
 //         O(n^2) time (and better)", Inform. Process. Lett. 114 (2014) 437-445,
@@ -22,28 +22,28 @@
 
 namespace stipple::discrepancy::extreme {
 
-/// All boxes of one side. A cell has three ranges for every axis but the first: of the ranks where
-/// a box begins, of those where it ends, and of whether it wraps, 0 or 1.
+/// Cell of all boxes of one side. A cell has three ranges for every axis but the first: ranks where
+/// a box begins, ranks where it ends, and whether it wraps, 0 or 1.
 Cell whole_cell(const BoxGrid& grid, Side side);
 
 /// A point of a line.
 struct Entry {
     double x;
     std::uint32_t point;
-    std::uint32_t pruned : 31;    ///< decided points that were here, after the entry before
-    std::uint32_t undecided : 1;  ///< not inside for all boxes of the cell
+    std::uint32_t pruned : 31;    ///< decided points removed just before this entry
+    std::uint32_t undecided : 1;  ///< not inside all boxes of the cell
 };
 
-/// The points inside on all axes but the first for some box of a cell, along the first axis.
+/// Points along the first axis that are inside some box of a cell on all other axes.
 struct Line {
     std::vector<Entry> entries;
-    std::uint32_t pruned = 0;  ///< decided points that were here, after the last entry
+    std::uint32_t pruned = 0;  ///< decided points removed after the last entry
 };
 
-/// All points, undecided.
+/// Line of all points, undecided.
 Line whole_line(const BoxGrid& grid);
 
-/// Explores a task from the line of all points.
+/// Explores a task, starting from the line of all points.
 void explore(const BoxGrid& grid, const Line& line, Task& task, const SearchLimits& limits,
              const RunContext& run);
 

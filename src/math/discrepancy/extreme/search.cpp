@@ -32,11 +32,11 @@ class FreeBoxes final : public Problem {
     const RunContext& run_;
 };
 
-// A box is the sum and difference of up to 2^d anchored ones, and on the torus of 3^d - 1 (an
-// interval is one from 0 less another; if it wraps, the whole axis is added, and the whole space
-// has no discrepancy). So the star discrepancy bounds the others.
+// An indicator of a box is a signed sum of those of up to 2^d anchored boxes, on the torus of 3^d -
+// 1: an interval is the difference of two from 0, plus the whole axis if it wraps, and the whole
+// space has no discrepancy. So the star discrepancy bounds the others.
 
-/// For anchored boxes, with the points of the torus that are at 1 moved to 0.
+/// Grid for anchored boxes; on the torus, coordinates 1 become 0.
 BoxGrid anchored_grid(const PointSet& points, Family family, const RunContext& run) {
     PointSet moved = points;
     if (family == Family::torus)
@@ -45,14 +45,14 @@ BoxGrid anchored_grid(const PointSet& points, Family family, const RunContext& r
     return box_grid(moved, Family::anchored, run);
 }
 
-/// How many times the star discrepancy it may be, or a little more.
+/// Upper bound on the ratio to the star discrepancy, rounded up.
 double factor(Family family, double dimension) {
     return (family == Family::cube ? std::pow(2, dimension) : std::pow(3, dimension) - 1) *
            (1 + 0x1p-50);
 }
 
-/// An upper bound from that of the star discrepancy, for a small part of the work and time that a
-/// search may take.
+/// Upper bound from that of the star discrepancy, within a small part of the search's work and
+/// time.
 double star_bound(const PointSet& points, Family family, const SearchLimits& share,
                   const RunContext& run) {
     const auto d = static_cast<double>(points.dimension());
@@ -60,14 +60,14 @@ double star_bound(const PointSet& points, Family family, const SearchLimits& sha
     if (d < 2) return 1;
     const BoxGrid grid = anchored_grid(points, family, run);
     const double known = star::quick_bound(grid, run, factor(family, 1), factor(family, d));
-    const double promised = 0.6 * std::sqrt(d / n);  // of random points, about
+    const double promised = 0.6 * std::sqrt(d / n);  // approximate value for random points
     if ((d > 2 && factor(family, d) * promised >= 1) || run.stop.stop_requested()) return known;
     const SearchResult found =
         d > 2 ? star::find_worst(grid, share, run) : star::sweep_2d(grid, share, run);
     return std::min(known, factor(family, d) * found.upper);
 }
 
-/// What that may take: little of a long search, nothing to speak of where no end is set.
+/// Limits for star_bound: a fraction of a long search, and little work if there is no deadline.
 SearchLimits share_for_bound(const SearchLimits& limits, const RunContext& run) {
     constexpr double part = 0.1;
     constexpr std::uint64_t short_work = 1U << 27;
@@ -82,7 +82,7 @@ SearchLimits share_for_bound(const SearchLimits& limits, const RunContext& run) 
 }  // namespace
 
 double search_memory(const PointSet& points, unsigned threads) {
-    // The lines on the way down to a cell halve in length about every 2 d steps.
+    // Lines on the path to a cell halve in length about every 2 d steps.
     const auto d = static_cast<double>(points.dimension());
     const double lines = std::min(3 * d + 2, 24.0);
     const double per_point = d * static_cast<double>(axis_bytes(false)) + 40 +

@@ -7,22 +7,23 @@
 
 namespace stipple::discrepancy::extreme {
 
-/// Bytes that a search with so many threads takes, the grid included.
+/// Bytes of a search with this number of threads, including the grid.
 double search_memory(const PointSet& points, unsigned threads);
 
-/// Searches on from a box found before; no value is above `upper`.
+/// Searches for boxes worse than `worst`; no value exceeds `upper`.
 SearchResult search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits,
                     const RunContext& run, double upper = 1);
 
-/// The same from nothing: coordinate ascents first, which are a part of the work.
+/// Searches without a known box: runs coordinate ascents first, as part of the work.
 SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
                         double upper = 1);
 
-/// The same after a bound from the star discrepancy of the points, which is a small part of the work.
+/// Searches after computing a bound from the star discrepancy of the points, as a small part of the
+/// work.
 SearchResult find_worst(const PointSet& points, const BoxGrid& grid, const SearchLimits& limits,
                         const RunContext& run);
 
-/// One of milliseconds, or some more of many points. Goes on when a stop is requested.
+/// Upper bound that takes milliseconds, more for many points. Ignores stop requests.
 double quick_bound(const PointSet& points, Family family, const RunContext& run);
 
 }  // namespace stipple::discrepancy::extreme
