@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// What the axes tell one by one. Boxes that are whole on all axes but one give a worst box to
-// begin with, and bad ones to report when there is no time for more. An upper bound: let E_k
-// bound the discrepancy of the points' coordinates on axis k, of d. A box has sides v_k and the
-// volume v, their product. It has no more points than any box with one of its sides, and lacks no
-// more than all of these do together:
+// Bounds from single axes. Boxes that cover all axes but one give a first worst box, also to report
+// if there is no time for more. For an upper bound, let E_k bound the discrepancy of the points'
+// coordinates on axis k of d. A box has sides v_k and volume v, their product. It contains at most
+// the points of the box with any one of its sides, and misses at most the points that all these
+// boxes miss:
 //
 //     #/n <= min_k (v_k + E_k),          min_k v_k = p   =>  v >= p^d,
 //     #/n >= 1 - sum_k (1 - v_k + E_k),  mean_k v_k = s  =>  v <= s^d.
@@ -25,10 +25,10 @@
 namespace stipple::discrepancy::star {
 namespace {
 
-/// A box that is whole on all axes but one.
+/// A box that covers all axes but one.
 struct AxisBox {
     double value = -1;
-    std::uint32_t rank = 0;  ///< where it ends on that one
+    std::uint32_t rank = 0;  ///< rank of its end on that axis
     std::uint64_t points = 0;
 
     void take(const AxisBox& other) {
@@ -36,13 +36,13 @@ struct AxisBox {
     }
 };
 
-/// The worst ones of an axis.
+/// Worst boxes of an axis.
 struct Worst {
     AxisBox open;
     AxisBox closed;
 };
 
-/// The points that are in no open one-axis box, as they have a coordinate 1.
+/// Points with a coordinate 1, which are in no open one-axis box.
 std::vector<bool> points_at_one(const BoxGrid& grid) {
     std::vector<bool> at_one(grid.count);
     for (std::size_t k = 0; k < grid.dimension(); ++k)

@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: MIT
 //
-// Points below lo on all axes are in the box of every corner y of a cell; points that are not all
-// below hi are in none; the others are undecided, each on the axes on which it is not below lo.
-// With O the number of points in the open box, C in the closed one, V the volume, and c_j(y_j)
-// counting, of the undecided points that are assigned to axis j, those below y_j,
+// Points below lo on all axes are in the box of every corner y of a cell. Points that are not below
+// hi on some axis are in none. The others are undecided, on the axes on which they are not below
+// lo. Let O be the number of points in the open box, C that in the closed one and V the volume.
+// Some undecided points are assigned to axis j; c_j(y_j) of these are below y_j. Then
 //
 //     open     V(y) - O(y)/n <= V(hi) - O(lo)/n - sum_j min over y_j of [step_j(y_j) + c_j(y_j)/n]
 //     closed   C(y)/n - V(y) <= C(lo)/n - base  - sum_j min over y_j of [step_j(y_j) - c_j(y_j)/n]
 //
-// An open box has at least the points undecided on a single axis, assigned to it; a closed one at
-// most all, each assigned to the one of its undecided axes on which reaching it costs most. The
-// steps come from a bound of V that is a sum over the axes, for open boxes V(y) <= V(hi) - sum
-// step:
+// For open boxes, points undecided on a single axis are assigned to it. For closed boxes all are
+// assigned, each to the undecided axis on which reaching it costs most. The steps come from a bound
+// of V that is a sum over the axes, for open boxes V(y) <= V(hi) - sum step:
 //
 //     chord        step_j = (log hi_j - log y_j) (V(hi) - m) / (log V(hi) - log m)
 //
-// The chord is that of exp between log m and log V(hi), so it holds where V(y) >= m; any box worse
-// than the worst one known, D, has V(y) > m = D + O(lo)/n. For closed boxes V(y) >= base + sum
+// This is the chord of exp between log m and log V(hi), so it holds if V(y) >= m. Any box worse
+// than the worst known value D has V(y) > m = D + O(lo)/n. For closed boxes V(y) >= base + sum
 // step:
 //
 //     tangent      step_j = (log y_j - log lo_j) v,            base = v (1 + log V(lo) - log v)
 //
-// the tangent of exp at any log v; v is chosen between V(lo) and the largest V(y) that a box worse
-// than D can have. Where V(lo) is 0, all steps are. All sums are over the axes, so a y_j whose own
-// term is further above the least one than the bound is above D is out, and the cell shrinks.
+// This is the tangent of exp at log v, with v chosen between V(lo) and the largest V(y) of a box
+// worse than D. If V(lo) is 0, so are all steps. As the bounds are sums over the axes, y_j is
+// excluded if its term exceeds the smallest one by more than the bound exceeds D. So the cell
+// shrinks.
 //
-// On each axis only places matter where a point of the cell lies: an open box that is worst can't
-// grow there without taking in a point (or reaches 1), a closed one can't shrink without losing
+// On each axis only the coordinates of the cell's points matter: a worst open box cannot grow
+// without including a point (or reaches 1), and a worst closed one cannot shrink without losing
 // one.
 
 #include "math/discrepancy/star/cell.hpp"
@@ -46,15 +46,15 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double tiny = 1e-300;
 
-/// In a bin: this place is a candidate. The other bits count points.
+/// Bit of a bin that marks its rank as a candidate. The other bits count points.
 constexpr std::uint32_t candidate = std::uint32_t{1} << 31;
 
-/// Bins in front of each axis's own, for points of no interest; several, since to count up the
-/// same one all the time is slow.
+/// Number of bins before each axis's own, for irrelevant points; several, because incrementing the
+/// same bin repeatedly is slow.
 constexpr std::int32_t dummy_bins = 16;
 
-/// In the state of a point, 1 for each axis on which it is undecided; below that, twice the axes on
-/// which it is above hi plus those on which it is at hi.
+/// The state of a point counts, in its upper bits, the axes on which it is undecided. Below, it has
+/// twice the number of axes on which it is above hi, plus the number on which it is at hi.
 constexpr int undecided_bits = 16;
 constexpr std::int32_t undecided_unit = 1 << undecided_bits;
 
@@ -67,7 +67,7 @@ STIPPLE_WIDE void compare(const std::int32_t* ranks, std::size_t size, std::int3
                     (ranks[i] >= lo ? undecided_unit : 0);
 }
 
-/// Assigns to `axis` the points that cost more there than on the axes before.
+/// Assigns points to `axis` if they cost more there than on the previous axes.
 STIPPLE_WIDE void assign_to(const std::int32_t* ranks, std::size_t size, std::int32_t lo,
                             float price, std::int32_t axis, float* cost, std::int32_t* axes) {
     for (std::size_t i = 0; i < size; ++i) {
@@ -83,7 +83,8 @@ STIPPLE_WIDE void gather(const std::int32_t* from, const std::uint32_t* kept, st
     for (std::size_t i = 0; i < size; ++i) to[i] = from[kept[i]];
 }
 
-/// terms[i] = (values[ranks[i]] - origin) * weight + counts[i] * inverse; gives the least.
+/// Sets terms[i] = (values[ranks[i]] - origin) * weight + counts[i] * inverse; returns their
+/// minimum.
 STIPPLE_WIDE double fill_terms(const double* values, const std::int32_t* ranks,
                                const std::int32_t* counts, std::size_t size, double origin,
                                double weight, double inverse, double* terms) {
@@ -94,7 +95,7 @@ STIPPLE_WIDE double fill_terms(const double* values, const std::int32_t* ranks,
     return least;
 }
 
-/// What is added to a rank to get the y of the box that ends there.
+/// Offset from a rank to the y of the box that ends there.
 template <Side side>
 constexpr std::uint32_t shift = side == Side::open ? 0 : 1;
 
@@ -104,7 +105,7 @@ class CellBounder {
     using Points = Active;
     using Axes = std::vector<std::vector<double>>;
 
-    /// Keeps references to all of them.
+    /// Keeps references to all arguments.
     CellBounder(const BoxGrid& grid, const Axes& logs, WorstBox& worst, const RunContext& run)
         : grid_(grid),
           logs_(logs),
@@ -118,8 +119,9 @@ class CellBounder {
           terms_(d_),
           least_(d_) {}
 
-    /// Shrinks the cell to what may hold a box worse than the worst, offers boxes on the way, and
-    /// keeps those points of `from` that matter in it; false if nothing is left to split.
+    /// Shrinks the cell to corners of boxes that may be worse than the worst, and offers boxes on
+    /// the way. Copies the relevant points of `from` to `mine`. Returns false if nothing is left to
+    /// split.
     bool tighten(Cell& cell, const Active& from, Active& mine) {
         filter(cell, from, mine);
         while (true) {
@@ -132,8 +134,8 @@ class CellBounder {
         }
     }
 
-    /// Takes the lower half away from the cell, which was tightened last, on the axis that weighs
-    /// most in its bound.
+    /// Removes the lower half of the cell last tightened, on the axis with the largest weight in
+    /// its bound, and returns it.
     Cell split(Cell& cell) const {
         const std::size_t axis = split_axis(cell);
         const auto bins = std::span(bins_[axis]).subspan(dummy_bins);
@@ -150,12 +152,12 @@ class CellBounder {
         return lower;
     }
 
-    /// Comparisons of coordinates and ranks until now.
+    /// Comparisons of coordinates and ranks so far.
     [[nodiscard]] std::uint64_t work() const { return work_; }
 
   private:
-    /// Ranks of an axis, from lo on, where a box may be worst, and signed counts of the points
-    /// assigned to the axis up to there; room for more than `size`.
+    /// Candidates for corners on an axis: ranks from lo on, and signed counts of the assigned
+    /// points up to there. The vectors have room for more than `size`.
     struct Candidates {
         std::size_t size = 0;
         std::vector<std::int32_t> ranks;
@@ -164,13 +166,13 @@ class CellBounder {
 
     struct Anchor {
         double bound;
-        double weight;  ///< of a step in the terms
-        double margin;  ///< more than the rounding errors
+        double weight;  ///< factor of a step in the terms
+        double margin;  ///< exceeds the rounding errors
     };
 
     double value(std::size_t k, std::uint32_t y) const { return grid_.values[k][y - shift<side>]; }
 
-    /// Keeps the points of `from` that can matter in the cell. `from` and `mine` may be the same.
+    /// Copies the points of `from` that can matter in the cell; `from` and `mine` may be the same.
     void filter(const Cell& cell, const Active& from, Active& mine) {
         const std::size_t size = from.size;
         state_.assign(size, 0);
@@ -188,16 +190,15 @@ class CellBounder {
         mine.size = kept_.size();
     }
 
-    /// Notes in kept_ which points to keep, those inside first, and in state_ on how many axes those
-    /// are undecided; decides the others that are inside.
+    /// Sets kept_ to the points to keep, inside ones first, and state_ to the number of axes on
+    /// which each of these is undecided. Counts the other inside points as decided.
     void select(const Cell& cell, const Active& from, Active& mine) {
         kept_.resize(from.size);
         on_face_.resize(side == Side::open ? from.size : 0);
         std::size_t inside = 0;
         std::size_t on_face = 0;
         std::uint64_t decided = 0;
-        for (std::uint32_t i = 0; i < from.size;
-             ++i) {  // without branches: nobody could foresee them
+        for (std::uint32_t i = 0; i < from.size; ++i) {  // no branches: they would be unpredictable
             const std::int32_t over = state_[i] & (undecided_unit - 1);
             const std::int32_t undecided = state_[i] >> undecided_bits;
             if constexpr (side == Side::open) {
@@ -218,7 +219,7 @@ class CellBounder {
         mine.inside = inside;
     }
 
-    /// Whether the point, inside for sure, makes lo a candidate on some axis.
+    /// True if the point, which is inside all boxes, makes lo a candidate on some axis.
     bool ends_at_lo(const Cell& cell, const Active& from, std::size_t i) const {
         if (side == Side::open) return false;
         for (std::size_t k = 0; k < d_; ++k)
@@ -226,7 +227,7 @@ class CellBounder {
         return false;
     }
 
-    /// Sorts the active points into bins, and offers the box whose count that gives.
+    /// Sorts the active points into bins, and offers the box whose points this counts.
     void count(const Cell& cell, const Active& active) {
         inside_lo_ = active.decided;
         for (std::size_t i = 0; i < active.inside; ++i) inside_lo_ += state_[i] == 0 ? 1U : 0U;
@@ -243,8 +244,8 @@ class CellBounder {
             offer(cell.lo, inside_lo_);
     }
 
-    /// The axis to which each point is assigned, -1 for none (closed boxes; for open ones it is the
-    /// axis on which the point is undecided, if that is the only one).
+    /// Assigns each point to an axis, or to -1 for none. Only for closed boxes: for open ones, a
+    /// point's axis is the only one on which it is undecided, if it is unique.
     void assign(const Cell& cell, const Active& active) {
         const std::size_t inside = active.inside;
         axes_.assign(inside, -1);
@@ -253,15 +254,15 @@ class CellBounder {
             const double low = std::max(value(k, cell.lo[k]), tiny);
             const double steps = cell.hi[k] - cell.lo[k] + 1;
             const double price =
-                logarithm(value(k, cell.hi[k]) / low + 1e-9) / steps;  // a rough one
+                logarithm(value(k, cell.hi[k]) / low + 1e-9) / steps;  // a rough price
             assign_to(active.axis(k), inside, signed_rank(cell.lo[k]),
                       std::max(1e-30F, static_cast<float>(price)), static_cast<std::int32_t>(k),
                       cost_.data(), axes_.data());
         }
     }
 
-    /// bins_[k][dummy_bins + y - lo]: the points assigned to axis k that end a box at y, and whether
-    /// any point, assigned or not, makes y a candidate.
+    /// Fills bins_[k][dummy_bins + y - lo] with the number of points assigned to axis k that end a
+    /// box at y, and with a mark if any point, assigned or not, makes y a candidate.
     void fill_bins(const Cell& cell, const Active& active, std::size_t k) {
         auto& bins = bins_[k];
         bins.assign(dummy_bins + (cell.hi[k] - cell.lo[k] + 1), 0);
@@ -272,8 +273,8 @@ class CellBounder {
             const std::int32_t at =
                 std::max(ranks[i] - start, static_cast<std::int32_t>(i % dummy_bins));
             auto& bin = bins[static_cast<std::size_t>(at)];
-            // A point of an open box that is undecided on another axis alone is below lo: in a dummy
-            // bin.
+            // A point of an open box that is undecided only on another axis is below lo, so it
+            // falls into a dummy bin.
             const bool assigned = side == Side::open ? state_[i] == 1 : axes_[i] == axis;
             bin = (bin + (assigned ? 1U : 0U)) | candidate;
         }
@@ -283,8 +284,8 @@ class CellBounder {
             bins.back() |= candidate;
     }
 
-    /// The candidates of an axis, with c_k(y) for open boxes, which end before their point, and -c_k(y)
-    /// for closed ones.
+    /// Lists the candidates of an axis with c_k(y) for open boxes, which exclude the point at their
+    /// end, and -c_k(y) for closed ones.
     void list_candidates(std::size_t k) {
         const auto bins = std::span(bins_[k]).subspan(dummy_bins);
         auto& [found, ranks, counts] = candidates_[k];
@@ -311,9 +312,9 @@ class CellBounder {
         worst_.offer(side, corner_, points);
     }
 
-    /// The bound of a cell before the terms of its axes are taken off.
+    /// Bound of a cell before subtracting the terms of its axes.
     Anchor anchor(const Cell& cell) const {
-        double low = 0;  // logarithms of the smallest and of the largest volume
+        double low = 0;  // logarithms of the smallest and largest volumes
         double high = 0;
         for (std::size_t k = 0; k < d_; ++k) {
             low += logs_[k][cell.lo[k] - shift<side>];
@@ -325,24 +326,23 @@ class CellBounder {
             const double margin = rounding_ + most * -high * rounding_;
             return {most - share + margin, -chord(exponential(low), most), margin};
         }
-        if (low == -infinity) return {share + rounding_, 0, rounding_};  // no tangent
+        if (low == -infinity) return {share + rounding_, 0, rounding_};  // the tangent is undefined
         const double most = static_cast<double>(inside_hi_) * inverse_ - worst_.value();
         const double top = std::min(high, logarithm(std::max(most, tiny)));
-        const double at = low + 0.6 * std::max(0.0, top - low);  // found by trial
+        const double at = low + 0.6 * std::max(0.0, top - low);  // 0.6 was found by trial
         const double weight = exponential(at);
         const double margin = rounding_ + weight * -low * rounding_;
         return {share - weight * (1 + low - at) + margin, weight, margin};
     }
 
-    /// Works out the bound of the points `seen` in the cell, and takes from it the ends that the bound
-    /// excludes; false if it excludes all.
+    /// Bounds the cell `seen` and removes the ends that the bound excludes from `cell`; returns
+    /// false if it excludes all.
     bool reduce(const Cell& seen, Cell& cell) {
         const auto [before, weight, margin] = anchor(seen);
         double bound = before;
         for (std::size_t k = 0; k < d_; ++k) {
             const auto& [size, ranks, counts] = candidates_[k];
-            const auto& axis =
-                weight == 0 ? grid_.values[k] : logs_[k];  // 0 times infinity is no number
+            const auto& axis = weight == 0 ? grid_.values[k] : logs_[k];  // avoids 0 times infinity
             const double* first = axis.data() + seen.lo[k] - shift<side>;
             const double origin = side == Side::open ? first[seen.hi[k] - seen.lo[k]] : first[0];
             least_[k] = fill_terms(first, ranks.data(), counts.data(), size, origin, weight,
@@ -361,13 +361,14 @@ class CellBounder {
     double chord(double low, double high) const {
         const double floor = worst_.value() + static_cast<double>(inside_lo_) * inverse_;
         const double m = std::max({low, floor * (1 - 1e-12), tiny});
-        // The slope is the logarithmic mean; the geometric one is a little less, and safe near m =
-        // high.
+        // The slope is the logarithmic mean. The geometric mean is slightly smaller, and
+        // numerically safe near m = high.
         if (m > 0.999 * high) return std::sqrt(std::min(m, high) * high) * (1 - 1e-12);
         return (high - m) / logarithm(high / m) * (1 - 1e-12);
     }
 
-    /// Takes the ends of an axis without a candidate whose term is at most this; false if none is left.
+    /// Removes the ends of an axis up to its outermost candidates with terms of at most `most`;
+    /// returns false if there are none.
     bool cut_ends(std::size_t k, double most, const Cell& seen, Cell& cell) {
         const Candidates& candidates = candidates_[k];
         const auto rank = [&](std::size_t i) {
@@ -409,16 +410,16 @@ class CellBounder {
     const RunContext& run_;
     std::size_t d_;
     double inverse_;   ///< 1 / n
-    double rounding_;  ///< more than the rounding errors of a bound
+    double rounding_;  ///< exceeds the rounding errors of a bound
     std::uint64_t work_ = 0;
 
-    // What is known of the cell at hand.
+    // State of the current cell.
     std::uint64_t inside_lo_ = 0;                   ///< points inside for all its corners
-    std::uint64_t inside_hi_ = 0;                   ///< for its largest corner
+    std::uint64_t inside_hi_ = 0;                   ///< points inside for its largest corner
     std::vector<std::vector<std::uint32_t>> bins_;  ///< see fill_bins
-    std::vector<Candidates> candidates_;            ///< of each axis
-    Axes terms_;                                    ///< of the bound, for each candidate
-    std::vector<double> least_;                     ///< of the terms of each axis
+    std::vector<Candidates> candidates_;            ///< by axis
+    Axes terms_;                                    ///< terms of the bound, for each candidate
+    std::vector<double> least_;                     ///< smallest term of each axis
 
     // Scratch space.
     std::vector<std::int32_t> state_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Cells of upper corners and what is known of the anchored boxes that end in them: the bounds of
-// the branch and bound search.
+// Cells of upper corners, and bounds on the anchored boxes with these corners, for branch and
+// bound.
 #pragma once
 
 #include <cstddef>
@@ -12,29 +12,29 @@
 
 namespace stipple::discrepancy::star {
 
-/// All corners of one side. A cell has the corners lo <= y <= hi. On axis k, y stands for
-/// values[k][y] for open boxes and for values[k][y - 1] for closed ones, so that on both sides a
-/// point is inside if its rank is below y.
+/// Cell of all corners of one side. A cell contains the corners lo <= y <= hi. On axis k, y stands
+/// for values[k][y] for open boxes and for values[k][y - 1] for closed ones, so that on both sides
+/// a point is inside if its rank is below y.
 Cell whole_cell(const BoxGrid& grid, Side side);
 
-/// The points that can matter in a cell, axis after axis, and the number of those that are inside
-/// for sure and have been dropped.
+/// The points that can matter in a cell, axis by axis, and the number of points that are inside all
+/// its boxes and were dropped.
 struct Active {
     std::size_t size = 0;
-    std::size_t inside = 0;  ///< so many, the first, are below hi; the rest lie on a face at hi
+    std::size_t inside = 0;  ///< the first so many are below hi, the rest on a face at hi
     std::uint64_t decided = 0;
     std::vector<std::int32_t> ranks;
 
     [[nodiscard]] const std::int32_t* axis(std::size_t k) const { return ranks.data() + k * size; }
 };
 
-/// All points.
+/// All points, undecided.
 Active all_points(const BoxGrid& grid);
 
-/// The logarithms of the grid's values.
+/// Logarithms of the grid's values, by axis.
 std::vector<std::vector<double>> logarithms(const BoxGrid& grid);
 
-/// Explores a task. @param logs of the grid
+/// Explores a task. @param logs logarithms(grid)
 void explore(const BoxGrid& grid, const std::vector<std::vector<double>>& logs,
              const Active& points, Task& task, const SearchLimits& limits, const RunContext& run);
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// An upper bound of the star discrepancy from counts at the corners of a coarse grid: with lo <= c
-// <= hi the corners of the cell that c is in,
+// Upper bound of the star discrepancy from counts at the corners of a coarse grid. If lo <= c <= hi
+// are the corners of the cell that contains c,
 //
 //     vol(c) - #{x < c} / n <= vol(hi) - #{x <= lo} / n,
 //     #{x <= c} / n - vol(c) <= #{x <= hi} / n - vol(lo),
 //
-// so that the worst cell bounds the discrepancy, no more than delta = max (vol(hi) - vol(lo)) above
-// it. The grid is finer towards 1, where volumes change most:
+// So the worst cell bounds the discrepancy, and exceeds it by at most delta = max (vol(hi) -
+// vol(lo)). The grid is finer towards 1, where volumes change most:
 //
 //     1,  x_0 = (1 - delta)^(1/d),  x_(i+1) = (x_i - delta) x_0^(1 - d),  ...,  0.
 //
-// Shape   any n; about (d / (d - 1) ln(d) / delta)^d corners: worth it for few dimensions.
-// Cost    O(n d + corners d); 4 bytes a corner.
-// Promise certain: rounding is allowed for. Never depends on the number of threads.
+// Shape   any n; about (d / (d - 1) ln(d) / delta)^d corners: useful only in few dimensions.
+// Cost    O(n d + corners d); 4 bytes per corner.
+// Promise a certain bound, including rounding. Does not depend on the number of threads.
 // Source  B. Doerr, M. Gnewuch, A. Srivastav, J. Complexity 21 (2005) 691-709 (delta-covers).
 
 #include "math/discrepancy/star/search.hpp"
@@ -28,7 +28,7 @@
 namespace stipple::discrepancy::star {
 namespace {
 
-/// The grid's values on each axis, rising from 0 to 1.
+/// Values of the grid on each axis, increasing from 0 to 1.
 std::vector<double> cuts_for(double delta, double dimension) {
     std::vector<double> cuts{1};
     const double first = exponential(logarithm(1 - delta) / dimension);
@@ -39,7 +39,7 @@ std::vector<double> cuts_for(double delta, double dimension) {
     return cuts;
 }
 
-/// The finest grid that has no more corners; empty if it would have no inner ones.
+/// Finest grid with at most `most_corners` corners; empty if it would have no inner ones.
 std::vector<double> finest_cuts(std::size_t dimension, double most_corners) {
     const auto d = static_cast<double>(dimension);
     const double most = std::floor(exponential(logarithm(most_corners) / d) + 1e-9);
@@ -56,7 +56,7 @@ std::vector<double> finest_cuts(std::size_t dimension, double most_corners) {
     return cuts;
 }
 
-/// Counts of points at most the corner, for all corners; the last axis is the fastest index.
+/// Number of points with coordinates up to each corner; the last axis is the fastest index.
 std::vector<std::uint32_t> corner_counts(const BoxGrid& grid, const std::vector<double>& cuts,
                                          const RunContext& run) {
     const std::size_t side = cuts.size();
@@ -64,7 +64,7 @@ std::vector<std::uint32_t> corner_counts(const BoxGrid& grid, const std::vector<
     std::vector<std::uint32_t> corner_of(grid.count);
     for (std::size_t k = 0; k < grid.dimension(); ++k, corners *= side) {
         run.check_stop();
-        std::vector<std::uint32_t> above;  // for each value, the first cut that is not below it
+        std::vector<std::uint32_t> above;  // index of the first cut not below each value
         std::uint32_t at = 0;
         for (const double x : grid.values[k]) {
             while (cuts[at] < x) ++at;
@@ -85,17 +85,17 @@ std::vector<std::uint32_t> corner_counts(const BoxGrid& grid, const std::vector<
     return counts;
 }
 
-/// The worst cell's bound, from cells along the last axis one after the other.
+/// Bound of the worst cell, by lines of cells along the last axis.
 double worst_cell(const BoxGrid& grid, const std::vector<double>& cuts, const RunContext& run) {
     const auto counts = corner_counts(grid, cuts, run);
     const auto points = static_cast<double>(grid.count);
     const std::size_t side = cuts.size();
-    std::size_t across = 1;  // from the index of a cell's lower corner to that of the upper one
+    std::size_t across = 1;  // index difference between the upper and lower corner of a cell
     for (std::size_t k = 1; k < grid.dimension(); ++k) across = across * side + 1;
     double worst = 0;
     for (std::size_t line = 0; line * side + across < counts.size(); ++line) {
         if (line % 65536 == 0) run.check_stop();
-        double low = 1;  // volumes of the corners on the axes before the last
+        double low = 1;  // volumes of the corners on all axes but the last
         double high = 1;
         std::size_t rest = line;
         for (std::size_t k = 1; k < grid.dimension(); ++k, rest /= side) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// A cover by a grid, or that the points are a net, gives a first upper bound where there are many
-// points: cells of these take long to get small. From time to time a threshold search looks for a
-// worse box: one that the cells would give only late.
+// For many points, whose cells take long to become small, a first upper bound comes from a grid
+// cover or from the points being a net. From time to time a threshold search looks for a worse box,
+// which the cells would find only late.
 //
-// Source  the bounds are this program's own; earlier exact methods are surveyed in C. Doerr,
-//         M. Gnewuch, M. Wahlstroem, arXiv:1405.1653.
+// Source  the bounds are original; earlier exact methods are surveyed in C. Doerr, M. Gnewuch, M.
+//         Wahlstroem, arXiv:1405.1653.
 #include "math/discrepancy/star/search.hpp"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ class AnchoredBoxes final : public Problem {
     }
 
     [[nodiscard]] bool by_stages(const Known& known) const override {
-        constexpr std::uint64_t part = 64;  // of the work, for what an exact value may be had with
+        constexpr std::uint64_t part = 64;  // work / part is spent on an exact value first
         return limits_.wants_bounds() ||
                known.work > std::max(SearchLimits::short_work, limits_.work / part);
     }
@@ -44,7 +44,7 @@ class AnchoredBoxes final : public Problem {
     void look_around(Known& known, std::uint64_t work) override {
         constexpr std::uint64_t short_work = SearchLimits::short_work;
         if (known.work > short_work / 4) look_quickly(known.worst, known.upper);
-        constexpr std::uint64_t searches_apart = 16;  // in units of what they cost
+        constexpr std::uint64_t searches_apart = 16;  // in multiples of their cost
         if (known.work > short_work && searches_apart * threshold_work_ < known.work) {
             const std::uint64_t cost =
                 accept_thresholds(grid_, rounds_, known.worst, limits_, run_);
@@ -55,7 +55,7 @@ class AnchoredBoxes final : public Problem {
         if (!covered_ && (limits_.wants_bounds() || known.work > short_work)) cover(known, work);
     }
 
-    /// The bounds that cost next to nothing, once.
+    /// Computes the cheapest bounds, once.
     void look_quickly(WorstBox& worst, double& upper) {
         if (std::exchange(looked_, true)) return;
         offer_axis_boxes(grid_, worst);
@@ -63,7 +63,7 @@ class AnchoredBoxes final : public Problem {
     }
 
   private:
-    /// An upper bound for about an eighth of the work or time that is left.
+    /// Computes an upper bound with about an eighth of the remaining work or time.
     void cover(Known& known, std::uint64_t work) {
         covered_ = true;
         constexpr double corners_a_second = 1e8;
@@ -86,7 +86,7 @@ class AnchoredBoxes final : public Problem {
     const Active points_;
     const SearchLimits& limits_;
     const RunContext& run_;
-    std::uint64_t rounds_ = 0;  ///< of accepting thresholds
+    std::uint64_t rounds_ = 0;  ///< of threshold accepting
     std::uint64_t threshold_work_ = 0;
     bool looked_ = false;
     bool covered_ = false;
@@ -123,7 +123,7 @@ SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const R
 }
 
 double search_bytes(std::size_t count, std::size_t dimension, unsigned threads) {
-    // On the way down to a cell, about as many points again as it has stay behind.
+    // The path to a cell holds about as many points again as the cell.
     constexpr double copies = 3;
     return (1 + copies * threads) * static_cast<double>(count) * static_cast<double>(dimension) *
            sizeof(std::int32_t);

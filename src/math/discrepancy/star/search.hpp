@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The worst anchored box in any dimension, by branch and bound; stopped early, bounds that are
-// certain.
+// The worst anchored box in any dimension, by branch and bound, or certain bounds if stopped early.
 #pragma once
 
 #include <cstdint>
@@ -13,64 +12,64 @@
 
 namespace stipple::discrepancy::star {
 
-/// Looks for boxes worse than `worst`; the worse that is, the less is left to look at.
+/// Searches for boxes worse than `worst`; a worse start leaves less to search.
 SearchResult search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits,
                     const RunContext& run, Peers* peers = nullptr);
 
-/// The same, by a sweep in one and two dimensions, where nothing need be known.
+/// Searches like search(), but by a sweep without a start in one and two dimensions.
 SearchResult sweep_or_search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits,
                              const RunContext& run);
 
-/// The same from nothing: coordinate ascents first, which are a part of the work.
+/// Searches without a known box: runs coordinate ascents first, as part of the work.
 SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
                         Peers* peers = nullptr);
 
-/// No box has a larger discrepancy; found in milliseconds, or some more of many points. Also for
+/// Upper bound on all discrepancies that takes milliseconds, more for many points. Also covers
 /// boxes whose discrepancy is at most `of_axis` times that of anchored ones on each axis, and
-/// `of_all` times on all together. Goes on when a stop is requested.
+/// `of_all` times in all dimensions. Ignores stop requests.
 double quick_bound(const BoxGrid& grid, const RunContext& run, double of_axis = 1,
                    double of_all = 1);
 
-/// Bytes that the search takes, with these points, beside the grid.
+/// Bytes of the search for these points, without the grid.
 double search_bytes(std::size_t count, std::size_t dimension, unsigned threads);
 
-// Bounds for all anchored boxes at once, found sooner than cells of a search get small.
+// Bounds for all anchored boxes at once, available before the cells of a search become small.
 
-/// Offers the worst one-axis boxes of each axis and side: worse than 1/(2n), always.
+/// Offers the worst one-axis boxes of each axis and side; their value is always above 1/(2n).
 void offer_axis_boxes(const BoxGrid& grid, WorstBox& worst);
 
-/// The same with open and closed boxes apart, of which one kind may have none.
+/// Offers the worst one-axis boxes, separately for open and closed ones; one kind may have no bad
+/// boxes.
 void offer_axis_boxes(const BoxGrid& grid, WorstBox& open, WorstBox& closed);
 
-/// The upper bound, where the discrepancy on an axis is at most `times` that of anchored boxes.
-/// Below 1 for any dimension where points are many enough, but never small.
+/// Upper bound from single axes, if discrepancies on an axis are at most `times` those of anchored
+/// boxes. Below 1 in any dimension for enough points, but never small.
 double axis_bound(const BoxGrid& grid, double times);
 
-/// The upper bound from the finest grid of up to `most_corners`; 1 where that is too few to tell
-/// anything.
+/// Upper bound from the finest grid with up to `most_corners` corners; 1 if these are too few.
 double cover_bound(const BoxGrid& grid, std::uint64_t most_corners, const RunContext& run);
 
-/// The upper bound from the net in base 2 that the points are, if it is below `most` and found with
-/// no more than so many comparisons; else 1.
+/// Upper bound from the base-2 net that the points form; 1 if it is not below `most`, or needs more
+/// than `work` comparisons.
 double net_bound(const BoxGrid& grid, double most, std::uint64_t work, const RunContext& run);
 
-// The worst box in one and two dimensions, by a sweep over the coordinates.
+// The worst box in one and two dimensions, by sweeps over the coordinates.
 
 /// O(n) after sorting.
 SearchResult sweep_1d(const BoxGrid& grid, const RunContext& run);
 
-/// O(n^(4/3)) time in practice, O(n) memory; see strips.hpp. Ends early at the deadline, or when a
-/// stop is requested, with what it has.
+/// O(n^(4/3)) time in practice, O(n) memory; see strips.hpp. A deadline or stop ends it early with
+/// the result so far.
 SearchResult sweep_2d(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run);
 
-/// The worst box of each side: too few points in an open one, too many in a closed one. Where no
-/// box of a side is so, its value is 0.
+/// Worst box of each side: an open one with too few points, a closed one with too many. The value
+/// is 0 if there is no such box.
 struct WorstOfSides {
     WorstBox open;
     WorstBox closed;
 };
 
-/// By the same sweep. @throws Error(cancelled) when a stop is requested
+/// Finds both by the sweep. @throws Error(cancelled) when a stop is requested
 WorstOfSides worst_of_sides_2d(const BoxGrid& grid, const RunContext& run);
 
 }  // namespace stipple::discrepancy::star

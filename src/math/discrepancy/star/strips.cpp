@@ -16,7 +16,7 @@ namespace {
 using Floats = float __attribute__((vector_size(32)));
 using Doubles = double __attribute__((vector_size(32)));
 
-/// A vector of numbers that lie anywhere, and back.
+/// Loads a vector from unaligned numbers, and stores it.
 template <class Vector, class T>
 [[gnu::always_inline]] inline Vector load(const T* from) {
     Vector vector;
@@ -28,29 +28,29 @@ template <class T, class Vector>
     std::memcpy(to, &vector, sizeof vector);
 }
 
-/// Lines of a strip are kept in single precision, w z - c with |w| <= 2 B, c <= B and 0 <= z <= 1,
-/// in rows of whole vectors.
+/// Lines of a strip are w z - c with |w| <= 2 B, c <= B and 0 <= z <= 1. They are kept in single
+/// precision, in rows padded to whole vectors.
 constexpr std::size_t lanes = sizeof(Floats) / sizeof(float);
 
 std::size_t padded(std::size_t size) { return (size + lanes - 1) / lanes * lanes; }
 
-/// More than rounding takes from a chord, in points.
+/// Exceeds the rounding error of a chord, in points.
 constexpr double margin = 0x1p-8;
 
-/// No line: far below all, and so it stays when points are added.
+/// Padding: a line far below all others, even after points are added.
 constexpr float no_line = 1e30F;
 
-/// Points in a group over n^(1/3), by trial.
+/// Points in a group, divided by n^(1/3); found by trial.
 constexpr double group_factor = 1;
 
-constexpr std::size_t checks_apart = 1 << 16;  // points between two looks at the stop token
+constexpr std::size_t checks_apart = 1 << 16;  // points between checks of the stop token
 
 struct Heights {
     double low;
     double high;
 };
 
-/// The highest of the lines w z - c at two z.
+/// Heights of the highest of the lines w z - c, at two z.
 STIPPLE_WIDE Heights highest(const float* w, const float* c, std::size_t size, float z_low,
                              float z_high) {
     Floats low = Floats{} - no_line;
@@ -71,7 +71,7 @@ STIPPLE_WIDE Heights highest(const float* w, const float* c, std::size_t size, f
     return top;
 }
 
-/// The highest of p y + x slope + height, whose heights then change by `add`.
+/// Returns the maximum of p y + x slope + height, and then adds `add` to all heights.
 STIPPLE_WIDE double pass(double* height, const double* y, const double* slope, std::size_t size,
                          double p, double x, double add) {
     constexpr std::size_t wide = sizeof(Doubles) / sizeof(double);
@@ -91,40 +91,40 @@ STIPPLE_WIDE double pass(double* height, const double* y, const double* slope, s
     return top;
 }
 
-/// Adds to whole vectors.
+/// Adds to a range of whole vectors.
 STIPPLE_WIDE void add_to_vectors(float* c, std::size_t size, float by) {
     for (std::size_t i = 0; i < size; i += lanes) store(c + i, load<Floats>(c + i) + by);
 }
 
-/// Adds to c[from] and all behind it; `size` is one of whole vectors.
+/// Adds to c[from] and all numbers after it; `size` is a multiple of the vector length.
 void add_from(float* c, std::size_t from, std::size_t size, float by) {
     const std::size_t whole = padded(from);
     for (std::size_t i = from; i < whole; ++i) c[i] += by;
     add_to_vectors(c + whole, size - whole, by);
 }
 
-/// Adds to all before c[to].
+/// Adds to all numbers before c[to].
 void add_before(float* c, std::size_t to, float by) {
     const std::size_t whole = to / lanes * lanes;
     add_to_vectors(c, whole, by);
     for (std::size_t i = whole; i < to; ++i) c[i] += by;
 }
 
-/// A line at least as high as all the lines between two z at whose ends it is known.
+/// An upper bound on all lines between two z, from the maxima at both.
 struct Chord {
     double height;  ///< at z = 0
     double slope;
 };
 
 Chord chord(const Heights& ends, double z_low, double z_high) {
-    constexpr double near = 1e-6;  // so that a slope does not amplify what is rounded
+    constexpr double near = 1e-6;  // avoids that a slope amplifies rounding errors
     const auto [low, high] = ends;
     if (z_high - z_low < near) return {std::max(low, high) + margin, 0};
     const double slope = (high - low) / (z_high - z_low);
     return {low - slope * z_low + margin, slope};
 }
 
-/// One side's sweep.
+/// Sweep over the boxes of one side.
 template <Side side>
 class Sweep {
   public:
@@ -179,7 +179,7 @@ class Sweep {
         return xs_[plane_.strips.first[strip]];
     }
 
-    /// The lines of a block, without points.
+    /// Sets up the lines of a block without points.
     void fill_block(std::size_t u) {
         const std::size_t first = plane_.blocks.first[u];
         const std::size_t size = size_of(plane_.blocks, u);
@@ -191,7 +191,7 @@ class Sweep {
         }
     }
 
-    /// Takes in all points to the left of a strip.
+    /// Adds all points to the left of a strip.
     void start(std::size_t strip, const RunContext& run) {
         std::vector<std::uint64_t> points_in(y_.size());
         std::vector<std::uint32_t> until = plane_.first;
@@ -215,7 +215,7 @@ class Sweep {
         for (std::size_t u = 0; u < y_.size(); ++u) bound_block(u, strip, until[u]);
     }
 
-    /// From points at ranks to points before (open), behind (closed) each rank.
+    /// Converts numbers of points at ranks to numbers before (open) or after (closed) each rank.
     void sum_block(std::size_t u) {
         const auto line = std::span(points_).subspan(row_[u], size_of(plane_.blocks, u));
         float sum = 0;
@@ -230,9 +230,9 @@ class Sweep {
                        static_cast<float>(low), static_cast<float>(high));
     }
 
-    /// The chord of a block from one strip to another; no point of the block lies in between.
+    /// Computes the chord of a block between two strips; no point of the block may lie in between.
     void bound_block(std::size_t u, std::size_t from, std::size_t to) {
-        constexpr double parts = 4096;  // heights stay exact multiples of 1 / parts
+        constexpr double parts = 4096;  // keeps heights exact multiples of 1 / parts
         const double low = strip_x(from);
         const double high = strip_x(to);
         const Heights ends = block_heights(u, low, high);
@@ -242,7 +242,7 @@ class Sweep {
         height_[u] += raised - std::exchange(raised_[u], raised);
     }
 
-    /// The lines of a strip, and its points in order of their blocks.
+    /// Sets up the lines of a strip, and its points in order of their blocks.
     void open_strip(std::size_t strip) {
         strip_ = strip;
         first_ = plane_.strips.first[strip];
@@ -272,16 +272,16 @@ class Sweep {
                      side == Side::open ? 1.0F : -1.0F);
     }
 
-    /// Asks for the lines of a block, which are seldom in a cache, some time before they are used.
+    /// Prefetches the lines of a block, which are rarely cached, some time before they are used.
     void fetch(std::size_t u) const {
-        constexpr std::size_t together = 64 / sizeof(float);  // in a line of the cache
+        constexpr std::size_t together = 64 / sizeof(float);  // numbers per cache line
         for (std::size_t k = row_[u]; k < row_[u + 1]; k += together) {
             __builtin_prefetch(&points_[k], 1);
             __builtin_prefetch(&weight_[k]);
         }
     }
 
-    /// The strip's points enter their blocks.
+    /// Adds the strip's points to their blocks.
     void enter_blocks(std::size_t strip) {
         for (std::size_t i = 0; i < entering_.size(); ++i) {
             constexpr std::size_t ahead = 3;
@@ -300,7 +300,8 @@ class Sweep {
 
     [[nodiscard]] double level() const { return plane_.count * worst_.threshold(); }
 
-    /// Points of the strip in the box up to its last rank; those at one rank share this.
+    /// Number of the strip's points in the box up to its last rank; all points if they share one
+    /// rank.
     [[nodiscard]] double all_entered() const {
         return side == Side::open ? 0 : static_cast<double>(entered_);
     }
@@ -329,7 +330,7 @@ class Sweep {
                 look_at(u, height_[u] - add - raised_[u]);
     }
 
-    /// Offers the boxes of a strip and block, given the signed number of points in their corner.
+    /// Offers the boxes of a strip and a block, given the signed number of points in their corner.
     void look_at(std::size_t u, double signed_points) {
         const auto y = static_cast<float>(y_[u]);
         const double best_a = strip_heights(y, y).low;
@@ -352,8 +353,8 @@ class Sweep {
                 if (height_a + height_j >= least) offer(u, a, j, corner_points, {first, last});
     }
 
-    /// The lines of at least some height at z, the highest first: once its box was offered, those
-    /// of others seldom need to be compared exactly.
+    /// Finds the lines of at least some height at z, the highest first: after its box is offered,
+    /// others rarely need an exact comparison.
     static void gather(const float* w, const float* c, std::size_t size, float z, double least,
                        std::vector<Line>& lines) {
         lines.clear();
@@ -388,25 +389,25 @@ class Sweep {
     const std::vector<double>& ys_;
     WorstBox& worst_;
 
-    // Of every block.
-    std::vector<double> y_;         ///< where it is anchored
-    std::vector<double> slope_;     ///< of its chord, in x
-    std::vector<double> height_;    ///< of its chord, with the points in its corner
-    std::vector<double> raised_;    ///< of its chord alone
-    std::vector<std::size_t> row_;  ///< where its lines are
-    std::vector<float> weight_;     ///< of every line
-    std::vector<float> points_;     ///< of every line
+    // By block.
+    std::vector<double> y_;         ///< its reference coordinate
+    std::vector<double> slope_;     ///< slope of its chord, in x
+    std::vector<double> height_;    ///< of its chord, including the points in its corner
+    std::vector<double> raised_;    ///< of its chord, without these points
+    std::vector<std::size_t> row_;  ///< index of its first line
+    std::vector<float> weight_;     ///< w, by line
+    std::vector<float> points_;     ///< c, by line
 
-    // Of the strip at hand.
+    // State of the current strip.
     std::size_t strip_ = 0;
-    std::uint32_t first_ = 0;  ///< its first rank
+    std::uint32_t first_ = 0;  ///< first rank of the strip
     double x_ = 0;
-    double corner_ = 0;  ///< most that the last line of the formula gives
+    double corner_ = 0;  ///< maximum of the last line of the formula
     std::vector<float> strip_weight_;
     std::vector<float> strip_points_;
     std::vector<Entering> entering_;
-    std::size_t entered_ = 0;     ///< so many of them
-    std::vector<Line> of_strip_;  ///< to look at
+    std::size_t entered_ = 0;     ///< number of those added
+    std::vector<Line> of_strip_;  ///< lines whose boxes to offer
     std::vector<Line> of_block_;
 };
 
@@ -425,7 +426,7 @@ Groups groups_of(const std::vector<double>& values, const std::vector<std::uint3
     return groups;
 }
 
-/// Sorts the points by their first rank.
+/// Sorts the dots by their first rank.
 void sort_dots(const BoxGrid& grid, std::vector<std::uint32_t> points, Plane& plane,
                const RunContext& run) {
     std::uint32_t before = 0;
@@ -439,7 +440,7 @@ void sort_dots(const BoxGrid& grid, std::vector<std::uint32_t> points, Plane& pl
     constexpr std::size_t ahead = 16;
     for (std::size_t i = 0; i < grid.count; ++i) {
         if (i % checks_apart == 0) run.check_stop();
-        if (i + 2 * ahead < grid.count) {  // what they lead to is seldom in a cache
+        if (i + 2 * ahead < grid.count) {  // their targets are rarely cached
             __builtin_prefetch(&points[grid.ranks[0][i + 2 * ahead]], 1);
             __builtin_prefetch(&block_of[grid.ranks[1][i + ahead]]);
             __builtin_prefetch(&plane.dots[points[grid.ranks[0][i + ahead]]], 1);
@@ -448,7 +449,7 @@ void sort_dots(const BoxGrid& grid, std::vector<std::uint32_t> points, Plane& pl
         const std::uint32_t second = grid.ranks[1][i];
         plane.dots[points[first]++] = {first, second, block_of[second]};
     }
-    // Each entry of `points` is now where the dots of the next rank begin.
+    // Now points[r] is the index of the first dot of rank r + 1.
     plane.dots_from.push_back(0);
     for (std::size_t s = 1; s < plane.strips.first.size(); ++s)
         plane.dots_from.push_back(points[plane.strips.first[s] - 1]);

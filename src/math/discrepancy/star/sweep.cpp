@@ -11,7 +11,7 @@
 namespace stipple::discrepancy::star {
 namespace {
 
-constexpr std::size_t ticks_apart = 256;  // points between two looks at the stop token
+constexpr std::size_t ticks_apart = 256;  // points between checks of the stop token
 
 }  // namespace
 
@@ -32,10 +32,10 @@ SearchResult sweep_1d(const BoxGrid& grid, const RunContext& run) {
 
 namespace {
 
-/// Thrown where a sweep is out of time.
+/// Thrown if a sweep is out of time or stopped.
 struct Halt {};
 
-/// All strips, in a few parts; worst[i] is what part i finds.
+/// Sweeps all strips in a few parts; part i offers to worst[i].
 void sweep_parts(const Plane& points, std::vector<WorstBox>& worst, const SearchLimits& limits,
                  const RunContext& run) {
     const std::size_t n = points.grid->count;
@@ -68,7 +68,7 @@ void need_memory_of_sweep(const BoxGrid& grid, const RunContext& run) {
     run.need_memory(each * static_cast<double>(grid.count), "the sweep over the square");
 }
 
-/// Each part takes in what lies left of it first, and has a worst box to find of its own.
+/// Number of parts. Each first adds all points to its left, and starts with a worst box of its own.
 std::size_t parts_of_sweep(const BoxGrid& grid) { return grid.count < 100'000 ? 1 : 2; }
 
 }  // namespace
@@ -103,7 +103,7 @@ WorstOfSides worst_of_sides_2d(const BoxGrid& grid, const RunContext& run) {
     }
     try {
         sweep_parts(plane(grid, run), worst, {}, run);
-    } catch (const Halt&) {  // there is no deadline: a stop was requested
+    } catch (const Halt&) {  // there is no deadline, so a stop was requested
         run.check_stop();
     }
     for (std::size_t i = 0; i < worst.size(); ++i)
