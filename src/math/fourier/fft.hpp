@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Fast Fourier transforms, by the library that STIPPLE_FFT names in CMake: FFTW (fft_fftw.cpp), or
-// pocketfft (fft_pocketfft.cpp), which is under a licence that leaves the program under its own.
-// All of them sum x_j exp(-2 pi i j k / n), backwards exp(2 pi i j k / n), and none divides by n.
+// Fast Fourier transforms, by the library that STIPPLE_FFT selects in CMake: FFTW (fft_fftw.cpp),
+// or pocketfft (fft_pocketfft.cpp), whose licence does not change that of the program. Forward
+// transforms sum x_j exp(-2 pi i j k / n), backward ones x_j exp(2 pi i j k / n); neither divides
+// by n.
 //
-// Promise the same bits for any number of threads, and with `estimated` plans in any run on the
-//         same machine; the two libraries round differently.
+// Promise the same bits for any number of threads, and with `estimated` plans in every run on the
+//         same machine. The two libraries round differently.
 #pragma once
 
 #include <cstddef>
@@ -16,21 +17,22 @@
 
 namespace stipple {
 
-/// How FFTW looks for its way: it guesses, or tries several, which takes up to seconds and may
-/// change last bits from run to run.
+/// FFTW's choice of algorithm: estimated, or measured by trying several. Measuring takes up to
+/// seconds and may change last bits from run to run.
 enum class Planning { estimated, measured };
 
-/// A transform of lines of one length, in place, that any number of threads may execute.
+/// In-place transform of lines of one length. Threads may execute it concurrently.
 class LineTransform {
   public:
-    /// Real numbers become the n / 2 + 1 complex ones of the frequencies from 0 on.
+    /// real: n real numbers become n / 2 + 1 complex ones, for frequencies from 0 on.
     enum class Kind { real, complex };
 
     LineTransform(Kind kind, std::size_t length, Planning planning);
     ~LineTransform();
 
-    /// @param lines aligned as GridCells are
-    /// @param spacing doubles from one line to the next, a multiple of 8
+    /// @param lines aligned like GridCells
+    /// @param spacing doubles from one line to the next, a
+    /// multiple of 8
     void execute(double* lines, std::size_t spacing, std::size_t count) const;
 
   private:
@@ -38,12 +40,13 @@ class LineTransform {
     std::unique_ptr<Plan> plan_;
 };
 
-/// A real function on a product of cyclic groups, and its spectrum, of which the last group has
-/// n / 2 + 1 frequencies.
+/// Transform of a real function on a product of cyclic groups. In the spectrum the last group of
+/// order n has n / 2 + 1 frequencies.
 class GroupTransform {
   public:
-    /// @param shape orders of the groups, of which the last varies fastest
-    /// @param values, spectrum are used, and changed, by all that follows
+    /// @param shape orders of the groups, the last one varying fastest
+    /// @param values, spectrum
+    /// arrays that all transforms read and overwrite
     GroupTransform(const std::vector<int>& shape, double* values, double* spectrum);
     ~GroupTransform();
 
@@ -57,17 +60,17 @@ class GroupTransform {
     std::unique_ptr<Plan> plan_;
 };
 
-/// The library and its version.
+/// Name and version of the library.
 std::string fft_library();
 
-/// The licence that it leaves a program, as the end of a sentence about stipple's.
+/// Licence of a program with this library, as the end of a sentence about stipple's licence.
 std::string_view fft_licence();
 
-/// Takes what FFTW learnt about this machine from a file; where there is none, nothing.
+/// Loads FFTW's measurements of this machine from a file; does nothing if the file does not exist.
 /// @throws Error(io), Error(input), or Error(usage) in a program without FFTW
 void read_wisdom(const std::string& path);
 
-/// What FFTW knows by now, as such a file holds it.
+/// FFTW's current measurements, in the format of that file.
 std::string wisdom_text();
 
 }  // namespace stipple

@@ -16,7 +16,7 @@ namespace {
 
 fftw_complex* as_fftw(double* p) { return reinterpret_cast<fftw_complex*>(p); }
 
-/// The planner takes one thread at a time.
+/// Lock for FFTW's planner, which is not thread-safe.
 std::mutex& planner() {
     static std::mutex mutex;
     return mutex;
@@ -29,10 +29,10 @@ struct DestroyPlan {
     }
 };
 
-/// A plan with its owner.
+/// Owns an FFTW plan.
 class OwnedPlan {
   public:
-    /// @param make is called with the planner locked
+    /// @param make creates the plan; called with the planner locked
     template <class Make>
     explicit OwnedPlan(const Make& make) {
         const std::lock_guard lock(planner());

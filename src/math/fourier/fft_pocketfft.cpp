@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-//
-// Several lines at a time stand in the lanes of vectors. Source M. Reinecke, P. Bell, pocketfft
-// (https://github.com/mreineck/pocketfft, branch cpp), which keeps its plans itself.
+// Transforms several lines at a time, in the lanes of vectors. Source M. Reinecke, P. Bell,
+// pocketfft (https://github.com/mreineck/pocketfft, branch cpp), which caches its plans itself.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,7 +20,7 @@
 namespace stipple {
 namespace {
 
-/// Bytes from one number to the next along each axis.
+/// Bytes between consecutive numbers along each axis.
 std::vector<std::ptrdiff_t> steps(const std::vector<std::size_t>& shape, std::size_t size) {
     std::vector<std::ptrdiff_t> steps(shape.size());
     for (std::size_t k = shape.size(); k-- > 0; size *= shape[k])
@@ -29,7 +28,7 @@ std::vector<std::ptrdiff_t> steps(const std::vector<std::size_t>& shape, std::si
     return steps;
 }
 
-/// Where the numbers of a real function on a product of groups, and of its spectrum, stand.
+/// Memory layout of a real function on a product of groups, and of its spectrum.
 struct Layout {
     explicit Layout(const std::vector<int>& orders)
         : shape(orders.begin(), orders.end()), axes(shape.size()) {
@@ -46,8 +45,8 @@ struct Layout {
     std::vector<std::ptrdiff_t> spectrum_steps;
 };
 
-#define POCKETFFT_NO_MULTITHREADING  // threads share lines among them before
-#define POCKETFFT_CACHE_SIZE 4       // a search in a product of groups takes turns between some
+#define POCKETFFT_NO_MULTITHREADING  // lines are already divided among threads
+#define POCKETFFT_CACHE_SIZE 4       // a search in a product of groups alternates between a few
 #define STIPPLE_KERNELS "math/fourier/pocketfft_lanes.hpp"
 #include "core/machine/vector_widths.hpp"
 

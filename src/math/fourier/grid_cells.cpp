@@ -10,7 +10,7 @@ namespace stipple {
 
 GridCells::GridCells(std::size_t count) {
     constexpr std::size_t line = 64;
-    // Of much memory the system's pages are known to be 0, and stay untouched.
+    // For large sizes calloc returns fresh pages, known to be 0, without touching them.
     room_.reset(std::calloc(count + line / sizeof(double), sizeof(double)));
     if (!room_) throw std::bad_alloc();
     ask_for_large_pages(room_.get(), count * sizeof(double));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Numbers of a grid, all 0 at first, that stand where transforms and vectors like them: at the
-// beginning of a cache line, and in large pages if they are many.
+// Numbers of a grid, initially 0, aligned for transforms and vectors: to a cache line, and in large
+// pages if they are many.
 #pragma once
 
 #include <cstddef>

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t block = std::uint64_t{1} << 18;  // cells
 
-// Adding 1.5 x 2^52 units rounds to a multiple of the unit, which then stands in the last bits.
+// Adding 1.5 x 2^52 units rounds to a multiple of the unit, which is then in the last bits.
 constexpr double coarse_unit = 0x1p-21;
 constexpr double fine_unit = 0x1p-64;
 constexpr double coarse_magic = 0x1.8p52 * coarse_unit;
@@ -36,8 +36,8 @@ double signed_of(std::uint64_t bits) {
     return static_cast<double>(static_cast<std::int64_t>(bits));
 }
 
-/// The least multiple of 4 with size <= 2^exponent; of a sum of such grids one loses 2^-61 of its
-/// size at most.
+/// Smallest multiple of 4 with size <= 2^exponent. A sum of such grids loses at most 2^-61 of its
+/// size.
 int exponent_of(double size) {
     if (!(size > 0)) return 0;
     constexpr int farthest = 1000;

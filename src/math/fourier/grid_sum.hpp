@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Sums of grids of numbers of any size. A grid is added up with others of about its own size, each
-// cell over a power of two as whole multiples of 2^-21 and, for what these leave, of 2^-64. Rounded
-// once when they are added (by at most 2^-65 of that power), grids can be added in any order and in
-// any parts: whole numbers forget where they came from. The sums for each size are added in a fixed
-// order. So it is rounding relative to each grid that is lost, not more.
+// Sums of grids of numbers of any size, independent of the order of additions. Grids of similar
+// size are added together. Each cell is divided by a power of two and split into integer multiples
+// of 2^-21 and, for the remainder, of 2^-64. This rounds a grid once, by at most 2^-65 of that
+// power. Sums of the integers are exact, so grids can be added in any order and in any parts. The
+// sums for different sizes are added in a fixed order. So the errors are relative to each grid.
 //
-// Shape   16 bytes a cell and size; numbers below 2^29 sizes, and sums below 2^42 of up to 2^20
+// Shape   16 bytes per cell and size; numbers below 2^29 sizes, and sums below 2^42 of up to 2^20
 //         grids.
 #pragma once
 
@@ -24,8 +24,8 @@ class ScaledGridSum {
   public:
     [[nodiscard]] bool empty() const { return sums_.empty(); }
 
-    /// Grids of one number of cells.
-    /// @param size that decides what the grid is added to.
+    /// Adds a grid; all must have the same number of cells.
+    /// @param size magnitude of the cells, which selects the sum to add to
     void add(std::span<const double> cells, double size, const RunContext& run);
 
     void copy_to(std::span<double> cells, const RunContext& run) const;
@@ -34,12 +34,12 @@ class ScaledGridSum {
     void merge(Unpacker& from);
 
   private:
-    /// Modulo 2^64, both.
+    /// Both modulo 2^64.
     struct Cells {
         std::vector<std::uint64_t> coarse;
         std::vector<std::uint64_t> fine;
     };
-    std::map<int, Cells> sums_;  ///< of grids over 2^key
+    std::map<int, Cells> sums_;  ///< sums of grids divided by 2^key
 };
 
 }  // namespace stipple

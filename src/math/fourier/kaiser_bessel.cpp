@@ -14,12 +14,12 @@ namespace {
 constexpr std::size_t max_nodes = WeightTable::degree_of(KaiserBessel::max_width) + 1;
 using Square = std::array<std::array<double, max_nodes>, max_nodes>;
 
-/// The i-th of so many Chebyshev nodes.
+/// The i-th of `count` Chebyshev nodes.
 double node(std::size_t i, std::size_t count) {
     return std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(count));
 }
 
-/// [n][k]: the coefficient of t^k of T_n.
+/// c[n][k] is the coefficient of t^k in T_n.
 Square chebyshev_polynomials(std::size_t count) {
     Square c{};
     c[0][0] = 1;
@@ -30,7 +30,8 @@ Square chebyshev_polynomials(std::size_t count) {
     return c;
 }
 
-/// [n][i]: what a value at the i-th Chebyshev node adds to the coefficient of T_n.
+/// shares[n][i] is the contribution of a value at the i-th Chebyshev node to the coefficient of
+/// T_n.
 Square interpolation(std::size_t count) {
     Square shares{};
     for (std::size_t n = 0; n < count; ++n)
@@ -46,7 +47,7 @@ double bessel(double x) { return boost::math::cyl_bessel_i(0, x); }
 
 KaiserBessel::KaiserBessel(std::size_t width, double band) : width_(width), band_(band) {
     assert(width >= min_width && width <= max_width && band > 0 && band < 0.5);
-    // The window's transform ends a little before the nearest alias of the band.
+    // Ends the window's transform slightly below the nearest alias of the band.
     beta_ = 0.98 * std::numbers::pi * static_cast<double>(width) * (1 - band);
     scale_ = 1 / bessel(beta_);
     error_ = largest_error();
@@ -75,8 +76,8 @@ std::array<double, KaiserBessel::max_width> KaiserBessel::weights(double u) cons
 }
 
 double KaiserBessel::largest_error() const {
-    constexpr std::size_t places = 8;       // between two grid points; the error is smooth there
-    const auto place = [](std::size_t p) {  // symmetric about 1/2
+    constexpr std::size_t places = 8;       // between grid points; the error varies smoothly
+    const auto place = [](std::size_t p) {  // up to 1/2, by symmetry
         return static_cast<double>(p) / (2 * (places - 1));
     };
     std::array<std::array<double, max_width>, places> weights{};
@@ -112,9 +113,9 @@ KaiserBessel window_for(double tolerance, double band) {
 }
 
 WeightTable::WeightTable(const KaiserBessel& window) : width_(window.width()), pieces_(2) {
-    // The error of polynomials through the Chebyshev nodes of a piece for waves of the band, to
-    // which that of the weights comes in the end.
-    constexpr std::size_t most_pieces = 64;  // there is no gain beyond: values are rounded, too
+    // Error of polynomials through the Chebyshev nodes of a piece for waves of the band; the error
+    // of the weights approaches it.
+    constexpr std::size_t most_pieces = 64;  // more give no gain, because values are rounded
     const double allowed = std::max(0.05 * window.error(), 1e-15);
     const auto terms = static_cast<double>(degree() + 1);
     const auto error = [&] {
@@ -127,7 +128,7 @@ WeightTable::WeightTable(const KaiserBessel& window) : width_(window.width()), p
     const Square shares = interpolation(nodes);
     const Square chebyshev = chebyshev_polynomials(nodes);
     for (std::size_t piece = 0; piece < pieces_; ++piece) {
-        std::array<std::array<double, KaiserBessel::max_width>, max_nodes> sums{};  // of T_n
+        std::array<std::array<double, KaiserBessel::max_width>, max_nodes> sums{};  // for each T_n
         for (std::size_t i = 0; i < nodes; ++i) {
             const double place = static_cast<double>(piece) + (node(i, nodes) + 1) / 2;
             const auto weights = window.weights(place / static_cast<double>(pieces_));

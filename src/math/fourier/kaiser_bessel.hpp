@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
-// The Kaiser-Bessel window, by which a point is spread over the w grid points around it,
+// The Kaiser-Bessel window, which spreads a point over the w grid points around it,
 //
 //     phi(a) = I0(beta sqrt(1 - (2 a / w)^2)) / I0(beta),    |a| <= w / 2,
 //
-// and its transform, by which the grid's is divided to become that of the points:
+// and its transform, by which the transform of the grid is divided to give that of the points:
 //
 //     s(xi) = w sinh(r) / (r I0(beta)),    r^2 = beta^2 - (pi w xi)^2.
 //
-// With xi in cycles a cell it holds in the band |xi| <= band of frequencies that are wanted, but for
-// the error of the window's aliases.
+// This holds for xi in cycles per cell in the requested band |xi| <= band, except for the error
+// from the window's aliases.
 //
-// The window is taken from polynomials of a point's place u between two grid points, so that
-// spreading a point takes no Bessel functions.
+// The window is tabulated as polynomials in a point's position u between two grid points, so that
+// spreading needs no Bessel functions.
 //
 // Source  J. F. Kaiser, R. W. Schafer, IEEE Trans. Acoust. Speech Signal Process. 28 (1980)
 //         105-107, doi:10.1109/TASSP.1980.1163349; J. A. Fessler, B. P. Sutton, IEEE Trans. Signal
-//         Process. 51 (2003) 560-574, doi:10.1109/TSP.2002.807005 (its error beside that of the best weights).
+//         Process. 51 (2003) 560-574, doi:10.1109/TSP.2002.807005 (its error compared with that of
+//         the best weights).
 #pragma once
 
 #include <array>
@@ -31,30 +32,31 @@ class KaiserBessel {
     static constexpr std::size_t max_width = 16;
 
     /// @param width in [min_width, max_width], in grid cells.
-    /// @param band highest frequency that is wanted, in cycles a cell; in (0, 1/2).
+    /// @param band highest requested
+    /// frequency in cycles per cell, in (0, 1/2).
     KaiserBessel(std::size_t width, double band);
 
     [[nodiscard]] std::size_t width() const { return width_; }
     [[nodiscard]] double band() const { return band_; }
 
-    /// s(xi), xi in [0, band].
+    /// The window's transform s(xi), for xi in [0, band].
     [[nodiscard]] double scaling(double xi) const;
 
-    /// The window at a point's grid points.
-    /// @param u in [0, 1]: the point is so far behind the one of place width / 2 - 1, or, with odd
-    ///          widths, half a cell more.
+    /// The window at the grid points around a point.
+    /// @param u in [0, 1]: distance in cells from grid point width / 2 - 1 (rounded down) to the
+    ///        point; for odd widths, this distance minus 1/2.
     [[nodiscard]] std::array<double, max_width> weights(double u) const;
 
     /// Largest error of exp(-2 pi i xi x), |xi| <= band, of one point in one dimension, after
-    /// spreading it, transforming and dividing by the scaling factors; it is looked for at so many
-    /// places that not a tenth more is anywhere.
+    /// spreading, transforming and dividing by the scaling factors. Searched at so many positions
+    /// that the maximum is at most a tenth larger.
     [[nodiscard]] double error() const { return error_; }
 
-    /// How much the division by the scaling factors magnifies rounding errors at the end of the
-    /// band, beside those at 0.
+    /// Factor by which the division by scaling factors magnifies rounding errors at the end of the
+    /// band, relative to those at 0.
     [[nodiscard]] double magnification() const { return scaling(0) / scaling(band_); }
 
-    /// Near error(), at no cost.
+    /// Cheap estimate of error().
     static double expected_error(std::size_t width, double band);
 
   private:
@@ -67,10 +69,11 @@ class KaiserBessel {
     double error_;
 };
 
-/// The narrowest window whose error() is at most `tolerance`, or else the widest one.
+/// The narrowest window with error() <= tolerance; the widest one if there is none.
 KaiserBessel window_for(double tolerance, double band);
 
-/// A window as polynomials of u. The unit is cut into so many pieces that short polynomials do.
+/// A window as polynomials of u. The unit interval is cut into enough pieces that short polynomials
+/// suffice.
 class WeightTable {
   public:
     explicit WeightTable(const KaiserBessel& window);
@@ -78,16 +81,16 @@ class WeightTable {
     [[nodiscard]] std::size_t width() const { return width_; }
     [[nodiscard]] std::size_t pieces() const { return pieces_; }
 
-    /// Values that a row of coefficients holds: whole vectors; the surplus is zero.
+    /// Length of a row of coefficients, a multiple of 8; unused ones are zero.
     static constexpr std::size_t row_of(std::size_t width) { return (width + 7) / 8 * 8; }
 
-    /// Degree that is quickest: of a table that the nearest cache holds beside a tile.
+    /// Fastest degree: the table then fits the first-level cache together with a tile.
     static constexpr std::size_t degree_of(std::size_t width) { return (width + 3) / 4 + 2; }
 
     [[nodiscard]] std::size_t degree() const { return degree_of(width_); }
 
-    /// For each piece, degree + 1 rows of row_of(width); row k holds the coefficients of
-    /// t^(degree - k), t in [-1, 1) being the place in the piece. Aligned to 64 bytes.
+    /// For each piece, degree + 1 rows of row_of(width) coefficients. Row k is for t^(degree - k),
+    /// where t in [-1, 1) is the position in the piece. Aligned to 64 bytes.
     [[nodiscard]] const double* coefficients() const { return rows_.front().numbers.data(); }
 
   private:

@@ -15,11 +15,11 @@
 namespace stipple {
 namespace {
 
-/// Seconds, nearly, of one core.
+/// Approximate time on one core, in seconds.
 double cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
                const KaiserBessel& window) {
     const auto width = static_cast<double>(window.width());
-    // Vectors of four or of eight: the choice does not depend on the machine.
+    // Averages vectors of four and of eight, so that the choice does not depend on the machine.
     const double vectors = std::ceil(width / 4) / 2 + std::ceil(width / 8);
     const double d = static_cast<double>(dimension);
     const double cells = real_power_of(side, dimension);
@@ -27,19 +27,19 @@ double cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
     const double evaluating = d * (2e-9 + vectors * 1.1e-9);
     const double n = static_cast<double>(count);
     const double passes = std::ceil(n / std::clamp(cells, 1048576.0, 4194304.0));
-    constexpr double touching = 5e-9;  // of fresh memory, a cell
+    constexpr double touching = 5e-9;  // first use of memory, per cell
     const double spreading = n * (8e-9 + adding + evaluating) + passes * cells * 4e-9;
     return spreading + transform_seconds(dimension, side) + cells * touching;
 }
 
-/// What the tolerance is times the errors of all axes: the rest is left to rounding errors, and to
-/// places where the window was not looked at.
+/// Ratio of the tolerance to the window's errors on all axes. It leaves room for rounding errors,
+/// and for positions at which the window's error was not computed.
 constexpr double reserve = 1.2;
 
-/// Whether the division by the scaling factors leaves rounding errors as they should be.
+/// True if the division by the scaling factors keeps rounding errors small enough.
 bool keeps_digits(const KaiserBessel& window, std::size_t dimension, double allowed) {
-    // By trying: of sums over points in one place, a point, which are largest; and of the
-    // polynomials, which are of one axis each.
+    // Found by trial. The largest errors are, per point, those of sums over points in one place,
+    // and those of the polynomials, which are for one axis each.
     const double times = window.magnification();
     return 1e-15 * std::pow(times, dimension) <= std::max(allowed / 8, 2e-14) &&
            6e-15 * times <= std::max(allowed / 16, 4e-14);
@@ -49,7 +49,8 @@ bool keeps_digits(const KaiserBessel& window, std::size_t dimension, double allo
 
 double rounding_floor(std::size_t count) {
     const auto n = static_cast<double>(count);
-    // Measured below 7e-14 a point up to n = 10^6; beyond, the sums of ever more buffers of a tile.
+    // Errors per point were below 7e-14 for n up to 10^6; for larger n they come from sums over
+    // more and more buffers of a tile.
     return (1.5e-13 + n * 0x1p-62) * std::sqrt(n);
 }
 
@@ -61,14 +62,14 @@ Nufft::Nufft(std::uint64_t count, std::size_t dimension, std::size_t max_frequen
       weighted_(weighted),
       window_(KaiserBessel::min_width, 0.25) {
     assert(dimension >= 1 && dimension <= 3 && max_frequency >= 1);
-    // Of each point, in each dimension; less than rounding errors leave would be of no use.
+    // Allowed error per point and dimension, not below the rounding errors.
     const double allowed = std::max(tolerance / std::sqrt(static_cast<double>(count)), 3e-14) /
                            (reserve * static_cast<double>(dimension));
     const auto wanted = static_cast<double>(2 * frequency_ + 1);
     double cheapest = std::numeric_limits<double>::infinity();
-    // More are planned for than come, where nobody knows.
+    // If the count is unknown, it is usually much larger than the actual number of points.
     const std::uint64_t likely = std::min(count, std::uint64_t{1} << 23);
-    // A finer grid takes a narrower window, and magnifies rounding errors less.
+    // A finer grid allows a narrower window and magnifies rounding errors less.
     std::size_t side = std::max(static_cast<std::size_t>(1.25 * wanted), CellGrid::smallest_side);
     for (; static_cast<double>(side) < 4.5 * wanted || side_ == 0; side += 2) {
         side = quick_length(side);
@@ -107,7 +108,7 @@ std::size_t lines_of(const Nufft& nufft) {
     return static_cast<std::size_t>(real_power_of(nufft.side(), nufft.dimension() - 1));
 }
 
-/// For the next block.
+/// Clears the cells for the next block.
 void zero(std::span<double> cells, const RunContext& run) {
     constexpr std::uint64_t some = std::uint64_t{1} << 18;
     for_each_block(silent(run), cells.size(), some, [&](const Block& b) {
@@ -178,7 +179,7 @@ void FourierSummation::merge(Unpacker& from, const RunContext& run) {
 FourierSums FourierSummation::finish(Planning planning, const RunContext& run) {
     const RunContext quiet = silent(run);
     spreader_->finish(quiet);
-    spreader_.reset();  // its points need room that the transform takes
+    spreader_.reset();  // frees memory for the transform
     if (!sum_.empty()) {
         if (points_ > 0) sum_.add(cells(), strongest_, quiet);
         sum_.copy_to(cells(), quiet);
@@ -193,8 +194,8 @@ FourierSums FourierSummation::finish(Planning planning, const RunContext& run) {
 
 namespace {
 
-/// exp(-2 pi i f x) for f = 0..last. The product f x is split, so that its whole part goes before
-/// anything is rounded.
+/// exp(-2 pi i f x) for f = 0..last. The product f x is split, so that its integer part is removed
+/// before rounding.
 void phases(double x, std::size_t last, std::complex<double>* out) {
     const double high = static_cast<double>(static_cast<float>(x));
     for (std::size_t f = 0; f <= last; ++f) {
@@ -206,8 +207,8 @@ void phases(double x, std::size_t last, std::complex<double>* out) {
     }
 }
 
-/// Phases of some points along each axis: [point][axis][0..F]; a strength multiplies those along the
-/// first.
+/// Phases of some points along each axis: [point][axis][0..F]. Those along the first axis are
+/// multiplied by the point's strength.
 struct PhaseTable {
     std::size_t dimension;
     std::size_t last;
@@ -224,7 +225,7 @@ struct PhaseTable {
             }
     }
 
-    /// Adds exp(-2 pi i f.x) of all points, f_0 = 0..F, to a row of sums.
+    /// Adds exp(-2 pi i f.x) for all points to a row of sums, f_0 = 0..F.
     void add(const std::array<std::int64_t, 3>& f, std::span<std::complex<double>> row) const {
         for (std::size_t at = 0; at < values.size(); at += dimension * (last + 1)) {
             std::complex<double> factor = 1;
@@ -263,7 +264,7 @@ void DirectSummation::add(std::span<const double> rows, const RunContext& run) {
         const std::size_t some = std::max<std::size_t>(1, 4096 / width);
         for_each_block(silent(run), sums_.values.size() / width, some, [&](const Block& b) {
             for (std::size_t i = b.first; i < b.last; ++i) {
-                // Sums of a portion first: rounding errors of long sums stay small.
+                // Summing a portion first keeps rounding errors of long sums small.
                 std::vector<std::complex<double>> row(width);
                 table.add({0, static_cast<std::int64_t>(i % span) - last,
                            static_cast<std::int64_t>(i / span) - last},

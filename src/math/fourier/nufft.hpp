@@ -6,19 +6,19 @@
 //
 // or, with strengths s_j, sum_j s_j exp(-2 pi i f.x_j),
 //
-// by a non-uniform fast Fourier transform: the points are spread over a grid of M > 2F + 1 cells a
-// side by a window, the real grid is transformed, and the result divided by the window's transform.
-// Grid and window are the cheapest that meet the tolerance.
+// by a non-uniform fast Fourier transform. A window spreads the points over a grid with M > 2F + 1
+// cells per side, the real grid is transformed, and the result is divided by the window's
+// transform. Grid and window are the cheapest ones that meet the tolerance.
 //
 // Shape   f_0 = 0..F, the fastest index; f_1, f_2 = -F..F. The other half is S(-f) = conj S(f).
-// Cost    O(n w^d + M^d log M) time for windows w <= 16 cells wide; memory: bytes(), however many
-//         points come.
-// Promise |error| <= max(tolerance, floor) sqrt(n) at every f, for every set: the window's error is
-//         held below tolerance / sqrt(n) for each point, so that not even points in phase exceed
-//         it. floor = rounding_floor(n), about 1.5e-13 sqrt(n), is what float64 may leave when all
-//         n points are in phase; where they are not, smaller tolerances hold as well. With
-//         strengths sqrt(sum s_j^2) stands for sqrt(n). The same bits for any number of threads,
-//         and however the points are portioned.
+// Cost    O(n w^d + M^d log M) time for windows w <= 16 cells wide; memory: bytes(), for any number
+//         of points.
+// Promise |error| <= max(tolerance, floor) sqrt(n) at every f, for every set. The window's error
+//         per point is kept below tolerance / sqrt(n), so that even points in phase satisfy the
+//         bound. floor = rounding_floor(n), about 1.5e-13 sqrt(n), bounds the rounding error of
+//         float64 if all n points are in phase; otherwise smaller tolerances are met as well. With
+//         strengths, sqrt(sum s_j^2) replaces sqrt(n). The same bits for any number of threads, and
+//         for any division of the points into portions.
 // Source  A. Dutt, V. Rokhlin, SIAM J. Sci. Comput. 14 (1993) 1368-1393, doi:10.1137/0914081;
 //         A. H. Barnett, J. Magland, L. af Klinteberg, SIAM J. Sci. Comput. 41 (2019) C479-C504,
 //         doi:10.1137/18M120885X.
@@ -38,17 +38,17 @@
 
 namespace stipple {
 
-/// The choice of grid and window.
+/// Choice of grid and window.
 class Nufft {
   public:
-    /// @param count points that may come; more of them are less exact.
+    /// @param count expected maximum of points; more points lose accuracy
     /// @param max_frequency F, from 1 to 10^6.
     /// @param tolerance in [1e-13, 0.1], relative to sqrt(count).
-    /// @param weighted whether rows hold strengths behind the coordinates.
+    /// @param weighted true if rows have strengths after the coordinates.
     Nufft(std::uint64_t count, std::size_t dimension, std::size_t max_frequency, double tolerance,
           bool weighted = false);
 
-    /// Peak memory that the transform needs.
+    /// Peak memory of the transform.
     [[nodiscard]] double bytes() const;
 
     [[nodiscard]] std::uint64_t count() const { return count_; }
@@ -58,7 +58,7 @@ class Nufft {
     [[nodiscard]] std::size_t side() const { return side_; }
     [[nodiscard]] const KaiserBessel& window() const { return window_; }
 
-    /// Bound of the error beside that of rounding, relative to sqrt(count), of so many points.
+    /// Bound on the error for `count` points, without rounding, relative to sqrt(count).
     [[nodiscard]] double error(double count) const;
 
   private:
@@ -70,25 +70,24 @@ class Nufft {
     KaiserBessel window_;
 };
 
-/// A transform whose points come in portions. They are spread over a grid for every block of them,
-/// and the grids are added as ScaledGridSum does it: so they may be shared out, block by block, and
-/// what becomes of the parts be merged.
+/// Transform of points that arrive in portions. Each block of points is spread over a grid, and the
+/// grids are added by ScaledGridSum. So blocks may be distributed, and the partial results merged.
 class FourierSummation {
   public:
     explicit FourierSummation(const Nufft& nufft);
 
-    /// Points of a block: as many as cells, so that adding grids costs little, but at least 2^24
-    /// and at most 2^26.
+    /// Number of points in a block: that of the cells, so that adding grids costs little, but
+    /// between 2^24 and 2^26.
     static std::uint64_t block_of(const Nufft& nufft);
 
     void add(std::span<const double> rows, const RunContext& run);
 
-    /// The sum over the points so far. None may come any more.
+    /// Packs the sum over the points so far. No points may be added afterwards.
     void pack(Packer& to, const RunContext& run);
-    /// Takes in that of other points; this one's are whole blocks.
+    /// Adds the packed sum over other points. This object's own points must be whole blocks.
     void merge(Unpacker& from, const RunContext& run);
 
-    /// Called once, when all points came.
+    /// Returns the sums over all points; must be called once, after the last point.
     [[nodiscard]] FourierSums finish(Planning planning, const RunContext& run);
 
   private:
@@ -98,15 +97,15 @@ class FourierSummation {
     Nufft nufft_;
     GridCells cells_;
     CellGrid grid_;
-    std::optional<Spreader> spreader_;  ///< while points come
-    std::uint64_t block_;               ///< points
-    std::uint64_t points_ = 0;          ///< of the block at hand
-    double strongest_ = 0;              ///< of these: its strength, or 1
-    ScaledGridSum sum_;                 ///< of all blocks before
+    std::optional<Spreader> spreader_;  ///< exists until finish()
+    std::uint64_t block_;               ///< points per block
+    std::uint64_t points_ = 0;          ///< in the current block
+    double strongest_ = 0;              ///< their largest strength, or 1
+    ScaledGridSum sum_;                 ///< sum over the previous blocks
 };
 
-/// The same by the plain sum, O(n (2F + 1)^d): the oracle. Phases are reduced before they are
-/// rounded, and exact to the last bits for any frequency.
+/// Reference implementation by the plain sum, O(n (2F + 1)^d). Phases are reduced before rounding,
+/// so they are exact to the last bits for any frequency.
 class DirectSummation {
   public:
     DirectSummation(std::size_t dimension, std::size_t max_frequency, bool weighted = false);
@@ -119,7 +118,7 @@ class DirectSummation {
     FourierSums sums_;
 };
 
-/// Error relative to sqrt(count) that float64 may leave when all points are in phase.
+/// Rounding error that float64 may leave if all points are in phase, relative to sqrt(count).
 double rounding_floor(std::size_t count);
 
 }  // namespace stipple

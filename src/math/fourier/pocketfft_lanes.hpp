@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The transforms of fft.hpp for vectors of STIPPLE_VECTOR_BITS. This is no header of its own:
-// core/machine/vector_widths.hpp includes it in fft_pocketfft.cpp, and the library with it, once
-// for every width. What the library includes is included before.
+// The transforms of fft.hpp for vectors of STIPPLE_VECTOR_BITS. Not a standalone header:
+// core/machine/vector_widths.hpp includes it, and with it the library, in fft_pocketfft.cpp, once
+// for every width. Headers that the library needs are included before.
 
 #undef POCKETFFT_HDRONLY_H
 #include <pocketfft_hdronly.h>

@@ -14,36 +14,36 @@
 namespace stipple {
 namespace {
 
-/// Cells of a tile along each axis, at least.
+/// Minimum number of cells of a tile along each axis.
 double smallest_tile(std::size_t dimension) {
     return dimension == 1 ? 1024 : dimension == 2 ? 32 : 16;
 }
 
-/// Points are sorted in streams, which threads may share out: chunk after chunk of them goes to the
-/// next stream.
+/// Points are sorted in streams, which threads can work on in parallel: chunks of points go to the
+/// streams in turn.
 constexpr std::size_t streams = 2;
 constexpr std::size_t stream_chunk = std::size_t{1} << 15;
 constexpr std::size_t round_of_streams = streams * stream_chunk;
-constexpr std::size_t sorting_block = std::size_t{1} << 12;  // points that the caches hold
-constexpr std::size_t tiles_at_a_time = 128;                 // of a colour
+constexpr std::size_t sorting_block = std::size_t{1} << 12;  // points that fit in the caches
+constexpr std::size_t tiles_at_a_time = 128;                 // tiles of a colour
 
-/// Points of a tile that are added up in a row, before their sums are added to the grid: rounding
-/// errors of long sums stay small.
+/// Maximum number of points of a tile summed before the sums are added to the grid; this keeps
+/// rounding errors of long sums small.
 constexpr std::size_t fold_after = 512;
 
-/// Points that are sorted at a time: about as many as cells, but at least 2^20 and at most 2^22.
+/// Number of points sorted at a time: about that of the cells, between 2^20 and 2^22.
 std::size_t spreading_batch(const CellGrid& grid) {
-    constexpr std::size_t most = std::size_t{1} << 30;  // counters of 32 bits are enough for it
+    constexpr std::size_t most = std::size_t{1} << 30;  // within the range of 32-bit counters
     std::size_t cells = 1;
     for (std::size_t k = 0; k < grid.dimension; ++k) cells = std::min(most, cells * grid.side);
-    // Fewer points than cells would pass over the grid too often.
+    // With fewer points than cells, passes over the grid would be too frequent.
     cells = std::clamp(cells, std::size_t{1} << 20, std::size_t{1} << 22);
     return cells / round_of_streams * round_of_streams;
 }
 
 }  // namespace
 
-/// The grid cut into an even number of tiles along each axis.
+/// The grid, divided into an even number of tiles along each axis.
 class Spreader::Tiling {
   public:
     Tiling(const CellGrid& grid, const WeightTable& window, bool weighted) : grid_(grid) {
@@ -54,7 +54,7 @@ class Spreader::Tiling {
         for (std::size_t t = 0; t <= along_; ++t) starts_.push_back(t * grid.side / along_);
         for (std::size_t t = 0; t < along_; ++t)
             widest_ = std::max(widest_, starts_[t + 1] - starts_[t]);
-        assert(widest_ <= 4096);  // places in a tile have 12 bits for their grid points
+        assert(widest_ <= 4096);  // grid points in a tile have 12 bits
         common_ = {.side = static_cast<double>(grid.side),
                    .tiles = static_cast<double>(along_),
                    .shift = window.width() % 2 == 1 ? 0.5 : 0.0,
@@ -76,7 +76,7 @@ class Spreader::Tiling {
         find_places(rows, grid_.dimension, common_, tile_of, places);
     }
 
-    /// Number of the i-th tile of a colour; bit k of the colour is the parity along axis k.
+    /// Index of the i-th tile of a colour; bit k of the colour is the parity along axis k.
     [[nodiscard]] std::size_t tile(std::size_t colour, std::size_t i) const {
         std::size_t tile = 0;
         std::size_t step = 1;
@@ -95,8 +95,8 @@ class Spreader::Tiling {
         return description;
     }
 
-    /// Adds a tile's buffer to the grid, around its ends, and empties it; no cell beyond the tile's
-    /// reach, for another thread may be at the next tile of the colour.
+    /// Adds a tile's buffer to the grid, with wraparound, and clears it. Touches no cell beyond the
+    /// tile's reach, because another thread may be adding the next tile of the colour.
     STIPPLE_WIDE void add_back(const SpreadTile& tile, double* buffer) const {
         const std::size_t x = wrapped(tile.start[0], 0);
         const std::size_t before_end = std::min(tile.reach[0], grid_.side - x);
@@ -112,7 +112,7 @@ class Spreader::Tiling {
     }
 
   private:
-    /// The grid's line to which a line of the buffer is added.
+    /// Line of the grid to which a line of the buffer is added.
     [[nodiscard]] std::size_t line(const SpreadTile& tile, std::size_t y, std::size_t z) const {
         return wrapped(tile.start[2], z) * grid_.side + wrapped(tile.start[1], y);
     }
@@ -166,7 +166,8 @@ void Spreader::add(std::span<const double> rows, const RunContext& run) {
 
 void Spreader::finish(const RunContext& run) {
     if (waits_ == 0) return;
-    // Some rows of tiles at a time, so that caches still hold what tiles of several colours add to.
+    // Processes a few rows of tiles at a time, so that caches still hold the cells that tiles of
+    // several colours add to.
     const std::size_t tiles = tiling_->count_of_colour();
     const std::size_t row = tiles / tiling_->pairs();
     const std::size_t some = (tiles_at_a_time + row - 1) / row * row;
@@ -177,7 +178,7 @@ void Spreader::finish(const RunContext& run) {
     waits_ = 0;
 }
 
-/// Brings the points to their tiles, stream by stream; within a tile a stream's keep their order.
+/// Sorts the points into tiles, stream by stream; within a tile, the order in a stream is kept.
 void Spreader::sort(std::span<const double> rows, const RunContext& run) {
     const std::size_t end = waits_ + rows.size() / width_;
     while (points_.size() < (end > stream_chunk ? streams : 1))
@@ -202,10 +203,10 @@ void Spreader::sort(std::span<const double> rows, const RunContext& run) {
     for_each_block(silent(context), points_.size(), 1, sort_stream);
 }
 
-/// Spreads the points of a colour's tiles [first, last).
+/// Spreads the points of tiles [first, last) of a colour.
 void Spreader::spread_colour(std::size_t colour, std::size_t first, std::size_t last,
                              const RunContext& run) {
-    // Enough blocks for all threads, but none with less work than handing it over is.
+    // Enough blocks for all threads, but each with more work than it costs to start.
     const std::size_t tiles_per_block =
         std::max(1 + (last - first) / 128, 1024 * tiling_->count() / (waits_ + 1));
     for_each_block(silent(run), last - first, tiles_per_block, [&](const Block& b) {
@@ -215,7 +216,7 @@ void Spreader::spread_colour(std::size_t colour, std::size_t first, std::size_t 
     });
 }
 
-/// Spreads the points of a tile, by way of a buffer of zeros, which it leaves as it was.
+/// Spreads the points of a tile through a buffer of zeros, and clears it again.
 void Spreader::spread_tile(std::size_t number, double* buffer, const RunContext& run) const {
     const SpreadTile tile = tiling_->describe(number);
     std::size_t count = 0;  // points in the buffer

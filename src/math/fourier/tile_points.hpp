@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Points sorted into tiles as they come: each tile has a list of blocks, which stand wherever there
-// was room, so that nobody has to count the points first. Within a tile they keep their order.
+// Points sorted into tiles on arrival. Each tile has a linked list of blocks from a common pool, so
+// that points need not be counted first. Points keep their order within a tile.
 //
-// Cost    O(1) a point. Memory of n points: at most that of n + 31 min(n, tiles).
+// Cost    O(1) per point. Memory for n points: at most that of n + 31 min(n, tiles) points.
 #pragma once
 
 #include <cstddef>
@@ -17,16 +17,16 @@ namespace stipple {
 
 class TilePoints {
   public:
-    static constexpr std::size_t block = 32;  ///< points: some cache lines
+    static constexpr std::size_t block = 32;  ///< points per block: a few cache lines
 
-    /// @param numbers of a row, 1 to 4.
-    /// @param capacity points that there is room for, at most 2^26.
+    /// @param numbers per row, 1 to 4.
+    /// @param capacity maximum number of points, at most 2^26.
     TilePoints(std::size_t tiles, std::size_t numbers, std::size_t capacity);
 
     /// Adds rows to their tiles.
     void add(const double* rows, const std::uint32_t* tile_of, std::size_t count);
 
-    /// Calls visit(rows) for the tile's points, up to `block` of them at a time.
+    /// Calls visit(rows) for the tile's points, at most `block` of them at a time.
     template <class Visit>
     void visit(std::size_t tile, Visit&& visit) const {
         const List list = lists_[tile];
@@ -41,13 +41,13 @@ class TilePoints {
 
     void clear();
 
-    /// Memory that so many points may take.
+    /// Memory for `count` points.
     static double bytes(double count, double tiles, std::size_t numbers);
 
   private:
     struct List {
-        std::uint32_t first = 0;  ///< block
-        std::uint32_t end = 0;    ///< place for the next point; 0: there is no block yet
+        std::uint32_t first = 0;  ///< first block
+        std::uint32_t end = 0;    ///< index for the next point; 0 if there is no block yet
     };
 
     template <std::size_t Numbers>
@@ -57,8 +57,8 @@ class TilePoints {
     std::size_t numbers_;
     Rows room_;
     std::vector<List> lists_;
-    std::vector<std::uint32_t> next_;  ///< block after each
-    std::uint32_t used_ = 1;           ///< blocks; the first stays empty, so that 0 means none
+    std::vector<std::uint32_t> next_;  ///< next block in the list, by block
+    std::uint32_t used_ = 1;           ///< blocks; the first is unused, so that 0 means none
 };
 
 }  // namespace stipple

@@ -12,18 +12,18 @@
 namespace stipple {
 namespace {
 
-/// One complex number, moved as a whole.
+/// A complex number that is moved as a unit.
 using PairInMemory = double __attribute__((vector_size(16), aligned(8), may_alias));
 
-/// Lines whose transform takes about a quarter of a millisecond.
+/// Number of lines whose transform takes about a quarter of a millisecond.
 std::size_t lines_at_a_time(std::size_t side) { return std::max<std::size_t>(1, 65536 / side); }
 
-constexpr std::size_t batch_size = 16;  // columns that share the cache lines they are read from
+constexpr std::size_t batch_size = 16;  // columns that share cache lines
 
-/// Rows that are scaled while they are in the cache.
+/// Number of rows that are scaled while they are in the cache.
 constexpr std::size_t rows_at_a_time = 8;
 
-/// Transforms the rows of the grid and scales what is wanted of them.
+/// Transforms the rows of the grid and scales the frequencies needed.
 void transform_rows(const CellGrid& grid, std::span<const double> factors, Planning planning,
                     const RunContext& run) {
     const LineTransform line(LineTransform::Kind::real, grid.side, planning);
@@ -41,8 +41,8 @@ void transform_rows(const CellGrid& grid, std::span<const double> factors, Plann
     });
 }
 
-/// Lines across the memory: for each of `planes`, `side` rows of `width` complex numbers that
-/// stand `stride` complex numbers apart.
+/// Lines across the memory: for each of `planes`, `side` rows of `width` complex numbers, with
+/// `stride` complex numbers between the starts of rows.
 struct Columns {
     const std::complex<double>* values;
     std::size_t planes;
@@ -51,7 +51,7 @@ struct Columns {
     std::size_t width;
 };
 
-/// Some columns of a plane, gathered into lines.
+/// Some columns of a plane, copied into contiguous lines.
 class Gathered {
   public:
     explicit Gathered(std::size_t side)
@@ -69,7 +69,7 @@ class Gathered {
         line.execute(lines_.get(), spacing_, count);
     }
 
-    /// Gives the frequencies -F..F, scaled, one row of `width` numbers each.
+    /// Copies the frequencies -F..F, scaled, into rows with a distance of `width` numbers.
     void give(std::span<const double> factors, std::complex<double>* to, std::size_t width,
               std::size_t count) const {
         const auto* lines = reinterpret_cast<const PairInMemory*>(lines_.get());
@@ -85,11 +85,11 @@ class Gathered {
 
   private:
     std::size_t side_;
-    std::size_t spacing_;  ///< numbers from one line to the next
+    std::size_t spacing_;  ///< numbers between the starts of lines
     GridCells lines_;
 };
 
-/// Transforms all columns and keeps their frequencies -F..F, scaled: planes x (2F + 1) x width.
+/// Transforms all columns and returns their frequencies -F..F, scaled: planes x (2F + 1) x width.
 std::vector<std::complex<double>> transform_columns(const Columns& in,
                                                     std::span<const double> factors,
                                                     Planning planning, const RunContext& run) {
@@ -144,7 +144,7 @@ std::size_t quick_length(std::size_t least) {
 }
 
 double transform_seconds(std::size_t dimension, std::size_t side) {
-    // FFTW is quickest at powers of two, as estimated plans go.
+    // With estimated plans, FFTW is fastest for powers of two.
     const double a_cell = dimension == 3 ? 1e-8 : std::has_single_bit(side) ? 5e-9 : 6.5e-9;
     return real_power_of(side, dimension) * a_cell;
 }

@@ -4,12 +4,12 @@
 //
 //     S(f) = c(f_0) c(f_1) ... sum_i g[i] exp(-2 pi i f.i / M),    |f_k| <= F,
 //
-// row by row and then across; of the rows' transforms no more than F + 1 numbers are looked at
-// again, and half of the frequencies follow from the others.
+// by rows and then across. Only F + 1 numbers of each row's transform are used further, and half of
+// the frequencies follow from the others.
 //
 // Shape   f_0 = 0..F, the fastest index; f_1, f_2 = -F..F. The other half is S(-f) = conj S(f).
 // Cost    O(M^d log M); 13 ms for M = 2048, F = 512 in the plane on one core.
-// Promise the same bits for any number of threads, and with `estimated` plans in any run.
+// Promise the same bits for any number of threads, and with `estimated` plans in every run.
 #pragma once
 
 #include <array>
@@ -31,25 +31,25 @@ struct FourierSums {
     std::size_t max_frequency = 0;
     std::vector<std::complex<double>> values;
 
-    /// S(f), also for f_0 < 0; |f_k| <= max_frequency, and 0 beyond the dimension.
+    /// S(f), also for f_0 < 0. Requires |f_k| <= max_frequency, and f_k = 0 for k >= dimension.
     [[nodiscard]] std::complex<double> at(std::array<std::int64_t, 3> f) const;
 };
 
-/// Number of values of such sums.
+/// Number of values in FourierSums.
 double fourier_sums_size(std::size_t dimension, std::size_t max_frequency);
 
-/// Numbers from one row of a grid to the next: room for the transform of a row in place, and no
-/// power of two, which would put a column into few lines of the cache.
+/// Distance between rows of a grid, in numbers: enough to transform a row in place, and not a power
+/// of two, which would map a column to few cache lines.
 std::size_t stride_of(std::size_t side);
 
-/// A side that transforms are quick at and that is at least `least`: even, times 1 to 27 a power of two.
+/// Smallest even side >= `least` that is fast to transform: a power of two times an odd number with
+/// prime factors 3 and 5, below 27 if the side is 256 or more.
 std::size_t quick_length(std::size_t least);
 
-/// Seconds, nearly, that the transform takes one core.
+/// Approximate time of the transform on one core, in seconds.
 double transform_seconds(std::size_t dimension, std::size_t side);
 
-/// Transforms the grid, and destroys it.
-/// @param factors c(0..F).
+/// Transforms the grid in place and returns the frequencies; the grid is destroyed.
 FourierSums transform_grid(GridCells cells, const CellGrid& grid, std::span<const double> factors,
                            Planning planning, const RunContext& run);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The work of window_spreading.hpp for as many numbers at once as a vector V holds. This is no
-// header of its own: core/machine/vector_widths.hpp includes it in window_spreading.cpp for
+// Kernels of window_spreading.hpp for vectors V. Not a standalone header:
+// core/machine/vector_widths.hpp includes it in window_spreading.cpp, once for every
 // STIPPLE_VECTOR_BITS.
 
 constexpr std::size_t lanes = STIPPLE_VECTOR_BITS == 512 ? 8 : 4;
@@ -21,7 +21,7 @@ STIPPLE_INLINE void store(const Vector& v, Number* to) {
     std::memcpy(to, &v, sizeof v);
 }
 
-/// a b + c, rounded once: the same bits on any machine, and one step where it is an instruction.
+/// a b + c, rounded once: the same bits on any machine, and a single instruction if available.
 STIPPLE_INLINE V fused(const V& a, double b, const V& c) {
 #if STIPPLE_VECTOR_BITS == 512
     return _mm512_fmadd_pd(a, _mm512_set1_pd(b), c);
@@ -34,7 +34,7 @@ STIPPLE_INLINE V fused(const V& a, double b, const V& c) {
 #endif
 }
 
-/// Towards zero.
+/// Rounds towards zero.
 STIPPLE_INLINE V truncated(const V& v) {
 #if STIPPLE_VECTOR_BITS == 512
     constexpr int towards_zero = _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC;
@@ -46,9 +46,9 @@ STIPPLE_INLINE V truncated(const V& v) {
 #endif
 }
 
-/// Finds side * x of several numbers without rounding it: the upper 26 bits of x make an exact
-/// product. Gives the grid points at which their windows begin, and the places behind a grid point,
-/// in [0, 1).
+/// Computes side * x for several numbers without rounding: the upper 26 bits of x give an exact
+/// product. Returns the grid points at which their windows begin, and the positions after a grid
+/// point, in [0, 1).
 STIPPLE_INLINE void locate(const V& x, const SpreadTile& tile, V& first, V& between) {
     constexpr std::uint64_t high_bits = ~((std::uint64_t{1} << 27) - 1);
     const V high = (V)((Words)x & high_bits);
@@ -63,13 +63,13 @@ STIPPLE_INLINE void locate(const V& x, const SpreadTile& tile, V& first, V& betw
     if (tile.lead == 0) first -= first >= tile.side ? zero + tile.side : zero;
 }
 
-/// Numbers First, First + 2, ... of two vectors.
+/// Elements First, First + 2, ... of two vectors.
 template <std::size_t First, std::size_t... L>
 STIPPLE_INLINE V every_second(const V& a, const V& b, std::index_sequence<L...> /*lanes*/) {
     return __builtin_shufflevector(a, b, (First + 2 * L)...);
 }
 
-/// Coordinates of up to so many points, axis after axis; the surplus is 0.
+/// Coordinates of up to `chunk` points, by axis; padded with 0.
 template <std::size_t Dimension>
 using Coordinates = std::array<std::array<double, chunk>, Dimension>;
 
@@ -89,18 +89,19 @@ STIPPLE_INLINE void by_axis(const double* points, std::size_t count, std::size_t
             axes[k][i] = i < count ? points[i * numbers + k] : 0;
 }
 
-/// Zeros before a window's values, where the values are shifted along a row.
+/// Zeros before a window's values, for shifts along a row.
 constexpr std::size_t margin = lanes;
 
-/// Windows of widths 4 Fours - 3 to 4 Fours are alike but for their number of rows.
+/// Number of vectors for windows of widths 4 Fours - 3 to 4 Fours, which differ only in their
+/// number of rows.
 constexpr std::size_t vectors_of(std::size_t fours) { return (4 * fours + lanes - 1) / lanes; }
 
 template <std::size_t Dimension, std::size_t Fours>
 struct Chunk {
     alignas(64) Coordinates<Dimension> axes;
-    alignas(64) Coordinates<Dimension> t;  ///< place in the table's piece
+    alignas(64) Coordinates<Dimension> t;  ///< position in the table's piece
     alignas(64) std::array<std::array<std::int32_t, chunk>, Dimension> piece;
-    alignas(64) std::array<std::int32_t, chunk> corner;  ///< of the window in the buffer
+    alignas(64) std::array<std::int32_t, chunk> corner;  ///< first cell in the buffer
     alignas(
         64) double values[chunk][Dimension][margin + vectors_of(Fours) * lanes];  ///< of the window
 
@@ -110,7 +111,7 @@ struct Chunk {
     }
 };
 
-/// The word of a place in a tile, and a number's bits below its exponent.
+/// Bits of a word below the 12 of its grid point, and of a double below its exponent.
 constexpr std::uint64_t fraction = (std::uint64_t{1} << 52) - 1;
 STIPPLE_INLINE Words word_of(const V& cell, const V& between) {
     const V zero = {};
@@ -143,7 +144,7 @@ STIPPLE_INLINE void locate_all(std::size_t count, const SpreadTile& tile,
     }
 }
 
-/// The window's values at its grid points along each axis, by Horner's rule.
+/// Evaluates the window at its grid points along each axis, by Horner's rule.
 template <std::size_t Dimension, std::size_t Fours>
 STIPPLE_INLINE void evaluate_all(const SpreadTile& tile, std::size_t count,
                                  Chunk<Dimension, Fours>& work) {
@@ -175,7 +176,7 @@ STIPPLE_INLINE void add_row(double* row, double weight, const V (&values)[Count]
     }
 }
 
-/// The same for a row a weight.
+/// Adds weights[i] * factor * along to each row i of the buffer.
 template <std::size_t Count>
 STIPPLE_INLINE void add_rows(double* row, std::size_t extent, const double* weights,
                              std::size_t rows, double factor, const V (&along)[Count]) {
@@ -183,14 +184,14 @@ STIPPLE_INLINE void add_rows(double* row, std::size_t extent, const double* weig
     for (std::size_t i = 0; i < rows; ++i) add_row(row + i * extent, weights[i] * factor, along);
 }
 
-/// Rows begin at a whole vector's place, so that no vector lies in two cache lines, as far as the
-/// window is narrower than its vectors.
+/// Adds a window to the buffer. Rows are shifted to a vector boundary, so that no vector spans two
+/// cache lines, if the window is enough narrower than its vectors.
 template <std::size_t Dimension, std::size_t Fours>
 STIPPLE_INLINE void add_window(
     const double (&values)[Dimension][margin + vectors_of(Fours) * lanes], const SpreadTile& tile,
     double* begin) {
     constexpr std::size_t vectors = vectors_of(Fours);
-    const std::size_t extent = tile.extent;  // what is stored might change the tile's, else
+    const std::size_t extent = tile.extent;  // a copy, as stores might alias the tile's
     const std::size_t width = tile.width;
     const std::size_t behind = reinterpret_cast<std::uintptr_t>(begin) / sizeof(double) % lanes;
     const std::size_t back = std::min(behind, vectors * lanes - width);
@@ -208,7 +209,7 @@ STIPPLE_INLINE void add_window(
 
 template <std::size_t Dimension, std::size_t Fours>
 void add_all(std::span<const double> rows, const SpreadTile& tile, double* buffer) {
-    thread_local Chunk<Dimension, Fours> work;  // its zeros stay
+    thread_local Chunk<Dimension, Fours> work;  // keeps its zeros
     const std::size_t numbers = tile.numbers;
     const std::size_t all = rows.size() / numbers;
     for (std::size_t first = 0; first < all; first += chunk) {
@@ -242,7 +243,7 @@ void add_points(std::span<const double> rows, std::size_t dimension, const Sprea
     add_wide<3>(rows, tile, buffer);
 }
 
-/// Writes the axes' numbers point after point, and strengths behind them.
+/// Writes coordinates point by point, each followed by its strength, if any.
 template <std::size_t Dimension>
 STIPPLE_INLINE void by_point(const Coordinates<Dimension>& axes, const double* points,
                              std::size_t count, std::size_t numbers, double* out) {
@@ -273,8 +274,8 @@ void find_all(std::span<const double> rows, const SpreadTile& common, std::uint3
                 V first;
                 V between;
                 locate(load<V>(&axes[k][i]), common, first, between);
-                // The last tile t with t side / tiles < first + 1, and its first grid point: the
-                // parts of numbers that are far from whole ones.
+                // The last tile t with t side / tiles < first + 1, and its first grid point;
+                // numbers before truncation are far from integers.
                 const V tile = truncated(first * tiles_a_cell + past_tile);
                 const V start = truncated(tile * cells_a_tile + past_cell);
                 sum += step_k * tile;

@@ -5,13 +5,13 @@
 #include <cstring>
 #include <utility>
 
-// The vectors never leave a function that is not inlined.
+// Vectors are passed only between inlined functions.
 
 namespace stipple {
 namespace {
 
-/// Points that go through the steps together: each step is short enough for the processor to work
-/// on several points at once, which it could not from one end to the other.
+/// Points that are processed together, step by step. Each step is short enough for the processor to
+/// overlap several points, which the whole computation is not.
 constexpr std::size_t chunk = 16;
 
 #define STIPPLE_KERNELS "math/fourier/window_lanes.hpp"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The innermost work of spreading points over a grid: the places of their windows, the windows'
-// values, and the sums in the buffer of one tile of the grid.
+// Inner loops of spreading points over a grid: positions of their windows, values of the windows,
+// and sums in the buffer of a tile of the grid.
 //
-// Promise the same bits on any machine: vectors do what plain code does, number by number.
-// Beware  M x is never rounded to a double: the product's high part is exact, and the place between
-//         two grid points keeps 52 bits.
+// Promise the same bits on any machine: vectors compute the same as scalar code.
+// Beware  M x is never rounded to a double: the product's high part is exact, and the position
+//         between two grid points keeps 52 bits.
 #pragma once
 
 #include <array>
@@ -18,32 +18,33 @@
 
 namespace stipple {
 
-/// A tile of the grid. All but its start and reach are the same for all tiles.
+/// A tile of the grid. Only `start` and `reach` differ between tiles.
 struct SpreadTile {
     double side = 0;                       ///< M
-    double tiles = 0;                      ///< along an axis
+    double tiles = 0;                      ///< number along an axis
     double shift = 0;                      ///< 1/2 for odd windows, which centre on a grid point
     double lead = 0;                       ///< grid points of the window before the point's cell
     std::size_t width = 0;                 ///< of the window
-    unsigned piece_bits = 0;               ///< its table has 2^this pieces
-    const double* coefficients = nullptr;  ///< of its table
-    std::size_t numbers = 0;               ///< of a point: coordinates, and its strength
+    unsigned piece_bits = 0;               ///< the window's table has 2^this pieces
+    const double* coefficients = nullptr;  ///< of the window's table
+    std::size_t numbers = 0;               ///< per point: coordinates, and its strength if weighted
     std::size_t extent = 0;  ///< cells of a row of the buffer: a multiple of 8, from the widest
                              ///< tile and whole vectors on
-    std::array<std::int64_t, 3> start{};           ///< its first cell, by coordinate
-    std::array<std::size_t, 3> reach = {1, 1, 1};  ///< cells that its points touch
+    std::array<std::int64_t, 3> start{};           ///< first cell, by axis
+    std::array<std::size_t, 3> reach = {1, 1, 1};  ///< cells that its points touch, by axis
 };
 
-/// Finds the tiles in which the windows of points begin, and their places there: the t-th tile
-/// along an axis begins at the grid point floor(t side / tiles), and the first axis counts fastest.
-/// @param places rows of as many numbers: for each coordinate a word of 64 bits, of which the upper
-///        12 count the grid points from the tile's first to the window's first one, and the lower
-///        52 are the point's place behind a grid point, in [0, 1); strengths stay as they are.
+/// Finds the tiles in which the windows of points begin, and their positions there. The t-th tile
+/// along an axis begins at the grid point floor(t side / tiles); tile_of counts along the first
+/// axis fastest.
+/// @param places rows like `rows`, with a 64-bit word for each coordinate: its upper 12 bits count
+///        grid points from the tile's first to the window's first one, and its lower 52 are the
+///        point's position after a grid point, in [0, 1). Strengths are copied.
 void find_places(std::span<const double> rows, std::size_t dimension, const SpreadTile& common,
                  std::uint32_t* tile_of, double* places, Vectors widest = Vectors::eights);
 
-/// Adds points whose windows begin in the tile to its buffer, extent^dimension cells.
-/// @param widest vectors that may be used; the same bits with any.
+/// Spreads points whose windows begin in the tile to its buffer of extent^dimension cells.
+/// @param widest widest vectors to use; results are the same bits with any.
 void spread_points(std::span<const double> places, std::size_t dimension, const SpreadTile& tile,
                    double* buffer, Vectors widest = Vectors::eights);
 
