@@ -25,7 +25,8 @@ Ascent ascend(const BoxGrid& grid, const SearchLimits& limits, const RunContext&
 /// One round of an endless search for bad anchored boxes by threshold accepting. Each ascent starts
 /// from the previous box, perturbed on some axes. The new box replaces the previous one unless its
 /// excess is smaller by more than a threshold, which decreases. Offers all boxes reached.
-/// Deterministic, unless time ends it. @param round number from 0, which selects the random numbers
+/// Deterministic, unless time ends it.
+/// @param round number from 0, which selects the random numbers
 /// @returns the comparisons of coordinates.
 ///
 /// Source  M. Gnewuch, M. Wahlstroem, C. Winzen, SIAM J. Numer. Anal. 50 (2012) 781-807 (threshold

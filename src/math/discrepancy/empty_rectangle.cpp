@@ -171,8 +171,8 @@ class Sweep {
         }
     }
 
-    /// On the torus, offers the rectangle of full width below a point, cut at the point on its lower
-    /// side. Sets `width` to that cut; returns false if that point is straight below.
+    /// On the torus, offers the rectangle of full width below a point, cut at the point on its
+    /// lower side. Sets `width` to that cut; returns false if that point is straight below.
     bool cut_circle(std::uint32_t rank, std::uint32_t top, Width& width) {
         const std::uint32_t lowest = point_of(keys_.among(0, grid_.count));
         const std::uint32_t cut = grid_.ranks[0][lowest];

@@ -3,7 +3,7 @@
 // exp(x) from additions, multiplications and the bits of a double, because the C library's exp
 // differs between machines.
 //
-//     x = k ln 2 + r,  |r| <= ln 2 / 2,    exp(x) = 2^k (1 + r + r^2 q(r)),    q by Taylor's series.
+//     x = k ln 2 + r,  |r| <= ln 2 / 2,    exp(x) = 2^k (1 + r + r^2 q(r)),    q by Taylor series.
 //
 // Shape   x <= 709; exp(x) is exactly 0 below -708.
 // Cost    no branches or tables, so that compilers vectorise loops over it.
