@@ -31,8 +31,7 @@ class LineTransform {
     ~LineTransform();
 
     /// @param lines aligned like GridCells
-    /// @param spacing doubles from one line to the next, a
-    /// multiple of 8
+    /// @param spacing doubles from one line to the next, a multiple of 8
     void execute(double* lines, std::size_t spacing, std::size_t count) const;
 
   private:
@@ -45,8 +44,7 @@ class LineTransform {
 class GroupTransform {
   public:
     /// @param shape orders of the groups, the last one varying fastest
-    /// @param values, spectrum
-    /// arrays that all transforms read and overwrite
+    /// @param values, spectrum arrays that all transforms read and overwrite
     GroupTransform(const std::vector<int>& shape, double* values, double* spectrum);
     ~GroupTransform();
 

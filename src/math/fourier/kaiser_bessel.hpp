@@ -32,8 +32,7 @@ class KaiserBessel {
     static constexpr std::size_t max_width = 16;
 
     /// @param width in [min_width, max_width], in grid cells.
-    /// @param band highest requested
-    /// frequency in cycles per cell, in (0, 1/2).
+    /// @param band highest requested frequency in cycles per cell, in (0, 1/2).
     KaiserBessel(std::size_t width, double band);
 
     [[nodiscard]] std::size_t width() const { return width_; }

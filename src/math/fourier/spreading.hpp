@@ -43,8 +43,7 @@ struct CellGrid {
 class Spreader {
   public:
     /// @param count expected number of points; more may be added.
-    /// @param weighted true if rows have
-    /// the point's strength after its coordinates.
+    /// @param weighted true if rows have strengths after the coordinates.
     Spreader(const KaiserBessel& window, const CellGrid& grid, std::uint64_t count,
              bool weighted = false);
     Spreader(const Spreader&) = delete;
