@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The factor of an axis, k alone or 1 + w k, with coefficients of 113 bits:
+// Factor of the kernel on one axis, k or 1 + w k, with coefficients of 113 bits:
 //
 //     own(x) + own(y) + product x y + distance |x - y|.
 #pragma once
@@ -38,13 +38,13 @@ struct AxisFactor {
     }
 
     Curve own;
-    Curve mean;  ///< of the factor over the other point
+    Curve mean;  ///< mean of the factor over y
     Quad product;
     Quad distance;
-    Quad total;  ///< mean of the mean
+    Quad total;  ///< mean of the factor over x and y
 };
 
-// Coordinates as whole multiples of 2^-63.
+// Coordinates as integer multiples of 2^-63.
 
 inline constexpr unsigned fraction_bits = 63;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Factors of L2 kernels for as many pairs of points as a vector V holds, each a double and an error
-// term, their products and their sums. This is no header of its own: core/machine/vector_widths.hpp
-// includes it in block_pairs.cpp for STIPPLE_VECTOR_BITS.
+// Factors of L2 kernels, their products and sums, for as many pairs of points as a vector V holds.
+// Each is a double and an error term. Not a standalone header: core/machine/vector_widths.hpp
+// includes it in block_pairs.cpp, once for every STIPPLE_VECTOR_BITS.
 //
 // The factors are those of pair_sums.cpp, with parabolas about their vertices:
 //
@@ -10,13 +10,14 @@
 //     h_x + h_y + t (t - 3/2)   = (h_x + h_y - 9/16) + (t - 3/4)^2
 //     a - t                     = (a - 1/2) - (t - 1/2)
 //
-// so that with a coordinate as a multiple of 2^-53 and a rest, the square's root has no rounding.
-// Where all weights are 1 and no coordinate has a rest, the two minima of the centered kernel are
+// so that t - 1/2 and t - 3/4 are exact if a coordinate is stored as a multiple of 2^-53 and a
+// remainder. If all weights are 1 and no coordinate has a remainder, the two minima of the centered
+// kernel are
 //
 //     1 + max(min(x - 1/2, y - 1/2), min(1/2 - x, 1/2 - y), 0)
 //
-// The numbers of a block's points follow each other in columns; `row` is one point of its block and
-// `block` the first of as many as a vector holds.
+// The numbers of a block's points are stored by column. `row` points to a group of points in a
+// block, `block` to the first of as many points as a vector holds.
 
 constexpr std::size_t lanes = STIPPLE_VECTOR_BITS / 64;
 using V [[gnu::vector_size(8 * lanes)]] = double;
@@ -31,7 +32,7 @@ STIPPLE_INLINE V load(const double* from) {
 /// A number in all lanes.
 STIPPLE_INLINE V same(double x) { return x - V{}; }
 
-/// x, its sign turned where the other is negative.
+/// x with its sign changed if `by` is negative.
 STIPPLE_INLINE V flipped(V x, V by) { return (V)((Bits)x ^ ((Bits)by & (std::int64_t{1} << 63))); }
 STIPPLE_INLINE V where_less(V a, V b, V x, V y) { return a < b ? x : y; }
 
@@ -54,8 +55,8 @@ STIPPLE_INLINE V fused(V a, V b, V c) {
 }
 #endif
 
-/// A vector for each point of a group of rows. What is done to one is done to all before anything
-/// else is, so that no instruction waits for the one before.
+/// A vector for each point of a group of rows. Each operation is done for all of them before the
+/// next one, so that no instruction waits for the one before.
 struct Group {
     V at[group];
 };
@@ -101,22 +102,21 @@ STIPPLE_INLINE Group where_less(const Group& a, const Group& b, const Group& x, 
              where_less(a.at[3], b.at[3], x.at[3], y.at[3])}};
 }
 
-/// A number and its error term, of a vector or a group of them. Of groups, either is to be
-/// assigned, not the whole: GCC copies a structure by halves of vectors, and loads then wait for the
-/// stores.
+/// A number and its error term, for a vector or a group. For groups assign the members, not the
+/// whole: GCC copies a structure by halves of vectors, and loads then wait for the stores.
 template <class T>
 struct Compensated {
     T value;
     T error;
 };
 
-/// base + a b: the base is at least as large as |a b|.
+/// base + a b, with its error term; the base must be at least as large as |a b|.
 STIPPLE_INLINE Compensated<Group> raised(const Group& a, const Group& b, const Group& base) {
     const Group high = fused(a, b, base);
     return {high, fused(a, b, base - high)};
 }
 
-/// The same, less the offset.
+/// axis.base + a b - axis.offset, with its error term.
 STIPPLE_INLINE Compensated<Group> raised(const Group& a, const Group& b,
                                          const AxisConstants& axis) {
     Compensated<Group> out = raised(a, b, all(same(axis.base)));
@@ -125,7 +125,7 @@ STIPPLE_INLINE Compensated<Group> raised(const Group& a, const Group& b,
     return out;
 }
 
-/// |x - y| - vertex of positions in column 0 and rests in column 1. Without rounding.
+/// |x - y| - vertex without rounding, from positions in column 0 and remainders in column 1.
 STIPPLE_INLINE Compensated<Group> from_vertex(const double* row, const double* block,
                                               const AxisConstants& axis) {
     const Group t = columns(block) - rows(row);
@@ -134,7 +134,7 @@ STIPPLE_INLINE Compensated<Group> from_vertex(const double* row, const double* b
     return {flipped(t, whole) - all(same(axis.vertex)), flipped(rest, whole)};
 }
 
-/// One minimum: of the numbers of the point that comes first in the order of column 0.
+/// A minimum: selects the numbers of the point that comes first in the order of column 0.
 struct Minimum {
     static constexpr std::size_t columns_of_factor = 3;
     static constexpr bool separates = true;
@@ -147,17 +147,17 @@ struct Minimum {
             where_less(mine, other, rows(row + block_width), columns(block + block_width)),
             where_less(mine, other, rows(row + 2 * block_width), columns(block + 2 * block_width))};
     }
-    /// Of the points of a block that come before the others.
+    /// Factors of the points of a block that come before all others.
     STIPPLE_INLINE static Compensated<V> own(const double* block) {
         return {load(block + block_width), load(block + 2 * block_width)};
     }
 };
 
-/// Both minima of the centered kernel: x - 1/2 in column 0, 1/2 - x in column 1.
+/// Both minima of the centered kernel, from x - 1/2 in column 0 and 1/2 - x in column 1.
 struct TwoSided {
     static constexpr std::size_t columns_of_factor = 2;
     static constexpr bool separates = false;
-    static constexpr bool above_one = true;  ///< factors are given as what they are more than 1
+    static constexpr bool above_one = true;  ///< factors are given minus 1
     STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
                                                     const AxisConstants&) {
         const Group none = all(V{});
@@ -167,7 +167,7 @@ struct TwoSided {
     }
 };
 
-/// A parabola of the distance.
+/// A parabola in the distance.
 struct Bernoulli {
     static constexpr std::size_t columns_of_factor = 2;
     static constexpr bool separates = false;
@@ -181,7 +181,7 @@ struct Bernoulli {
     }
 };
 
-/// Falling with the distance.
+/// A function that decreases linearly with the distance.
 struct Linear {
     static constexpr std::size_t columns_of_factor = 2;
     static constexpr bool separates = false;
@@ -195,8 +195,8 @@ struct Linear {
     }
 };
 
-/// The mixture kernel: a parabola of the distance over a sum of a number of either point, which
-/// has no rounding.
+/// Mixture kernel: a parabola in the distance plus a number of each point; that sum has no rounding
+/// error.
 struct Mixture {
     static constexpr std::size_t columns_of_factor = 4;
     static constexpr bool separates = false;
@@ -254,11 +254,11 @@ STIPPLE_INLINE void add(Compensated<V>& total, const Compensated<V>& product) {
     total.value = next;
 }
 
-/// A group of rows, some of which may be no more than places, and a block.
+/// A group of rows, some of which may be padding, and a block.
 struct GroupPair {
     const BlockTable& table;
     const BlockPair& pair;
-    std::size_t first;  ///< of the group in its block
+    std::size_t first;  ///< index of the group in its block
 };
 
 template <class Kernel>
@@ -268,7 +268,7 @@ STIPPLE_INLINE Compensated<Group> factor_of(const GroupPair& g, std::size_t fact
                           g.table.factors()[factor]);
 }
 
-/// What the products begin with: those of the columns alone, or their first factor.
+/// Start of the products: the columns' own products, or the first factor.
 template <class Kernel>
 STIPPLE_INLINE Compensated<Group> first_factor(const GroupPair& g, std::size_t k) {
     const PointProducts& own = g.pair.column_products;
@@ -281,8 +281,7 @@ STIPPLE_INLINE Compensated<Group> first_factor(const GroupPair& g, std::size_t k
     return {value, more - (value - one)};
 }
 
-/// The products of a group of rows with as many of a block's points as a vector holds, from the
-/// k-th.
+/// Products of a group of rows with a vector of a block's points, from the k-th on.
 template <class Kernel>
 STIPPLE_INLINE Compensated<Group> products(const GroupPair& g, std::size_t k) {
     Compensated<Group> p = first_factor<Kernel>(g, k);
@@ -294,8 +293,8 @@ STIPPLE_INLINE Compensated<Group> products(const GroupPair& g, std::size_t k) {
     return {p.value * there, p.error * there};
 }
 
-/// Adds a vector's products of a group of rows with a block to the sums from `lane` on: lane by
-/// lane the same in vectors of any width. Rows with products of their own are summed one by one.
+/// Adds the products of a group of rows with a block to the sums from `lane` on. Each lane has the
+/// same sum for vectors of any width. Rows with products of their own are summed separately.
 template <class Kernel>
 STIPPLE_INLINE void add_lanes(const GroupPair& g, std::size_t lane, LaneSums& sums) {
     constexpr std::size_t apart = Kernel::separates ? group : 1;
@@ -320,7 +319,7 @@ STIPPLE_INLINE void add_lanes(const GroupPair& g, std::size_t lane, LaneSums& su
     std::memcpy(sums.error + lane, &total.error, sizeof(V));
 }
 
-/// Adds the products of all pairs of two blocks' points.
+/// Adds the products over all pairs of points of two blocks.
 template <class Kernel>
 void add_pairs(const BlockTable& table, const BlockPair& pair, LaneSums& sums) {
     for (std::size_t i = 0; i < block_width; i += group)
@@ -328,7 +327,7 @@ void add_pairs(const BlockTable& table, const BlockPair& pair, LaneSums& sums) {
             add_lanes<Kernel>({table, pair, i}, lane, sums);
 }
 
-/// The products of those factors of a block's points that are their own.
+/// Multiplies the factors that depend only on the block's own points.
 template <class Kernel>
 void multiply_own(const BlockTable& table, const double* block,
                   const std::vector<std::size_t>& factors, PointProducts& products) {

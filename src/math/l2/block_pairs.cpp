@@ -7,23 +7,23 @@
 
 #include "core/parallel.hpp"
 
-// The vectors never leave a function that is not inlined.
+// Vectors are passed only between inlined functions.
 
 namespace stipple::l2 {
 namespace {
 
 constexpr std::size_t group = 4;        ///< rows that are multiplied together
-constexpr std::size_t batch_size = 16;  ///< blocks whose sums are doubles
+constexpr std::size_t batch_size = 16;  ///< blocks between which sums are doubles
 
-/// What is known of a factor for all pairs of points of two blocks.
+/// How much of a factor is the same for all pairs of points of two blocks.
 enum class Known {
     nothing,
-    of_rows,     ///< it is the rows' own: they come first in the order of its axis
-    of_columns,  ///< it is the columns' own
-    one          ///< it is 1: they are on either side of 1/2
+    of_rows,     ///< belongs to the rows, which come first on its axis
+    of_columns,  ///< belongs to the columns, which come first
+    one          ///< equals 1: the blocks are on different sides of 1/2
 };
 
-/// For kernels in which it matters who comes first.
+/// For kernels that depend on the order of two points.
 Known known_in_order(const BlockTable::Range& rows, const BlockTable::Range& columns) {
     if (rows.greatest <= columns.least) return Known::of_rows;
     return columns.greatest <= rows.least ? Known::of_columns : Known::nothing;
@@ -36,8 +36,7 @@ Known known_by_side(const BlockTable::Range& rows, const BlockTable::Range& colu
     return apart ? Known::one : Known::nothing;
 }
 
-/// Products of the factors that belong to a point alone, of a block's points, or 0 where there is
-/// none.
+/// Products of the factors that depend on a single point, for a block's points; 0 for padding.
 struct PointProducts {
     alignas(64) double value[block_width];
     alignas(64) double error[block_width];
@@ -48,20 +47,20 @@ struct LaneSums {
     double error[max_lanes] = {};
 };
 
-/// What is known of a block of rows and one of columns.
+/// A block of rows and one of columns, and what their factors have in common.
 struct BlockPair {
     const double* rows = nullptr;
     const double* columns = nullptr;
-    std::vector<std::size_t> factors = {};  ///< to be worked out for each pair of points
-    bool full = true;                       ///< no places without points
-    // Of kernels that separate into a number of either point.
+    std::vector<std::size_t> factors = {};  ///< those that differ between pairs of points
+    bool full = true;                       ///< no padding
+    // For kernels that separate into a factor of either point.
     std::vector<std::size_t> row_factors = {};
     std::vector<std::size_t> column_factors = {};
     PointProducts row_products = {};
     PointProducts column_products = {};
 };
 
-/// A kernel, by instructions of one width.
+/// A kernel, compiled for one vector width.
 struct PairKernel {
     void (*add_pairs)(const BlockTable&, const BlockPair&, LaneSums&);
     void (*multiply_own)(const BlockTable&, const double*, const std::vector<std::size_t>&,
@@ -85,7 +84,7 @@ DoubleDouble total_of(const LaneSums& sums) {
     return total;
 }
 
-/// Sums over pairs of a block's points with those of others.
+/// Sums over pairs of a block's points with others.
 class Rows {
   public:
     Rows(const BlockTable& table, const PairKernel& kernel, std::size_t block)
@@ -93,7 +92,7 @@ class Rows {
         pair_.rows = table.block(block);
     }
 
-    /// With blocks [first, last).
+    /// Sum over the points of blocks [first, last).
     DoubleDouble sum_with(std::size_t first, std::size_t last, const RunContext& run) {
         LaneSums sums;
         for (std::size_t b = first; b < last; ++b) {
@@ -113,7 +112,7 @@ class Rows {
         return known_in_order(rows, columns);
     }
 
-    /// Finds what holds for all points of the two blocks.
+    /// Finds the factors that are the same for all points of the two blocks.
     void compare_with(std::size_t b) {
         pair_.columns = table_.block(b);
         pair_.full = (std::max(block_, b) + 1) * block_width <= table_.count();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Sums of products over all pairs of points, block by block. On some axes all points of one block
-// come before those of another; what is known of two blocks as a whole is not worked out for each
-// pair of their points.
+// come before those of another. Then factors can be computed for the blocks, instead of for each
+// pair of points.
 #pragma once
 
 #include <cstddef>
@@ -14,31 +14,31 @@
 
 namespace stipple::l2 {
 
-constexpr std::size_t block_width = 64;  ///< points of a block
-constexpr std::size_t max_lanes = 8;     ///< of the widest vector
+constexpr std::size_t block_width = 64;  ///< points per block
+constexpr std::size_t max_lanes = 8;     ///< doubles in the widest vector
 
-/// The factors of block_pair_kernels.hpp.
+/// Kernels of block_pair_kernels.hpp.
 enum class PairForm { minimum, two_sided, bernoulli, linear, mixture, one_plus_minima };
 
-/// What is the same for all points on the axis of a factor.
+/// Constants of a factor, the same for all points.
 struct AxisConstants {
     double base = 0;
     double base_error = 0;
-    double offset = 0;  ///< that the base has been raised by
-    double vertex = 0;  ///< of the parabola in |x - y|, or its middle
+    double offset = 0;  ///< amount added to the base
+    double vertex = 0;  ///< |x - y| at the vertex of the parabola, or the middle of its range
 };
 
-/// Blocks of points, column after column in each; behind them one that is 1, and 0 where there are
-/// no points. The more blocks lie beside each other on an axis, the less work.
+/// Blocks of points, stored by column; the last column is 1 for points and 0 for padding. The more
+/// blocks are separated on an axis, the less work.
 class BlockTable {
   public:
-    /// Least and greatest position of a block's points in the order of a factor's axis.
+    /// Smallest and largest position of a block's points on the axis of a factor.
     struct Range {
         double least = 1;
         double greatest = -1;
     };
 
-    /// @param any_order whether factors may be multiplied in an order other than theirs
+    /// @param any_order true if factors may be multiplied in any order
     BlockTable(PairForm form, std::size_t count, std::vector<AxisConstants> factors,
                bool any_order);
 
@@ -48,7 +48,7 @@ class BlockTable {
     [[nodiscard]] bool any_order() const { return any_order_; }
     [[nodiscard]] std::size_t height() const { return factors_.size() * columns_ + 1; }
 
-    /// Writes a point's numbers for a factor, as many as the form has columns.
+    /// Stores the numbers of a point for a factor, as many as the form has columns.
     void put(std::size_t i, std::size_t factor, const double* numbers, double position);
 
     [[nodiscard]] const double* block(std::size_t b) const {
@@ -59,7 +59,7 @@ class BlockTable {
     }
 
   private:
-    /// Doubles in one line of the cache, so that no vector lies across two.
+    /// Doubles in a cache line, so that no vector spans two.
     struct alignas(64) Line {
         double at[max_lanes] = {};
     };
@@ -70,12 +70,12 @@ class BlockTable {
     std::size_t count_;
     std::vector<AxisConstants> factors_;
     bool any_order_;
-    std::size_t columns_;  ///< of a factor
+    std::size_t columns_;  ///< columns per factor
     std::vector<Line> lines_;
     std::vector<Range> ranges_;
 };
 
-/// Sum over all ordered pairs of points, the same for any number of threads and any vectors.
+/// Sum over all ordered pairs of points; the same for any number of threads and any vector width.
 DoubleDouble sum_over_pairs(const BlockTable& table, Vectors widest, const RunContext& run);
 
 }  // namespace stipple::l2

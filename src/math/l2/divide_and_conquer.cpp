@@ -13,26 +13,27 @@
 //     extreme    x                        1 - y
 //     centered   1 + w max(x - 1/2, 0)    1 + w max(1/2 - y, 0)
 //
-// and all kernels of kinds.hpp are three: with c = x - 1/2, a = a number and multiples of c, c^2
-// and |c|, and g = sqrt(-s11) c,
+// All kernels of kinds.hpp are sums of three products. With c = x - 1/2, a(c) a linear combination
+// of 1, c, c^2 and |c|, and g = sqrt(-s11) c,
 //
 //     K = (a(c) - sigma c) 1 + 1 (a(c') + sigma c') - g(c) g(c')   for c <= c'.
 //
-// Points are halved along the last axis. A pair from both halves has L of its lower point and U of
-// its upper one as factors: with these as weights of the points, the same problem on one axis less
-// is left, between two colors. Halving such points along their next axis gives two problems between
-// lower points of one color and upper points of the other. On the last axis running sums are left,
-// taken while points are merged along it. Few points are taken pair by pair.
+// Points are halved along the last axis. A pair from different halves has the factors L of its
+// lower point and U of its upper one. With these as weights of the points, the problem has one axis
+// less, and pairs are between two colors. Halving such points along their next axis gives two
+// problems between lower points of one color and upper points of the other. On the last axis only
+// running sums remain, computed while points are merged along it. Small sets are summed pair by
+// pair.
 //
-// Numbers are fixed, with 90 bits behind the point.
+// Numbers are fixed-point with 90 fractional bits.
 //
 // Cost    O(n log^(d-1) n) time: on one core 0.3 s for 65 536 points in three dimensions and 8 s
 //         for 10^6 (all pairs: 0.6 s and 140 s), 8 s for 200 000 in four; with three products 7 s
 //         for 131 072 points (all pairs: 18 s) and 80 s for 10^6 (20 minutes).
-// Beware  in four dimensions three products a kernel would be 81 weights of a point, and all pairs
-//         are quicker.
-// Promise the same for any number of threads. `error` bounds the rounding, also that of coordinates
-//         that are no multiples of 2^-63, most of them below 2^-10.
+// Beware  in four dimensions three products per kernel would need 81 weights per point, so that the
+//         sum over all pairs is faster.
+// Promise the same result for any number of threads. `error` bounds the rounding errors, including
+//         those of coordinates that are not multiples of 2^-63, most of which are below 2^-10.
 // Source  S. Heinrich, Math. Comp. 65 (1996) 1621-1633, doi:10.1090/S0025-5718-96-00756-4;
 //         K. Frank, S. Heinrich, J. Complexity 12 (1996) 287-314.
 
@@ -55,12 +56,12 @@ namespace {
 
 constexpr std::size_t max_axes = 4;
 
-using Fixed = Int128;  ///< multiples of 2^-90
+using Fixed = Int128;  ///< in multiples of 2^-90
 
 constexpr int behind = 90;
 constexpr Fixed unity = Fixed{1} << behind;
 
-/// a b, rounded; |a b| < 2^37.
+/// a b, rounded. Requires |a b| < 2^37.
 inline Fixed times(Fixed a, Fixed b) {
     const auto a_high = static_cast<std::int64_t>(a >> 64);
     const auto b_high = static_cast<std::int64_t>(b >> 64);
@@ -79,13 +80,13 @@ Fixed fixed_of(const Quad& value) {
            static_cast<Fixed>(Quad(scaled - ldexp(upper, 64)).convert_to<std::uint64_t>());
 }
 
-/// A coordinate, in multiples of 2^-63, less 1/2.
+/// x - 1/2, from x in multiples of 2^-63.
 inline Fixed from_middle(std::uint64_t x) {
     return (static_cast<Fixed>(x) - (Fixed{1} << (fraction_bits - 1))) *
            (Fixed{1} << (behind - fraction_bits));
 }
 
-/// Sum of any number of fixed numbers.
+/// Exact sum of any number of fixed-point numbers.
 class FixedSum {
   public:
     void add(Fixed value) {
@@ -119,7 +120,7 @@ class Parabola {
         return fixed_[0] + times(fixed_[1] + times(fixed_[2], c), c) +
                times(fixed_[3], c < 0 ? -c : c);
     }
-    /// No value in the cube is larger.
+    /// Upper bound on its absolute values in the cube.
     [[nodiscard]] double most() const {
         return static_cast<double>(abs(quads_[0]) + abs(quads_[1]) / 2 + abs(quads_[2]) / 4 +
                                    abs(quads_[3]) / 2);
@@ -134,10 +135,10 @@ class Parabola {
 class OneProduct {
   public:
     static constexpr std::size_t rank = 1;
-    static constexpr std::size_t few = 8;  ///< points that are taken pair by pair
+    static constexpr std::size_t few = 8;  ///< up to this many points are summed pair by pair
 
-    /// What the factor makes of a point.
-    using Terms = Fixed;  ///< the coordinate less 1/2
+    /// Data of a point for the factor.
+    using Terms = Fixed;  ///< the coordinate minus 1/2
     using Side = std::array<Fixed, rank>;
 
     OneProduct(Kind kind, double weight, bool alone)
@@ -151,7 +152,7 @@ class OneProduct {
         if (kind_ == Kind::centered) return {of(std::max(along, Fixed{0}))};
         return {upper ? of(half - c) : unity};
     }
-    /// Whether the i-th number of a side is 1, as far as it pays to know.
+    /// True if the i-th number of a side is 1 and it pays to know.
     static bool is_one(const Side& side, std::size_t, bool upper) {
         return !upper && side[0] == unity;
     }
@@ -159,7 +160,7 @@ class OneProduct {
     [[nodiscard]] Fixed factor(Terms lower, Terms upper) const {
         return times(side(lower, false)[0], side(upper, true)[0]);
     }
-    /// None of a point's terms is larger, nor is 1.
+    /// Upper bound on 1 and all terms of a point.
     [[nodiscard]] double most() const {
         return alone_ ? 1 : 1 + std::ldexp(static_cast<double>(weight_), -behind);
     }
@@ -215,7 +216,7 @@ class ThreeProducts {
           distance_(fixed_of(axis.distance)),
           root_(fixed_of(sqrt(Quad(-axis.product)))) {}
 
-    /// x y = c c' + (c + c') / 2 + 1/4
+    /// Uses x y = c c' + (c + c') / 2 + 1/4.
     static AxisFactor::Curve own_of(const AxisFactor& axis) {
         AxisFactor::Curve own = axis.own;
         own[0] -= axis.product / 8;
@@ -230,14 +231,14 @@ class ThreeProducts {
 
 struct Item {
     std::array<std::uint64_t, max_axes> at;
-    Fixed weight = unity;     ///< of one product: those of the axes halved so far
-    std::uint32_t point;      ///< its number in order of the last axis
-    std::uint32_t upper = 0;  ///< by bits, the axes halved so far on which it is in the upper half
+    Fixed weight = unity;     ///< for one product: product of those of the axes halved so far
+    std::uint32_t point;      ///< index in the order of the last axis
+    std::uint32_t upper = 0;  ///< bit set of the axes on which it was in an upper half
 
     [[nodiscard]] bool is_upper(std::size_t axis) const { return (upper >> axis & 1) != 0; }
 };
 
-/// The sum of the products of all pairs of points, each pair once.
+/// Sum of the products over all unordered pairs of points.
 template <class Axis>
 class Division {
   public:
@@ -268,13 +269,14 @@ class Division {
     static constexpr std::size_t rank = Axis::rank;
     static constexpr std::size_t many = std::size_t{1} << 12;
     using Side = typename Axis::Side;
-    /// Products of a term of each axis from the second on.
+    /// Products of a term from each axis after the first.
     using Weights = std::array<Fixed, rank * rank>;
-    /// Sums of points that went by, over the terms of their first axis.
+    /// Sums over the points passed so far, by the terms of the first axis.
     using Passed = std::array<Weights, rank>;
 
-    /// Pairs of the items [first, last) of a level, on different sides of axis r (on the highest
-    /// level: all); they come in order of axis r - 1 and leave in that of r - 2.
+    /// Adds the pairs among items [first, last) of level r that are on different sides of axis r
+    /// (on the highest level, all pairs). Items arrive in order of axis r - 1 and leave in order of
+    /// axis r - 2.
     void solve(std::size_t r, std::size_t first, std::size_t last, FixedSum& sum) {
         const std::size_t size = last - first;
         if (size <= Axis::few) return take_pairs(r, first, last, sum);
@@ -331,7 +333,7 @@ class Division {
         return all;
     }
 
-    /// Merges halves in order of axis r - 2 and calls take(item, whether it is of the upper half).
+    /// Merges two halves in order of axis r - 2 and calls take(item, true if from the upper half).
     template <class Take>
     void merge(std::size_t r, std::size_t first, std::size_t last, const Take& take) {
         Item* const items = levels_[r].data();
@@ -348,11 +350,11 @@ class Division {
         std::copy(spare_.data() + first, spare_.data() + last, items + first);
     }
 
-    /// Merges halves in order of axis r - 2, and shares the items out to the level below.
+    /// Merges two halves in order of axis r - 2, and distributes the items for the next level.
     void halve(std::size_t r, std::size_t first, std::size_t last, FixedSum& sum) {
         Item* const below = levels_[r - 1].data();
-        std::size_t next = first;  // one color below and the other above from here on,
-        std::size_t rest = last;   // the other way round from here back
+        std::size_t next = first;  // end of the items with one color below and the other above
+        std::size_t rest = last;   // begin of the items the other way round, in reverse order
         merge(r, first, last, [&](const Item& item, bool upper) {
             const bool crossed = r != axes_.size() && item.is_upper(r) != upper;
             Item& share = below[crossed ? --rest : next++];
@@ -365,9 +367,9 @@ class Division {
         solve_two(r - 1, first, next, last, sum);
     }
 
-    /// The same where the axis is the last one, on which it is only summed.
+    /// Merges two halves along the first axis, summing instead of distributing the items.
     void merge_and_sum(std::size_t first, std::size_t last, FixedSum& sum) {
-        Passed passed[2][2] = {};  // by their sides of the two axes above
+        Passed passed[2][2] = {};  // by side on the third and second axes
         FixedSum mine;
         merge(2, first, last, [&](const Item& item, bool upper) {
             const bool color = item.is_upper(2);
@@ -403,7 +405,7 @@ class Division {
                     Axis::is_one(lower, t, false) ? weights[i] : times(weights[i], lower[t]);
     }
 
-    /// The products of a point and those that went by.
+    /// Sum of the products of a point with those passed before.
     static Fixed sum_with(const Passed& passed, const Weights& weights, const Side& upper) {
         Fixed sum = 0;
         for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -428,8 +430,8 @@ class Division {
     }
 
     std::vector<Axis> axes_;
-    std::vector<Terms> terms_;  ///< of points on all axes, where they are kept
-    std::array<std::vector<Item>, max_axes + 1> levels_;  ///< of the problem on so many axes
+    std::vector<Terms> terms_;  ///< of points on all axes, for three products
+    std::array<std::vector<Item>, max_axes + 1> levels_;  ///< items, by number of axes left
     std::vector<Item> spare_;
     const RunContext& run_;
     std::mutex telling_;
@@ -452,7 +454,7 @@ double most_of(const std::vector<Axis>& axes) {
     return most;
 }
 
-/// mean of means - 2/n sum of means + n^-2 sum of pairs
+/// Returns (mean over both) - 2/n sum of means + n^-2 sum over pairs.
 template <class Axis>
 Square square_of(const PointSet& points, Kind kind, const AxisWeights& weights,
                  const RunContext& run) {
@@ -469,7 +471,7 @@ Square square_of(const PointSet& points, Kind kind, const AxisWeights& weights,
     std::vector<Item> items(n);
     FixedSum means;
     FixedSum own;
-    std::size_t rounded = 0;  // coordinates
+    std::size_t rounded = 0;  // number of rounded coordinates
     for (std::size_t i = 0; i < n; ++i) {
         if (i % 4096 == 0) run.check_stop();
         Fixed mean = unity;
@@ -489,14 +491,14 @@ Square square_of(const PointSet& points, Kind kind, const AxisWeights& weights,
     const Quad count = n;
     const Quad squared = total - 2 * means.value() / count + pairs / (count * count);
     const auto value = squared.convert_to<double>();
-    // Each of some ten steps of a pair is off by 2^-91 of its factors, and a coordinate's slope is
-    // at most four times the largest product.
+    // A pair takes about ten steps, each with an error of 2^-91 of its factors. The slope of a
+    // coordinate is at most four times the largest product.
     const double most = most_of(axes);
     const double moved = 0x1p-62 * most * static_cast<double>(rounded) / static_cast<double>(n);
     return {value, 0x1p-52 * std::abs(value) + 0x1p-85 * most + moved};
 }
 
-/// Whether a kind is one product on either side of the diagonal, with room for sums.
+/// True if the kernel is one product on either side of the diagonal, and sums cannot overflow.
 bool is_one_product(std::size_t dimension, Kind kind, const AxisWeights& weights) {
     constexpr double room = 16;
     if (kind == Kind::extreme) return weights.empty();
@@ -504,7 +506,7 @@ bool is_one_product(std::size_t dimension, Kind kind, const AxisWeights& weights
     return most_of(axes_for<OneProduct>(dimension, kind, weights)) <= room;
 }
 
-/// Whether the products of a kind on three axes leave room for sums.
+/// True if sums of three products on three axes cannot overflow.
 bool is_three_products(Kind kind, const AxisWeights& weights) {
     constexpr double room = 0x1p13;
     return record_of(kind).kernel.s11 <= 0 &&
@@ -520,10 +522,10 @@ bool divides(std::size_t dimension, Kind kind, const AxisWeights& weights) {
 }
 
 bool divide_wins(std::size_t count, std::size_t dimension, Kind kind) {
-    // Measured; the pairs of star and modified have half the factors.
+    // Measured; star and modified have half as many factors per pair.
     if (!is_one_product(dimension, kind, {}))
         return count >= 50'000 && count <= std::size_t{1} << 23;
-    if (count >= std::size_t{1} << 27) return false;  // no room for sums
+    if (count >= std::size_t{1} << 27) return false;  // sums could overflow
     const bool simple = kind == Kind::star || kind == Kind::modified;
     if (dimension == 3) return count >= (simple ? 28'000U : 17'000U);
     return count >= (simple ? 200'000U : 100'000U);

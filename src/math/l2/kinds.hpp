@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The kinds of L2 discrepancy, each by the kernel k that it has on every axis.
+// Kinds of L2 discrepancy, given by their kernel k on every axis.
 #pragma once
 
 #include <array>
@@ -28,35 +28,35 @@ inline constexpr Kind all_kinds[] = {
     Kind::star,    Kind::extreme,  Kind::periodic, Kind::centered, Kind::wraparound,
     Kind::mixture, Kind::modified, Kind::diaphony, Kind::average,  Kind::symmetric};
 
-/// The diaphony's kernel over the second Bernoulli polynomial.
+/// Ratio of the diaphony's kernel to the second Bernoulli polynomial.
 inline constexpr double diaphony = 2 * std::numbers::pi * std::numbers::pi;
 
-/// sum_pq s_pq phi_p(x) phi_q(y) + sigma |x - y| with phi = 1, x, x^2, |x - 1/2|. All coefficients
-/// are times 48; those not listed are 0.
+/// The kernel sum_pq s_pq phi_p(x) phi_q(y) + sigma |x - y| with phi = 1, x, x^2, |x - 1/2|. All
+/// coefficients are multiplied by 48; those not listed are 0.
 struct AxisKernel {
     std::int64_t s00 = 0;
-    std::int64_t s01 = 0;  ///< s10 is the same, and so on
+    std::int64_t s01 = 0;  ///< equal to s10, and likewise for the others
     std::int64_t s02 = 0;
     std::int64_t s03 = 0;
     std::int64_t s11 = 0;
     std::int64_t sigma = 0;
-    std::array<std::int64_t, 4> mean{};  ///< of k(x, y) over y, in phi(x)
-    std::int64_t total = 0;              ///< mean of that
+    std::array<std::int64_t, 4> mean{};  ///< mean of k(x, y) over y, in terms of phi(x)
+    std::int64_t total = 0;              ///< mean of k over x and y
 };
 
 struct KindRecord {
     std::string_view name;
     AxisKernel kernel;  ///< k, or k / scale
     double scale = 1;
-    bool projections = true;  ///< 1 + k on every axis, not k: all projections count
+    bool projections = true;  ///< factors are 1 + k instead of k, so that all projections count
 };
 
 const KindRecord& record_of(Kind kind);
 
-/// Weights of the axes; none: all are 1, and factors are k alone where the kind has no projections.
+/// Weights of the axes. If empty, all are 1, and kinds without projections have factors k.
 using AxisWeights = std::vector<double>;
 
-/// Whether factors are k, not 1 + w k.
+/// True if factors are k, false if 1 + w k.
 bool is_kernel_alone(Kind kind, const AxisWeights& weights);
 
 inline double weight_of(const AxisWeights& weights, std::size_t axis) {
@@ -65,10 +65,11 @@ inline double weight_of(const AxisWeights& weights, std::size_t axis) {
 
 struct Square {
     double squared;
-    double error;  ///< `squared` is off by at most this
+    double error;  ///< bound on the error of `squared`
 };
 
-/// Of words separated by commas, each kind once and in the order of all_kinds; `all` is every kind.
+/// Parses kinds separated by commas; `all` is every kind. Returns each once, in the order of
+/// all_kinds.
 /// @throws Error(usage) naming the first unknown word
 std::vector<Kind> parse_kinds(std::string_view words);
 

@@ -4,9 +4,9 @@
 //
 //     D^2 = C - 2/n sum_i prod_j f_j(x_ij) + n^-2 sum_ik prod_j K_j(x_ij, x_kj)
 //
-// with f_j the mean of K_j(x, .) and C the product of the means of f_j. What rounding takes from
-// every factor and product is kept: each is a double and an error term, which has its own rounding
-// alone. Of the sum over pairs, all but 2^-80 may cancel.
+// with f_j the mean of K_j(x, .) and C the product of the means of f_j. Rounding errors are
+// compensated: every factor and product is a double with an error term, and only the error terms
+// are rounded. So all but a fraction of 2^-80 of the sum over pairs may cancel.
 //
 // On each axis K is one of these, times a constant, with t = |x - y|:
 //
@@ -16,18 +16,17 @@
 //     a - t                             average, symmetric
 //     a + min(x, y) min(1 - x, 1 - y)   extreme with weights
 //
-// Coordinates that are no multiples of 2^-53 have an error term, too. Factors are scaled by powers
-// of two so that the largest product of a point with itself stays near 1 from axis to axis: these
-// kernels are positive definite, so no product is larger.
+// Coordinates that are not multiples of 2^-53 also have an error term. Factors are scaled by powers
+// of two so that the largest product of a point with itself stays near 1 after each axis. No other
+// product is larger, because these kernels are positive definite.
 //
 // Shape   n x d points in [0, 1].
-// Cost    n^2 d / 2 factors, fewer where blocks of points lie beside each other on an axis; on one
-//         core with 512-bit vectors 0.25 ns each for the star, 0.2 for the centered kernel (half as
-//         much again where coordinates are no multiples of 2^-53), 0.6 for the wraparound and 0.75
-//         for the mixture one; with 256-bit vectors twice as long. Needs an instruction for a b + c
-//         with one rounding.
-// Promise the same for any number of threads and any width of vectors. `error` bounds what rounding
-//         did.
+// Cost    n^2 d / 2 factors, fewer if blocks of points are separated on an axis. On one core with
+//         512-bit vectors 0.25 ns each for the star kernel, 0.2 for the centered one (half as much
+//         again if coordinates are not multiples of 2^-53), 0.6 for the wraparound and 0.75 for the
+//         mixture one; with 256-bit vectors twice as long. Needs a fused multiply-add instruction.
+// Promise the same result for any number of threads and any vector width. `error` bounds the
+//         rounding errors.
 // Source  T. Ogita, S. M. Rump, S. Oishi, SIAM J. Sci. Comput. 26 (2005) 1955-1988,
 //         doi:10.1137/030601818 (compensated sums); S. Graillat, IEEE Trans. Comput. 58 (2009)
 //         994-1000 (products).
@@ -49,26 +48,26 @@
 namespace stipple::l2 {
 namespace {
 
-/// Of a point for a factor.
+/// Per-point terms of one axis factor.
 struct PointNumbers {
-    double position;  ///< in the order of the axis; a multiple of 2^-53 if distances count
-    double rest;      ///< of the position
+    double position;  ///< on the axis; a multiple of 2^-53 if distances matter
+    double rest;      ///< remainder of the position
     DoubleDouble value;
 };
 
-/// The nearest multiple of 2^-53.
+/// Nearest multiple of 2^-53.
 double whole(double x) { return std::round(x * 0x1p53) * 0x1p-53; }
 
-/// The high part a multiple of `step`.
+/// Moves digits into the low part, so that the high part is a multiple of `step`.
 DoubleDouble on_grid(const DoubleDouble& a, double step) {
     const double high = std::round(a.high / step) * step;
     return {high, (a.high - high) + a.low};
 }
 
-/// How the factor of an axis, over a constant scale, is worked out from numbers of either point.
+/// Computation of the factor of an axis, divided by a constant scale, from terms of both points.
 class FactorForm {
   public:
-    /// @param two_sided whether the two minima of the centered kernel are one factor
+    /// @param two_sided true if the two minima of the centered kernel form one factor
     FactorForm(Kind kind, bool alone, bool two_sided, double weight)
         : kind_(kind), alone_(alone), two_sided_(two_sided) {
         const double times = kind == Kind::diaphony    ? diaphony
@@ -108,13 +107,13 @@ class FactorForm {
     [[nodiscard]] bool is_one_plus_minima() const { return kind_ == Kind::extreme && !alone_; }
     [[nodiscard]] bool is_from_vertex() const { return is_of_distance() || kind_ == Kind::mixture; }
 
-    /// Factors on the axis.
+    /// Number of factors on the axis.
     [[nodiscard]] std::size_t factors() const {
         const bool two = kind_ == Kind::centered || (kind_ == Kind::extreme && alone_);
         return two && !two_sided_ ? 2 : 1;
     }
 
-    /// More than the factors over the scale.
+    /// Upper bound on the factors divided by the scale.
     [[nodiscard]] double most() const {
         if (kind_ == Kind::mixture) return static_cast<double>(2 * inverse_ + Quad(7) / 4);
         if (is_of_distance()) return static_cast<double>(base_) + reach();
@@ -122,17 +121,17 @@ class FactorForm {
         return factors() == 2 ? one * one : one;
     }
 
-    /// What is added to a factor and taken off again, lest it come near 0 before.
+    /// Number added to a factor and subtracted again, so that it does not come near 0 in between.
     [[nodiscard]] double offset() const {
         const bool small =
             (is_of_distance() && base_ < reach()) || (is_one_plus_minima() && base_ < Quad(0.5));
         return small ? 1 : 0;
     }
 
-    /// Whether factors may come near 0, so that they lose by what is largest.
+    /// True if factors may come near 0, so that their errors are relative to the largest value.
     [[nodiscard]] bool may_vanish() const { return is_of_distance() && offset() != 0; }
 
-    /// How much larger the numbers are that a factor is worked out from.
+    /// Ratio of intermediate numbers to the factor, for error bounds.
     [[nodiscard]] double cancellation() const {
         return is_one_plus_minima() ? static_cast<double>(1 / base_) : 0;
     }
@@ -148,7 +147,7 @@ class FactorForm {
         return axis;
     }
 
-    /// Writes the numbers of a point, for each factor of the axis; gives what is behind them.
+    /// Writes the terms of a point for each factor of the axis; returns the end of the output.
     PointNumbers* put(double x, PointNumbers* to) const {
         const auto write = [&](double position, const DoubleDouble& value) {
             const double at = is_from_vertex() ? whole(position) : position;
@@ -174,7 +173,7 @@ class FactorForm {
         return to;
     }
 
-    /// Nearly the factor of a point and itself.
+    /// Approximate factor of a point with itself.
     [[nodiscard]] double diagonal(const PointNumbers& point) const {
         if (two_sided_) return 1 + std::abs(point.value.high);
         if (is_of_distance()) return static_cast<double>(base_) + reach();
@@ -184,22 +183,22 @@ class FactorForm {
     }
 
   private:
-    /// How far a factor of the distance is from base_, at most.
+    /// Maximum difference of a factor of the distance from base_.
     [[nodiscard]] double reach() const { return is_linear() ? 0.5 : 0.25; }
     [[nodiscard]] double vertex() const { return kind_ == Kind::mixture ? 0.75 : 0.5; }
 
     Kind kind_;
     bool alone_;
     bool two_sided_;
-    Quad inverse_;  ///< 1 over the weight
+    Quad inverse_;  ///< 1 / weight
     Quad scale_;
     Quad base_ = 0;
     double step_ = 0;
-    DoubleDouble top_ = {};     ///< what coordinates are taken from
-    DoubleDouble bottom_ = {};  ///< what they are added to
+    DoubleDouble top_ = {};     ///< coordinates are subtracted from this
+    DoubleDouble bottom_ = {};  ///< coordinates are added to this
 };
 
-/// The axes that have a weight.
+/// The axes with nonzero weights.
 struct Axes {
     std::vector<std::size_t> places;
     std::vector<FactorForm> forms;
@@ -219,17 +218,17 @@ Axes axes_of(std::size_t dimension, Kind kind, const AxisWeights& weights, bool 
     return axes;
 }
 
-/// Whether the two minima of the centered kernel are what is more than 1 of one factor, exactly,
-/// and their products need no scale.
+/// True if the two minima of the centered kernel form one factor minus 1, exactly, and its products
+/// need no scaling.
 bool is_two_sided(const PointSet& points, Kind kind, const AxisWeights& weights) {
-    constexpr std::size_t most_axes = 1500;  // 1.5^1500 is a double
+    constexpr std::size_t most_axes = 1500;  // 1.5^1500 is within the range of doubles
     if (kind != Kind::centered || points.dimension() > most_axes ||
         std::ranges::any_of(weights, [](double w) { return w != 1; }))
         return false;
     return std::ranges::all_of(points.flat(), [](double x) { return x == whole(x); });
 }
 
-/// A product of any size, without the rounding of doubles.
+/// A product that cannot overflow or underflow.
 class LongProduct {
   public:
     void multiply(const DoubleDouble& factor) {
@@ -247,7 +246,7 @@ class LongProduct {
     int exponent_ = 0;
 };
 
-/// The mean of an axis's factor over the other point, as a function of a coordinate.
+/// Mean of an axis's factor over one point, as a function of the other's coordinate.
 class Mean {
   public:
     explicit Mean(const AxisFactor& axis) {
@@ -271,11 +270,11 @@ class Mean {
     std::array<DoubleDouble, 4> of_;
 };
 
-/// What FactorForm::put gives for all points, and what there is to heed.
+/// Terms of all points from FactorForm::put, and related sums.
 struct Numbers {
     std::vector<PointNumbers> of;
     std::size_t factors = 0;
-    Quad means = 0;  ///< mean of the products of the factors' means
+    Quad means = 0;  ///< mean over the points of the product of the factors' means
 };
 
 Numbers numbers_of(const PointSet& points, const Axes& axes, const RunContext& run) {
@@ -298,19 +297,19 @@ Numbers numbers_of(const PointSet& points, const Axes& axes, const RunContext& r
     return numbers;
 }
 
-/// Powers of two over which factors are taken, so that the largest product of a point with itself,
-/// and with that every product, is near 1 or below after each factor.
+/// Powers of two that divide the factors, so that the largest product of a point with itself, and
+/// hence every product, is at most about 1 after each factor.
 struct Scaling {
-    std::vector<int> exponents;  ///< even, of each factor
-    double any_order = 0;        ///< no product of some of the factors is above 2^any_order
-    double growth = 0;           ///< no product of the last factors is above 2^growth
+    std::vector<int> exponents;  ///< even numbers, by factor
+    double any_order = 0;        ///< products of any of the factors are at most 2^any_order
+    double growth = 0;           ///< products of any last factors are at most 2^growth
 };
 
 Scaling scaling_of(const Numbers& numbers, const std::vector<const FactorForm*>& forms) {
     Scaling scaling;
     const std::size_t n = numbers.of.size() / numbers.factors;
     std::vector<double> sizes(n, 0);     // binary logarithms of scaled products
-    std::vector<double> smallest(n, 0);  // of them so far
+    std::vector<double> smallest(n, 0);  // their minima so far
     for (std::size_t f = 0; f < numbers.factors; ++f) {
         double most = -std::numeric_limits<double>::infinity();
         double largest = most;
@@ -335,7 +334,7 @@ Scaling scaling_of(const Numbers& numbers, const std::vector<const FactorForm*>&
     return scaling;
 }
 
-/// Halves points along an axis, and each half along the next, until they make one block.
+/// Halves points along an axis, and each half along the next, until they fit one block.
 void halve(std::span<std::size_t> order, const PointSet& points, const Axes& axes, bool sides,
            std::size_t depth) {
     if (order.size() <= block_width) {
@@ -358,9 +357,8 @@ void halve(std::span<std::size_t> order, const PointSet& points, const Axes& axe
     halve(order.subspan(middle), points, axes, sides, depth + 1);
 }
 
-/// An order of the points in which blocks of them lie beside each other on as many axes as may be:
-/// parts are halved along one axis after the other, the first time in the middle of the cube if
-/// sides of it matter.
+/// Order of the points in which blocks are separated on as many axes as possible. Sets are halved
+/// along one axis after the other. If `sides` matter, the first cut on each axis is at 1/2.
 std::vector<std::size_t> block_order(const PointSet& points, const Axes& axes, bool sides) {
     std::vector<std::size_t> order(points.count());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -376,12 +374,12 @@ PairForm form_of(const FactorForm& form, Kind kind) {
     return form.is_bernoulli() ? PairForm::bernoulli : PairForm::minimum;
 }
 
-/// What distances are multiplied with where factors are with the root's square.
+/// Factor for distances if factors are multiplied by root^2.
 double scale_of_distance(PairForm form, double root) {
     return form == PairForm::linear ? root * root : root;
 }
 
-/// The columns of a point that the kernels of a form want, and what may follow them.
+/// Columns of a point in a form's kernel; unused ones are at the end.
 std::array<double, 4> columns_of(PairForm form, const PointNumbers& point, double root) {
     const double value = root * root * point.value.high;
     const double error = root * root * point.value.low;
@@ -406,7 +404,7 @@ Factors factors_of(const Axes& axes) {
     return factors;
 }
 
-/// Products may reach so far above 1, or come so far back from below, in binary digits.
+/// Binary digits by which products may exceed 1, or recover from underflow.
 constexpr double safe_digits = 850;
 
 BlockTable table_of(PairForm form, const Numbers& numbers, const Scaling& scaling,
@@ -428,11 +426,11 @@ BlockTable table_of(PairForm form, const Numbers& numbers, const Scaling& scalin
     return table;
 }
 
-/// What the axes' factors give together.
+/// Combined data of the axes' factors.
 struct AxisProducts {
-    Quad total = 1;  ///< mean of the products of means
-    Quad scale = 1;  ///< over which the sum over pairs is taken
-    Quad most = 1;   ///< more than any product
+    Quad total = 1;  ///< mean over both points of the products
+    Quad scale = 1;  ///< by which the sum over pairs is divided
+    Quad most = 1;   ///< upper bound on all products
     double cancellation = 0;
     bool may_vanish = false;
 };
@@ -479,7 +477,7 @@ Square pair_square(const PointSet& points, Kind kind, const AxisWeights& weights
     const Quad n = points.count();
     const Quad pairs = of.scale * (Quad(sum.high) + sum.low) / (n * n);
     const Quad squared = of.total - 2 * numbers.means + pairs;
-    // What is lost below the smallest double may grow again with the factors that follow.
+    // Digits lost below the smallest double may be magnified by later factors.
     const auto chain = static_cast<double>(numbers.factors + 8);
     const double growth = table.any_order() ? scaling.any_order : scaling.growth;
     const double relative = 0x1p-80 + 0x1p-98 * chain * chain + 0x1p-102 * of.cancellation;

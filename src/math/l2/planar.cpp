@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// L2 discrepancies of points on a line or in the plane, without rounding, in O(n log n).
+// Exact L2 discrepancies of points on a line or in the plane, in O(n log n).
 //
 // On each axis all kernels are of the form
 //
@@ -16,16 +16,17 @@
 //                             = 4 sum_i x_i h_i - 2 sum_ik x_k |y_i - y_k|,
 //                        h_i  = sum |y_i - y_k| over the points before i in order of x.
 //
-// T is the only sum that needs both orders at once; it is the same for every kernel, and merge sort
-// of y finds it on its way: when a point from the right half goes out, the points of the left half
-// that went before it are its lower left neighbors. Ties need no care, their terms are 0.
+// T is the only sum that needs both orders at once. It is the same for every kernel, and is
+// computed during a merge sort by y. When a point of the right half is output, the points of the
+// left half output before are those to its lower left. Ties do not matter, because their terms are
+// 0.
 //
-// Coordinates are whole multiples of 2^-63 (smaller parts are rounded away), sums are whole numbers
-// of as many bits as it takes, and only their quotient at the end is rounded.
+// Coordinates are integer multiples of 2^-63 (smaller parts are rounded away), sums are integers of
+// any length, and only the final quotient is rounded.
 //
 // Cost    O(n log n) time, 48 bytes a point.
-// Promise the same for any number of threads, bit by bit; exact where coordinates are multiples of
-//         2^-63, as all doubles from 2^-11 on are.
+// Promise the same bits for any number of threads. Exact if coordinates are multiples of 2^-63, as
+//         are all doubles of at least 2^-11.
 
 #include "math/l2/squares.hpp"
 
@@ -46,7 +47,7 @@ using Integer = PlaneSums::Integer;
 
 constexpr std::uint64_t half = std::uint64_t{1} << (fraction_bits - 1);
 
-/// Sum of whole numbers below 2^256, its carries left for the end.
+/// Sum of integers below 2^256; carries are deferred to the end.
 class LongSum {
   public:
     void add(Uint128 value) {
@@ -80,7 +81,7 @@ class LongSum {
     std::array<Uint128, 4> parts_{};
 };
 
-/// A point, along the axis that orders it and across.
+/// A point: its coordinate t on the axis of the order, and w on the other.
 struct Item {
     std::uint64_t t;
     std::uint64_t w;
@@ -95,14 +96,15 @@ struct Features {
     std::uint64_t from_middle;
 };
 
-/// Adds a phi_q to sums[q - 1] for all q > 0.
+/// Adds a phi_q to sums[q - 1] for q = 1, 2, 3.
 void add_features(std::array<LongSum, 3>& sums, Uint128 a, const Features& phi) {
     sums[0].add_product(a, phi.x);
     sums[1].add_product(a, phi.square);
     sums[2].add_product(a, phi.from_middle);
 }
 
-/// Sums of points in order of t: i counts the points before, T and W are sums over them.
+/// Sums over points in order of t: i is the number of points before, T and W are sums of t and w
+/// over these.
 struct AxisSums {
     std::array<std::array<LongSum, 3>, 4> moments;  ///< phi_p(t) phi_q(w), q > 0
     std::array<LongSum, 3> alone;                   ///< phi_p(t), p > 0
@@ -150,7 +152,7 @@ void AxisSums::add(const AxisSums& other) {
 
 constexpr std::size_t stretch = std::size_t{1} << 14;
 
-/// Of points in order of t; moments only where wanted.
+/// Computes the sums for points in order of t; moments only if requested.
 AxisSums axis_sums(const std::vector<Item>& items, bool moments, const RunContext& run) {
     std::vector<std::pair<Uint128, Uint128>> before(block_count(items.size(), stretch));
     for_each_block(run.stage(0, 0.2), items.size(), stretch, [&](const Block& block) {
@@ -183,15 +185,15 @@ AxisSums axis_sums(const std::vector<Item>& items, bool moments, const RunContex
     return all;
 }
 
-/// Merges the runs [0, left) and [left, n) of `items` by w into `out`, with no branch that depends
-/// on them; adds t_i (w_i - w_k) for items i of the right run and those k of the left one that go
-/// out first.
+/// Merges the runs [0, left) and [left, n) of `items` by w into `out`, without branches that depend
+/// on the data. Adds t_i (w_i - w_k) over items i of the right run and items k of the left run that
+/// are output before i.
 void merge(const Item* items, std::size_t left, std::size_t n, Item* out, LongSum& sum,
            const RunContext& run) {
     constexpr std::size_t between_looks = std::size_t{1} << 16;
     std::size_t low = 0;
     std::size_t high = left;
-    Uint128 passed_w = 0;  // of the left run's items that went out
+    Uint128 passed_w = 0;  // sum over the left run's items output so far
     for (std::size_t i = 0; i < n; ++i) {
         if (i % between_looks == 0) run.check_stop();
         const bool from_left = high == n || (low < left && items[low].w <= items[high].w);
@@ -204,8 +206,8 @@ void merge(const Item* items, std::size_t left, std::size_t n, Item* out, LongSu
     }
 }
 
-/// Sorts items in order of t by w; gives the sum of t_i (w_i - w_k) over all points k before i with
-/// w_k <= w_i.
+/// Sorts items in order of t by w. Returns the sum of t_i (w_i - w_k) over all points k before i
+/// with w_k <= w_i.
 Integer dominance(std::vector<Item>& items, const RunContext& run) {
     const std::size_t n = items.size();
     std::vector<Item> other(n);
@@ -241,7 +243,7 @@ Integer dominance(std::vector<Item>& items, const RunContext& run) {
 std::vector<Item> by_first_axis(const PointSet& points, const RunContext& run) {
     const std::size_t n = points.count();
     std::vector<Placed> order(n);
-    for (std::size_t i = 0; i < n; ++i)  // + 0 turns -0 into 0
+    for (std::size_t i = 0; i < n; ++i)  // + 0 changes -0 to 0
         order[i] = {points[i][0] + 0.0, static_cast<std::uint32_t>(i)};
     radix_sort(order, run);
     run.tick(1, 2);
@@ -253,14 +255,14 @@ std::vector<Item> by_first_axis(const PointSet& points, const RunContext& run) {
     return items;
 }
 
-/// V of an axis, of whose coordinates and the other's these are the moments.
+/// V of an axis, from moments of the other coordinate alone and multiplied by t.
 PlaneSums::Symmetric along(const AxisSums& sums, const std::array<Integer, 4>& alone,
                            const std::array<Integer, 4>& with_t, const Integer& sum_t) {
     const Integer n = alone[0];
     PlaneSums::Symmetric v;
     v[0] = 4 * sums.ranked.value() + 2 * sum_t - 2 * n * sum_t;
     for (std::size_t q = 1; q < 4; ++q) {
-        // sum_i t_i W_i for the weights phi_q, by what is behind them
+        // sum_i t_i W_i with weights phi_q, from the sums T before each point
         const Integer running = sum_t * alone[q] - sums.behind[q - 1].value() - with_t[q];
         v[q] = 2 * running + 2 * sums.ranked_by[q - 1].value() + 2 * with_t[q] - alone[q] * sum_t -
                n * with_t[q];
@@ -319,11 +321,11 @@ struct Term {
     std::size_t p;
     std::size_t q;
     std::int64_t weight;
-    std::size_t place;  ///< in PlaneSums::Symmetric
+    std::size_t place;  ///< index in PlaneSums::Symmetric
     [[nodiscard]] unsigned degrees() const { return degree[p] + degree[q]; }
 };
 
-/// The terms s_pq phi_p phi_q that are there.
+/// Nonzero terms s_pq phi_p phi_q.
 std::vector<Term> terms_of(const AxisKernel& k) {
     const Term all[] = {{0, 0, k.s00, 0}, {0, 1, k.s01, 1}, {1, 0, k.s01, 1}, {0, 2, k.s02, 2},
                         {2, 0, k.s02, 2}, {0, 3, k.s03, 3}, {3, 0, k.s03, 3}, {1, 1, k.s11, 4}};
@@ -332,7 +334,7 @@ std::vector<Term> terms_of(const AxisKernel& k) {
     return terms;
 }
 
-/// value / (n^2 48^axes 2^(126 axes)) where value is scaled so.
+/// Returns value / (n^2 48^axes 2^(126 axes)).
 double quotient(const Integer& value, std::size_t n, unsigned axes) {
     using Fraction = boost::multiprecision::cpp_rational;
     Integer below = (Integer(n) * n) << (2 * fraction_bits * axes);
@@ -340,12 +342,12 @@ double quotient(const Integer& value, std::size_t n, unsigned axes) {
     return Fraction(value, below).convert_to<double>();
 }
 
-/// `value` of so many degrees, scaled to those of so many axes.
+/// Scales `value` from its degrees in the coordinates to those of all axes.
 Integer scaled(const Integer& value, unsigned degrees, unsigned axes) {
     return value << (fraction_bits * (2 * axes - degrees));
 }
 
-/// Of one axis, from the moments along it and its V of (0, 0).
+/// Squared discrepancy on one axis, from the moments and V_00 along it.
 double axis_square(const std::array<Integer, 4>& moments, const Integer& spread,
                    const AxisKernel& kernel) {
     const Integer& n = moments[0];

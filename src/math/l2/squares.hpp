@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Three ways to the square of an L2 discrepancy, each described in its source: whole numbers on a
-// line or in the plane, divide and conquer in three or four dimensions, and sums over all pairs.
+// Three ways to compute a squared L2 discrepancy, described in their sources: integers on a line or
+// in the plane, divide and conquer in three or four dimensions, and sums over all pairs.
 #pragma once
 
 #include <array>
@@ -15,42 +15,43 @@
 
 namespace stipple::l2 {
 
-/// The squared discrepancy; not finite where it is beyond the largest double.
+/// Squared discrepancy by all pairs; not finite if it exceeds the largest double.
 Square pair_square(const PointSet& points, Kind kind, const AxisWeights& weights,
                    const RunContext& run, Vectors widest = Vectors::eights);
 
-/// Bytes that it needs.
+/// Bytes that pair_square() needs.
 double pair_memory(std::size_t count, std::size_t dimension);
 
-/// Sums over the points of a set; phi_p is scaled by 2^63 to the power of its degree.
+/// Sums over the points of a set, with phi_p scaled by 2^63 to the power of its degree.
 struct PlaneSums {
     using Integer = boost::multiprecision::cpp_int;
     using Symmetric = std::array<Integer, 5>;  ///< V of (0,0), (0,1), (0,2), (0,3), (1,1)
 
     std::size_t count = 0;
-    std::array<std::array<Integer, 4>, 4> moments;  ///< of the first axis and the second
-    std::array<Symmetric, 2> along;                 ///< each axis, with phi of the other
+    std::array<std::array<Integer, 4>, 4> moments;  ///< M_pq, p on the first axis, q on the second
+    std::array<Symmetric, 2> along;                 ///< V of each axis, with phi of the other
     Integer planar;                                 ///< T
 };
 
-/// Of points with one or two coordinates in [0, 1]; a second coordinate that is missing is 0.
+/// Sums over points with one or two coordinates in [0, 1]; a missing second coordinate is 0.
 PlaneSums plane_sums(const PointSet& points, const RunContext& run);
 
-/// The squared discrepancy: of each projection the double nearest to the exact value, or one of its
-/// neighbors.
+/// Squared discrepancy: for each projection the double nearest to the exact value, or a neighbor of
+/// it.
 double plane_square(const PlaneSums& sums, std::size_t dimension, Kind kind,
                     const AxisWeights& weights);
 
-/// Whether divide_square() takes such points.
+/// True if divide_square() accepts such points.
 bool divides(std::size_t dimension, Kind kind, const AxisWeights& weights);
 
-/// Whether it is faster than all pairs are.
+/// True if divide_square() is faster than pair_square().
 bool divide_wins(std::size_t count, std::size_t dimension, Kind kind);
 
-/// Bytes that it needs.
+/// Bytes that divide_square() needs.
 double divide_memory(std::size_t count, std::size_t dimension, Kind kind);
 
-/// The squared discrepancy of points that divides() and divide_wins() let pass, or fewer.
+/// Squared discrepancy by divide and conquer. Requires divides() and at most as many points as
+/// divide_wins() allows.
 Square divide_square(const PointSet& points, Kind kind, const AxisWeights& weights,
                      const RunContext& run);
 
