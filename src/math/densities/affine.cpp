@@ -11,7 +11,7 @@
 namespace stipple {
 namespace {
 
-/// coefficients . x + constant
+/// The function coefficients . x + constant.
 struct Affine {
     std::vector<double> coefficients;
     double constant = 0;
@@ -31,13 +31,13 @@ struct Affine {
     }
 };
 
-/// Thrown where a formula is not affine, and caught in affine_inequalities().
+/// Thrown if a formula is not affine; caught in affine_inequalities().
 struct NotAffine {};
 
-/// The same where it is not read to its end.
+/// Thrown if a formula is nested too deeply to be read.
 struct TooDeep {};
 
-/// By recursive descent, one function for each level of operators.
+/// Recursive-descent parser with a function for each level of operators.
 class AffineReader {
   public:
     AffineReader(std::string_view text, const VariableNames& variables, std::size_t dimension)
@@ -60,7 +60,7 @@ class AffineReader {
         return true;
     }
 
-    /// Counts parentheses and signs within each other, while it lives.
+    /// Counts nested parentheses and signs during its lifetime.
     struct Depth {
         explicit Depth(std::size_t& depth) : count(depth) {
             if (++count > 200) throw TooDeep();
@@ -79,7 +79,7 @@ class AffineReader {
                 all.push_back(comparison());
                 continue;
             } catch (const NotAffine&) {
-                at_ = start;  // there may be one in parentheses
+                at_ = start;  // it may be in parentheses
             }
             if (!take("(")) throw NotAffine();
             conjunction(all);
@@ -184,7 +184,8 @@ class AffineReader {
         at_ = std::min(at_ + 1, text_.size());
     }
 
-    /// What stands since `start`, by the formulas' own reader, which knows no variable here.
+    /// Value of the text from `start` to the current position, by the parser for formulas. It knows
+    /// no variables here.
     Affine constant(std::size_t start) const {
         Affine all{std::vector<double>(dimension_)};
         try {

@@ -4,10 +4,10 @@
 //
 //     2*length + load < 300    ->    (2, 1) . (length, load) <= 300
 //
-// Read are + - * / and parentheses, where one factor of a product and each divisor are constant, one
-// of < <= > >= between two sums, and several of these joined by &&. Constants are what a formula
-// without variables may be: sqrt(2)/3. Whether an inequality is strict makes no difference, but
-// between constants.
+// Supported are + - * / and parentheses if one factor of each product and all divisors are
+// constant, one of < <= > >= between two sums, and several such inequalities joined by &&.
+// Constants may be any formula without variables: sqrt(2)/3. Strictness only matters between
+// constants.
 #pragma once
 
 #include <optional>
@@ -19,8 +19,8 @@
 
 namespace stipple {
 
-/// Nothing where a formula is another one. Each half-space has the whole text.
-/// @param text a formula that Expression takes
+/// Half-spaces of a formula, each with the whole text; nullopt if the formula has another form.
+/// @param text a formula that Expression accepts
 std::optional<std::vector<HalfSpace>> affine_inequalities(std::string_view text,
                                                           const VariableNames& variables,
                                                           std::size_t dimension);

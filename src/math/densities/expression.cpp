@@ -31,7 +31,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double whole_turn = 2 * std::numbers::pi;
 
-// What the functions mean, also where those of src/math are not defined.
+// Definitions of the functions, extended to arguments for which those of src/math are not defined.
 
 CosSin turned(double x) {
     if (!std::isfinite(x)) return {nan, nan};
@@ -46,10 +46,10 @@ double tangent(double x) {
     return s / c;
 }
 
-/// In (-pi, pi], as precise on both sides of the x axis.
+/// Angle in (-pi, pi], equally precise on both sides of the x axis.
 double angle(double y, double x) {
     if (std::isnan(x) || std::isnan(y)) return nan;
-    // Infinite coordinates as directions.
+    // Treats infinite coordinates as directions.
     const double wide = std::isinf(x) ? std::copysign(1.0, x) : (std::isinf(y) ? 0 : x);
     const double high = std::isinf(y) ? std::copysign(1.0, y) : (std::isinf(x) ? 0 : y);
     return std::copysign(whole_turn * turns_of(wide, std::abs(high)), high);
@@ -83,7 +83,7 @@ double tanh_of(double x) {
 
 double power(double x, double y) {
     if (std::isnan(x) || std::isnan(y)) return nan;
-    // Small whole exponents by products, as one would write them out.
+    // Small integer exponents use multiplications, as if written out.
     if (y == std::floor(y) && std::abs(y) <= 16) {
         const double up = whole_power(x, static_cast<std::size_t>(std::abs(y)));
         return y < 0 ? 1 / up : up;
@@ -127,7 +127,7 @@ constexpr std::pair<const char*, mu::fun_type1> functions_of_one[] = {
 constexpr std::pair<const char*, mu::fun_type2> functions_of_two[] = {
     {"atan2", angle},
     {"pow", power},
-    {"mod", [](double x, double y) { return std::fmod(x, y); }},  // exact, so the same everywhere
+    {"mod", [](double x, double y) { return std::fmod(x, y); }},  // exact, hence portable
     {"hypot", [](double x, double y) { return std::sqrt(x * x + y * y); }},
 };
 
@@ -137,7 +137,7 @@ constexpr std::pair<const char*, mu::multfun_type> functions_of_many[] = {
 };
 
 int read_number(const char* text, int* at, double* value) {
-    if (*text != '.' && !(*text >= '0' && *text <= '9')) return 0;  // no sign, no word
+    if (*text != '.' && !(*text >= '0' && *text <= '9')) return 0;  // neither a sign nor a word
     const char* last = text;
     while (*last != 0 && std::string_view("0123456789.eE+-").find(*last) != std::string_view::npos)
         ++last;
@@ -147,9 +147,9 @@ int read_number(const char* text, int* at, double* value) {
     return 1;
 }
 
-constexpr char power_mark = '~';  // ^ is built in and the C library's; this one is ours
+constexpr char power_mark = '~';  // our power operator: muParser's ^ uses the C library
 
-constexpr char quote_mark = '@';  // begins what stands for a name in quotes
+constexpr char quote_mark = '@';  // first character of the placeholder for a quoted name
 
 constexpr std::string_view name_letters =
     "0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
@@ -158,7 +158,7 @@ using Names = VariableNames;
 
 constexpr std::string_view letters = "xyz";
 
-/// muParser with our functions and none of its own.
+/// muParser with our functions only.
 class Parser final : public mu::ParserBase {
   public:
     Parser(const std::string& text, const Names& names, std::vector<double>& variables) {
@@ -196,7 +196,7 @@ class Parser final : public mu::ParserBase {
     }
 };
 
-/// What would have been right where muParser met something else.
+/// What was expected at the place of muParser's error.
 std::string expectation(const mu::ParserError& error, const std::string& variables) {
     switch (error.GetCode()) {
         case mu::ecUNASSIGNABLE_TOKEN:
@@ -224,14 +224,14 @@ std::string expectation(const mu::ParserError& error, const std::string& variabl
     }
 }
 
-/// What is wrong at a column, counted from 1.
+/// Throws an error at a column, counted from 1.
 [[noreturn]] void refuse(std::string_view option, std::string_view text, std::size_t column,
                          std::string_view token, std::string_view expected) {
     const std::string found = token.empty() ? "" : fmt::format(" '{}':", token);
     fail(ErrorKind::usage, "--{}: '{}', column {}:{} {}", option, text, column, found, expected);
 }
 
-/// Where the formula ends too early.
+/// Throws an error if the formula ends too early.
 [[noreturn]] void refuse_end(std::string_view option, std::string_view text, std::size_t column,
                              mu::EErrorCodes code) {
     std::string_view wanted = "a number, a variable, a function or '('";
@@ -241,20 +241,20 @@ std::string expectation(const mu::ParserError& error, const std::string& variabl
          option, text, column, wanted);
 }
 
-/// The word or sign at the start of what muParser did not understand, which goes on to the end.
+/// The word or sign at the start of `rest`, which muParser did not understand.
 std::string_view first_word(std::string_view rest) {
     const std::size_t end = std::min(rest.find_first_not_of(name_letters), rest.size());
     if (end > 0) return rest.substr(0, end);
-    std::size_t size = std::min<std::size_t>(rest.size(), 1);  // and the other bytes of a character
+    std::size_t size = std::min<std::size_t>(rest.size(), 1);  // then the character's other bytes
     while (size < rest.size() && (static_cast<unsigned char>(rest[size]) & 0xC0U) == 0x80U) ++size;
     return rest.substr(0, size);
 }
 
-/// Says what muParser found wrong.
+/// Throws an error that describes the one of muParser.
 [[noreturn]] void explain(std::string_view option, std::string_view text,
                           const mu::ParserError& error, const std::string& variables,
                           const mu::funmap_type& functions) {
-    const std::size_t end = text.find_last_not_of(" \t") + 1;  // 0 for blanks alone
+    const std::size_t end = text.find_last_not_of(" \t") + 1;  // 0 if all are blanks
     if (end == 0) refuse(option, text, 1, "", "expected a formula");
     const auto code = error.GetCode();
     const auto at = static_cast<std::size_t>(std::max(error.GetPos(), 0));
@@ -273,7 +273,8 @@ std::string_view first_word(std::string_view rest) {
            functions.contains(word) ? "expected '(' behind it" : expectation(error, variables));
 }
 
-/// A lone = would change a variable. @param marked the text as muParser gets it
+/// Rejects characters with a special meaning, and a single =, which would assign to a variable.
+/// @param marked the text passed to muParser
 void check_characters(std::string_view option, std::string_view text, std::string_view marked) {
     for (std::size_t i = 0; i < marked.size(); ++i) {
         const char before = i > 0 ? marked[i - 1] : ' ';
@@ -289,7 +290,7 @@ void check_characters(std::string_view option, std::string_view text, std::strin
     }
 }
 
-/// Where the part of a formula ends that begins at `from`: at a separator outside its parentheses.
+/// End of the part of a formula that begins at `from`: the next separator outside its parentheses.
 std::size_t part_end(std::string_view text, std::size_t from) {
     std::size_t depth = 0;
     for (std::size_t i = from; i < text.size(); ++i) {
@@ -302,18 +303,18 @@ std::size_t part_end(std::string_view text, std::size_t from) {
     return text.size();
 }
 
-/// How many characters of a comparison begin here.
+/// Length of the comparison operator that begins here; 0 if there is none.
 std::size_t comparison_size(std::string_view rest) {
     const bool two = rest.size() > 1 && rest[1] == '=';
     if (rest[0] == '<' || rest[0] == '>') return two ? 2 : 1;
     return (rest[0] == '=' || rest[0] == '!') && two ? 2 : 0;
 }
 
-/// a < b < c would compare c with 0 or 1.
+/// Rejects a < b < c, which would compare c with 0 or 1.
 void refuse_chains(std::string_view option, std::string_view text, std::string_view marked) {
     struct Part {
         std::size_t begin = 0;
-        std::size_t operand = 0;  ///< behind its comparison; 0: it has none
+        std::size_t operand = 0;  ///< position after its comparison operator; 0 if it has none
     };
     std::vector<Part> parts(1);
     for (std::size_t i = 0; i < marked.size(); ++i) {
@@ -350,7 +351,7 @@ std::string without_blanks(std::string_view text) {
     return all;
 }
 
-/// A name, or what stands in quotes.
+/// A name, or a text in quotes.
 struct Word {
     std::size_t begin;
     std::size_t end;
@@ -358,8 +359,8 @@ struct Word {
     bool quoted;
 };
 
-/// Reads what names and words a formula has, and marks it for muParser: the same columns, with a
-/// variable or a number in place of each quoted text.
+/// Finds the names and words in a formula and marks it for muParser: each quoted text is replaced
+/// by a variable or a number, padded to keep the columns.
 class NameReader {
   public:
     NameReader(std::string_view option, std::string_view text, const FormulaNames& names)
@@ -408,7 +409,7 @@ class NameReader {
         if (k && used_.insert(marked).second) variables_.emplace_back(marked, *k);
     }
 
-    /// The coordinate whose words word i is compared with.
+    /// The coordinate with which word i is compared, if that has words.
     std::optional<std::size_t> compared(std::size_t i) const {
         for (const std::size_t left : {i - 1, i}) {
             if (left + 1 == 0 || left + 1 >= words_.size()) continue;
@@ -437,7 +438,8 @@ class NameReader {
             by = fmt::format("{}{}", quote_mark, *name);
             use(word.text, by);
         }
-        // Those of very many names may be longer: then only columns in messages are others.
+        // Placeholders may be longer if there are very many names; then only columns in messages
+        // change.
         const std::size_t size = word.end - word.begin;
         by.resize(std::max(by.size(), size), ' ');
         marked_.replace(word.begin + shift_, size, by);
@@ -461,7 +463,7 @@ class NameReader {
     std::size_t shift_ = 0;
 };
 
-/// Of the usual names, those that stand in a formula.
+/// The usual names that occur in a formula.
 VariableNames usual_in(std::string_view text, std::size_t dimension) {
     VariableNames used;
     for (auto& variable : usual_variables(dimension))
@@ -469,7 +471,7 @@ VariableNames usual_in(std::string_view text, std::size_t dimension) {
     return used;
 }
 
-/// Of names, for messages.
+/// A list of names for messages.
 std::string told_names(const FormulaNames& names) {
     constexpr std::size_t most = 12;
     std::vector<std::string> all;
@@ -481,14 +483,14 @@ std::string told_names(const FormulaNames& names) {
     return fmt::format("{}", fmt::join(all, ", "));
 }
 
-/// x, y, z where they are no more; else x1, x2, ...
+/// A list of the usual names for messages: x, y, z or x1 to xN.
 std::string told_usual(std::size_t dimension) {
     return dimension > letters.size()
                ? fmt::format("x1 to x{}", dimension)
                : fmt::format("{}", fmt::join(letters.substr(0, dimension), ", "));
 }
 
-/// A parser with its variables.
+/// A parser and its variables.
 struct Machine {
     Machine(const std::string& text, const Names& names)
         : variables(names.size()), parser(text, names, variables) {}
@@ -499,7 +501,7 @@ struct Machine {
 
 }  // namespace
 
-/// One for each thread.
+/// A parser for each thread.
 struct Expression::Machines {
     Machines(const std::string& text, const Names& names) : of_threads(text, names) {}
 

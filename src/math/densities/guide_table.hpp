@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Where a number falls among rising sums, in constant expected time: the range of the sums is cut
-// into equal buckets, and for each is known how many sums lie in buckets before it. The search is
-// then among the sums of one bucket.
+// Guide table: search among increasing sums in constant expected time. The range of the sums is cut
+// into equal buckets, and for each bucket the number of sums in earlier buckets is stored. So a
+// search is limited to the sums in one bucket.
 //
-//     bucket(w) = floor(w * buckets / total),    the first sum above w lies in
+//     bucket(w) = floor(w * buckets / total),    the first sum above w has an index in
 //     [starts[bucket(w)], starts[bucket(w) + 1]].
 //
-// Shape   sums >= 0, none below the one before; numbers in [0, total).
-// Cost    4 bytes a bucket; O(1 + log of the sums in the bucket) a search.
-// Promise the same answer as a binary search among all sums, whatever the rounding: bucket() rises
-//         with w, and sums and numbers go through the same.
+// Shape   sums >= 0, not decreasing; numbers in [0, total).
+// Cost    4 bytes per bucket; O(1 + log(sums in the bucket)) per search.
+// Promise the same result as a binary search among all sums, regardless of rounding: bucket() does
+//         not decrease, and is the same function for sums and numbers.
 // Source  H.-C. Chen, Y. Asau, "On generating random variates from an empirical distribution", AIIE
 //         Trans. 6(2) (1974) 163-166, doi:10.1080/05695557408974949.
 #pragma once
@@ -26,20 +26,20 @@
 
 namespace stipple {
 
-/// Up to as many sums are gone through without asking how many there are.
+/// Up to this many sums are searched in a fixed number of steps.
 inline constexpr std::size_t few_sums = 16;
 
-/// Cuts [0, total] into buckets.
+/// Divides [0, total] into buckets.
 class Buckets {
   public:
     Buckets() = default;
     Buckets(double total, std::size_t count)
         : scale_(static_cast<double>(count) / total), last_(count - 1) {
-        if (!std::isfinite(scale_)) scale_ = 0;  // all in the first: slower, and as right
+        if (!std::isfinite(scale_)) scale_ = 0;  // all in the first bucket: slower, but correct
     }
 
     [[nodiscard]] std::size_t of(double w) const {
-        // To signed numbers is one instruction, to unsigned ones several.
+        // Conversion to signed integers takes one instruction, to unsigned ones several.
         return std::min(static_cast<std::size_t>(static_cast<std::int64_t>(w * scale_)), last_);
     }
 
@@ -48,8 +48,8 @@ class Buckets {
     std::size_t last_ = 0;
 };
 
-/// Fills the `starts`, one more than there are buckets, for sums whose last is the total. Gives the
-/// power of two above the most sums of a bucket, at most 16.
+/// Fills `starts`, whose size is the number of buckets plus 1, for sums that end with the total.
+/// Returns the power of two above the largest number of sums in a bucket, at most 16.
 inline std::size_t fill_guide(std::span<const double> sums, std::span<std::uint32_t> starts) {
     const Buckets buckets(sums.back(), starts.size() - 1);
     std::ranges::fill(starts, 0);
@@ -59,14 +59,14 @@ inline std::size_t fill_guide(std::span<const double> sums, std::span<std::uint3
     return std::min(few_sums, std::bit_ceil(most + 1));
 }
 
-/// The first of the sums above w < sums.back(), which lies in [low, high].
-/// @param few a power of two up to 16: what is done for as many sums is the same for all numbers
+/// Returns the index of the first sum above w < sums.back(), which must be in [low, high].
+/// @param few a power of two up to 16; ranges shorter than this take the same steps for all numbers
 inline std::size_t first_above(std::span<const double> sums, std::size_t low, std::size_t high,
                                double w, std::size_t few = few_sums) {
     const std::size_t last = sums.size() - 1;
     if (high - low < few) {
-        // Always as many steps, which the machine can do for several numbers at a time. What they
-        // meet beyond `high` is above w, too.
+        // The number of steps is fixed, so that the processor can overlap several searches. Sums
+        // after `high` are also above w.
         for (std::size_t step = few / 2; step > 0; step /= 2)
             low += sums[std::min(low + step - 1, last)] <= w ? step : 0;
         return low;
@@ -76,11 +76,11 @@ inline std::size_t first_above(std::span<const double> sums, std::size_t low, st
     return static_cast<std::size_t>(std::upper_bound(from, to, w) - sums.begin());
 }
 
-/// Rising sums with their guide.
+/// Increasing sums with their guide.
 class GuideTable {
   public:
     GuideTable() = default;
-    /// Sums >= 0, none below the one before, the last above 0.
+    /// @param sums not decreasing, >= 0, the last one positive
     GuideTable(std::vector<double> sums, std::size_t buckets)
         : sums_(std::move(sums)),
           most_(std::nextafter(sums_.back(), 0.0)),
@@ -93,12 +93,13 @@ class GuideTable {
     [[nodiscard]] double total() const { return sums_.back(); }
     [[nodiscard]] std::span<const double> sums() const { return sums_; }
 
-    /// Where the interval i begins and ends.
+    /// Ends of interval i.
     [[nodiscard]] double begin(std::size_t i) const { return i == 0 ? 0 : sums_[i - 1]; }
     [[nodiscard]] double end(std::size_t i) const { return sums_[i]; }
     [[nodiscard]] double width(std::size_t i) const { return sums_[i] - begin(i); }
 
-    /// The interval that holds w >= 0; from the total on, the last that is not empty.
+    /// Index of the interval that contains w >= 0; for w >= total, the last interval that is not
+    /// empty.
     [[nodiscard]] std::size_t at(double w) const {
         const double inside = std::min(w, most_);
         const std::size_t bucket = buckets_.of(inside);
@@ -110,7 +111,7 @@ class GuideTable {
     double most_ = 0;  ///< the largest number below the total
     Buckets buckets_;
     std::vector<std::uint32_t> starts_;
-    std::size_t few_ = few_sums;  ///< that a bucket has at most, if it is few
+    std::size_t few_ = few_sums;  ///< bound on the sums of a bucket, if that is small
 };
 
 }  // namespace stipple

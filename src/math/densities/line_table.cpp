@@ -14,10 +14,10 @@ namespace stipple {
 namespace {
 
 constexpr std::size_t most_pieces = std::size_t{1} << 20;
-constexpr std::size_t first_pieces = 97;  // no whole part of a period that people choose
-constexpr std::size_t fewest_probes = std::size_t{1} << 16;  // places looked at, at least
+constexpr std::size_t first_pieces = 97;  // a prime, so that it does not divide likely periods
+constexpr std::size_t fewest_probes = std::size_t{1} << 16;  // minimum number of probes
 
-/// A piece with f at 0, 1/4, 1/2, 3/4 and 1 of it.
+/// A piece with samples of f at 0, 1/4, 1/2, 3/4 and 1.
 struct Sampled {
     double low;
     double high;
@@ -66,7 +66,7 @@ class LineTabulator {
         return result;
     }
 
-    /// At breaks, f is looked at from inside each piece.
+    /// Creates the first pieces. At breaks, f is sampled from inside each piece.
     void lay_out(const LineRange& range) {
         std::vector<double> ends = {range.low};
         ends.insert(ends.end(), range.breaks.begin(), range.breaks.end());
@@ -95,8 +95,9 @@ class LineTabulator {
         for (const Sampled& piece : pieces) add_probed(piece);
     }
 
-    /// Adds a piece after a look at many places of it; cut at all of them if f is not there what
-    /// the quarters lead to expect, for else something narrow would be missed.
+    /// Adds a piece after probing f at many points. If f differs there from what the samples lead
+    /// to expect, the piece is cut at all of them, since otherwise a narrow feature would be
+    /// missed.
     void add_probed(const Sampled& piece) {
         const std::size_t cuts = places_.size();
         const auto part = [&](std::size_t i) {
@@ -135,7 +136,7 @@ class LineTabulator {
 
     void add(const Sampled& piece) { put(pieces_.size(), piece); }
 
-    /// Puts a piece at an index, or behind the last one.
+    /// Stores a piece at an index, or appends it.
     void put(std::size_t index, const Sampled& piece) {
         worst_.emplace(piece.error(), index);
         error_ += piece.error();
@@ -152,7 +153,7 @@ class LineTabulator {
             worst_.pop();
             const Sampled piece = pieces_[index];
             const double middle = piece.at(0.5);
-            if (error <= 0) return;  // what is left is the rounding of the sum
+            if (error <= 0) return;  // only rounding errors of the sum are left
             if (!(piece.low < middle && middle < piece.high) || pieces_.size() == most_pieces)
                 refuse(piece, tolerance);
             if (pieces_.size() % 1024 == 0) run_.check_stop();
@@ -168,7 +169,7 @@ class LineTabulator {
         }
     }
 
-    /// What adding and taking away has left in the sums grows with their largest size.
+    /// Recomputes the sums, because rounding errors from additions and subtractions accumulate.
     void sum_anew() {
         if (pieces_.size() > 4096 && pieces_.size() % 4096 != 0) return;
         error_ = 0;
@@ -189,8 +190,8 @@ class LineTabulator {
                        what_, tolerance, error_ / mass_, piece.at(0.5));
     }
 
-    /// Whether f is 0 in the piece although not in all of it. At an end that is 0, it may just get
-    /// there: what is near the end tells.
+    /// True if f is 0 at a point in the piece, but not in all of it. If it is 0 at an end, a point
+    /// close to the end decides.
     [[nodiscard]] bool has_gap(const Sampled& piece) const {
         constexpr double near = 0x1p-12;
         if (std::ranges::max(piece.f) == 0) return false;
@@ -204,9 +205,9 @@ class LineTabulator {
     const RunContext& run_;
     std::vector<Sampled> pieces_;
     std::priority_queue<std::pair<double, std::size_t>> worst_;
-    std::vector<double> places_;  ///< where it is probed
+    std::vector<double> places_;  ///< positions of probes
     std::vector<double> values_;
-    double width_ = 0;  ///< of the range
+    double width_ = 0;  ///< width of the range
     double error_ = 0;
     double mass_ = 0;
 };
@@ -215,7 +216,7 @@ class LineTabulator {
 
 void require_density(const std::string& what, std::span<const double> place, double value) {
     if (value >= 0 && std::isfinite(value)) return;
-    // A NaN may have a sign, which means nothing.
+    // The sign of a NaN has no meaning.
     const double shown = std::isnan(value) ? std::numeric_limits<double>::quiet_NaN() : value;
     fail(ErrorKind::usage, "{} is {} at {}; a density is finite and not below 0", what, shown,
          place_text(place));
@@ -243,8 +244,8 @@ double mass_share(double a, double b, double t) {
 LineTable::LineTable(std::vector<LinePiece> pieces) : pieces_(std::move(pieces)) {
     double top = 0;
     for (const LinePiece& piece : pieces_) top = std::max({top, piece.f_low, piece.f_high});
-    // Densities are given any scale. With the largest at 2^500, less where the range is large, no
-    // mass overflows, and the smallest beside it keep their digits.
+    // Densities may have any scale. With the largest at 2^500, less for large ranges, masses do not
+    // overflow, and small densities keep their digits.
     const double range = pieces_.back().x_high - pieces_.front().x_low;
     const int down = std::ilogb(top);
     const int lift = 500 - std::max(0, std::ilogb(range)) - down;
@@ -257,7 +258,7 @@ LineTable::LineTable(std::vector<LinePiece> pieces) : pieces_(std::move(pieces))
         const double before = sum;
         const double width = piece.x_high - piece.x_low;
         sums.push_back(sum += 0.5 * (piece.f_low + piece.f_high) * width);
-        // A quantile asks for their ratio alone: at a size whose square is a number.
+        // A quantile depends only on their ratio, so they are scaled to avoid overflow of squares.
         int size = 0;
         std::frexp(std::max(piece.f_low, piece.f_high), &size);
         rows_.push_back({before, sum - before, std::ldexp(piece.f_low, -size),
@@ -313,7 +314,7 @@ namespace {
 
 constexpr std::size_t batch_size = 128;
 
-/// The pieces of some numbers in columns, so that the loop over them is widened.
+/// The pieces of several numbers by column, so that the loop over them is vectorised.
 struct Batch {
     using Column = std::array<double, batch_size>;
     Column wanted, before, mass, f_low, f_high, x_low, width, last;
@@ -329,7 +330,7 @@ STIPPLE_WIDE [[gnu::flatten]] void invert(const Batch& of, double* x, std::size_
 
 }  // namespace
 
-// In two loops, since the search is not widened, and processors see several searches at a time.
+// Uses two loops, because the search cannot be vectorised, but processors overlap several searches.
 void LineTable::quantiles(std::span<double> shares) const {
     Batch batch;
     for (std::size_t first = 0; first < shares.size(); first += batch_size) {

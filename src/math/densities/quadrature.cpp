@@ -10,11 +10,13 @@
 namespace stipple {
 namespace {
 
-/// Nodes on [-1, 1] from 0 on, and their mirror images; every second one is a node of Gauss's rule.
+/// Nodes in [0, 1]; those in [-1, 0) are mirror images. Every second one is a node of the Gauss
+/// rule.
 using Kronrod = boost::math::quadrature::gauss_kronrod<double, 15>;
 using Gauss = boost::math::quadrature::gauss<double, 7>;
 
-/// By 31 points, halved up to `levels` times where the error is above `tolerance` of the value.
+/// Integral by the 31-point rule, bisected up to `levels` times if the relative error exceeds
+/// `tolerance`.
 Estimate by_halves(const std::function<double(double)>& f, double low, double high, unsigned levels,
                    double tolerance) {
     Estimate sum;
@@ -31,7 +33,7 @@ struct Interval {
     bool operator<(const Interval& other) const { return sum.error < other.sum.error; }
 };
 
-/// What f at an end differs from a parabola through the three nodes next to it.
+/// Difference of f at an end from the parabola through the three nodes next to it.
 double surprise(const std::array<double, 3>& x, const std::array<double, 3>& f, double end,
                 double value) {
     double expected = 0;
@@ -57,7 +59,7 @@ Interval measured(const std::function<double(double)>& f, double low, double hig
         kronrod += Kronrod::weights()[node] * value[k];
         if (node % 2 == 0) gauss += Gauss::weights()[node / 2] * value[k];
     }
-    // Just inside, where a jump at the end itself does not count.
+    // Evaluates slightly inside, so that a jump at the end itself does not matter.
     const double inset = 1e-9 * half;
     const double ends =
         surprise({x[0], x[1], x[2]}, {value[0], value[1], value[2]}, low, f(low + inset)) +
@@ -132,7 +134,7 @@ Estimate integrate_box(const std::function<double(std::span<const double>)>& f, 
                        const Effort& effort) {
     const std::size_t d = box.dimension();
     std::vector<double> point(d);
-    double inner_error = 0;  // the largest, times what lies outside
+    double inner_error = 0;  // largest error of an inner integral, times outer extents
     const std::function<double(std::size_t, double)> inside = [&](std::size_t k, double x) {
         point[k] = x;
         if (k + 1 == d) return f(point);

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// Integrals by the rules of Gauss and Kronrod: one rule, functions that are smooth but for the
-// ends, and any function over intervals and boxes, the interval with the largest error halved
-// first; over boxes, one coordinate inside the other.
+// Integrals by Gauss-Kronrod rules: by a single rule, of functions that are smooth except at the
+// ends, and of any function over intervals and boxes. The interval with the largest error is halved
+// first. Integrals over boxes are nested, a coordinate at a time.
 //
-//     error of an interval = |Kronrod - Gauss| + 1/200 of it times what f at its ends, which the
-//                            rule does not look at, differs from a parabola through the nodes there
+//     error of an interval = |Kronrod - Gauss| + 1/200 of its width times the difference of f
+//                            at its ends, which are no nodes, from a parabola through nodes
 //
 // Shape   any finite f; jumps and corners are found by halving.
-// Cost    17 values an interval; at most `most` intervals a coordinate.
-// Promise the error told is that estimate, summed: no bound, but rarely exceeded. Not for making
-//         points: roundings may differ between machines.
-// Source  R. Piessens et al., QUADPACK (1983): the rules' numbers, and choosing the worst interval.
+// Cost    17 values per interval; at most `most` intervals per coordinate.
+// Promise the returned error is the sum of these estimates: not a bound, but rarely exceeded. Not
+//         for generating points, because rounding may differ between machines.
+// Source  R. Piessens et al., QUADPACK (1983): the constants of the rules, and bisection of the
+//         worst interval.
 #pragma once
 
 #include <cstddef>
@@ -23,24 +24,26 @@
 
 namespace stipple {
 
-/// One rule of 31 points, exact for polynomials of degree 46. The error is the difference from the
-/// rule of Gauss that it contains, before it is scaled to the interval.
+/// A single 31-point rule, exact for polynomials of degree 46. The error is the difference from the
+/// Gauss rule that it contains, before scaling to the interval.
 Estimate gauss_kronrod(const std::function<double(double)>& f, double low, double high);
 
-/// Of a function that is smooth between the ends, up to square roots at the ends, which
+/// Integral of a function that is smooth inside, with square roots allowed at the ends. The
+/// substitution
 ///
 ///     x = a + (b - a) t^2 (3 - 2 t),    dx = 6 (b - a) t (1 - t) dt
 ///
-/// takes away; by 31 points, halved at most four times. The error is far above the true one.
+/// removes these. Uses the 31-point rule, bisected at most four times. The returned error is far
+/// above the true one.
 Estimate integrate_smooth(const std::function<double(double)>& f, double low, double high);
 
-/// The ends of the pieces of a range: those of `cuts` inside, and its own.
+/// Ends of the pieces of [low, high]: the cuts inside, and low and high.
 std::vector<double> ends_of(std::vector<double> cuts, double low, double high);
 
-/// Of a function that is so between these ends.
+/// Integral of a function that is smooth between consecutive ends, as for integrate_smooth.
 Estimate integrate_pieces(const std::function<double(double)>& f, std::span<const double> ends);
 
-/// How far an integral is taken: to this error relative to its value, or so many intervals.
+/// When to stop: at this error relative to the value, or at the maximum number of intervals.
 struct Effort {
     double tolerance = 1e-10;
     std::size_t most = 200;
@@ -51,7 +54,7 @@ struct Effort {
 Estimate integrate_interval(const std::function<double(double)>& f, double low, double high,
                             const Effort& effort = {});
 
-/// Of a function of a point, over a box of at least one dimension.
+/// Integral of a function of a point, over a box with at least one dimension.
 Estimate integrate_box(const std::function<double(std::span<const double>)>& f, const Box& box,
                        const Effort& effort = {});
 
