@@ -20,28 +20,29 @@ constexpr std::size_t probes_a_side = 512;  // along each axis
 constexpr std::size_t places_a_look = std::size_t{1} << 17;
 constexpr int most_looks = 8;
 
-/// A patch with f on the lines x_low, the middle and x_high, at 0, 1/4, 1/2, 3/4 and 1 of it.
+/// A patch with samples of f on the lines x_low, middle and x_high, at 0, 1/4, 1/2, 3/4 and 1 of
+/// its height.
 struct SampledPatch {
     double low;
     double high;
     std::array<std::array<double, 5>, 3> f;
-    double hidden = 0;  ///< difference where f was looked at besides, if these do not show it
+    double hidden = 0;  ///< largest known difference elsewhere that the samples do not show
 
     [[nodiscard]] double at(double part) const { return low + part * (high - low); }
 
-    /// From the corners, for shares of the extents.
+    /// Interpolates from the corners at fractions s and t of the extents.
     [[nodiscard]] double bilinear(double s, double t) const {
         return (1 - s) * ((1 - t) * f[0][0] + t * f[0][4]) + s * ((1 - t) * f[2][0] + t * f[2][4]);
     }
 
-    /// Largest difference from a line along y.
+    /// Largest difference of the samples from linear along y.
     [[nodiscard]] double bend() const {
         double worst = 0;
         for (const auto& line : f) worst = std::max(worst, largest_bend(line));
         return worst;
     }
 
-    /// Largest difference from a line along x.
+    /// Largest difference of the samples from linear along x.
     [[nodiscard]] double slope() const {
         double worst = hidden;
         for (std::size_t k = 0; k < 5; ++k)
@@ -55,13 +56,13 @@ struct SampledPatch {
         return top;
     }
 
-    /// What is lost when the patch is given up since f is 0 inside it.
+    /// Error from dropping the patch because f is 0 inside it.
     [[nodiscard]] double loss() const {
         const bool gap = f[1][1] == 0 || f[1][2] == 0 || f[1][3] == 0;
         return gap ? top() : 0;
     }
 
-    /// What may differ from the table by so much, the samples lead to expect.
+    /// Difference from the table that the samples lead to expect.
     [[nodiscard]] double expected() const {
         constexpr double rounding = 1e-12;
         return 2 * (bend() + slope()) + rounding * top();
@@ -83,14 +84,14 @@ struct SampledStrip {
     }
 };
 
-/// A place where f is not what the table led to expect.
+/// A point at which f differs from the table by more than expected.
 struct Surprise {
     std::array<double, 2> at;
     double f;
     double difference;
 };
 
-/// x, below the upper end of what it lies in.
+/// Clamps x below the upper end of its interval.
 double within(double low, double high, double x) {
     return x < high ? x : std::nextafter(high, low);
 }
@@ -132,7 +133,7 @@ class StripTabulator {
         return i == first_strips ? box_.high[0] : box_.low[0] + part * box_.extent(0);
     }
 
-    /// f at the points in points_, checked.
+    /// Evaluates f at points_, with checks.
     void look_at_points() {
         values_.resize(points_.size() / 2);
         f_(points_, values_);
@@ -140,7 +141,7 @@ class StripTabulator {
             require_density(what_, std::span(points_).subspan(2 * i, 2), values_[i]);
     }
 
-    /// Fills the samples at the given fifths of the patch on all three lines.
+    /// Fills the given samples of the patch, out of five, on all three lines.
     void sample(const SampledStrip& strip, SampledPatch& patch,
                 std::initializer_list<std::size_t> which) {
         points_.clear();
@@ -157,20 +158,20 @@ class StripTabulator {
             for (const std::size_t k : which) line[k] = values_[i++];
     }
 
-    /// Coordinate of a probe along an axis: they stand on a grid all over the box.
+    /// Coordinate of a probe along an axis; probes form a grid all over the box.
     [[nodiscard]] double probe_at(std::size_t axis, std::size_t i) const {
         const double part = (static_cast<double>(i) + 0.5) / double{probes_a_side};
         return box_.low[axis] + part * box_.extent(axis);
     }
 
-    /// The first probe along an axis at a place or beyond.
+    /// First probe along an axis at or after `place`.
     [[nodiscard]] std::size_t first_probe_from(std::size_t axis, double place) const {
         const double at =
             (place - box_.low[axis]) / box_.extent(axis) * double{probes_a_side} - 0.5;
         return static_cast<std::size_t>(std::clamp(std::ceil(at), 0.0, double{probes_a_side}));
     }
 
-    /// Looks at f all over the box.
+    /// Samples f all over the box.
     void probe_density() {
         for (std::size_t i = 0; i < probes_a_side; ++i) {
             run_.check_stop();
@@ -188,7 +189,7 @@ class StripTabulator {
         while (error_ > tolerance_ * mass_) split_worst();
     }
 
-    /// Looks at f at other places until the mass that these show the table to lack is little.
+    /// Samples f at new points until these show little mass that the table misses.
     void refine_until_nothing_surprises() {
         refine_as_asked();
         for (int look = 0;; ++look) {
@@ -208,8 +209,8 @@ class StripTabulator {
         }
     }
 
-    /// Places of the next stretch of a sequence that fills the box ever more densely, where f is not
-    /// what the table leads to expect; they are no probes.
+    /// Samples f at the next points of a sequence that fills the box ever more densely, different
+    /// from the probes. Returns those where f differs from the table by more than expected.
     std::vector<Surprise> surprises(int look) {
         constexpr std::array<double, 2> step{0.7548776662466927, 0.5698402909980532};
         constexpr std::size_t at_once = 4096;
@@ -237,14 +238,14 @@ class StripTabulator {
         return met;
     }
 
-    /// The strips in order, and the queue of their errors.
+    /// Sorts the strips, and rebuilds the queue of their errors.
     void sort_strips() {
         std::ranges::sort(strips_, {}, &SampledStrip::low);
         worst_ = {};
         for (std::size_t i = 0; i < strips_.size(); ++i) worst_.emplace(strips_[i].error, i);
     }
 
-    /// Where a place is, of strips that are in order.
+    /// Strip and patch that contain a point; strips must be sorted.
     std::pair<SampledStrip*, SampledPatch*> patch_of(const std::array<double, 2>& at) {
         const auto strip = std::ranges::upper_bound(strips_, at[0], {}, &SampledStrip::low) - 1;
         const auto patch =
@@ -252,7 +253,7 @@ class StripTabulator {
         return {&*strip, &*patch};
     }
 
-    /// What f differs by from the table there.
+    /// Difference of f from the table at a point.
     static double difference(const SampledStrip& strip, const SampledPatch& patch,
                              const Surprise& place) {
         return std::abs(place.f -
@@ -260,7 +261,7 @@ class StripTabulator {
                                        (place.at[1] - patch.low) / (patch.high - patch.low)));
     }
 
-    /// Keeps what was met for all strips to come, and in the errors of those that there are.
+    /// Keeps surprises for later strips, and adds them to the errors of existing ones.
     void note(const std::vector<Surprise>& met) {
         for (const Surprise& one : met) {
             SampledPatch* const patch = patch_of(one.at).second;
@@ -273,15 +274,15 @@ class StripTabulator {
         sum_anew();
     }
 
-    /// Notes the largest error of a patch at places besides its own samples, if these do not lead
-    /// to expect it.
+    /// Sets `hidden` to the largest error of a patch at points other than its samples, if these do
+    /// not lead to expect it.
     void note_hidden_error(const SampledStrip& strip, SampledPatch& patch) const {
         const double worst = std::max(
             {probe_error(strip, patch), parent_error(strip, patch), met_error(strip, patch)});
         if (worst > patch.expected()) patch.hidden = worst;
     }
 
-    /// The same for places that surprised.
+    /// Largest error of the patch at the surprises in it.
     [[nodiscard]] double met_error(const SampledStrip& strip, const SampledPatch& patch) const {
         double worst = 0;
         const std::array<double, 2> low{strip.low, -std::numeric_limits<double>::infinity()};
@@ -292,7 +293,7 @@ class StripTabulator {
         return worst;
     }
 
-    /// Largest difference between the patch's table and what the probes saw.
+    /// Largest error of the patch at the probes in it.
     [[nodiscard]] double probe_error(const SampledStrip& strip, const SampledPatch& patch) const {
         double worst = 0;
         const std::size_t last_x = first_probe_from(0, strip.high);
@@ -308,10 +309,10 @@ class StripTabulator {
         return worst;
     }
 
-    /// The same for the samples of the parent strip on the sides of its half.
+    /// Largest error of the patch at samples of the parent strip on its two sides.
     [[nodiscard]] double parent_error(const SampledStrip& strip, const SampledPatch& patch) const {
         if (parent_ == nullptr) return 0;
-        const std::size_t left = strip.low == parent_->low ? 0 : 1;  // line
+        const std::size_t left = strip.low == parent_->low ? 0 : 1;  // its line on the parent
         const auto behind =
             std::ranges::upper_bound(parent_->patches, patch.low, {}, &SampledPatch::high);
         double worst = 0;
@@ -342,7 +343,7 @@ class StripTabulator {
         return strip;
     }
 
-    /// Puts a strip at an index, or behind the last one.
+    /// Stores a strip at an index, or appends it.
     void insert(SampledStrip strip, std::size_t index) {
         error_ += strip.error;
         mass_ += strip.mass;
@@ -354,8 +355,8 @@ class StripTabulator {
             strips_[index] = std::move(strip);
     }
 
-    /// Halves patches until what they bend along y is little beside what they change along x, or
-    /// beside what is asked for.
+    /// Halves patches until their bend along y is small compared with their change along x, or
+    /// compared with the tolerance.
     void refine(SampledStrip& strip) {
         std::priority_queue<std::pair<double, std::size_t>> worst;
         double bend = 0;
@@ -383,8 +384,8 @@ class StripTabulator {
         std::ranges::sort(strip.patches, {}, &SampledPatch::low);
     }
 
-    /// What halving along y is for: what is hidden only as long as the patch is tall for its width,
-    /// since a flat one may go by it, and see nothing of it any more.
+    /// The error that halving along y may reduce. Hidden errors count only if the patch is tall for
+    /// its width, because flat patches could miss the feature and no longer see it.
     [[nodiscard]] double bend_of(const SampledStrip& strip, const SampledPatch& patch) const {
         const bool tall =
             (patch.high - patch.low) * box_.extent(0) > strip.width() * box_.extent(1);
@@ -430,7 +431,7 @@ class StripTabulator {
         if (!(strip.low < middle && middle < strip.high) || count_ > most_patches) refuse(strip);
         if (count_ > planned_) {
             planned_ = count_ + count_ / 4 + 4096;
-            constexpr double bytes_a_patch = 300;  // here and in the table
+            constexpr double bytes_a_patch = 300;  // here and in the final table
             run_.need_memory(bytes_a_patch * static_cast<double>(planned_),
                              "the table of " + what_);
         }
@@ -459,7 +460,7 @@ class StripTabulator {
                        what_, tolerance_, error_ / mass_, strip.low);
     }
 
-    /// Whether f is 0 somewhere inside the patch although not in all of it.
+    /// True if f is 0 somewhere inside the patch, but not in all of it.
     bool has_gap(const SampledStrip& strip, const SampledPatch& patch) {
         if (patch.top() == 0) return false;
         bool any = false;
@@ -485,11 +486,11 @@ class StripTabulator {
     std::priority_queue<std::pair<double, std::size_t>> worst_;
     std::vector<double> points_;
     std::vector<double> values_;
-    std::vector<double> seen_;              ///< by the probes
-    std::vector<Surprise> met_;             ///< from left to right
-    const SampledStrip* parent_ = nullptr;  ///< the strip whose half is made
+    std::vector<double> seen_;              ///< values at the probes
+    std::vector<Surprise> met_;             ///< surprises, sorted by x
+    const SampledStrip* parent_ = nullptr;  ///< the strip being halved
     std::size_t count_ = 0;
-    std::size_t planned_ = 0;  ///< patches for which there is memory
+    std::size_t planned_ = 0;  ///< number of patches for which memory was checked
     double error_ = 0;
     double mass_ = 0;
 };
@@ -514,7 +515,7 @@ StripTable::StripTable(const std::vector<Strip>& strips) {
     for (const Strip& strip : strips) {
         Column column{strip.x_low, strip.x_high, patches_.size(), 0, 0};
         for (StripPatch shape : strip.patches) {
-            // To a largest density of 1, whose square is finite.
+            // Scales the largest density to 1, so that squares are finite.
             for (auto* side : {&shape.left, &shape.right})
                 for (double& density : *side) density /= top;
             const double height = 0.5 * (shape.y_high - shape.y_low);
@@ -537,13 +538,13 @@ std::array<double, 2> StripTable::quantile(double u, double v) const {
                                      std::min((wanted - masses_.begin(i)) / masses_.width(i), 1.0));
     const double x =
         within(column.x_low, column.x_high, column.x_low + share * (column.x_high - column.x_low));
-    // The place that x has, rounded as it is, so that the way back is the same.
+    // Recomputed from the rounded x, so that the inverse is consistent.
     const double t = column.side((x - column.x_low) / (column.x_high - column.x_low));
 
     const auto patches = patches_of(i);
     const double total = patches.back().sum_at(t);
     const double mass = std::min(v * total, std::nextafter(total, 0.0));
-    // By halves without a branch, since one would be guessed wrong half of the time.
+    // Binary search without branches, which would be mispredicted half of the time.
     const Patch* above = patches.data();
     for (std::size_t left = patches.size(); left > 1;) {
         const std::size_t half = left / 2;
