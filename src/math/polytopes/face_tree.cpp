@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_faces = 200'000;
 constexpr std::size_t most_facets = 500'000;
-constexpr std::size_t most_plane_tests = 400'000'000;  // of vertices with planes, a second
+constexpr std::size_t most_plane_tests = 400'000'000;  // vertices with planes: a second
 
 double dot(const PolytopePoint& a, const PolytopePoint& b, std::size_t d) {
     double sum = 0;
@@ -21,15 +21,16 @@ double dot(const PolytopePoint& a, const PolytopePoint& b, std::size_t d) {
     return sum;
 }
 
-/// Of the volume: smaller parts of a face are left out, as their share of random numbers is nothing.
+/// Parts of a face below this fraction of its volume are dropped, because random numbers
+/// practically never reach them.
 constexpr double least_share = 1e-14;
 
-/// Of a point's distance from a plane.
+/// Rounding error of a point's distance from a plane.
 constexpr double rounding = 0x1p-48;
 
 }  // namespace
 
-/// Lists the faces from the vertices and their planes.
+/// Builds the faces from the vertices and their planes.
 class FaceTree::Builder {
   public:
     Builder(FaceTree& tree, const PolytopeVertices& polytope) : tree_(tree), of_(polytope) {}
@@ -43,19 +44,19 @@ class FaceTree::Builder {
 
   private:
     struct Node {
-        std::vector<std::uint32_t> members;  ///< vertices, rising
-        PlaneSet planes;                     ///< that hold all of them
+        std::vector<std::uint32_t> members;  ///< indices of vertices, increasing
+        PlaneSet planes;                     ///< planes that contain all members
     };
-    /// A facet of a face, and where it lies.
+    /// A facet of a face, and its position.
     struct Part {
         Facet facet;
-        PolytopePoint normal;  ///< of length 1, to the apex, within the face
+        PolytopePoint normal;  ///< unit vector within the face, from the facet towards the apex
         double offset;         ///< normal . x on the facet
     };
-    /// A face that is built.
+    /// Data of a face that was built.
     struct Built {
-        double volume;           ///< within its own space
-        std::uint32_t heaviest;  ///< facet that has most of the volume; of a vertex, itself
+        double volume;           ///< k-dimensional volume of a face of dimension k
+        std::uint32_t heaviest;  ///< facet with the largest volume; itself for a vertex
     };
 
     PlaneSet planes_of(const std::vector<std::uint32_t>& members) const {
@@ -109,11 +110,11 @@ class FaceTree::Builder {
         return static_cast<std::uint32_t>(number);
     }
 
-    /// A facet, with its volume as its share. Its space is spanned by the apexes on the way down
-    /// through the heaviest facets, which lie far from each other.
+    /// Describes a facet, with its volume as its share. Its space is spanned by the apexes along
+    /// the path through the heaviest facets, which are far from each other.
     Part part_of(std::size_t apex, std::uint32_t number) const {
         const std::size_t d = tree_.d_;
-        std::vector<PolytopePoint> span;  // orthonormal, from the facet's apex
+        std::vector<PolytopePoint> span;  // orthonormal directions from the facet's apex
         const std::size_t origin = tree_.faces_[number].apex;
         const auto across = [&](std::size_t vertex, double& length) {
             PolytopePoint way{};
@@ -144,7 +145,7 @@ class FaceTree::Builder {
              of_.all.size(), tree_.faces_.size());
     }
 
-    /// The facets of a face that do not hold its apex.
+    /// Facets of a face that do not contain its apex.
     std::vector<Node> facets_of(const Node& face) {
         std::vector<Node> parts;
         for (std::size_t j = 0; j < of_.planes.size(); ++j) {
@@ -181,7 +182,8 @@ FaceTree::FaceTree(const PolytopeVertices& polytope) : d_(polytope.dimension) {
     Builder(*this, polytope).build();
 }
 
-/// The facet of a face that u in [0, 1) chooses; leaves in u where between its ends u was.
+/// Selects the facet of a face for u in [0, 1), and replaces u by its relative position within the
+/// facet's share.
 const FaceTree::Facet& FaceTree::chosen(std::size_t face, double& u) const {
     const auto all = facets(face);
     std::size_t i = 0;
@@ -224,13 +226,14 @@ void FaceTree::forward(std::span<double* const> columns, std::size_t rows) const
     }
 }
 
-/// The facets on the way down to a point, and its place along the last edge.
+/// Facets on the path from the polytope to a point, and the position along the last edge.
 struct FaceTree::Path {
     std::array<const Facet*, most_polytope_dimensions> facets;
     double last = 0;
 };
 
-/// Below 0 where u chooses facets before those of a path, above 0 where behind them.
+/// Sign of the position of u's facets relative to those of a path: negative if before, positive if
+/// after, 0 if equal.
 int FaceTree::side_of(const Path& path, double u) const {
     std::size_t face = faces_.size() - 1;
     for (std::size_t k = 0; k < d_; ++k) {
@@ -241,7 +244,7 @@ int FaceTree::side_of(const Path& path, double u) const {
     return 0;
 }
 
-/// xi_1 of a path; where rounding takes it over the end of its simplex, the next one within.
+/// Computes xi_1 of a path; if rounding moves it out of the simplex, the nearest value inside.
 double FaceTree::number_of(const Path& path, double last) const {
     double u = last;
     for (std::size_t k = d_; k-- > 0;) u = path.facets[k]->before + u * path.facets[k]->share;
@@ -256,7 +259,7 @@ double FaceTree::number_of(const Path& path, double last) const {
 }
 
 void FaceTree::inverse(const double* point, double* cube) const {
-    PolytopePoint left{};  // of the point, less the apexes by their weights
+    PolytopePoint left{};  // the point minus the apexes times their weights
     std::copy_n(point, d_, left.begin());
     Path path{};
     double rest = 1;
@@ -270,7 +273,7 @@ void FaceTree::inverse(const double* point, double* cube) const {
             double above = -rest * normal[d_];
             for (std::size_t j = 0; j < d_; ++j) above += normal[j] * left[j];
             normal += d_ + 1;
-            // Of facets next to the apex, rounding must not choose one.
+            // Prevents that rounding selects a facet next to the apex.
             if (const double w = (above + rounding) / facet.height; w < least) {
                 least = w;
                 weight = above / facet.height;
@@ -302,8 +305,8 @@ std::vector<double> FaceTree::over_faces(const Part& part) const {
     return of;
 }
 
-// A point of a face of k dimensions is v (1 - s) + s y, with its apex v, a point y of a facet, and s
-// of density k s^(k-1), so that E s^a (1 - s)^b = k (k+a-1)! b! / (k+a+b)!.
+// A point of a face of k dimensions is v (1 - s) + s y, where v is its apex, y a point of a facet,
+// and s has the density k s^(k-1), so that E s^a (1 - s)^b = k (k+a-1)! b! / (k+a+b)!.
 
 std::vector<double> FaceTree::means(std::size_t i) const {
     return over_faces([&](const auto& of, std::size_t face, std::size_t apex, double k) {
@@ -314,7 +317,7 @@ std::vector<double> FaceTree::means(std::size_t i) const {
 
 Moments FaceTree::moments() const {
     Moments m{std::vector<double>(d_), std::vector<double>(d_ * d_), std::vector<double>(d_)};
-    std::vector<std::vector<double>> first(d_), second(d_);  // of all faces, about the mean
+    std::vector<std::vector<double>> first(d_), second(d_);  // of each face, about m.mean
     for (std::size_t i = 0; i < d_; ++i) {
         first[i] = means(i);
         m.mean[i] = first[i].back();

@@ -9,9 +9,9 @@
 namespace stipple {
 
 struct HalfSpace {
-    std::vector<double> normal;  ///< all 0: every point, or none where the bound is below 0
+    std::vector<double> normal;  ///< if all 0: every point, or none for bound < 0
     double bound = 0;
-    std::string text = {};  ///< as a user wrote it, for messages
+    std::string text = {};  ///< as written by the user, for messages
 };
 
 }  // namespace stipple

@@ -17,10 +17,10 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 bool joins(const HalfSpace& cut, std::size_t k) { return cut.normal[k] != 0; }
 
-/// Coordinates that inequalities join, directly or by others, in groups; those that none names are
-/// in no group.
+/// Groups of coordinates that inequalities couple, directly or through others. Coordinates without
+/// an inequality are in no group.
 std::vector<std::vector<std::size_t>> joined(std::size_t d, const std::vector<HalfSpace>& cuts) {
-    std::vector<std::size_t> first(d);  // of the group of each
+    std::vector<std::size_t> first(d);  // smallest coordinate in the group of each
     std::iota(first.begin(), first.end(), std::size_t{0});
     std::vector<bool> named(d);
     for (const HalfSpace& cut : cuts) {
@@ -45,13 +45,15 @@ std::vector<std::vector<std::size_t>> joined(std::size_t d, const std::vector<Ha
     return groups;
 }
 
-/// Of a frame, to the largest of its numbers, so that rounding stays below what counts as flat.
+/// Minimum extent of a frame relative to its coordinates, so that rounding errors stay below the
+/// limit for flat polytopes.
 constexpr double finest = 1e-3;
 
-/// Takes off a box what lies far outside of a half-space, if that is more than half of a range.
+/// Cuts off the part of a box far outside a half-space, if that is more than half of a range.
+/// Returns whether the box changed.
 bool tighten(Box& box, const HalfSpace& cut) {
     const std::size_t d = box.dimension();
-    double least = 0;  // of normal . x
+    double least = 0;  // minimum of normal . x over the box
     const auto least_of = [&](std::size_t k) {
         return cut.normal[k] * (cut.normal[k] > 0 ? box.low[k] : box.high[k]);
     };
@@ -71,7 +73,7 @@ bool tighten(Box& box, const HalfSpace& cut) {
     return changed;
 }
 
-/// A box around all that is in a box and in half-spaces, not much larger than that.
+/// A box that contains the intersection of a box and half-spaces, and is not much larger.
 Box frame_of(Box box, const std::vector<HalfSpace>& cuts) {
     bool changed = true;
     for (int pass = 0; pass < 100 && changed; ++pass) {
@@ -81,7 +83,7 @@ Box frame_of(Box box, const std::vector<HalfSpace>& cuts) {
     return box;
 }
 
-/// The same in the coordinates of a frame, 0 to 1.
+/// The half-space in coordinates of a frame, in which the frame is the unit cube.
 HalfSpace framed(const HalfSpace& cut, const Box& frame) {
     HalfSpace to{.normal = {}, .bound = cut.bound, .text = cut.text};
     for (std::size_t k = 0; k < frame.dimension(); ++k) {
@@ -96,8 +98,8 @@ HalfSpace framed(const HalfSpace& cut, const Box& frame) {
     return to;
 }
 
-/// The polytope in its frame. Its volume is computed twice, by the simplices from one end and from
-/// the other, which differ where planes are so close that rounding decides what meets in a vertex.
+/// Builds the polytope in its frame. Computes the volume twice, with vertices in opposite orders.
+/// The results differ if planes are so close that rounding decides which of them meet in a vertex.
 FaceTree checked_tree(PolytopeVertices vertices) {
     FaceTree tree(vertices);
     std::ranges::reverse(vertices.all);
@@ -108,7 +110,8 @@ FaceTree checked_tree(PolytopeVertices vertices) {
     return tree;
 }
 
-/// By which a point on a plane may miss it, as its numbers and those of the box are rounded.
+/// Rounding error of the distance of a point on a plane, because its numbers and those of the box
+/// are rounded.
 double rounding_of(const PolytopePlane& plane, const Box& frame) {
     double sum = 1;
     for (std::size_t k = 0; k < frame.dimension(); ++k) {
@@ -173,7 +176,7 @@ void Polytope::add_group(const std::vector<std::size_t>& coordinates,
     groups_.push_back(std::move(group));
 }
 
-/// And the volume, and the bounding box.
+/// Adds a group to moments, volume and bounding box.
 void Polytope::take_moments(const Group& group) {
     const auto& coordinates = group.coordinates;
     const Box& frame = group.frame;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// A box cut by half-spaces, of any number of dimensions, and the map of the unit cube onto it that
-// preserves shares of the volume. Coordinates that no inequality joins are independent, so each
-// group of joined ones is a polytope by itself (math/polytopes/face_tree.hpp), of at most 12
-// dimensions, and the others are intervals.
+// A box cut by half-spaces, in any number of dimensions, and the map of the unit cube onto it that
+// preserves fractions of the volume. Coordinates are independent unless inequalities couple them.
+// So each group of coupled coordinates is a polytope by itself (math/polytopes/face_tree.hpp), of
+// at most 12 dimensions, and the others are intervals.
 //
 // A group is computed in the frame of a box not much larger than itself, so that sizes may differ
-// by any factor. What is thinner than 1e-11 of that box is flat. Inequalities that cut nothing off,
-// touch in a face, or say the same but for rounding, change nothing; where two differ by 1e-13 to
-// 1e-9, what meets in a vertex may be lost in rounding, which is noticed and refused.
+// by any factor. A polytope thinner than 1e-11 of that box is flat. Inequalities that cut nothing
+// off, touch a face, or repeat others up to rounding have no effect. If two differ by 1e-13 to
+// 1e-9, vertices may be lost in rounding; this is detected and causes an error.
 #pragma once
 
 #include <span>
@@ -23,25 +23,26 @@ namespace stipple {
 
 class Polytope {
   public:
-    /// @throws Error(usage) if no point satisfies all, or only some without volume; Error(limit)
+    /// @throws Error(usage) if no point satisfies all inequalities, or if the volume is 0;
+    /// Error(limit) if the polytope is too complex or lost in rounding
     Polytope(Box box, const std::vector<HalfSpace>& cuts);
 
     [[nodiscard]] std::size_t dimension() const { return box_.dimension(); }
     [[nodiscard]] double volume() const { return volume_; }
-    /// By the vertices.
+    /// Bounding box of the polytope, from its vertices.
     [[nodiscard]] const Box& bounding_box() const { return around_; }
     [[nodiscard]] const Moments& moments() const { return moments_; }
 
-    /// Up to the rounding that a point on the rim has.
+    /// True inside and on the boundary, with a tolerance for rounding.
     [[nodiscard]] bool contains(std::span<const double> point) const;
 
-    /// Point after point. Each group has its own unit coordinates, in the places of the
-    /// coordinates; those of intervals are kept as they are.
+    /// Maps points from the cube. Each group uses the cube coordinates with the indices of its own
+    /// coordinates; intervals are scaled.
     void from_cube(std::span<const double> cube, std::span<double> image) const;
-    /// What unit coordinate k means, for people.
+    /// Meaning of cube coordinate k, for messages.
     [[nodiscard]] std::string cube_axis(std::size_t k) const;
 
-    /// Of a point that it contains.
+    /// Maps a point of the polytope to the cube.
     void to_cube(std::span<const double> point, std::span<double> cube) const;
 
   private:
@@ -49,14 +50,14 @@ class Polytope {
         std::vector<std::size_t> coordinates;
         Box frame;
         FaceTree tree;
-        std::vector<PolytopePlane> planes;  ///< of its facets, in the frame
-        std::vector<double> rounding;  ///< by which a point on a plane may miss it, in the frame
+        std::vector<PolytopePlane> planes;  ///< planes of its facets, in the frame
+        std::vector<double> rounding;       ///< tolerances for points on the planes, in the frame
     };
 
     void add_group(const std::vector<std::size_t>& coordinates, const std::vector<HalfSpace>& cuts);
     void take_moments(const Group& group);
     void map_some(const Group& group, std::span<const double> cube, std::span<double> image) const;
-    /// A point's place in the frame of a group.
+    /// Coordinates of a point in the frame of a group.
     static PolytopePoint framed(const Group& group, std::span<const double> point);
 
     Box box_;

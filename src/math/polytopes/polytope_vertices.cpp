@@ -10,10 +10,10 @@
 namespace stipple {
 namespace {
 
-constexpr double on_plane = 1e-13;  // what rounding of a half-space's numbers may make of 0
+constexpr double on_plane = 1e-13;  // rounding error of a half-space's slack
 constexpr double flat = 1e-11;
 constexpr std::size_t most_vertices = 10'000;
-constexpr std::size_t most_comparisons = 400'000'000;  // of vertices, a second
+constexpr std::size_t most_comparisons = 400'000'000;  // comparisons of vertices: about a second
 
 using Precise = std::array<DoubleDouble, most_polytope_dimensions>;
 
@@ -28,11 +28,11 @@ DoubleDouble quotient(const DoubleDouble& a, const DoubleDouble& b) {
     return exact_sum(first, second) + DoubleDouble{(rest - b * DoubleDouble{second}).high / b.high};
 }
 
-/// A half-space with its numbers times a power of 2, so that they are the same and not far from 1.
+/// A half-space scaled by a power of 2, so that its numbers are exact and of order 1.
 struct Cut {
     PolytopePoint normal{};
     double bound = 0;
-    double length = 0;  ///< of the normal
+    double length = 0;  ///< length of the normal
     std::string text = {};
 
     explicit Cut(const HalfSpace& half) : text(half.text) {
@@ -48,7 +48,7 @@ struct Cut {
         length = std::sqrt(square);
     }
 
-    /// How far inside, in units of `length`.
+    /// Distance inside the plane, in units of 1 / length.
     [[nodiscard]] DoubleDouble slack(const Precise& y, std::size_t d) const {
         DoubleDouble sum{bound};
         for (std::size_t k = 0; k < d; ++k) sum = sum - DoubleDouble{normal[k]} * y[k];
@@ -85,7 +85,7 @@ class DoubleDescription {
             least = std::min(least, slack.back().high / cut.length);
             most = std::max(most, slack.back().high / cut.length);
         }
-        if (least >= -on_plane) return;  // it cuts nothing off
+        if (least >= -on_plane) return;  // cuts nothing off
         if (most <= flat && flat_.empty() && most >= -flat) flat_ = half.text;
         if (most < -on_plane) {
             check_flat();
@@ -99,7 +99,7 @@ class DoubleDescription {
         keep(slack);
     }
 
-    /// What is left.
+    /// Returns the vertices and facets.
     PolytopeVertices take() {
         check_flat();
         const std::vector<std::size_t> facets = this->facets();
@@ -137,7 +137,8 @@ class DoubleDescription {
                  flat_);
     }
 
-    /// Keeps what is not beyond the last plane, and adds the vertices of edges that cross it.
+    /// Keeps the vertices that are not beyond the last plane, and adds one for each edge that
+    /// crosses it.
     void keep(const std::vector<DoubleDouble>& slack) {
         const double near = on_plane * planes_.back().length;
         std::vector<Vertex> kept;
@@ -168,7 +169,7 @@ class DoubleDescription {
         return k == vertices_.size();
     }
 
-    /// Where an edge crosses the last plane.
+    /// Intersection of an edge with the last plane.
     Vertex between(std::size_t i, std::size_t j, const DoubleDouble& share) const {
         const Vertex& a = vertices_[i];
         const Vertex& b = vertices_[j];
@@ -178,10 +179,10 @@ class DoubleDescription {
         return vertex;
     }
 
-    /// The planes whose vertices do not all lie on another one.
+    /// Indices of planes whose vertices are not all on another plane.
     std::vector<std::size_t> facets() const {
         std::vector<std::size_t> vertices(planes_.size());
-        std::vector<PlaneSet> shared(planes_.size(), PlaneSet().set());  // by all of a plane's
+        std::vector<PlaneSet> shared(planes_.size(), PlaneSet().set());  // by a plane's vertices
         for (const Vertex& vertex : vertices_)
             for (std::size_t j = 0; j < planes_.size(); ++j)
                 if (vertex.planes[j]) {
@@ -200,10 +201,10 @@ class DoubleDescription {
     }
 
     std::size_t d_;
-    std::vector<Cut> planes_;  ///< those of the cube first
+    std::vector<Cut> planes_;  ///< first those of the cube
     std::vector<Vertex> vertices_;
     std::size_t comparisons_ = 0;
-    std::string flat_;  ///< the inequality that left no volume
+    std::string flat_;  ///< text of the inequality that left no volume
 };
 
 }  // namespace

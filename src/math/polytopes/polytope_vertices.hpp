@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// The vertices of the unit cube cut by half-spaces, by the double description method: half-spaces
-// are taken one after the other; each drops the vertices beyond its plane, and adds one on each edge
-// that crosses it. Two vertices have an edge when no third one lies on all planes that both lie on.
+// The vertices of the unit cube cut by half-spaces, by the double description method. Half-spaces
+// are applied one after another. Each removes the vertices beyond its plane, and adds one on each
+// edge that crosses it. Two vertices are joined by an edge if no third one is on all planes that
+// contain both.
 //
-// All is computed with twice the digits of a double, so that what meets in a vertex, or touches the
-// polytope, is told from what only nearly does: what is within 1e-13 of a plane lies on it, as the
-// half-spaces' numbers are rounded. What is thinner than 1e-11 is flat.
+// Computations use twice the precision of a double, to distinguish planes that meet in a vertex or
+// touch the polytope from those that nearly do. Points within 1e-13 of a plane are on it, because
+// the numbers of half-spaces are rounded. Polytopes thinner than 1e-11 are flat.
 //
-// Cost    vertices^2 a half-space.
+// Cost    O(vertices^2) per half-space.
 // Source  T. S. Motzkin, H. Raiffa, G. L. Thompson, R. M. Thrall, "The double description method",
 //         Contributions to the Theory of Games II (1953) 51-73; K. Fukuda, A. Prodon, "Double
 //         description method revisited", LNCS 1120 (1996) 91-111, doi:10.1007/3-540-61576-8_77.
@@ -26,21 +27,21 @@ namespace stipple {
 inline constexpr std::size_t most_polytope_dimensions = 12;
 inline constexpr std::size_t most_polytope_planes = 256;
 
-/// Planes by their numbers.
+/// A set of planes, by their indices.
 using PlaneSet = std::bitset<most_polytope_planes>;
 using PolytopePoint = std::array<double, most_polytope_dimensions>;
 
 struct PolytopeVertex {
     PolytopePoint at;
-    PlaneSet planes;  ///< on which it lies
+    PlaneSet planes;  ///< planes that contain the vertex
 };
 
-/// normal . y <= bound, with a normal of length 1.
+/// The half-space normal . y <= bound, with a normal of length 1.
 struct PolytopePlane {
     PolytopePoint normal;
     double bound;
 
-    /// How far a point is inside.
+    /// Distance of a point inside the plane; negative outside.
     [[nodiscard]] double slack(const double* y, std::size_t d) const {
         double sum = bound;
         for (std::size_t k = 0; k < d; ++k) sum -= normal[k] * y[k];
@@ -50,13 +51,14 @@ struct PolytopePlane {
 
 struct PolytopeVertices {
     std::size_t dimension;
-    std::vector<PolytopePlane> planes;  ///< of its facets, each once
-    std::vector<PolytopeVertex> all;    ///< those on more planes first, then by their coordinates
+    std::vector<PolytopePlane> planes;  ///< planes of the facets, each once
+    std::vector<PolytopeVertex> all;    ///< by decreasing number of planes, then by coordinates
 };
 
-/// @param cuts in d <= most_polytope_dimensions coordinates, with a normal that is not 0
-/// @throws Error(usage) if no point is in all of them, or if they leave no volume; Error(limit)
-///         naming what there are too many of
+/// Computes the vertices. @param cuts in d <= most_polytope_dimensions coordinates, with nonzero
+/// normals
+/// @throws Error(usage) if no point is in all of them, or if they leave no volume; Error(limit) if
+///         there are too many planes, vertices or edges
 PolytopeVertices polytope_vertices(std::size_t d, const std::vector<HalfSpace>& cuts);
 
 }  // namespace stipple
