@@ -12,28 +12,28 @@ namespace {
 
 constexpr std::uint64_t largest_block = 1 << 14;
 
-/// The low `bits` of every field of `width` bits.
+/// Mask of the low `bits` of every field of `width` bits.
 constexpr std::uint64_t low_bits(unsigned width, unsigned bits) {
     std::uint64_t mask = 0;
     for (unsigned at = 0; at < 64; at += width) mask |= ((std::uint64_t{1} << bits) - 1) << at;
     return mask;
 }
 
-/// Digits below the base in fields of Width bits; base <= 2^(Width-1).
+/// Arithmetic on digits packed in fields of Width bits; base <= 2^(Width-1).
 template <unsigned Width>
 class Fields {
   public:
     explicit Fields(std::uint64_t base)
         : base_(base), lift_(((std::uint64_t{1} << (Width - 1)) - base) * low_bits(Width, 1)) {}
 
-    /// a + b modulo the base in every field. What is at least the base reaches its field's top bit
-    /// when lifted; the base is taken from those.
+    /// Returns a + b modulo the base in every field. Adding `lift_` sets the top bit of fields with
+    /// sums of at least the base, from which the base is then subtracted.
     [[nodiscard]] std::uint64_t sum(std::uint64_t a, std::uint64_t b) const {
         const std::uint64_t s = a + b;
         return s - (((s + lift_) >> (Width - 1)) & low_bits(Width, 1)) * base_;
     }
 
-    /// The whole number with these digits, the lowest field's being the most significant.
+    /// Integer with these digits, of which the lowest field is the most significant.
     [[nodiscard]] std::uint64_t number(std::uint64_t v) const {
         std::uint64_t power = base_;
         if constexpr (Width <= 4) join<4>(v, power);
@@ -54,7 +54,7 @@ class Fields {
     std::uint64_t lift_;
 };
 
-/// Calls work(fields) with the fields of `width` bits.
+/// Calls work(Fields<width>(base)).
 template <class Work>
 void with_fields(unsigned width, std::uint64_t base, const Work& work) {
     if (width == 4) return work(Fields<4>(base));
@@ -67,12 +67,12 @@ struct Walk {
     const BaseNet::Words* steps;
     const std::uint8_t* ruler;
     const BaseNet::Words& scales;
-    std::size_t active;  ///< words that change
-    std::uint64_t rest;  ///< what the words that stay contribute
+    std::size_t active;  ///< number of words that change
+    std::uint64_t rest;  ///< contribution of the words that do not change
     double whole;
 };
 
-// Loops over so few words as are active have to be unrolled, hence their number as an argument.
+// The number of active words is a template argument, because loops this short must be unrolled.
 template <std::size_t active, class F>
 void walk(const F& fields, const Walk& w, BaseNet::Words state, std::size_t count, double* out,
           std::size_t stride) {
@@ -108,7 +108,8 @@ BaseNet::BaseNet(std::uint32_t base, std::size_t rows, std::size_t columns)
         for (std::uint64_t i = power; i < block_; i += power) ++ruler_[i - 1];
 }
 
-/// Digits that are `stride` apart; those of the last word end at its highest field.
+/// Packs digits with a distance of `stride`; those in the last word are aligned to its highest
+/// field.
 BaseNet::Words BaseNet::pack(std::span<const std::uint32_t> digits, std::size_t stride) const {
     const std::size_t fields = 64 / width_;
     const std::size_t unused = words_ * fields - rows_;
@@ -143,7 +144,7 @@ void BaseNet::append(const DigitMatrix& matrix, std::span<const std::uint32_t> s
             for (std::size_t word = 0; word < words_; ++word)
                 if (packed[word] != 0) coordinate.active = std::max(coordinate.active, word + 1);
     }
-    // The step behind the last point of a short net is read and not used.
+    // The step after the last point of a short net is read but not used.
     coordinate.steps.resize(std::max(columns_ + 1, low_digits_));
 }
 

@@ -5,15 +5,16 @@
 //
 //     x = sum_r y_r b^(-r-1)    where    y = C_k a  mod b,
 //
-// and C_k is its generating matrix. Going from i to i + 1, with t trailing digits b - 1, adds the
-// sum of the columns 0, ..., t of C_k to y, digit by digit modulo b: one vector from a short table.
-// Digits are packed into words, four bits or more to each, so that all digits of a word are added
-// and reduced at once; the word becomes a number by joining neighbours, pairs of pairs, and so on.
+// and C_k is its generating matrix. The step from i to i + 1 adds the sum of the columns 0, ..., t
+// of C_k to y, digit by digit modulo b, where t is the number of trailing digits b - 1 of i. This
+// sum comes from a short table. Digits are packed into words with at least four bits each, so that
+// all digits of a word are added and reduced at once. Joining neighbours, then pairs, and so on
+// converts a word to a number.
 //
-// Shape    prime b <= 65521; indices below b^columns; the first digits_of(b) rows, the digits that
-//          scrambles find again in a double.
-// Cost     one word a coordinate and point for upper triangular matrices, up to four for others;
-//          about four nanoseconds a word. Memory: a few columns a coordinate.
+// Shape    prime b <= 65521; indices below b^columns; only the first digits_of(b) rows are used,
+//          whose digits scrambles can recover from a double.
+// Cost     one word per coordinate and point for upper triangular matrices, up to four for others;
+//          about four nanoseconds per word. Memory: a few columns per coordinate.
 // Promise  y is exact, and x its nearest double; never 1.
 // Source   H. Niederreiter, Random Number Generation and Quasi-Monte Carlo Methods, SIAM 1992,
 //          section 4.3, doi:10.1137/1.9781611970081.
@@ -27,8 +28,8 @@
 
 namespace stipple {
 
-/// A generating matrix: whole numbers below the base. Column j belongs to digit j of the index,
-/// lowest first; row r to digit r behind the point.
+/// A generating matrix of integers below the base. Column j belongs to digit j of the index, lowest
+/// first; row r belongs to digit r after the point.
 struct DigitMatrix {
     std::size_t rows = 0;
     std::size_t columns = 0;
@@ -53,15 +54,15 @@ class BaseNet {
     static constexpr std::size_t most_words = 4;
     using Words = std::array<std::uint64_t, most_words>;
 
-    /// @param rows,columns of every matrix; at least 1.
+    /// @param rows, columns size of every matrix; at least 1
     BaseNet(std::uint32_t base, std::size_t rows, std::size_t columns);
 
-    /// Adds a coordinate, `shift` being added to all its points digit by digit; empty: none.
+    /// Adds a coordinate. `shift` is added to all its points digit by digit; empty for none.
     void append(const DigitMatrix& matrix, std::span<const std::uint32_t> shift = {});
 
     [[nodiscard]] std::size_t dimension() const { return coordinates_.size(); }
 
-    /// Points first, first + 1, ... until `rows` is full.
+    /// Fills `rows` with points first, first + 1, ...
     void fill(std::uint64_t first, std::span<double> rows) const;
 
   private:
@@ -81,11 +82,11 @@ class BaseNet {
     std::uint32_t base_;
     std::size_t rows_;
     std::size_t columns_;
-    unsigned width_ = 4;               ///< bits of a digit
-    std::size_t words_ = 1;            ///< in use
-    Words scales_{};                   ///< what a word's number counts in units of b^-rows
+    unsigned width_ = 4;               ///< bits per digit
+    std::size_t words_ = 1;            ///< words in use
+    Words scales_{};                   ///< weight of each word's number, in units of b^-rows
     double whole_ = 1;                 ///< b^rows
-    std::uint64_t block_ = 1;          ///< indices that differ in their low digits only
+    std::uint64_t block_ = 1;          ///< number of indices that differ only in their low digits
     std::size_t low_digits_ = 0;       ///< b^low_digits = block
     std::vector<std::uint8_t> ruler_;  ///< trailing zeros of 1, ..., block - 1 in base b
     std::vector<Coordinate> coordinates_;

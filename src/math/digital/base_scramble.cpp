@@ -15,11 +15,11 @@ namespace {
 
 constexpr std::size_t lanes = 256;
 
-/// Digits are taken from doubles while this holds them: both roundings, of x and of x b^K, together
-/// stay below half a unit.
+/// Limit of b^K for digits taken from doubles: the roundings of x and of x b^K together stay below
+/// half a unit.
 constexpr std::uint64_t digits_limit = std::uint64_t{1} << 50;
 
-/// A bijective hash of 64 bits, keyed twice (constants: splitmix64, S. Vigna).
+/// A bijective 64-bit hash with two keys (constants: splitmix64, S. Vigna).
 inline std::uint64_t mixed(std::uint64_t x, const BaseOwen::Keys& keys) {
     x = (x ^ keys.before) * 0xbf58476d1ce4e5b9U;
     x = (x ^ (x >> 32)) + keys.between;
@@ -28,7 +28,7 @@ inline std::uint64_t mixed(std::uint64_t x, const BaseOwen::Keys& keys) {
     return x ^ (x >> 32);
 }
 
-/// A hash of a digit behind a prefix, the prefix and its depth being in the two words.
+/// Hash of a digit after a prefix; `low` and `high` encode the prefix and its depth.
 inline std::uint32_t digit_hash(std::uint32_t digit, std::uint32_t low, std::uint32_t high) {
     std::uint32_t x = low + digit * 0x9e3779b9U;
     x ^= x >> 16;
@@ -38,13 +38,13 @@ inline std::uint32_t digit_hash(std::uint32_t digit, std::uint32_t low, std::uin
     return x ^ (x >> 16);
 }
 
-/// Prefixes at one depth, as the words that digit_hash takes.
+/// Prefixes at one depth, encoded for digit_hash.
 struct Prefixes {
     std::uint32_t low[lanes];
     std::uint32_t high[lanes];
 };
 
-/// rank[i] = how many nonzero digits come before `digit` in the order behind prefix i.
+/// Sets rank[i] to the number of nonzero digits before `digit` in the order after prefix i.
 STIPPLE_WIDE void rank_digits(const Prefixes& at, std::size_t count, std::uint32_t base,
                               std::uint32_t digit, std::uint32_t* rank) {
     std::uint32_t own[lanes];
@@ -60,7 +60,7 @@ STIPPLE_WIDE void rank_digits(const Prefixes& at, std::size_t count, std::uint32
             rank[i] += digit_hash(other, at.low[i], at.high[i]) < own[i] ? 1U : 0U;
 }
 
-/// Digit k of the uniform number `random` 2^-64; b^k modulo 2^64 is given.
+/// Digit k of the uniform number `random` 2^-64, given b^k modulo 2^64.
 inline std::uint64_t uniform_digit(std::uint64_t random, std::uint64_t power, std::uint64_t base) {
     return static_cast<std::uint64_t>((Wide{random * power} * base) >> 64);
 }
@@ -71,7 +71,7 @@ std::size_t length(std::uint64_t q, std::uint64_t base) {
     return digits;
 }
 
-/// The prefixes' words for digit_hash at depth `depth`, from their hashes.
+/// Encodes a prefix for digit_hash, from its hash and depth.
 inline void split(std::uint64_t random, std::size_t depth, std::uint64_t key, std::uint32_t& low,
                   std::uint32_t& high) {
     const std::uint64_t x = random ^ (key * (2 * depth + 1));
@@ -79,8 +79,8 @@ inline void split(std::uint64_t random, std::size_t depth, std::uint64_t key, st
     high = static_cast<std::uint32_t>(x >> 32);
 }
 
-/// whole + random, divided by power, inside of (whole, whole + 1) / power by a margin that rounding
-/// cannot use up.
+/// (whole + random) / power, inside (whole, whole + 1) / power by a margin larger than the rounding
+/// error.
 inline double inside(std::uint64_t whole, std::uint64_t random, Wide power) {
     if (power > digits_limit) return ratio(2 * Wide{whole} + 1, 2 * power);
     const auto length = static_cast<double>(static_cast<std::uint64_t>(power));
@@ -154,7 +154,7 @@ BaseMatrix::BaseMatrix(std::uint64_t seed, std::size_t coordinate, std::uint32_t
     : base_(base) {
     const Rng rng = scramble_numbers(seed, ScrambleStream::base_matrix);
     const std::size_t count = digits_of(base);
-    constexpr std::uint64_t room = 64 * 65;  // numbers kept for a coordinate
+    constexpr std::uint64_t room = 64 * 65;  // random numbers reserved per coordinate
     rows_ = random_digits(rng, room * coordinate, count * count, base);
     for (std::size_t j = 0; j < count; ++j) {
         for (std::size_t i = j + 1; i < count; ++i) rows_[j * count + i] = 0;
@@ -191,14 +191,14 @@ BaseOwen::BaseOwen(std::uint64_t seed, std::size_t coordinate, std::uint32_t bas
     images_ = first_images();
     for (std::size_t depth = 1; depth < low_digits_; ++depth) append_digits(depth);
     for (std::uint64_t q = 0; q < block_; ++q) {
-        // A number of fewer than t digits has a wider interval, and all behind is its tail.
+        // A number with fewer than t digits has a wider interval, and its random tail fills it.
         const std::uint64_t image = images_[q] / powers_[low_digits_ - lengths_[q]];
         short_.push_back(inside(image, mixed(q, keys_), power(base_, lengths_[q])));
     }
 }
 
-/// Images of all first digits: their permutation at once, by sorting, where one by one would be
-/// quadratic in the base.
+/// Images of all first digits. Sorts the whole permutation, because computing it digit by digit
+/// would be quadratic in the base.
 std::vector<std::uint64_t> BaseOwen::first_images() const {
     std::uint32_t low = 0;
     std::uint32_t high = 0;
@@ -232,15 +232,15 @@ void BaseOwen::fill_binary(std::uint64_t first, std::size_t count, double* out,
     }
 }
 
-/// Consecutive numbers with the same digits above the t low ones.
+/// Consecutive numbers that differ only in the t low digits.
 struct BaseOwen::Stretch {
-    std::uint64_t low;  ///< the low digits of the first
+    std::uint64_t low;  ///< low digits of the first number
     std::uint64_t high;
     std::size_t count;  ///< at most `lanes`
 };
 
-/// Puts the images of one digit, `digit`, behind those of the digits before it, which are the low
-/// ones and those of `above`.
+/// Appends the image of `digit` at position `depth` to those of the lower digits: the low ones,
+/// then those of `above`.
 void BaseOwen::append_digit(const Stretch& stretch, std::uint64_t above, std::size_t depth,
                             std::uint32_t digit, std::uint64_t* image) const {
     if (stretch.count == 0) return;
@@ -264,7 +264,7 @@ void BaseOwen::append_digit(const Stretch& stretch, std::uint64_t above, std::si
     }
 }
 
-/// Goes from the images of `depth` digits to those of one digit more.
+/// Extends the images of `depth` digits by another digit.
 void BaseOwen::append_digits(std::size_t depth) {
     const std::size_t prefixes = images_.size();
     std::vector<std::uint64_t> longer;

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: MIT
 //
-// Scrambles of digits in any base. A coordinate is given by its digits behind the point, as those
-// of a whole number, the least significant first: q stands for the radical inverse of q.
+// Scrambles of digits in any base. A coordinate is given by its digits after the point, stored as
+// those of an integer q with the least significant first: q represents its radical inverse.
 //
-//     digital shift   y_j = x_j + s_j                               a random digit each
+//     digital shift   y_j = x_j + s_j                               s_j random digits
 //     matrix          y_j = sum_(i <= j) l_ji x_i + s_j             l random, lower triangular,
 //                                                                   units on the diagonal (b prime)
 //     nested uniform  y_j = pi(x_j), a random permutation for each prefix x_1 ... x_(j-1)
 //
-// modulo b. A nested permutation is made so: pi(0) is drawn, and the other digits follow it,
-// cyclically, in the order of hashes of prefix and digit. Behind the last digit of q all digits are
-// zeros, so their images are the digits of one uniform number, a hash of q: no digit is left out.
+// modulo b. A nested permutation is built from a random pi(0): the other digits follow it,
+// cyclically, in the order of hashes of prefix and digit. All digits after the last one of q are
+// zeros, so their images are the digits of a single uniform number, a hash of q. So no digit is
+// omitted.
 //
 // Shape    q below 2^53; base in [2, 65536].
-// Cost     of nested scrambling: O(b) a digit, eight at a time; O(b log b) to begin with.
-// Promise  shift and matrix give whole multiples of b^-K, correctly rounded, with K = digits_of(b).
-//          A nested image is in the interior of its interval of length b^-L, L being the digits of
-//          q. In base 2 it is that of BinaryOwen. All are below 1.
+// Cost     nested scrambling takes O(b) per digit, eight at a time, after O(b log b) for setup.
+// Promise  shift and matrix give integer multiples of b^-K, correctly rounded, with K =
+//          digits_of(b). A nested image is in the interior of its interval of length b^-L, where L
+//          is the number of digits of q. In base 2 it equals that of BinaryOwen. All results are
+//          below 1.
 // Source   as math/digital/binary_scramble.hpp
 #pragma once
 
@@ -30,11 +32,11 @@
 
 namespace stipple {
 
-/// The most digits of which every multiple of base^-K is found again from its rounded double.
+/// The largest K such that every multiple of base^-K can be recovered from its rounded double.
 std::size_t digits_of(std::uint32_t base);
 
-/// The whole number whose reversed digits are those of x in [0, 1]: of the nearest multiple of
-/// base^-K. So the radical inverse of q < base^K gives q.
+/// Integer with the reversed digits of the multiple of base^-K nearest to x in [0, 1]. For the
+/// radical inverse of q < base^K it is q.
 std::uint64_t reversed_digits(double x, std::uint32_t base);
 
 class BaseShift {
@@ -42,7 +44,7 @@ class BaseShift {
     BaseShift(std::uint64_t seed, std::size_t coordinate, std::uint32_t base);
     [[nodiscard]] double of(std::uint64_t reversed) const;
 
-    /// What is added to each digit.
+    /// The digits that are added.
     [[nodiscard]] std::span<const std::uint32_t> shift() const { return shift_; }
 
   private:
@@ -55,7 +57,8 @@ class BaseMatrix {
     BaseMatrix(std::uint64_t seed, std::size_t coordinate, std::uint32_t base);
     [[nodiscard]] double of(std::uint64_t reversed) const;
 
-    /// Digit `row` of the image of digit `column` being 1; column <= row < digits_of(base).
+    /// Coefficient of input digit `column` in output digit `row`, for column <= row <
+    /// digits_of(base).
     [[nodiscard]] std::uint32_t entry(std::size_t row, std::size_t column) const {
         return rows_[row * shift_.size() + column];
     }
@@ -72,10 +75,10 @@ class BaseOwen {
   public:
     BaseOwen(std::uint64_t seed, std::size_t coordinate, std::uint32_t base);
 
-    /// The image of the radical inverse of `reversed`.
+    /// Image of the radical inverse of `reversed`.
     [[nodiscard]] double of(std::uint64_t reversed) const;
 
-    /// out[j * stride] = of(first + j) for j < count, much faster.
+    /// Sets out[j * stride] = of(first + j) for j < count, much faster than one by one.
     void fill(std::uint64_t first, std::size_t count, double* out, std::size_t stride) const;
 
     /// Keys of the hash of a prefix.
@@ -98,10 +101,10 @@ class BaseOwen {
     BinaryOwen binary_;
     Keys keys_;
     std::array<std::uint64_t, 64> powers_;  ///< of the base, modulo 2^64
-    std::uint64_t block_ = 1;               ///< b^t, the number of values that t low digits have
+    std::uint64_t block_ = 1;               ///< b^t, the number of values of the t low digits
     std::size_t low_digits_ = 0;            ///< t
-    std::vector<std::uint64_t> images_;     ///< of all t low digits, as whole numbers
-    std::vector<std::size_t> lengths_;      ///< digits of q < b^t
+    std::vector<std::uint64_t> images_;     ///< images of the t low digits, as integers
+    std::vector<std::size_t> lengths_;      ///< number of digits of q < b^t
     std::vector<double> short_;             ///< of(q) for q < b^t
 };
 

@@ -11,13 +11,13 @@
 namespace stipple {
 namespace {
 
-/// Fractions of low digits' sums that stay in the first-level cache beside the result.
+/// Size of the table of low digits' sums: it fits the first-level cache together with the result.
 constexpr std::size_t table_words = 2048;
 
-/// Words in a row of vectors without remainder, or nearly so.
+/// Minimum length of runs of words, so that vectors have little or no remainder.
 constexpr std::size_t run_words = 64;
 
-/// out[j] = low[j] + high[j mod period]
+/// Sets out[j] = low[j] xor high[j mod period], as a double in [0, 1) or as a fraction.
 STIPPLE_WIDE void add_high(const std::uint64_t* low, const std::uint64_t* high, std::size_t period,
                            std::size_t words, double* out) {
     for (std::size_t base = 0; base < words; base += period)
@@ -35,7 +35,7 @@ STIPPLE_WIDE void add_high(const std::uint64_t* low, const std::uint64_t* high, 
 }  // namespace
 
 BinaryMatrices in_gray_order(BinaryMatrices matrices) {
-    // Digit j of i is in digits j and j - 1 of gray(i).
+    // Digit j of i affects digits j and j - 1 of gray(i).
     auto& columns = matrices.columns;
     for (std::size_t at = columns.size(); at-- > matrices.dimension;)
         columns[at] ^= columns[at - matrices.dimension];
@@ -70,8 +70,8 @@ void BinaryNet::fill_rows(std::uint64_t first, std::span<Number> rows) const {
     std::vector<std::uint64_t> high(period_ * d);
     std::ranges::copy(shift_, high.begin());
 
-    // From one high part h to the next, the sum changes by a carry, the one of h's trailing ones;
-    // so it is the sum of those carries that are in the Gray code of h.
+    // The step from a high part h to the next adds the carry for the trailing ones of h. So the sum
+    // for h consists of the carries in the Gray code of h.
     std::uint64_t h = first >> low_digits_;
     for (std::uint64_t gray = h ^ (h >> 1); gray != 0; gray &= gray - 1) {
         const std::uint64_t* step = carry(std::countr_zero(gray));

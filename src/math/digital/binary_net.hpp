@@ -5,13 +5,13 @@
 //     x_k(i) = shift_k + sum_j i_j c_kj    over GF(2), digit by digit,    i = sum_j i_j 2^j,
 //
 // where c_kj is column j of the k-th generating matrix. Numbers in [0, 1) are 64-bit fractions
-// here: the top bit is the first digit behind the point.
+// here: the top bit is the first digit after the point.
 //
-// Shape    up to 64 columns; as many points as 2^columns.
-// Cost     a load, an exclusive or and a conversion a coordinate, in vectors that run across points
-//          and coordinates alike: rows are contiguous, for any dimension, in the table of the low
-//          digits' sums as in the result. 3 G coordinates a second on one core.
-// Promise  a coordinate is the fraction's first 53 digits, exactly: the rest is cut off.
+// Shape    up to 64 columns; 2^columns points.
+// Cost     a load, an exclusive or and a conversion per coordinate. Vectors run across points and
+//          coordinates alike, because rows are contiguous in the table of low digits' sums and in
+//          the result, for any dimension. 3 G coordinates per second on one core.
+// Promise  a coordinate has exactly the first 53 digits of its fraction; the others are truncated.
 #pragma once
 
 #include <cstddef>
@@ -29,18 +29,19 @@ struct BinaryMatrices {
     [[nodiscard]] std::size_t digits() const { return columns.size() / dimension; }
 };
 
-/// Matrices whose point i is point gray(i) = i ^ (i / 2) of the given ones: from each point to the
-/// next one column is added. Any 2^m points from a multiple of 2^m on are the same, in other order.
+/// Matrices for Gray code order: point i is point gray(i) = i ^ (i / 2) of the given matrices, so
+/// that each step adds a single column. Any 2^m points from a multiple of 2^m on are the same set
+/// in a different order.
 BinaryMatrices in_gray_order(BinaryMatrices matrices);
 
 class BinaryNet {
   public:
-    /// @param shift digits added to each coordinate; empty: none
+    /// @param shift digits added to each coordinate; empty for none
     explicit BinaryNet(const BinaryMatrices& matrices, std::vector<std::uint64_t> shift = {});
 
     [[nodiscard]] std::size_t dimension() const { return dimension_; }
 
-    /// Points first, first + 1, ... until `rows` is full.
+    /// Fills `rows` with points first, first + 1, ...
     void fill(std::uint64_t first, std::span<double> rows) const;
     void fill(std::uint64_t first, std::span<std::uint64_t> rows) const;
 
@@ -53,7 +54,7 @@ class BinaryNet {
 
     std::size_t dimension_;
     int low_digits_ = 0;
-    std::size_t period_ = 1;          ///< rows for which the high digits' sum is laid out
+    std::size_t period_ = 1;          ///< number of rows for which the high digits' sum is repeated
     std::vector<std::uint64_t> low_;  ///< sums of the low digits' columns, row by row
     std::vector<std::uint64_t>
         carries_;  ///< row j: the sum of the first j + 1 high digits' columns

@@ -10,15 +10,15 @@ namespace stipple {
 namespace {
 
 constexpr std::size_t block_points = 256;
-constexpr int group_digits = 5;  // of a group: its prefixes need 31 random bits
+constexpr int group_digits = 5;  // digits per group, whose prefixes need 31 random bits
 constexpr int upper_groups = 6;  // groups in the upper part, whose prefixes fit 32 bits
 constexpr int lower_groups = 5;  // groups in the lower part; 55 digits in all
-constexpr std::size_t all_groups = upper_groups + lower_groups;  // keys that hash the upper part
+constexpr std::size_t all_groups = upper_groups + lower_groups;  // index of the upper part's keys
 constexpr int upper_bits = upper_groups * group_digits;
 constexpr int lower_bits = lower_groups * group_digits;
 constexpr std::uint32_t group_mask = (1U << group_digits) - 1;
 
-/// A bijective hash of 32 bits with a key in the middle (constants: C. Wellons, lowbias32).
+/// A bijective 32-bit hash with a key in the middle (constants: C. Wellons, lowbias32).
 inline std::uint32_t mixed(std::uint32_t x, std::uint32_t key) {
     x ^= x >> 16;
     x *= 0x7feb352dU;
@@ -27,8 +27,8 @@ inline std::uint32_t mixed(std::uint32_t x, std::uint32_t key) {
     return x ^ (x >> 16);
 }
 
-/// What five digits are flipped by: bit 1 of `random` flips the first, bit 2 or 3 the second after
-/// a 0 or a 1, bits 4 to 7 the third, and so on.
+/// Flips for the five digits of `group`: bit 1 of `random` flips the first, bit 2 or 3 the second
+/// after a 0 or a 1, bits 4 to 7 the third, and so on.
 inline std::uint32_t flips(std::uint32_t random, std::uint32_t group) {
     const std::uint32_t path = (1U << group_digits) | group;
     std::uint32_t flip = 0;
@@ -37,7 +37,7 @@ inline std::uint32_t flips(std::uint32_t random, std::uint32_t group) {
     return flip;
 }
 
-/// Flips of the upper thirty digits; each prefix of up to 25 of them is hashed without a collision.
+/// Flips for the upper thirty digits; prefixes of up to 25 digits have distinct hashes.
 inline std::uint32_t upper_flips(const BinaryOwen::Keys& keys, std::uint32_t x) {
     std::uint32_t flip = 0;
 #pragma GCC unroll 6
@@ -52,8 +52,8 @@ inline std::uint32_t upper_flips(const BinaryOwen::Keys& keys, std::uint32_t x) 
     return flip;
 }
 
-/// Flips of the lower digits below an upper part hashed to `above`. The multiplier is another in
-/// each group, so that prefixes that collide in one do not in the next.
+/// Flips for the lower digits; `above` is the hash of the upper part. The multiplier differs
+/// between groups, so that prefixes with equal hashes in one differ in the next.
 inline std::uint32_t lower_flips(const BinaryOwen::Keys& keys, std::uint32_t above,
                                  std::uint32_t x) {
     std::uint32_t flip = 0;

@@ -10,7 +10,7 @@
 namespace stipple {
 namespace {
 
-/// Position `position`'s permutation, by Fisher and Yates.
+/// Random permutation for a position, by Fisher and Yates.
 std::vector<std::uint16_t> random_permutation(std::uint64_t base, std::size_t position,
                                               const Rng& numbers) {
     std::vector<std::uint16_t> images(base);
@@ -44,7 +44,7 @@ PermutedInverse::PermutedInverse(std::uint32_t base, const Rng& numbers)
     for (const std::uint16_t image : random_permutation(base, position++, numbers))
         low_.push_back(image);
     for (; block_ * base <= largest_digit_table; block_ *= base) {
-        // The digit of a higher position turns slower through the table, its image faster.
+        // A higher digit changes more slowly along the table, its image faster.
         std::vector<double> longer;
         for (const std::uint16_t image : random_permutation(base, position++, numbers))
             for (const double low : low_) longer.push_back(low * base + image);
@@ -55,14 +55,14 @@ PermutedInverse::PermutedInverse(std::uint32_t base, const Rng& numbers)
         const auto images = random_permutation(base, position++, numbers);
         permuted_.insert(permuted_.end(), images.begin(), images.end());
     }
-    // Behind the last position that an index reaches, random digits are a uniform number.
+    // After the last position that an index can reach, all random digits form a uniform number.
     zeros_.push_back(numbers.uniform(position * base_));
     for (std::size_t at = permuted_.size(); at > 0; at -= base_)
         zeros_.push_back((permuted_[at - base_] + zeros_.back()) / static_cast<double>(base_));
     std::ranges::reverse(zeros_);
 }
 
-/// The fraction that all but the t low digits give, in units of the lowest of these.
+/// Fraction from the images of all but the t low digits, in units of the lowest of these.
 double PermutedInverse::behind(std::uint64_t high) const {
     Wide digits = 0;
     Wide power = 1;
@@ -71,7 +71,7 @@ double PermutedInverse::behind(std::uint64_t high) const {
         digits = digits * base_ + permuted_[position * base_ + high % base_];
         power *= base_;
     }
-    // Both are at most 2^53: an index has no more digits.
+    // Both are at most 2^53, since an index has no more digits.
     const auto whole = static_cast<double>(static_cast<std::uint64_t>(digits));
     const double fraction =
         (whole + zeros_[position]) / static_cast<double>(static_cast<std::uint64_t>(power));

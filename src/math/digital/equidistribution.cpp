@@ -13,7 +13,8 @@
 namespace stipple::equidistribution {
 namespace {
 
-/// As `parts` is below 2^31, the product is off by less than one.
+/// Index of the interval that contains x. As `parts` is below 2^31, the rounded product is off by
+/// less than one.
 std::int32_t cell_of(double x, double parts) {
     double cell = std::floor(x * parts);
     if (cell / parts > x)
@@ -23,7 +24,7 @@ std::int32_t cell_of(double x, double parts) {
     return static_cast<std::int32_t>(std::min(cell, parts - 1));
 }
 
-/// a + f c, digit by digit modulo the base.
+/// Returns a + f c, digit by digit modulo the base.
 std::int32_t digit_sum(std::int32_t a, std::int32_t c, std::uint32_t f, std::uint32_t base) {
     if (base == 2) return f == 1 ? a ^ c : a;
     auto x = static_cast<std::uint32_t>(a);
@@ -35,7 +36,7 @@ std::int32_t digit_sum(std::int32_t a, std::int32_t c, std::uint32_t f, std::uin
     return static_cast<std::int32_t>(sum);
 }
 
-/// What point b^j adds to point 0, for all j, coordinate after coordinate.
+/// Differences of point b^j from point 0, for all j, coordinate by coordinate.
 std::vector<std::int32_t> steps_of(const Net& net) {
     std::vector<std::int32_t> steps;
     for (std::size_t k = 0; k < net.dimension; ++k) {
@@ -46,7 +47,8 @@ std::vector<std::int32_t> steps_of(const Net& net) {
     return steps;
 }
 
-/// Whether each point is its predecessor in the lowest digit of the index, with that digit's step.
+/// True if each point is the one with its lowest nonzero index digit decreased by 1, plus that
+/// digit's step.
 bool is_linear(const Net& net, std::span<const std::int32_t> steps, const RunContext& run) {
     for (std::size_t i = 1; i < net.count; ++i) {
         if (i % (1 + 65536 / net.dimension) == 0) run.check_stop();
@@ -62,8 +64,8 @@ bool is_linear(const Net& net, std::span<const std::int32_t> steps, const RunCon
     return true;
 }
 
-/// to[i] = from[i] b^q + the first q digits of cells[i], for a scale of b^q and a rest of b^(m-q).
-/// Half a cell keeps quotients off whole numbers by more than they are rounded.
+/// Sets to[i] = from[i] b^q + the first q digits of cells[i], with scale b^q and rest b^(m-q).
+/// Adding half a cell keeps quotients further from integers than their rounding error.
 STIPPLE_WIDE void append_digits(const std::int32_t* from, const std::int32_t* cells,
                                 std::size_t count, std::int32_t scale, double rest,
                                 std::int32_t* to) {
@@ -106,7 +108,7 @@ class CountingProbe final : public Probe {
   private:
     static constexpr std::size_t block = 4096;
 
-    /// The boxes of some points, once coordinate's digits cut them.
+    /// Computes the boxes of some points after a cut by digits of a coordinate.
     void append(std::size_t depth, std::size_t coordinate, std::size_t digits, std::size_t first,
                 std::int32_t* to) const {
         run_.check_stop();
@@ -118,12 +120,12 @@ class CountingProbe final : public Probe {
 
     const Net& net_;
     const RunContext& run_;
-    std::vector<std::vector<std::int32_t>> boxes_;  ///< of each point, after so many cuts
+    std::vector<std::vector<std::int32_t>> boxes_;  ///< box of each point, by number of cuts
     std::vector<std::size_t> used_;                 ///< digits of each cut
     std::vector<std::uint32_t> counts_;
 };
 
-/// Rows in echelon form, the pivot of each being 1.
+/// Tests linear independence. Rows are in echelon form with pivots 1.
 class RankProbe final : public Probe {
   public:
     RankProbe(const Matrices& matrices, const RunContext& run) : matrices_(matrices), run_(run) {}
@@ -143,7 +145,7 @@ class RankProbe final : public Probe {
     }
 
   private:
-    /// Takes the row in, unless it depends on the others.
+    /// Adds a row; returns false if it depends on the others.
     bool add(std::span<const std::uint32_t> row) {
         const std::size_t m = matrices_.size;
         const std::size_t rank = pivots_.size();
@@ -177,7 +179,7 @@ class RankProbe final : public Probe {
     [[nodiscard]] std::uint32_t times(std::uint32_t x, std::uint32_t y) const {
         return static_cast<std::uint32_t>(std::uint64_t{x} * y % matrices_.base);
     }
-    /// x^(b - 2), by Fermat.
+    /// Inverse as x^(b - 2), by Fermat's theorem.
     [[nodiscard]] std::uint32_t inverse(std::uint32_t x) const {
         std::uint32_t power = 1;
         for (std::uint32_t e = matrices_.base - 2; e != 0; e /= 2, x = times(x, x))
@@ -189,7 +191,7 @@ class RankProbe final : public Probe {
     const RunContext& run_;
     std::vector<std::uint32_t> rows_;
     std::vector<std::size_t> pivots_;
-    std::vector<std::size_t> ends_;  ///< rows after each cut
+    std::vector<std::size_t> ends_;  ///< number of rows after each cut
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Polynomials over the field of two elements, as the whole numbers that they are at x = 2: bit j is
-// the coefficient of x^j, so x^3 + x + 1 is 11.
+// Polynomials over the field of two elements, stored as integers: bit j is the coefficient of x^j,
+// so x^3 + x + 1 is 11.
 //
 // Shape   degrees up to 52.
 #pragma once
@@ -14,10 +14,10 @@
 
 namespace stipple::gf2 {
 
-/// -1 for 0.
+/// Degree of p; -1 for p = 0.
 constexpr int degree(std::uint64_t p) { return static_cast<int>(std::bit_width(p)) - 1; }
 
-/// The remainder of a divided by p, p not 0.
+/// Remainder of a divided by p != 0.
 constexpr std::uint64_t remainder(std::uint64_t a, std::uint64_t p) {
     while (degree(a) >= degree(p)) a ^= p << (degree(a) - degree(p));
     return a;
@@ -32,7 +32,7 @@ constexpr std::uint64_t common_divisor(std::uint64_t a, std::uint64_t b) {
     return a;
 }
 
-/// a b modulo p; a and b of degrees below that of p.
+/// a b modulo p; the degrees of a and b must be below that of p.
 constexpr std::uint64_t product(std::uint64_t a, std::uint64_t b, std::uint64_t p) {
     const std::uint64_t top = std::uint64_t{1} << degree(p);
     std::uint64_t sum = 0;
@@ -60,8 +60,8 @@ constexpr std::uint64_t frobenius(int k, std::uint64_t p) {
 }
 }  // namespace detail
 
-/// Whether p, of degree 1 at least, has no factor but itself and 1: x^(2^m) = x modulo p, and
-/// x^(2^(m/r)) - x is prime to p for every prime factor r of the degree m (Rabin 1980).
+/// True if p of degree m >= 1 has no factor except itself and 1: x^(2^m) = x modulo p, and
+/// x^(2^(m/r)) - x is coprime to p for every prime factor r of m (Rabin 1980).
 constexpr bool is_irreducible(std::uint64_t p) {
     const int m = degree(p);
     if (m < 1) return false;
@@ -73,14 +73,14 @@ constexpr bool is_irreducible(std::uint64_t p) {
     return true;
 }
 
-/// The irreducible polynomial of degree m >= 1 that is the smallest number.
+/// The irreducible polynomial of degree m >= 1 with the smallest number.
 constexpr std::uint64_t smallest_irreducible(int m) {
     std::uint64_t p = std::uint64_t{1} << m;
     while (!is_irreducible(p)) ++p;
     return p;
 }
 
-/// Whether the powers of a are all 2^m - 1 units modulo p, irreducible and of degree m.
+/// True if the powers of a are all 2^m - 1 units modulo p, which must be irreducible of degree m.
 constexpr bool is_generator(std::uint64_t a, std::uint64_t p) {
     const std::uint64_t order = (std::uint64_t{1} << degree(p)) - 1;
     for (std::uint64_t rest = order; rest > 1;) {
@@ -91,7 +91,7 @@ constexpr bool is_generator(std::uint64_t a, std::uint64_t p) {
     return true;
 }
 
-/// 1, g, g^2, ...: all units modulo an irreducible p, as powers of the smallest such g.
+/// All units modulo an irreducible p, as powers 1, g, g^2, ... of the smallest generator g.
 inline std::vector<std::uint32_t> units(std::uint32_t p) {
     std::uint64_t g = 1;
     while (!is_generator(g, p)) ++g;

@@ -16,8 +16,8 @@ double Drand48::next() {
 }
 
 void Drand48::discard(std::uint64_t count) {
-    // One step is x -> a x + c; two are x -> a (a x + c) + c, and so on by squaring. What wraps
-    // modulo 2^64 is right modulo 2^48.
+    // One step is x -> a x + c, two are x -> a (a x + c) + c, and so on by squaring. Overflow
+    // modulo 2^64 does not matter modulo 2^48.
     std::uint64_t factor = drand48_factor;
     std::uint64_t term = drand48_term;
     for (; count > 0; count /= 2) {
@@ -29,8 +29,8 @@ void Drand48::discard(std::uint64_t count) {
 
 AdditiveFeedback::AdditiveFeedback(std::uint64_t seed) {
     state_[0] = seed == 0 ? 1 : static_cast<std::uint32_t>(seed);
-    // The minimal standard generator, in the C library's signed arithmetic: a seed above 2^31 is a
-    // negative number to it, and so is its remainder.
+    // The minimal standard generator in the C library's signed arithmetic: a seed above 2^31
+    // becomes negative, and so does the remainder.
     auto word = static_cast<std::int32_t>(state_[0]);
     for (std::size_t i = 1; i < state_.size(); ++i) {
         const auto next = static_cast<std::int64_t>(word) * 16807 % 2147483647;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Random number generators of old programs and libraries, to make their numbers again. Each is
-// built from its seed, and next() is its next number, a double in [0, 1).
+// Random number generators of old programs and libraries, to reproduce their numbers. Each is
+// constructed from a seed, and next() returns its next number as a double in [0, 1).
 //
-// Beware  none of them can be trusted with new work: short periods, weak low bits, few seeds.
+// Beware  not for new work: short periods, weak low bits, few seeds.
 #pragma once
 
 #include <array>
@@ -24,16 +24,16 @@ class Drand48 {
     explicit Drand48(std::uint64_t seed) : state_(seed << 16 | 0x330E) {}
     double next();
 
-    /// Leaves out `count` numbers; in O(log count) steps.
+    /// Skips `count` numbers, in O(log count) steps.
     void discard(std::uint64_t count);
 
   private:
     std::uint64_t state_;
 };
 
-/// The C library's random(), additive feedback x_i = x_{i-3} + x_{i-31} mod 2^32; its upper 31 bits
-/// over 2^31.
-/// Beware  seeds 0 and 1 are the same to it.
+/// The C library's random(), additive feedback x_i = x_{i-3} + x_{i-31} mod 2^32; the result is the
+/// upper 31 bits divided by 2^31.
+/// Beware  seeds 0 and 1 give the same numbers.
 class AdditiveFeedback {
   public:
     static constexpr std::uint64_t max_seed = 0xffff'ffff;
@@ -53,8 +53,8 @@ class AdditiveFeedback {
     std::size_t rear_ = 0;
 };
 
-/// RANMAR: a lagged Fibonacci generator (97, 33; minus) combined with an arithmetic sequence, in
-/// numbers of 24 bits.
+/// RANMAR: a lagged Fibonacci generator (97, 33; minus) combined with an arithmetic sequence, of
+/// 24-bit numbers.
 ///
 /// Source  G. Marsaglia, A. Zaman, W. W. Tsang, Stat. Probab. Lett. 9 (1990) 35-39; as printed by
 ///         F. James, Comput. Phys. Commun. 60 (1990) 329-344, doi:10.1016/0010-4655(90)90032-V.
@@ -67,7 +67,7 @@ class Ranmar {
         : Ranmar(static_cast<std::uint32_t>(seed / seeds_of_kl),
                  static_cast<std::uint32_t>(seed % seeds_of_kl)) {}
 
-    /// ij in [0, 31328], kl in [0, 30081].
+    /// Needs ij in [0, 31328] and kl in [0, 30081].
     Ranmar(std::uint32_t ij, std::uint32_t kl);
     double next() {
         std::uint32_t difference = (state_[front_] - state_[rear_]) & mask24;
@@ -75,7 +75,7 @@ class Ranmar {
         front_ = front_ == 0 ? state_.size() - 1 : front_ - 1;
         rear_ = rear_ == 0 ? state_.size() - 1 : rear_ - 1;
         arithmetic_ -= step;
-        arithmetic_ += modulus & (0U - (arithmetic_ >> 31));  // no branch, which none could predict
+        arithmetic_ += modulus & (0U - (arithmetic_ >> 31));  // a branch would be unpredictable
         difference = (difference - arithmetic_) & mask24;
         return difference * 0x1p-24;
     }
@@ -91,7 +91,8 @@ class Ranmar {
     std::uint32_t arithmetic_ = 362436;
 };
 
-/// An engine of the standard library; the 53 high bits of its numbers, or all that it has.
+/// An engine of the standard library; returns the 53 high bits of its numbers, or all if it has
+/// fewer.
 template <class Engine, std::uint64_t most>
 class StandardEngine {
   public:
@@ -106,7 +107,8 @@ class StandardEngine {
 
 using MersenneTwister = StandardEngine<std::mt19937_64, ~std::uint64_t{0}>;
 
-/// Beware  seeds 0 and 19780503 are the same to it; from 2147483563 on seeds would come again.
+/// Beware  seeds 0 and 19780503 give the same numbers; seeds from 2147483563 on would repeat
+/// others.
 using Ranlux48 = StandardEngine<std::ranlux48, 2147483562>;
 
 }  // namespace stipple

@@ -10,7 +10,7 @@
 namespace stipple {
 namespace {
 
-/// The digits of an index in reverse as a whole number, and the power of the base above it.
+/// The reversed digits of an index as an integer, and base^digits.
 struct Reversed {
     Wide digits = 0;
     Wide power = 1;
@@ -27,7 +27,8 @@ Reversed reversed(std::uint64_t index, std::uint64_t base,
     return out;
 }
 
-/// Low digits behind high ones: numbers (low * high.power + high.digits) / (block * high.power).
+/// Combines low digits with common high ones: sets numbers (low * high.power + high.digits) /
+/// (block * high.power).
 void join(std::span<const double> low, const Reversed& high, std::uint64_t block, double* out,
           std::size_t stride) {
     const Wide denominator = high.power * block;
@@ -38,7 +39,7 @@ void join(std::span<const double> low, const Reversed& high, std::uint64_t block
         }
         return;
     }
-    // Every number here is whole and at most 2^53: only the division rounds.
+    // All numbers here are integers of at most 2^53: only the division rounds.
     const auto number = [](Wide x) { return static_cast<double>(static_cast<std::uint64_t>(x)); };
     fill_quotients(low, number(high.power), number(high.digits), number(denominator), out, stride);
 }
@@ -52,7 +53,7 @@ RadicalInverse::RadicalInverse(std::uint32_t base, std::vector<std::uint32_t> pe
     while (block_ * base <= largest_digit_table) block_ *= base;
     if (block_ == base && permutation_.empty()) return;
     for (std::uint64_t i = 0; i < block_; ++i) {
-        // The digit above stands in for leading zeros.
+        // The digit above the block preserves leading zeros.
         const Reversed low = reversed(i + block_, base, permutation_);
         reversed_.push_back(static_cast<double>(static_cast<std::uint64_t>(low.digits / base)));
     }

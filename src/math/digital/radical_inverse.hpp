@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Radical inverse of i in base b: the digits of i, reversed behind the point.
+// Radical inverse of i in base b: the digits of i in reverse order after the point.
 //
 //     phi_b(i) = sum_j a_j b^(-j-1) = m / b^k    where    i = sum_j a_j b^j,  0 <= a_j < b,
 //
-// and m is the whole number whose k digits are those of i in reverse.
+// and m is the integer whose k digits are those of i in reverse.
 //
 // Shape    i in [0, 2^53), b in [2, 65536].
-// Promise  correctly rounded: m and b^k are exact and are divided once. Never 1, for i < 2^53 keeps
+// Promise  correctly rounded: m and b^k are exact and divided once. Never 1, since i < 2^53 implies
 //          1 - phi_b(i) >= 2^-53.
 // Source   J. H. Halton, Numer. Math. 2 (1960) 84-90, doi:10.1007/BF01386213.
 #pragma once
@@ -18,30 +18,30 @@
 
 namespace stipple {
 
-/// Tables of the images of low digits have at most this many entries: 8 KiB, so that a few of them
-/// stay in the first-level cache.
+/// Maximum size of tables for the images of low digits: 8 KiB, so that several fit the first-level
+/// cache.
 constexpr std::uint64_t largest_digit_table = 1024;
 
-/// Radical inverses. Of consecutive indices the low digits come reversed from a table, so that each
-/// costs a multiplication, an addition and a division.
+/// Radical inverses. For consecutive indices the reversed low digits come from a table, so that
+/// each index costs a multiplication, an addition and a division.
 class RadicalInverse {
   public:
     explicit RadicalInverse(std::uint32_t base);
 
-    /// Every digit goes through the permutation, of which 0 is a fixed point, first.
+    /// @param permutation applied to every digit first; must map 0 to 0
     RadicalInverse(std::uint32_t base, std::vector<std::uint32_t> permutation);
 
     /// phi_base(index).
     [[nodiscard]] double of(std::uint64_t index) const;
 
-    /// out[j * stride] = of(first + j) for j < count.
+    /// Sets out[j * stride] = of(first + j) for j < count.
     void fill(std::uint64_t first, std::size_t count, double* out, std::size_t stride) const;
 
   private:
     std::uint64_t base_;
-    std::uint64_t block_;           ///< b^t, the number of values that the t low digits have
-    std::vector<double> reversed_;  ///< of the low digits; empty for t = 1, where nothing turns
-    std::vector<std::uint32_t> permutation_;  ///< of the digits; empty: none
+    std::uint64_t block_;           ///< b^t, the number of values of the t low digits
+    std::vector<double> reversed_;  ///< reversed low digits; empty for t = 1, if unchanged
+    std::vector<std::uint32_t> permutation_;  ///< permutation of the digits; empty for none
 };
 
 }  // namespace stipple

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The streams of random numbers that scrambles draw from: a scramble with the seed of the generator
-// before it is independent of the generator's own numbers, which come from streams below 2^32.
+// Streams of random numbers for scrambles. They differ from those of generators, which are below
+// 2^32, so that a scramble is independent of a generator with the same seed.
 #pragma once
 
 #include <cstdint>

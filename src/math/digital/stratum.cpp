@@ -12,8 +12,8 @@ namespace stipple {
 namespace {
 
 /// The double nearest to the middle of [low / parts, high / parts). Strata are at least 2^-53 wide,
-/// which is how far apart doubles are at most, so that it is inside; but for 2^53 parts the middle
-/// is a tie and may go to the upper edge, and there the lower one is a double.
+/// the maximum distance of doubles, so that this double is inside. The exception is 2^53 parts:
+/// there the middle is a tie, which may round to the upper edge, but the lower edge is a double.
 double safe_point(std::uint64_t low, std::uint64_t high, std::uint64_t parts) {
     const auto n = static_cast<double>(parts);
     const double middle = ratio(Wide{low} + high, Wide{parts} * 2);
@@ -21,13 +21,14 @@ double safe_point(std::uint64_t low, std::uint64_t high, std::uint64_t parts) {
     return below_edge ? middle : static_cast<double>(low) / n;
 }
 
-/// Whether x is strictly between the stratum's edges, after rounding and so before it, too.
+/// True if x is strictly between the stratum's edges, in floating-point and hence in exact
+/// arithmetic.
 inline bool holds(double low, double width, double parts, double x) {
     const double scaled = x * parts;
     return (scaled > low) & (scaled < low + width);
 }
 
-/// Places numbers side by side; whether all are inside of their strata.
+/// Moves contiguous numbers into their strata; returns true if all are inside.
 STIPPLE_WIDE bool place(const double* low, double width, double parts, std::size_t count,
                         double* x) {
     std::int64_t outside = 0;
@@ -43,7 +44,7 @@ double safe_point_of(const Strata& strata, std::size_t j) {
     return safe_point(low, low + strata.width, strata.parts);
 }
 
-/// Numbers side by side.
+/// Moves contiguous numbers into their strata.
 void place_all(const Strata& strata, double* x) {
     const auto width = static_cast<double>(strata.width);
     const auto parts = static_cast<double>(strata.parts);
@@ -67,7 +68,7 @@ void place_in_strata(Strata strata, double* x, std::size_t stride) {
 }
 
 void place_in_middles(const Strata& strata, double* x, std::size_t stride) {
-    // Half a stratum is more than all rounding, unless there are very many.
+    // Half a stratum exceeds all rounding errors, unless there are very many strata.
     const bool roomy = strata.parts <= std::uint64_t{1} << 50;
     if (roomy)
         return fill_quotients(strata.low, 1, static_cast<double>(strata.width) / 2,

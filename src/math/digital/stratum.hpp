@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Random points in strata: parts of [0, 1) between whole multiples of 1 / parts.
+// Random points in strata: parts of [0, 1) between integer multiples of 1 / parts.
 //
 //     x = (low + width u) / parts,    u in [0, 1),    in    [low / parts, (low + width) / parts).
 //
-// Promise  the point is in its half-open stratum by exact arithmetic, and floor(x * parts), as a
-//          program computes it, says so too, wherever the stratum holds a double for which it can.
-//          A point that rounding would bring to an edge goes to the middle of its stratum; the
-//          chance of that is about low * 2^-53.
+// Promise  the point is in its half-open stratum in exact arithmetic. So it is by floor(x * parts)
+//          in floating-point arithmetic, if the stratum contains a double for which this is
+//          possible. A point that rounding would move to an edge is moved to the middle of its
+//          stratum; the probability of that is about low * 2^-53.
 #pragma once
 
 #include <cstddef>
@@ -16,17 +16,17 @@
 
 namespace stipple {
 
-/// Strata along one coordinate, all of one width.
+/// Strata along one coordinate, all of the same width.
 struct Strata {
-    std::span<const double> low;  ///< whole numbers, where they begin
+    std::span<const double> low;  ///< lower ends, integers
     std::uint64_t width = 1;
     std::uint64_t parts = 1;  ///< low + width <= parts <= 2^53
 };
 
-/// Moves x[0], x[stride], ... from [0, 1) into strata: the j-th number into the j-th stratum.
+/// Moves x[0], x[stride], ... from [0, 1) into strata: number j into stratum j.
 void place_in_strata(Strata strata, double* x, std::size_t stride);
 
-/// Puts the middles of the strata there.
+/// Sets x[0], x[stride], ... to the middles of the strata.
 void place_in_middles(const Strata& strata, double* x, std::size_t stride);
 
 }  // namespace stipple
