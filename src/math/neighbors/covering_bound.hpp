@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// How far a place of a box can be from the nearest of some points, from above:
+// Upper bound on the distance from any point of a box to the nearest of some given points:
 //
 //     max over x in the box of  min over i of  |x - q_i|^2
 //         <=  min over w >= 0, sum w_i = 1  of  max over x of  sum_i w_i |x - q_i|^2
 //          =  min over w of  sum_k h_k^2 + sum_i w_i |q_i|^2 + 2 sum_k h_k |sum_i w_i q_ik|,
 //
-// with the box's centre as the origin and h_k half of its sides: the sum is convex in x, and has
-// its maximum in a corner. The best w is found by the simplex method, in a basis of D + 1 columns:
-// points, and the two signs of the last sum's terms.
+// with the box's centre as the origin and h_k half of its sides. The sum is convex in x, so its
+// maximum is at a corner. The best w comes from the simplex method, with a basis of D + 1 columns
+// for points and for the two signs of terms in the last sum.
 //
-// Shape    D directions, or with D = 0 as many as are told, up to 32; at least one point.
+// Shape    D dimensions, or for D = 0 a number given at run time, up to 32; at least one point.
 // Cost     about 2 D steps of O(D^2 + points D).
-// Promise  never below the maximum but by rounding. Above it by the sum of h_k^2 at most (squared
-//          distances), and the tolerance: its excess falls with the square of the box's size,
-//          where the distance of one point to the farthest corner would be off by the size itself.
-// Source   the bound is Lagrange's dual; G. B. Dantzig, "Linear Programming and Extensions", 1963
+// Promise  never below the maximum, except by rounding. Exceeds it (as a squared distance) by at
+//          most the sum of h_k^2 plus the tolerance. So the excess is quadratic in the box's size,
+//          while that of the distance from a single point to the farthest corner is linear.
+// Source   the bound is the Lagrange dual; G. B. Dantzig, "Linear Programming and Extensions", 1963
 //          (simplex method).
 #pragma once
 
@@ -32,23 +32,23 @@ class CoveringBound {
     static constexpr std::size_t most = D > 0 ? D : 32;
 
   public:
-    using Point = std::array<double, most>;  ///< of which the first D count
+    using Point = std::array<double, most>;  ///< the first D coordinates count
 
-    /// @param tolerance of the squared distance, relative
+    /// @param tolerance relative, of the squared distance
     explicit CoveringBound(std::size_t dimension = D, double tolerance = 1e-3)
         : dimension_(dimension), tolerance_(tolerance) {}
 
     void clear() { points_.clear(); }
     [[nodiscard]] bool empty() const { return points_.empty(); }
 
-    /// A point, as seen from the centre of the box.
+    /// Adds a point, relative to the centre of the box.
     void add(const Point& q) {
         double norm = 0;
         for (std::size_t k = 0; k < d(); ++k) norm += q[k] * q[k];
         points_.push_back({q, norm});
     }
 
-    /// The bound of the squared distance, for a box of these half sides.
+    /// Bound on the squared distance for a box with these half sides.
     double squared(const Point& half) {
         begin(half);
         for (std::size_t step = 0; step < 20 * rows(); ++step)
@@ -56,8 +56,8 @@ class CoveringBound {
         return value(half);
     }
 
-    /// The place of that box, seen from its centre, at which the last bound is reached but for the
-    /// sum of h_k^2.
+    /// Point of that box, relative to its centre, at which the last bound is reached up to the sum
+    /// of h_k^2.
     [[nodiscard]] Point place(const Point& half) const {
         Point place{};
         for (std::size_t k = 0; k < d(); ++k)
@@ -65,7 +65,7 @@ class CoveringBound {
         return place;
     }
 
-    /// Calls visit(q) for the points that the last bound rests on, D + 1 at most.
+    /// Calls visit(q) for the points that determine the last bound, at most D + 1.
     template <class Visit>
     void visit_basis(const Visit& visit) const {
         for (std::size_t i = 0; i < rows(); ++i)
@@ -82,11 +82,11 @@ class CoveringBound {
     [[nodiscard]] std::size_t d() const { return D > 0 ? D : dimension_; }
     [[nodiscard]] std::size_t rows() const { return d() + 1; }
 
-    /// Columns below 2 D are slacks, +k and -k in turn; others are points.
+    /// Columns below 2 D are slacks, +k and -k alternately; the others are points.
     [[nodiscard]] bool is_point(std::size_t id) const { return id >= 2 * d(); }
     static std::size_t slack(std::size_t k, bool negative) { return 2 * k + (negative ? 1 : 0); }
 
-    /// All weight on the nearest point, and slacks that take up its coordinates.
+    /// Starts with all weight on the nearest point, and with slacks for its coordinates.
     void begin(const Point& half) {
         const auto by_norm = [](const Candidate& a, const Candidate& b) { return a.norm < b.norm; };
         const auto nearest = std::ranges::min_element(points_, by_norm);
@@ -105,7 +105,7 @@ class CoveringBound {
         for (std::size_t k = 0; k < d(); ++k) prices_[d()] += 2 * half[k] * std::abs(nearest->q[k]);
     }
 
-    /// One step of the simplex method; whether there was one to take.
+    /// Takes a step of the simplex method; returns false if there is none.
     bool improve(const Point& half) {
         double least = -tolerance_ * prices_[d()];
         std::size_t entering = none;
@@ -126,7 +126,7 @@ class CoveringBound {
         return entering != none && exchange(entering, least);
     }
 
-    /// Takes a column of that reduced cost into the basis.
+    /// Brings a column with this reduced cost into the basis.
     bool exchange(std::size_t entering, double reduced) {
         const Row column = column_of(entering);
         std::size_t leaving = none;
@@ -149,7 +149,7 @@ class CoveringBound {
         return true;
     }
 
-    /// A column in terms of the basis.
+    /// Expresses a column in the basis.
     [[nodiscard]] Row column_of(std::size_t id) const {
         Row column;
         for (std::size_t i = 0; i < rows(); ++i) {
@@ -164,7 +164,7 @@ class CoveringBound {
         return column;
     }
 
-    /// The bound with the weights found, from the formula: it holds for any weights.
+    /// The bound for the current weights, from the formula, which holds for any weights.
     [[nodiscard]] double value(const Point& half) const {
         double total = 0;
         double norms = 0;
@@ -189,8 +189,8 @@ class CoveringBound {
     double tolerance_;
     std::vector<Candidate> points_;
     std::array<std::size_t, most + 1> basis_{};
-    std::array<Row, most + 1> inverse_{};  ///< of the basis; its last column is the basic solution
-    Row prices_{};                         ///< dual; the last is the bound
+    std::array<Row, most + 1> inverse_{};  ///< of the basis; the last column is the basic solution
+    Row prices_{};                         ///< dual variables; the last one is the bound
 };
 
 }  // namespace stipple

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double ulp = std::numeric_limits<double>::epsilon() / 2;
 
-/// Sign of a sum, exactly: the terms are made into others, of the same sum, that do not overlap.
+/// Exact sign of a sum: the terms are converted to non-overlapping ones with the same sum.
 template <class Real>
 int sign_of_sum(std::span<const Real> terms) {
     std::array<Real, 12> parts{};
@@ -53,7 +53,7 @@ int exact_side(const double* a, const double* b, const double* c) {
     return sign_of_sum<Real>(terms);
 }
 
-/// Whether products of coordinates keep their last digits.
+/// True if products of the coordinates neither overflow nor lose digits by underflow.
 bool multiply_exactly(std::initializer_list<const double*> places) {
     return std::ranges::all_of(places, [](const double* place) {
         return std::all_of(place, place + 2, [](double x) {
@@ -62,13 +62,13 @@ bool multiply_exactly(std::initializer_list<const double*> places) {
     });
 }
 
-/// What decides whether a place is in a circle, as Real numbers: positive inside.
+/// In-circle determinant, positive inside the circle, in numbers of type Real.
 template <class Real>
 struct InCircle {
     Real sum;
-    double size;  ///< of all that is added
+    double size;  ///< sum of absolute values of the terms
 
-    /// @param difference of two doubles as a Real
+    /// @param difference difference(x, y) returns x - y as a Real
     template <class Difference>
     InCircle(const double* a, const double* b, const double* c, const double* d,
              const Difference& difference) {
@@ -90,9 +90,9 @@ struct InCircle {
     static DoubleDouble minus(const DoubleDouble& x) { return {-x.high, -x.low}; }
 };
 
-/// Whether d is inside the circle through the corners a, b, c, counterclockwise, for certain.
+/// True if d is certainly inside the circle through a, b, c, which are in counterclockwise order.
 bool surely_inside(const double* a, const double* b, const double* c, const double* d) {
-    constexpr double least = 0x1p-900;  // what is smaller may have lost its last digits
+    constexpr double least = 0x1p-900;  // smaller numbers may have lost digits
     const InCircle<double> quick(a, b, c, d, [](double x, double y) { return x - y; });
     if (quick.size > least && std::abs(quick.sum) > 12 * ulp * quick.size) return quick.sum > 0;
     const InCircle<DoubleDouble> good(a, b, c, d,
@@ -100,7 +100,7 @@ bool surely_inside(const double* a, const double* b, const double* c, const doub
     return good.size > least && good.sum.high > 0x1p-96 * good.size;
 }
 
-/// Place on a Hilbert curve through 2^32 x 2^32 cells.
+/// Position on a Hilbert curve through 2^32 x 2^32 cells.
 std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y) {
     std::uint64_t key = 0;
     for (std::uint32_t s = 1U << 31U; s > 0; s >>= 1U) {
@@ -119,13 +119,13 @@ std::uint64_t hilbert_key(std::uint32_t x, std::uint32_t y) {
 }
 
 struct Turn {
-    std::uint32_t round;  ///< later ones have about twice as many points
+    std::uint32_t round;  ///< each round has about twice as many points as the one before
     std::uint64_t key;
     std::uint32_t point;
     auto operator<=>(const Turn&) const = default;
 };
 
-/// Points in the order in which they are inserted.
+/// Points in their order of insertion.
 std::vector<Turn> turns_of(std::span<const double> rows, const RunContext& run) {
     auto check_at_times = [&run, steps = std::uint64_t{0}]() mutable {
         if (++steps % 0x10000 == 0) run.check_stop();
@@ -140,7 +140,7 @@ std::vector<Turn> turns_of(std::span<const double> rows, const RunContext& run) 
     std::vector<Turn> turns(rows.size() / 2);
     for (std::size_t i = 0; i < turns.size(); ++i) {
         check_at_times();
-        // Bits of a multiple of the golden ratio stand for a random number.
+        // The bits of a multiple of the golden ratio serve as a random number.
         const std::uint64_t random = (i + 1) * 0x9e3779b97f4a7c15U;
         turns[i] = {64U - static_cast<std::uint32_t>(std::countl_zero(random)),
                     hilbert_key(cell(rows[2 * i], low[0]), cell(rows[2 * i + 1], low[1])),
@@ -163,7 +163,7 @@ int side_of_line(const double* a, const double* b, const double* c) {
         4 * ulp * (std::abs(left) + std::abs(right)) + std::numeric_limits<double>::min();
     if (area > bound) return 1;
     if (area < -bound) return -1;
-    // Exponents of long doubles are beyond those of any product of doubles, which takes longer.
+    // The exponent range of long double covers all products of doubles, but is slower.
     return multiply_exactly({a, b, c}) ? exact_side<double>(a, b, c)
                                        : exact_side<long double>(a, b, c);
 }
@@ -178,7 +178,8 @@ Delaunay::Delaunay(std::span<const double> rows, const RunContext& run) {
     }
 }
 
-/// Two triangles of a square that is far away: no place near the points is nearer to its corners.
+/// Starts with two triangles of a distant square, whose corners are never nearest to a position
+/// near the points.
 void Delaunay::start(std::span<const double> rows) {
     double reach = 0;
     for (const double x : rows) reach = std::max(reach, std::abs(x));
@@ -206,8 +207,8 @@ void Delaunay::relink(std::uint32_t t, std::uint32_t from, std::uint32_t to) {
         }
 }
 
-/// Walks from the last triangle towards the place. @param on_edge the corner opposite to an edge on
-/// which it is, or 3
+/// Finds the triangle that contains a position, walking from the last one.
+/// @param on_edge set to the corner opposite to an edge that contains the position, or 3
 std::uint32_t Delaunay::locate(const double* place, std::size_t& on_edge) const {
     std::uint32_t t = last_;
     for (std::size_t turn = 0;; turn = after(turn)) {
@@ -251,7 +252,7 @@ void Delaunay::split_triangle(std::uint32_t t, std::uint32_t point) {
     unsure_ = {t, u, u + 1};
 }
 
-/// The point is on the edge opposite to corner k: two triangles become four.
+/// Splits two triangles into four by a point on the edge opposite to corner k.
 void Delaunay::split_edge(std::uint32_t t, std::size_t k, std::uint32_t point) {
     const auto [corners, across] = triangles_[t];
     const std::uint32_t s = across[k];
@@ -265,7 +266,7 @@ void Delaunay::split_edge(std::uint32_t t, std::size_t k, std::uint32_t point) {
     triangles_.resize(u + 2);
     const std::uint32_t beyond_ca = across[after(k)];
     const std::uint32_t beyond_ab = across[before(k)];
-    const std::uint32_t beyond_bd = across_s[after(m)];  // s is d, c, b
+    const std::uint32_t beyond_bd = across_s[after(m)];  // s has the corners d, c, b
     const std::uint32_t beyond_dc = across_s[before(m)];
     set(t, {{a, b, point}, {s, u, beyond_ab}});
     set(s, {{b, d, point}, {u + 1, t, beyond_bd}});
@@ -276,7 +277,7 @@ void Delaunay::split_edge(std::uint32_t t, std::size_t k, std::uint32_t point) {
     unsure_ = {t, s, u, u + 1};
 }
 
-/// Flips edges opposite to the new point until each is Delaunay.
+/// Flips edges opposite to the new point until all are Delaunay.
 void Delaunay::make_delaunay(std::uint32_t point) {
     while (!unsure_.empty()) {
         const std::uint32_t t = unsure_.back();
@@ -292,7 +293,7 @@ void Delaunay::make_delaunay(std::uint32_t point) {
         const std::uint32_t d = corners_s[m];
         if (!surely_inside(at(point), at(b), at(c), at(d))) continue;
         const std::uint32_t beyond_ca = across[after(k)];
-        const std::uint32_t beyond_bd = across_s[after(m)];  // s is d, c, b
+        const std::uint32_t beyond_bd = across_s[after(m)];  // s has the corners d, c, b
         set(t, {{point, b, d}, {beyond_bd, s, across[before(k)]}});
         set(s, {{point, d, c}, {across_s[before(m)], beyond_ca, t}});
         relink(beyond_bd, s, t);

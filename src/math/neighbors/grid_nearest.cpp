@@ -15,12 +15,12 @@ namespace {
 
 constexpr double points_in_cell = 2;
 
-/// Points that a point's own cell may hold on average, itself included: 3 for random points, which
-/// a tree overtakes at some ten times as many.
+/// Limit of the mean number of points in a point's own cell, including itself. For random points it
+/// is 3; a tree becomes faster at about ten times as many.
 constexpr double crowded = 24;
 
-/// Side of cubes of which as many fill the box as there are cells wanted. Flat directions have one
-/// layer of them.
+/// Side of cubes such that `cells` of them fill the box. Flat directions have a single layer of
+/// cubes.
 double side_of_cells(const Box& box, double cells) {
     std::vector<double> sides;
     for (std::size_t k = 0; k < box.dimension(); ++k) sides.push_back(box.extent(k));
@@ -70,7 +70,7 @@ std::optional<std::vector<Neighbor>> all_nearest_by_grid(std::span<const double>
                                                          const RunContext& run) {
     const std::size_t d = box.dimension();
     if (d > 3 || rows.size() / d >= std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
-    for (std::size_t k = 0; k < d; ++k)  // squares that neither vanish nor overflow
+    for (std::size_t k = 0; k < d; ++k)  // so that squares neither vanish nor overflow
         if (const double x = box.extent(k); x != 0 && !(x > 1e-140 && x < 1e140))
             return std::nullopt;
     return with_dimension<3>(d,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Nearest other point of every point, by a grid of their box: for sets that fill it about evenly.
+// Nearest other point of every point, by a grid: for sets that fill their box about evenly.
 //
-// Shape    2 <= n < 2^32 points, d = 1, 2, 3; all in the box, its upper faces too.
-// Cost     O(n): cells of two points on average are looked through. What is crowded into few cells
-//          is left to a KdTree, after the time that the sorting takes.
-// Promise  what KdTree::all_nearest finds, to the last bit: the nearest, and the one of lowest
-//          index of those as near.
+// Shape    2 <= n < 2^32 points, d = 1, 2, 3; all in the box, including its upper faces.
+// Cost     O(n), searching cells with two points on average. Points crowded into few cells are left
+//          to a KdTree, after they were sorted.
+// Promise  the result of KdTree::all_nearest, to the last bit: of equally near points, the one with
+//          the lowest index.
 #pragma once
 
 #include <optional>
@@ -19,7 +19,8 @@
 
 namespace stipple {
 
-/// Nothing where a grid does not fit: other dimensions, and points crowded into few cells.
+/// Returns nullopt if a grid is unsuitable: in other dimensions, or if points are crowded into few
+/// cells.
 /// @throws Error(cancelled)
 std::optional<std::vector<Neighbor>> all_nearest_by_grid(std::span<const double> rows,
                                                          const Box& box, bool torus,

@@ -16,10 +16,9 @@ namespace {
 
 constexpr std::size_t leaf_size = 8;
 
-/// Distances in D dimensions, or in as many as is said when D = 0, where the norm may be another
-/// than the Euclidean one. Bounds are made by the same
-/// operations as distances, each of which rounds monotonically: a bound is never on the wrong side
-/// of a distance as computed.
+/// Distances in D dimensions; for D = 0 the dimension and the norm are given at run time. Bounds
+/// use the same operations as distances, and each of them rounds monotonically. So a bound is never
+/// on the wrong side of a computed distance.
 template <std::size_t D, bool Torus>
 class Metric {
   public:
@@ -33,7 +32,7 @@ class Metric {
         });
     }
 
-    /// No point of the box is nearer to p.
+    /// Lower bound on the distance of p from points in the box.
     [[nodiscard]] double nearest(const double* box, const double* p) const {
         return sum([&](std::size_t k) {
             const double gap = std::max({box[k] - p[k], p[k] - box[size() + k], 0.0});
@@ -41,7 +40,7 @@ class Metric {
         });
     }
 
-    /// No point of the box is farther from p.
+    /// Upper bound on the distance of p from points in the box.
     [[nodiscard]] double farthest(const double* box, const double* p) const {
         return sum([&](std::size_t k) {
             const double far = reach(box, p, k);
@@ -78,7 +77,7 @@ class Metric {
     Norm norm_;
 };
 
-/// Widens box by a row or another box: low and high may be the same.
+/// Extends a box to include another box; for a single row, low and high are equal.
 void widen(double* box, const double* low, const double* high, std::size_t d) {
     for (std::size_t k = 0; k < d; ++k) {
         box[k] = std::min(box[k], low[k]);
@@ -86,7 +85,7 @@ void widen(double* box, const double* low, const double* high, std::size_t d) {
     }
 }
 
-/// The nearest point but one.
+/// Query for the nearest point other than `except`.
 struct NearestBut {
     std::size_t except;
     Neighbor best = {std::numeric_limits<double>::infinity(), KdTree::none};
@@ -98,11 +97,11 @@ struct NearestBut {
     }
 };
 
-/// The nearest point that is not of a group.
+/// Query for the nearest point of other groups.
 struct NearestOfOthers {
     const KdTree::Groups& groups;
     std::uint32_t own;
-    Neighbor best;  ///< at a finite distance, as nodes are passed over
+    Neighbor best;  ///< starts at a finite distance, below the bound of skipped nodes
 
     [[nodiscard]] bool skips_node(std::size_t node) const { return groups.nodes[node] == own; }
     [[nodiscard]] bool wants(const Neighbor& bound) const { return bound < best; }
@@ -111,10 +110,10 @@ struct NearestOfOthers {
     }
 };
 
-/// The k nearest points.
+/// Query for the k nearest points.
 struct Several {
     std::size_t k;
-    std::vector<Neighbor> heap = {};  ///< the farthest on top
+    std::vector<Neighbor> heap = {};  ///< the farthest one is on top
 
     [[nodiscard]] static bool skips_node(std::size_t) { return false; }
     [[nodiscard]] bool wants(const Neighbor& bound) const {
@@ -155,7 +154,7 @@ class KdTree::Builder {
     }
 
   private:
-    /// Calls visit(node) for all nodes of a level, of which `first` is the first one.
+    /// Calls visit(node) for all nodes of the level that begins with node `first`.
     template <class Visit>
     static void for_nodes(std::size_t first, const RunContext& run, const Visit& visit) {
         for_each_block(run, first, 1 + first / 256, [&](const Block& b) {
@@ -188,7 +187,7 @@ class KdTree::Builder {
         return axis;
     }
 
-    /// Parts a node's points into halves.
+    /// Splits a node's points into halves.
     void split(std::size_t node) {
         const auto [first, last] = tree_.range_of(node);
         const std::size_t middle = tree_.range_of(2 * node).last;
@@ -206,7 +205,7 @@ class KdTree::Builder {
         return tree_.boxes_.data() + node * 2 * tree_.dimension_;
     }
 
-    /// The rows and the box of a leaf, which is not empty.
+    /// Sets the rows and the box of a nonempty leaf.
     void fill(std::size_t leaf) {
         const std::size_t d = tree_.dimension_;
         const auto [first, last] = tree_.range_of(leaf);
@@ -222,7 +221,7 @@ class KdTree::Builder {
         tree_.lowest_[leaf] = tree_.indices_[first];
     }
 
-    /// The box of a node from those of its halves.
+    /// Computes the box of a node from those of its halves.
     void join(std::size_t node) {
         const std::size_t d = tree_.dimension_;
         std::copy_n(box_of(2 * node), 2 * d, box_of(node));
@@ -232,7 +231,7 @@ class KdTree::Builder {
 
     KdTree& tree_;
     std::span<const double> rows_;
-    std::vector<std::uint32_t> order_;  ///< the points, node after node
+    std::vector<std::uint32_t> order_;  ///< point indices, node by node
     std::vector<Key> keys_;
 };
 
@@ -266,8 +265,8 @@ auto KdTree::with_metric(const Work& work) const {
                                                          : with_dimension<most>(dimension_, with);
 }
 
-/// Goes to the leaves that the query wants, the nearest first. It wants a node when a point at the
-/// node's bound, of the node's lowest index, could change its answer.
+/// Visits the leaves that the query wants, the nearest first. It wants a node if a point at the
+/// node's bound with the node's lowest index could change its result.
 template <class Metric, class Query>
 void KdTree::search(const Metric& metric, const double* place, Query& query) const {
     struct Entry {

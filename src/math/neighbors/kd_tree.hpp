@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
-// Balanced k-d tree of n points in d dimensions: finds the nearest of them to a place.
+// Balanced k-d tree of n points in d dimensions: finds the nearest ones to a position.
 //
 //     distance^2 = sum_k d_k^2,    d_k = |p_k - q_k|,  on the torus min(d_k, side_k - d_k),
 //
-// or, in other norms, the square of sum_k d_k (Manhattan) or of max_k d_k (Chebyshev), of which the
-// root is that sum or largest d_k again.
+// or, in other norms, the square of sum_k d_k (Manhattan) or of max_k d_k (Chebyshev).
 //
-// Every node has the tightest box around its points, and their lowest index. Halves are split
-// across the longest side of that box, so that clusters cost no more than even points do.
+// Every node stores the tightest box around its points, and their lowest index. It is split across
+// the longest side of that box, so that clustered points cost no more than even ones.
 //
 // Shape    n < 2^32 points, d >= 1 (1 to 4 are fastest; in hundreds of dimensions little can be
-//          left out, and a question costs O(n d)). On the torus, points and places are in one box
-//          of these sides, its upper faces too.
-// Cost     O(n log n (log n + d)) to make; O(log n) a question in few dimensions. For 10^6 points
-//          in 2-D on one core: 0.5 s to make, 0.4 s for the nearest neighbours of all; 32 bytes a
-//          point to keep, 24 more while it is made.
-// Promise  exact to the last pair: what is found is what comparing with all points, by the formula
-//          above in float64 and its sum in the order of k, would find. Of equally near points those
-//          of lowest index. The same for any number of threads. All that is const may be called
-//          from many threads.
+//          skipped, and a query costs O(n d)). On the torus, points and positions are in one box
+//          with these sides, including its upper faces.
+// Cost     O(n log n (log n + d)) to build; O(log n) per query in few dimensions. For 10^6 points
+//          in 2-D on one core: 0.5 s to build, 0.4 s for the nearest neighbours of all; 32 bytes
+//          per point, and 24 more while building.
+// Promise  exact: the same result as comparing all points by the formula above in float64, summed
+//          in the order of k. Of equally near points those with the lowest indices. The same for
+//          any number of threads. const functions are thread-safe.
 #pragma once
 
 #include <bit>
@@ -33,23 +31,23 @@
 
 namespace stipple {
 
-/// A point of the set, and its squared distance from a place.
+/// A point of the set, and its squared distance from a position.
 struct Neighbor {
     double squared;
     std::size_t index;
 
     auto operator<=>(const Neighbor&) const = default;
 
-    /// Nearer, or as near and of lower index; the same as the default, in fewer steps.
+    /// True if nearer, or equally near with a lower index; equivalent to the default, but faster.
     friend bool operator<(const Neighbor& a, const Neighbor& b) {
         return a.squared < b.squared || (a.squared == b.squared && a.index < b.index);
     }
 };
 
-/// How the distances along the axes make one.
+/// How the distances along the axes are combined.
 enum class Norm { euclidean, manhattan, chebyshev };
 
-/// The squared distance of two places, as above.
+/// Squared distance of two positions, as above.
 double squared_distance(std::span<const double> p, std::span<const double> q,
                         const std::vector<double>& sides, Norm norm);
 
@@ -57,8 +55,8 @@ class KdTree {
   public:
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-    /// Copies the rows of `dimension` numbers. `sides` are those of the box whose opposite faces
-    /// are joined (torus); none for straight distances.
+    /// Copies the rows of `dimension` numbers. `sides` are those of the box on the torus, whose
+    /// opposite faces are joined; empty for no torus.
     /// @throws Error(limit, cancelled)
     KdTree(std::span<const double> rows, std::size_t dimension, std::vector<double> sides,
            const RunContext& run, Norm norm = Norm::euclidean);
@@ -67,38 +65,38 @@ class KdTree {
     [[nodiscard]] std::size_t dimension() const { return dimension_; }
     [[nodiscard]] bool torus() const { return !sides_.empty(); }
 
-    /// The points again, and which they are, by rank: an order in which neighbours are near.
+    /// Points by rank, and their indices. Ranks are an order in which neighbours are close.
     [[nodiscard]] const double* row(std::size_t rank) const {
         return rows_.data() + rank * dimension_;
     }
     [[nodiscard]] std::size_t index(std::size_t rank) const { return indices_[rank]; }
 
-    /// The point nearest to the place; index `none` and an infinite distance if there is no point.
+    /// The nearest point; index `none` and an infinite distance if there are no points.
     [[nodiscard]] Neighbor nearest(std::span<const double> place) const;
 
-    /// The up to k nearest points, k >= 1, from the nearest on.
+    /// The k nearest points, fewer if there are fewer, nearest first. k must be at least 1.
     [[nodiscard]] std::vector<Neighbor> nearest_several(std::span<const double> place,
                                                         std::size_t k) const;
 
-    /// Number of points with distance^2 < squared; whole nodes are counted at once.
+    /// Number of points with distance^2 < squared; counts whole nodes at once if possible.
     [[nodiscard]] std::size_t count_nearer(std::span<const double> place, double squared) const;
 
-    /// Groups of points, by their ranks; of a node it is the group of all its points, or `mixed`.
+    /// Groups of points by rank, and of nodes: the common group of a node's points, or `mixed`.
     struct Groups {
         static constexpr std::uint32_t mixed = 0xffff'ffff;
         std::vector<std::uint32_t> points;
         std::vector<std::uint32_t> nodes;
     };
 
-    /// Works out the nodes' groups from those of the points.
+    /// Computes the groups of nodes from those of points.
     void spread(Groups& groups) const;
 
-    /// The point nearest to the one of that rank of all those of other groups that have distance^2
-    /// <= squared; index `none` if there is none.
+    /// The nearest point in another group than the point of this rank, if its distance^2 <=
+    /// squared; otherwise index `none`.
     [[nodiscard]] Neighbor nearest_of_others(std::size_t rank, const Groups& groups,
                                              double squared) const;
 
-    /// Every point's nearest other one, in parallel.
+    /// Nearest other point of every point, in parallel.
     [[nodiscard]] std::vector<Neighbor> all_nearest(const RunContext& run) const;
 
   private:
@@ -107,7 +105,7 @@ class KdTree {
         std::size_t last;
     };
 
-    /// Nodes are numbered as in a heap: the root is 1, the halves of i are 2 i and 2 i + 1, and
+    /// Nodes are numbered as in a heap: the root is 1, the halves of i are 2 i and 2 i + 1, and the
     /// leaves are leaves_ to 2 leaves_ - 1.
     [[nodiscard]] Range range_of(std::size_t node) const {
         const auto level = static_cast<unsigned>(std::bit_width(node)) - 1;
@@ -129,11 +127,11 @@ class KdTree {
     std::size_t dimension_;
     std::vector<double> sides_;
     Norm norm_;
-    std::size_t leaves_ = 1;              ///< a power of 2
-    std::vector<double> rows_;            ///< in the order of the leaves
-    std::vector<std::uint32_t> indices_;  ///< of those rows in the set
-    std::vector<double> boxes_;           ///< per node, low then high
-    std::vector<std::uint32_t> lowest_;   ///< per node
+    std::size_t leaves_ = 1;              ///< number of leaves, a power of 2
+    std::vector<double> rows_;            ///< points in the order of the leaves
+    std::vector<std::uint32_t> indices_;  ///< original indices of the rows
+    std::vector<double> boxes_;           ///< by node, low then high corner
+    std::vector<std::uint32_t> lowest_;   ///< by node, lowest index of its points
 };
 
 }  // namespace stipple

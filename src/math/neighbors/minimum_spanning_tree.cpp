@@ -13,10 +13,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Coordinates from which on a k-d tree leaves out too little.
+/// Dimension from which on a k-d tree skips too little.
 constexpr std::size_t many_dimensions = 8;
 
-/// Which points are joined already.
+/// Connected parts of the points (union-find).
 class Parts {
   public:
     explicit Parts(std::size_t n) : parents_(n) { std::iota(parents_.begin(), parents_.end(), 0U); }
@@ -25,7 +25,7 @@ class Parts {
         while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
         return i;
     }
-    /// Joins the parts of two points; false if they are one. The lower root stays.
+    /// Joins the parts of two points; returns false if they are the same. The lower root remains.
     bool join(std::uint32_t i, std::uint32_t j) {
         const std::uint32_t a = root(i);
         const std::uint32_t b = root(j);
@@ -37,8 +37,8 @@ class Parts {
     std::vector<std::uint32_t> parents_;
 };
 
-/// Grows all parts at once. What is nearest to a point outside its part is kept for as long as it
-/// is outside: nearer ones cannot come.
+/// Grows all parts at once. The nearest outside point of each point is kept as long as it is
+/// outside, since no nearer one can appear.
 class Growth {
   public:
     Growth(const KdTree& tree, const RunContext& run)
@@ -87,13 +87,13 @@ class Growth {
             if (nearest.index == KdTree::none) continue;
             const auto index = static_cast<std::uint32_t>(nearest.index);
             if (parts_.root(index) == groups_.points[s])
-                nearest.index = KdTree::none;  // its distance stays as a bound
+                nearest.index = KdTree::none;  // keep the distance as a lower bound
             else
                 lower(groups_.points[s], nearest.squared);
         }
     }
 
-    /// A part's bound only tells what need not be looked at: it may be late.
+    /// Lowers the bound of a part. Bounds only serve to skip work, so they need not be current.
     void lower(std::uint32_t part, double squared) {
         std::atomic<double>& bound = bounds_[part];
         double now = bound.load(std::memory_order_relaxed);
@@ -136,8 +136,8 @@ class Growth {
     const RunContext& run_;
     Parts parts_;
     KdTree::Groups groups_;
-    std::vector<Neighbor> nearest_;  ///< of each rank; without an index none is nearer
-    std::vector<Candidate> best_;    ///< of each part, by its root
+    std::vector<Neighbor> nearest_;  ///< by rank; without an index, a lower bound on the distance
+    std::vector<Candidate> best_;    ///< by root of the part
     std::vector<std::atomic<double>> bounds_;
 };
 

@@ -13,10 +13,10 @@ namespace {
 double dot(const Vec2& a, const Vec2& b) { return a.x * b.x + a.y * b.y; }
 double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 
-/// Distance of x from the stretch [low, low + size].
+/// Distance of x from the interval [low, low + size].
 double gap(double x, double low, double size) { return std::max({low - x, x - (low + size), 0.0}); }
 
-/// Whether b is not, but for rounding, outside the line from a to next.
+/// True if b is not outside the line from a to next, up to rounding.
 bool is_hidden(const Vec2& a, const Vec2& b, const Vec2& next) {
     constexpr double ulps = 0x1p-50;
     const Vec2 to{b.x - a.x, b.y - a.y};
@@ -69,7 +69,7 @@ void VoronoiCell::cut(const Vec2& neighbor, double bound, std::uint32_t site) {
     }
     if (n == 0 || !(beyond_[most] > 0)) return;
 
-    // The corners cut off are those from `first` to `last`, around the one farthest beyond.
+    // The corners to cut off are those from `first` to `last`, around the one farthest beyond.
     const auto after = [n](std::size_t k) { return k + 1 < n ? k + 1 : 0; };
     const auto before = [n](std::size_t k) { return k > 0 ? k - 1 : n - 1; };
     std::size_t first = most;
@@ -95,8 +95,8 @@ void VoronoiCell::cut(const Vec2& neighbor, double bound, std::uint32_t site) {
     measure_reach();
 }
 
-/// By the dual: the plane x . v <= |v|^2 / 2 stands for the point 2 v / |v|^2, and those whose edges
-/// are the cell's are the corners of these points' convex hull, around the origin.
+/// Uses duality: the plane x . v <= |v|^2 / 2 corresponds to the point 2 v / |v|^2. The planes of
+/// the cell's edges correspond to the corners of the convex hull of these points.
 void VoronoiCell::enclose(std::vector<CellCorner>& planes) {
     for (CellCorner& plane : planes) {
         const double half = dot(plane.neighbor, plane.neighbor) / 2;
@@ -107,7 +107,7 @@ void VoronoiCell::enclose(std::vector<CellCorner>& planes) {
         if (lower(a.at) != lower(b.at)) return lower(b.at);
         return cross(a.at, b.at) > 0;
     });
-    // The nearest plane is sure to have an edge.
+    // The nearest plane always has an edge.
     const auto nearest = std::ranges::max_element(
         planes, {}, [](const CellCorner& plane) { return dot(plane.at, plane.at); });
     std::rotate(planes.begin(), nearest, planes.end());
@@ -125,9 +125,9 @@ void VoronoiCell::enclose(std::vector<CellCorner>& planes) {
     for (std::size_t k = 0; k < spare_.size(); ++k) {
         const Vec2& a = spare_[k > 0 ? k - 1 : spare_.size() - 1].at;
         const Vec2& b = spare_[k].at;
-        // On the one plane, whatever the rounding of where the other meets it.
+        // The corner is placed exactly on the first plane, regardless of rounding along it.
         const Vec2 to{b.x - a.x, b.y - a.y};
-        const bool alike = dot(to, to) < dot(b, b);  // then their difference has more digits
+        const bool alike = dot(to, to) < dot(b, b);  // then the difference is more precise
         const double along = -dot(a, to) / cross(a, alike ? to : b);
         const double squared = dot(a, a);
         corners_.push_back({{(a.x - along * a.y) / squared, (a.y + along * a.x) / squared},
@@ -141,7 +141,8 @@ PeriodicVoronoi::PeriodicVoronoi(Vec2 sides, bool torus, std::size_t expected, b
                                  const RunContext& run)
     : sides_(sides), torus_(torus) {
     grow(sites_, expected, run);
-    // A ring of cells around a site's own is to hold its neighbours mostly, and little else.
+    // Cell size such that a ring of cells around a site's own contains most of its neighbours, and
+    // few other sites.
     const double sites_a_cell = uneven ? 0.5 : 2;
     const double cells = std::max(1.0, static_cast<double>(expected) / sites_a_cell);
     const double size = std::sqrt(sides.x * sides.y / cells);
@@ -248,7 +249,7 @@ void PeriodicVoronoi::gather(const Site& site, std::int64_t column, std::int64_t
     }
     for (std::uint32_t j = heads_[static_cast<std::size_t>(row * columns_ + column)]; j != none;
          j = sites_[j].next) {
-        // Grouped so that a pair sees the same distance from both ends, to the last bit.
+        // Grouped so that both sites of a pair compute the same distance, to the last bit.
         const Vec2 seen{(sites_[j].at.x - site.at.x) + turn.x,
                         (sites_[j].at.y - site.at.y) + turn.y};
         const double squared = dot(seen, seen);
@@ -261,7 +262,7 @@ void PeriodicVoronoi::gather_ring(const Site& site, std::int64_t ring, double sq
                                   VoronoiCell& cell) const {
     const std::int64_t column = column_of(site.at.x);
     const std::int64_t row = row_of(site.at.y);
-    // On the torus copies beyond one turn are never the nearest ones to a place of the cell.
+    // On the torus, copies more than one turn away are never nearest to a point of the cell.
     const std::int64_t left = std::max(column - ring, torus_ ? column - columns_ : 0);
     const std::int64_t right = std::min(column + ring, torus_ ? column + columns_ : columns_ - 1);
     const std::int64_t bottom = std::max(row - ring, torus_ ? row - rows_ : 0);
@@ -302,7 +303,7 @@ void PeriodicVoronoi::cut_cell(std::size_t i, VoronoiCell& cell, double needed) 
     start(sides_, torus_, site.at, own, cell);
     const std::int64_t rings = std::max(columns_, rows_);
     const double weight = weights_.empty() ? 0 : weights_[i];
-    // What lies beyond a block of rings is as far away as the site is from the block's rim.
+    // Sites outside a block of rings are at least as far away as the block's rim.
     const double x = site.at.x - static_cast<double>(column_of(site.at.x)) * size_.x;
     const double y = site.at.y - static_cast<double>(row_of(site.at.y)) * size_.y;
     for (std::int64_t ring = 0; ring <= rings; ++ring) {

@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: MIT
 //
-// Voronoi and power cells of sites in a rectangle, opposite sides of which may be joined (torus):
+// Voronoi and power cells of sites in a rectangle, whose opposite sides may be joined (torus):
 //
 //     cell(i) = { x : |x - x_i|^2 - w_i <= |x - x_j|^2 - w_j  for all sites and their copies j },
 //
-// all w equal for Voronoi's. Each cell is cut out by itself, from the rectangle (torus: the one
-// about the site, which is what a site's own copies leave of the plane) by one neighbour after the
-// other, the nearest first, until those that are left are too far away to reach it:
+// with equal w for Voronoi cells. Each cell is computed separately. It starts as the rectangle; on
+// the torus as the rectangle centred at the site, since the site's own copies cut off the rest.
+// Neighbours then cut it, the nearest first, until the others are too far away to reach it:
 //
 //     |x_j - x_i| >= R + sqrt(R^2 + max w - w_i),    R the distance of the cell's farthest corner.
 //
-// So cells may be made by any number of threads, and sites may come, go and move at any time. The
-// corners are the centres of the empty circles through three sites: Delaunay's triangles.
+// So any number of threads can compute cells, and sites can be added, removed and moved. The
+// corners are the centres of empty circles through three sites: the Delaunay triangles.
 //
 // Shape   any number of sites from 1 on, in [0, side]^2; corners counterclockwise.
-// Cost    about 1.3 us a cell where sites are spread evenly; 26 bytes a site, 8 more with weights.
-// Promise the bits of a cell depend on the sites and weights alone, not on their order in memory,
-//         nor on those of other cells. Of sites in one place with equal weights the one with the
-//         least index has the cell, and the others none.
-// Beware  cells are cut independently: four sites on a circle may be seen as neighbours, or not, by
-//         one cell only, through an edge of the size of rounding (some 1e-16 of the rectangle).
-//         A site with a weight below others' may be outside its cell, or have none.
+// Cost    about 1.3 us per cell for evenly spread sites; 26 bytes per site, 8 more with weights.
+// Promise the bits of a cell depend only on the sites and weights, not on their order in memory or
+//         on other cells. Of equal sites with equal weights the one with the lowest index has the
+//         cell, and the others have empty ones.
+// Beware  cells are cut independently: for four sites on a circle, a cell may have a neighbour
+//         whose cell lacks it, through an edge of the size of rounding errors (about 1e-16 of the
+//         rectangle). A site with a lower weight than others may be outside its cell, or have an
+//         empty one.
 #pragma once
 
 #include <array>
@@ -35,30 +36,29 @@
 
 namespace stipple {
 
-/// A point or a vector of the plane.
+/// A point or vector in the plane.
 struct Vec2 {
     double x = 0;
     double y = 0;
 };
 
-/// A corner of a cell, and the edge that leaves it.
+/// A corner of a cell, and the edge that begins there.
 struct CellCorner {
     static constexpr std::uint32_t wall = 0xffff'ffff;
 
-    Vec2 at;        ///< seen from the cell's site
-    Vec2 neighbor;  ///< the site beyond the edge, seen from the cell's own, whose mirror
-                    ///< image stands beyond a wall
-    std::uint32_t site = wall;  ///< its index: the cell's own where it is a copy
+    Vec2 at;        ///< relative to the cell's site
+    Vec2 neighbor;  ///< site beyond the edge, relative to this one; mirror image for a wall
+    std::uint32_t site = wall;  ///< its index; the cell's own index for a copy of its site
 };
 
-/// Moments of a cell's area about its site.
+/// Moments of a cell's area, relative to its site.
 struct CellMoments {
     double mass = 0;
     Vec2 first;         ///< integral of x
     double second = 0;  ///< integral of |x|^2
 };
 
-/// A convex polygon about a site, with room to work in; use one again for many cells.
+/// A convex polygon around a site, with scratch space; reuse it for many cells.
 class VoronoiCell {
   public:
     [[nodiscard]] std::span<const CellCorner> corners() const { return corners_; }
@@ -67,19 +67,19 @@ class VoronoiCell {
     /// Squared distance of the farthest corner from the site.
     [[nodiscard]] double squared_reach() const { return squared_reach_; }
 
-    /// That corner, the first of several.
+    /// The farthest corner from the site; the first of several.
     [[nodiscard]] Vec2 farthest_corner() const;
 
     [[nodiscard]] CellMoments moments() const;
 
-    /// Makes it the rectangle, whose four sides are neighbours or walls.
+    /// Resets the cell to a rectangle, whose sides are neighbours or walls.
     void start(const std::array<CellCorner, 4>& corners);
 
-    /// Keeps the part with x . neighbor <= bound, whose new edge is towards `neighbor`.
+    /// Keeps the part with x . neighbor <= bound, with a new edge towards `neighbor`.
     void cut(const Vec2& neighbor, double bound, std::uint32_t site);
 
-    /// Makes it what the planes x . neighbor <= |neighbor|^2 / 2 leave that lie around the site, of
-    /// which only `neighbor` and `site` are looked at. They may stand in any order.
+    /// Sets the cell to the intersection of x . neighbor <= |neighbor|^2 / 2 over all planes. They
+    /// must surround the site, may be in any order, and need only `neighbor` and `site`.
     void enclose(std::vector<CellCorner>& planes);
 
     void clear() {
@@ -90,7 +90,7 @@ class VoronoiCell {
   private:
     friend class PeriodicVoronoi;
     struct Candidate {
-        double squared;  ///< distance
+        double squared;  ///< squared distance
         Vec2 seen;
         std::uint32_t site;
     };
@@ -98,19 +98,19 @@ class VoronoiCell {
 
     std::vector<CellCorner> corners_;
     std::vector<CellCorner> spare_;
-    std::vector<double> beyond_;  ///< how far each corner is beyond the line that cuts
+    std::vector<double> beyond_;  ///< how far each corner is beyond the cutting line
     std::vector<Candidate> candidates_;
     double squared_reach_ = 0;
 };
 
 class PeriodicVoronoi {
   public:
-    /// A rectangle [0, x] x [0, y] without sites; `expected` of them will be in it, evenly unless
+    /// An empty rectangle [0, x] x [0, y], with room for `expected` sites, evenly spread unless
     /// `uneven`.
     PeriodicVoronoi(Vec2 sides, bool torus, std::size_t expected, bool uneven = false,
                     const RunContext& run = {});
 
-    /// The sites are rows (x, y), numbered from 0.
+    /// A rectangle with sites at rows (x, y), numbered from 0.
     PeriodicVoronoi(Vec2 sides, bool torus, std::span<const double> rows, bool uneven = false,
                     const RunContext& run = {});
 
@@ -119,32 +119,33 @@ class PeriodicVoronoi {
     [[nodiscard]] std::size_t count() const { return sites_.size(); }
     [[nodiscard]] Vec2 operator[](std::size_t i) const { return sites_[i].at; }
 
-    /// Puts site i, which is in no place yet, to `at`.
+    /// Adds site i, which must not be present, at `at`.
     void insert(std::size_t i, Vec2 at);
     void remove(std::size_t i);
     void move(std::size_t i, Vec2 to);
 
-    /// One weight a site; none: all equal.
+    /// Sets a weight for each site; empty for equal weights.
     void set_weights(std::span<const double> weights);
 
-    /// Makes the cell what site i at `at` has before others cut it.
+    /// Resets the cell to that of site i at `at` before other sites cut it.
     static void start(Vec2 sides, bool torus, Vec2 at, std::uint32_t i, VoronoiCell& cell);
 
-    /// The cell of a site that is in its place; one without a corner at a squared distance of
-    /// `needed` is not finished. Several threads may ask at once.
+    /// Computes the cell of a site. Stops early if no corner has a squared distance of at least
+    /// `needed`. Thread-safe.
     void cut_cell(std::size_t i, VoronoiCell& cell, double needed = 0) const;
 
-    /// `at`, moved by whole sides into [0, side) on the torus, else to the nearest wall if outside.
+    /// Moves `at` by whole sides into [0, side) on the torus, otherwise to the nearest wall if
+    /// outside.
     [[nodiscard]] Vec2 inside(Vec2 at) const;
 
-    /// The way from one place to another, on the torus the shortest of all.
+    /// Vector from one position to another, the shortest one on the torus.
     [[nodiscard]] Vec2 shortest(Vec2 from, Vec2 to) const;
 
   private:
     static constexpr std::uint32_t none = 0xffff'ffff;
     struct Site {
         Vec2 at;
-        std::uint32_t next = none;  ///< in the same cell of the grid
+        std::uint32_t next = none;  ///< next site in the same grid cell
         std::uint32_t cell = none;
     };
 
@@ -161,8 +162,8 @@ class PeriodicVoronoi {
     bool torus_;
     std::int64_t columns_ = 1;
     std::int64_t rows_ = 1;
-    Vec2 size_;                         ///< of a cell of the grid
-    std::vector<std::uint32_t> heads_;  ///< first site in each cell of the grid
+    Vec2 size_;                         ///< size of a grid cell
+    std::vector<std::uint32_t> heads_;  ///< first site in each grid cell
     std::vector<Site> sites_;
     std::vector<double> weights_;
     double largest_weight_ = 0;

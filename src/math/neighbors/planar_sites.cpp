@@ -17,7 +17,7 @@ struct Place {
     auto operator<=>(const Place&) const = default;
 };
 
-/// Seen from the low corner; the torus' upper faces are its lower ones.
+/// Coordinates relative to the low corner; on the torus, upper faces become lower ones.
 std::vector<double> seen_from_corner(std::span<const double> rows, const Box& box, bool torus) {
     std::vector<double> seen(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -28,7 +28,7 @@ std::vector<double> seen_from_corner(std::span<const double> rows, const Box& bo
     return seen;
 }
 
-/// Where copies of the square are: itself and, on the torus, those around.
+/// Offsets of copies of the rectangle: itself and, on the torus, the eight around it.
 std::vector<Vec2> copies_of(const PlanarSites& sites) {
     std::vector<Vec2> turns = {{0, 0}};
     for (const double right : {-1.0, 0.0, 1.0})
@@ -65,14 +65,15 @@ void PlanarCells::cut_by_neighbors(std::size_t i, VoronoiCell& cell) const {
     const Vec2 at = sites_.at(i);
     PeriodicVoronoi::start(sites_.sides, sites_.torus, at, static_cast<std::uint32_t>(i), cell);
     std::vector<CellCorner> planes(cell.corners().begin(), cell.corners().end());
-    // Of a site on a wall, the wall's plane is taken to be a little beyond.
+    // For a site on a wall, the wall is treated as slightly beyond it.
     constexpr std::array<Vec2, 4> outward = {Vec2{0, -1}, Vec2{1, 0}, Vec2{0, 1}, Vec2{-1, 0}};
     const double least = 1e-18 * (sites_.sides.x + sites_.sides.y);
     for (std::size_t k = 0; k < planes.size(); ++k)
         if (std::max(std::abs(planes[k].neighbor.x), std::abs(planes[k].neighbor.y)) < least)
             planes[k].neighbor = {least * outward[k].x, least * outward[k].y};
     const std::size_t count = sites_.count();
-    // Rounding moves copies: a neighbour may have a copy of the site for one, and not the site itself.
+    // Also uses the neighbours of copies: after rounding, a site may be joined only to a copy of i,
+    // not to i itself.
     for (std::size_t copy = 0; copy < turns_.size(); ++copy)
         triangles_->for_neighbors(copy * count + i, [&](std::size_t neighbor) {
             if (copy > 0 && neighbor >= count) return;

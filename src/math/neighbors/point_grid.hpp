@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// Points of a box in a grid of cells, any number in a cell, to find those about a place.
+// Points in a grid of cells with any number of points each, to find those near a position.
 //
 //     distance^2 = sum_k d_k^2,    d_k = |p_k - q_k|,  on the torus min(d_k, side_k - d_k).
 //
 //     GridFrame      the cells, and which of them a ball may meet
-//     SortedPoints   points that are all there, stored cell by cell
-//     GrowingPoints  points that come one by one; the cells shrink as they become many
+//     SortedPoints   a fixed set of points, stored cell by cell
+//     GrowingPoints  points added one by one; cells shrink as their number grows
 //
-// Shape    D directions; any box, flat ones too; points beyond the faces count in the outer cells.
+// Shape    D dimensions; any box, including flat ones; points outside belong to the outer cells.
 // Cost     visiting a ball: the cells that it meets, and their points. SortedPoints: 8 D + 4 bytes
-//          a point, 4 a cell. GrowingPoints: 8 D + 4 bytes a point, 4 a cell, at most 2 cells a
-//          point.
-// Promise  exact to the last pair: a point is visited once if its distance^2, as float64 computes
-//          it by the formula above, is at most radius * radius, and not otherwise; for radii of any
-//          size. Always in the same order.
+//          per point, 4 per cell. GrowingPoints: 8 D + 4 bytes per point, 4 per cell, at most 2
+//          cells per point.
+// Promise  exact: a point is visited, once, if and only if its distance^2, computed in float64 by
+//          the formula above, is at most radius * radius. This holds for any radius. The order is
+//          always the same.
 #pragma once
 
 #include <algorithm>
@@ -38,8 +38,8 @@ class GridFrame {
   public:
     using Point = std::array<double, D>;
 
-    /// Cells of sides of at least `cell`, all of a direction equal; wider ones where there would be
-    /// more than `most_cells`.
+    /// Makes cells with sides of at least `cell`, equal in each direction; larger ones if there
+    /// would be more than `most_cells`.
     GridFrame(const Box& box, bool torus, double cell, double most_cells = 0x1p30) : torus_(torus) {
         for (std::size_t k = 0; k < D; ++k) {
             low_[k] = box.low[k];
@@ -69,15 +69,15 @@ class GridFrame {
         return stipple::squared_distance<D>(p, q, sides_, torus_);
     }
 
-    /// Calls visit(first, last) for stretches [first, last) of cells that together hold all that
-    /// is within the radius of p, until a call returns false; returns whether none did.
+    /// Calls visit(first, last) for ranges [first, last) of cells that together contain all points
+    /// within the radius of p, until a call returns false. Returns true if none did.
     template <class Visit>
     bool visit(const double* p, double radius, Visit&& visit) const {
         return descend<D - 1>(p, radius * radius * (1 + 1e-9), 0, visit);
     }
 
   private:
-    /// Cuts each side into pieces; the number of all cells.
+    /// Divides each side into pieces; returns the number of cells.
     double divide(double cell) {
         double cells = 1;
         for (std::size_t k = 0; k < D; ++k) {
@@ -88,26 +88,26 @@ class GridFrame {
         return cells;
     }
 
-    /// Where x is, counted in cells.
+    /// Position of x, in units of cells.
     [[nodiscard]] double place(std::size_t k, double x) const { return (x - low_[k]) * scales_[k]; }
     [[nodiscard]] std::int64_t floor_of(std::size_t k, double place) const {
         const auto last = static_cast<double>(counts_[k] - 1);
         return static_cast<std::int64_t>(std::clamp(place, 0.0, last));
     }
 
-    /// Squared distance of p to cell `cell` of direction k, which may lie beyond the faces; never
-    /// too large.
+    /// Squared distance of p to cell `cell` in direction k, which may be outside the box; never too
+    /// large.
     [[nodiscard]] double gap(std::size_t k, double place, std::int64_t cell) const {
         const auto low = static_cast<double>(cell);
-        place = std::clamp(place, 0.0, static_cast<double>(counts_[k]));  // what is beyond is there
+        place = std::clamp(place, 0.0, static_cast<double>(counts_[k]));  // or an outer cell
         const double cells = std::max(low - place, place - (low + 1)) - slacks_[k];
         if (cells <= 0) return 0;
         const double distance = cells / scales_[k];
         return distance * distance;
     }
 
-    /// Cells [from, to] of direction k within the square root of `squared`; on the torus they may
-    /// lie beyond the faces, and are never more than there are.
+    /// Cells [from, to] in direction k within the square root of `squared`. On the torus they may
+    /// be outside the box, but are never more than there are cells.
     struct Window {
         std::int64_t from;
         std::int64_t to;
@@ -152,18 +152,18 @@ class GridFrame {
     bool torus_;
     Point low_{};
     Point sides_{};
-    Point scales_{};  ///< cells over side
-    Point slacks_{};  ///< more than rounding moves a place, in cells
+    Point scales_{};  ///< cells divided by side
+    Point slacks_{};  ///< bound on rounding errors of a position, in cells
     std::array<std::int64_t, D> counts_{};
     std::array<std::size_t, D> strides_{};
     std::size_t size_ = 1;
 };
 
-/// Points that are all there, renumbered: 0, 1, ... cell by cell, and in a cell as they came.
+/// A fixed set of points, renumbered 0, 1, ... cell by cell, in their original order within a cell.
 template <std::size_t D>
 class SortedPoints {
   public:
-    /// @param rows fewer than 2^32 points, one after the other.
+    /// @param rows fewer than 2^32 points, one after another.
     SortedPoints(const GridFrame<D>& frame, std::span<const double> rows, const RunContext& run)
         : frame_(frame), starts_(frame.size() + 1), order_(rows.size() / D), rows_(rows.size()) {
         std::vector<std::uint32_t> cells(order_.size());
@@ -185,15 +185,16 @@ class SortedPoints {
     [[nodiscard]] const GridFrame<D>& frame() const { return frame_; }
     [[nodiscard]] std::size_t count() const { return order_.size(); }
 
-    /// The number that point s came with.
+    /// Original index of point s.
     [[nodiscard]] std::uint32_t original(std::size_t s) const { return order_[s]; }
     [[nodiscard]] const double* operator[](std::size_t s) const { return rows_.data() + s * D; }
 
-    /// The first point of cell c, or of those behind it; count() behind the last cell.
+    /// Index of the first point in cell c or a later one; count() after the last cell.
     [[nodiscard]] std::uint32_t start(std::size_t c) const { return starts_[c]; }
 
-    /// Calls visit(s, first, last) for stretches of points behind s that hold all those within the
-    /// radius of s, for each s in [from, to): every pair once, from its lower end.
+    /// For each s in [from, to), calls visit(s, first, last) for ranges of points after s that
+    /// contain all those within the radius of s. So every pair is visited once, from its lower
+    /// point.
     template <class Visit>
     void visit_pairs(std::size_t from, std::size_t to, double radius, const RunContext& run,
                      const Visit& visit) const {
@@ -223,9 +224,9 @@ class SortedPoints {
         return squares / static_cast<double>(std::max<std::size_t>(count(), 1));
     }
 
-    /// Takes point s out: nothing visits it any more.
+    /// Removes point s, so that it is not visited any more.
     void remove(std::size_t s) {
-        rows_[s * D] = std::numeric_limits<double>::quiet_NaN();  // is at no distance of anything
+        rows_[s * D] = std::numeric_limits<double>::quiet_NaN();  // has no distance from any point
     }
 
     /// Calls visit(s, distance^2) for every point within the radius of p.
@@ -233,7 +234,8 @@ class SortedPoints {
     void visit(const double* p, double radius, Visit&& visit) const {
         const double most = radius * radius;
         frame_.visit(p, radius, [&](std::size_t first, std::size_t last) {
-            // Hits are noted before they are visited, since a branch would be guessed wrong often.
+            // Hits are stored before they are visited, because a branch would often be
+            // mispredicted.
             constexpr std::size_t some = 32;
             std::array<double, some> squares;
             std::array<std::size_t, some> hits;
@@ -253,12 +255,12 @@ class SortedPoints {
 
   private:
     GridFrame<D> frame_;
-    std::vector<std::uint32_t> starts_;  ///< of each cell's points
+    std::vector<std::uint32_t> starts_;  ///< first point of each cell
     std::vector<std::uint32_t> order_;
     std::vector<double> rows_;
 };
 
-/// Points that come one by one and get the numbers 0, 1, ...
+/// Points added one by one, numbered 0, 1, ...
 template <std::size_t D>
 class GrowingPoints {
   public:
@@ -272,7 +274,7 @@ class GrowingPoints {
     [[nodiscard]] const double* operator[](std::size_t i) const { return rows_.data() + i * D; }
     [[nodiscard]] const std::vector<double>& rows() const { return rows_; }
 
-    /// Bytes that `points` points take, with room to grow.
+    /// Bytes for `points` points, with room to grow.
     static double memory(double points) { return points * (16 * D + 1.5 * sizeof(Bucket)); }
 
     void add(const double* p) {
@@ -283,8 +285,8 @@ class GrowingPoints {
             link(count() - 1);
     }
 
-    /// Calls visit(i, distance^2), or visit(i, distance^2, coordinates), for every point within
-    /// the radius of p until a call returns false; returns whether none did.
+    /// Calls visit(i, distance^2), or visit(i, distance^2, coordinates), for every point within the
+    /// radius of p until a call returns false. Returns true if none did.
     template <class Visit>
     bool visit(const double* p, double radius, Visit&& visit) const {
         const double most = radius * radius;
@@ -296,14 +298,14 @@ class GrowingPoints {
         });
     }
 
-    /// Whether some point is nearer to p than `radius`.
+    /// True if some point is nearer to p than `radius`.
     [[nodiscard]] bool any_nearer(const double* p, double radius) const {
         const double most = radius * radius;
         return !visit(p, radius, [&](std::size_t, double squared) { return squared >= most; });
     }
 
-    /// Squared distance to the nearest point, infinity if there is none. `guess` is a distance to
-    /// begin the search with, above 0; one just above the true one saves most.
+    /// Squared distance to the nearest point, infinity if there is none. `guess` > 0 is the initial
+    /// search radius; best slightly above the true distance.
     [[nodiscard]] double nearest_squared(const double* p, double guess) const {
         if (count() == 0) return infinity;
         double least = infinity;
@@ -319,13 +321,13 @@ class GrowingPoints {
     static constexpr std::uint32_t none = 0xffff'ffff;
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    /// A few points of a cell, together in memory.
+    /// A few points of a cell, contiguous in memory.
     struct Bucket {
         static constexpr std::uint32_t room = 4;
         std::array<double, room * D> rows{};
         std::array<std::uint32_t, room> points{};
         std::uint32_t size = 0;
-        std::uint32_t next = none;  ///< bucket with more points of the cell
+        std::uint32_t next = none;  ///< next bucket of the same cell
     };
 
     template <class Visit>
@@ -357,13 +359,13 @@ class GrowingPoints {
         std::copy_n((*this)[i], D, bucket.rows.data() + bucket.size++ * D);
     }
 
-    /// Makes about as many cells as there are points, and deals them out again.
+    /// Makes about as many cells as there are points, and distributes the points again.
     void divide() {
         filled_at_ = count();
         const auto points = static_cast<double>(filled_at_);
         double cell = box_.extent(0);
         for (std::size_t k = 1; k < D; ++k) cell = std::max(cell, box_.extent(k));
-        // Halves, not roots: bits must not depend on a library's pow().
+        // Repeated division instead of a root: bits must not depend on a library's pow().
         const auto cells_of = [&](double side) {
             double cells = 1;
             for (std::size_t k = 0; k < D; ++k)
@@ -378,9 +380,9 @@ class GrowingPoints {
 
     Box box_;
     GridFrame<D> frame_;
-    std::vector<Bucket> buckets_;  ///< one a cell, then those of crowded cells
+    std::vector<Bucket> buckets_;  ///< one per cell, followed by those of crowded cells
     std::vector<double> rows_;
-    std::size_t filled_at_ = 0;  ///< number of points when the cells were made
+    std::size_t filled_at_ = 0;  ///< number of points when the cells were last made
 };
 
 }  // namespace stipple

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Distances in a box, cells so small that points which keep a distance have each one of their own,
-// and the step from a dimension to code compiled for it.
+// Distances in a box, cells small enough that points with a minimum distance have one each, and
+// dispatch from a dimension to code compiled for it.
 //
 //     distance^2 = sum_k d_k^2,    d_k = |p_k - q_k|,  on the torus min(d_k, side_k - d_k).
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace stipple {
 
-/// Squared distance in a box of these sides; across its faces too when they are joined (torus).
+/// Squared distance in a box with these sides; also across its faces if they are joined (torus).
 template <std::size_t D>
 double squared_distance(const double* p, const double* q, const std::array<double, D>& sides,
                         bool torus) {
@@ -29,10 +29,10 @@ double squared_distance(const double* p, const double* q, const std::array<doubl
     return sum;
 }
 
-/// Cells along each direction of a box, with a diagonal below `radius`; as doubles, since they may
-/// be more than fit.
+/// Number of cells along each direction of a box, with diagonals below `radius`; as doubles,
+/// because integers might overflow.
 inline std::vector<double> cells_along(const Box& box, double radius) {
-    constexpr double safety = 1 + 1e-9;  // far above what rounding does, far below what matters
+    constexpr double safety = 1 + 1e-9;  // exceeds rounding errors, but is negligible
     std::vector<double> cells;
     for (std::size_t k = 0; k < box.dimension(); ++k) {
         const double most = radius / std::sqrt(static_cast<double>(box.dimension()));
@@ -41,7 +41,7 @@ inline std::vector<double> cells_along(const Box& box, double radius) {
     return cells;
 }
 
-/// work.template operator()<D>() for D == dimension in First, ..., Last.
+/// Calls work.template operator()<D>() for D == dimension in First, ..., Last.
 template <std::size_t Last, std::size_t First = 1, class Work>
 auto with_dimension(std::size_t dimension, Work&& work) {
     if constexpr (First < Last)

@@ -11,13 +11,13 @@
 namespace stipple {
 namespace {
 
-constexpr double sigma = 1.5;  // cells
+constexpr double sigma = 1.5;  // in cells
 
-/// A stretch of cells, wrapped around the torus: at most two pieces.
+/// Part of an interval of cells, which wraps around the torus in at most two parts.
 struct Piece {
-    std::size_t first = 0;   ///< coordinate
+    std::size_t first = 0;   ///< coordinate of the first cell
     std::size_t length = 0;  ///< may be 0
-    std::size_t offset = 0;  ///< within the stretch
+    std::size_t offset = 0;  ///< offset within the interval
 };
 
 std::array<Piece, 2> wrapped(std::size_t center, std::size_t before, std::size_t length,
@@ -27,7 +27,7 @@ std::array<Piece, 2> wrapped(std::size_t center, std::size_t before, std::size_t
     return {Piece{first, head, 0}, Piece{0, length - head, head}};
 }
 
-/// Where the smallest of W x H numbers stands: a pyramid of minima, each of up to four below.
+/// Finds the smallest of W x H numbers by a pyramid of minima over up to four numbers each.
 class Smallest {
   public:
     Smallest(std::size_t width, std::size_t height) {
@@ -39,7 +39,7 @@ class Smallest {
 
     std::uint64_t& operator[](std::size_t cell) { return levels_[0].keys[cell]; }
 
-    /// Renews what depends on the cells of a rectangle.
+    /// Updates the minima over a rectangle of cells.
     void refresh(const Piece& across, const Piece& along) {
         if (across.length == 0 || along.length == 0) return;
         std::size_t x0 = across.first, x1 = across.first + across.length - 1;
@@ -91,8 +91,8 @@ class Smallest {
     std::vector<Level> levels_;
 };
 
-/// One factor of the kernel: what a cell feels of a cell so many columns away, with all that the
-/// torus repeats, from `before` columns before it on.
+/// One factor of the kernel: its values at distances in columns, from -before on, including all
+/// periodic copies.
 struct Profile {
     std::size_t before = 0;
     std::vector<double> values = {};
@@ -134,11 +134,11 @@ class Pattern {
             ties_[i] = static_cast<std::uint32_t>(rng.bits(i) >> (64 - tie_bits));
     }
 
-    /// Fills a cell or empties it; energies are unknown until use_sigma().
+    /// Fills or empties a cell without updating energies; use_sigma() must follow.
     void set(std::size_t cell, bool filled) { filled_[cell] = filled; }
     [[nodiscard]] bool filled(std::size_t cell) const { return filled_[cell] != 0; }
 
-    /// Works out the energies of all cells anew.
+    /// Recomputes the energies of all cells.
     void use_sigma(double width, const RunContext& run) {
         constexpr double unit = 0x1p38;
         across_ = profile(width_, width / stretch_);
@@ -178,7 +178,7 @@ class Pattern {
   private:
     static constexpr int tie_bits = 20;
 
-    /// Adds a cell's part to all energies, times 1 or -1.
+    /// Adds a cell's contribution to all energies, times 1 or -1.
     void add(std::size_t cell, std::uint64_t sign) {
         for (const Piece& rows :
              wrapped(cell / width_, along_.before, along_.values.size(), height_))
@@ -193,7 +193,7 @@ class Pattern {
                 }
     }
 
-    /// Renews the orders of what add() changed.
+    /// Updates the order of the cells changed by add().
     void refresh(std::size_t cell) {
         for (const Piece& rows :
              wrapped(cell / width_, along_.before, along_.values.size(), height_))
@@ -215,7 +215,7 @@ class Pattern {
 
     std::size_t width_;
     std::size_t height_;
-    double stretch_;  ///< a cell's width over the root of its area
+    double stretch_;  ///< a cell's width divided by the square root of its area
     Profile across_;
     Profile along_;
     std::vector<std::uint64_t> kernel_;
@@ -226,7 +226,8 @@ class Pattern {
     Smallest clusters_;
 };
 
-/// Fills `count` cells at random, and moves the tightest clusters to the largest voids.
+/// Fills `count` cells at random, and moves the tightest clusters to the largest voids until none
+/// moves.
 void start(Pattern& pattern, std::size_t cells, std::size_t count, std::uint64_t seed,
            const RunContext& run) {
     const Rng rng(seed, 0);
@@ -238,7 +239,7 @@ void start(Pattern& pattern, std::size_t cells, std::size_t count, std::uint64_t
     }
     run.tick(0, 1);
     pattern.use_sigma(sigma, run);
-    // Every move lowers the energy, or at equal energy the order of ties, so the moves end.
+    // Every move lowers the energy, or the tie order at equal energy, so the loop ends.
     for (std::uint64_t moves = 1;; ++moves) {
         const std::size_t from = pattern.tightest_cluster();
         pattern.empty(from);

@@ -4,24 +4,24 @@
 //
 //     E(c) = sum over filled cells f of  exp(-|c - f|^2 / (2 sigma^2)),
 //
-// by toroidal distances in cells, sigma = 1.5. Cells may be wider than high, or higher than wide:
-// lengths are then in units of the root of a cell's area.
+// with toroidal distances in cells and sigma = 1.5. If cells are not square, lengths are in units
+// of the square root of a cell's area.
 //
-// A random tenth of the cells is filled, and its fullest cell ("tightest cluster") moves to the
-// emptiest ("largest void") until it would move back. Ranks downwards from a tenth go to the
-// fullest cells, one taken away after the other; ranks upwards to the emptiest, one filled after
-// the other. Ulichney's third phase, which looks for clusters of what is empty once more than half
-// is filled, picks the same cells, since the energies of empty and filled cells have a constant
-// sum.
+// First a random tenth of the cells is filled. The filled cell with the highest energy ("tightest
+// cluster") moves to the empty one with the lowest ("largest void") until it would move back.
+// Removing tightest clusters one by one then gives the ranks below a tenth, in decreasing order;
+// filling largest voids gives those above. Ulichney's third phase looks for clusters of empty cells
+// once more than half are filled. It picks the same cells, because the energies of empty and filled
+// cells have a constant sum.
 //
-// Where cells are taken away, sigma doubles each time their number has fallen to a quarter: with
-// the fixed sigma of the paper the last ones would feel nothing of each other, and so the first
-// ranks would lie at random.
+// While cells are removed, sigma doubles each time their number has fallen to a quarter. With the
+// fixed sigma of the paper the last cells would not interact, and so the first ranks would be
+// random.
 //
-// Shape   W, H >= 1, W H < 2^31; cells of 1 : 100 to 100 : 1, beyond which sums could overflow.
-// Cost    O(1) a cell, some 6 microseconds, and 45 bytes.
-// Promise energies are whole numbers (multiples of 2^-38), so they do not drift, and the order is
-//         the same on every machine; equal energies are told apart at random.
+// Shape   W, H >= 1, W H < 2^31; cells from 1 : 100 to 100 : 1, beyond which sums could overflow.
+// Cost    O(1) per cell, about 6 microseconds, and 45 bytes.
+// Promise energies are integers (multiples of 2^-38), so they do not drift, and the order is the
+//         same on every machine. Ties are broken at random.
 // Source  R. Ulichney, "The void-and-cluster method for dither array generation", Proc. SPIE 1913
 //         (1993) 332-343, doi:10.1117/12.152707.
 #pragma once
@@ -36,8 +36,8 @@ namespace stipple {
 
 inline constexpr double most_stretch = 100;
 
-/// Cells (x + W y) of ranks 0, 1, ..., wanted - 1.
-/// @param stretch a cell's width over its height, in [1 / most_stretch, most_stretch]
+/// Cells (x + W y) with ranks 0, 1, ..., wanted - 1.
+/// @param stretch width of a cell divided by its height, in [1 / most_stretch, most_stretch]
 /// @throws Error(limit), Error(cancelled)
 std::vector<std::uint32_t> void_and_cluster_order(std::size_t width, std::size_t height,
                                                   std::size_t wanted, std::uint64_t seed,
