@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// Delaunay triangulation of points of the plane: no point is inside the circle through a triangle's
-// corners. Points are inserted one after the other, in rounds of twice as many, along a Hilbert curve
-// in each; edges are flipped until each is Delaunay.
+// Delaunay triangulation of points in the plane: no point is inside the circumcircle of a triangle.
+// Points are inserted one at a time, in rounds with twice as many points as the previous one, and
+// along a Hilbert curve in each round. Edges are flipped until all are Delaunay.
 //
-// Shape    1 <= n < 2^31 points, however crowded, on lines or on circles. Of several in one place the
-//          first to be inserted has neighbours, and the others none.
-// Cost     O(n log n) expected for every arrangement: about 1.5 us a point; 75 bytes a point.
-// Promise  a triangulation always: on which side of an edge a point is, is decided exactly. A point
-//          is inside no circle by more than 1e-28 of its size; of points on one circle the triangles
-//          are one choice of several.
+// Shape    1 <= n < 2^31 points in any arrangement, also clustered, collinear or cocircular. Of
+//          equal points, the first to be inserted has neighbours, and the others have none.
+// Cost     O(n log n) expected for every arrangement: about 1.5 us per point; 75 bytes per point.
+// Promise  always a triangulation: the side of an edge that a point is on is decided exactly. No
+//          point is inside a circle by more than 1e-28 of its size. For cocircular points the
+//          triangles are one of several choices.
 // Source   N. Amenta, S. Choi, G. Rote, "Incremental constructions con BRIO", SoCG 2003,
 //          doi:10.1145/777792.777824 (order); C. L. Lawson, "Software for C1 surface
 //          interpolation", 1977 (flips); J. R. Shewchuk, Discrete Comput. Geom. 18 (1997) 305-363,
-//          doi:10.1007/PL00009321 (bounds of rounding).
+//          doi:10.1007/PL00009321 (error bounds).
 #pragma once
 
 #include <array>
@@ -26,15 +26,16 @@
 
 namespace stipple {
 
-/// The side of the line from a to b where c is: +1 left, -1 right, 0 on it; exactly.
+/// Side of the line from a to b that c is on, exactly: +1 left, -1 right, 0 on it.
 int side_of_line(const double* a, const double* b, const double* c);
 
 class Delaunay {
   public:
-    /// @param rows x and y of each point @throws Error(cancelled)
+    /// @param rows x and y of each point
+    /// @throws Error(cancelled)
     Delaunay(std::span<const double> rows, const RunContext& run);
 
-    /// Calls take(j) for the points j that share an edge with i, counterclockwise.
+    /// Calls take(j) for all points j that share an edge with i, in counterclockwise order.
     template <class Take>
     void for_neighbors(std::size_t i, const Take& take) const {
         const auto center = static_cast<std::uint32_t>(i) + outer;
@@ -52,9 +53,10 @@ class Delaunay {
 
   private:
     static constexpr std::uint32_t none = 0xffff'ffff;
-    static constexpr std::uint32_t outer = 4;  ///< corners of a square around all, far away
+    static constexpr std::uint32_t outer = 4;  ///< first points: corners of the enclosing square
 
-    /// Corners counterclockwise; across[k] is the triangle beyond the edge opposite to corner k.
+    /// Corners in counterclockwise order; across[k] is the triangle beyond the edge opposite to
+    /// corner k.
     struct Triangle {
         std::array<std::uint32_t, 3> corners;
         std::array<std::uint32_t, 3> across;
@@ -78,9 +80,9 @@ class Delaunay {
 
     std::vector<double> places_;
     std::vector<Triangle> triangles_;
-    std::vector<std::uint32_t> triangle_of_;  ///< one at each point
-    std::vector<std::uint32_t> unsure_;  ///< triangles whose edge opposite to the new point may go
-    std::uint32_t last_ = 0;             ///< triangle at the last point
+    std::vector<std::uint32_t> triangle_of_;  ///< for each point, a triangle with this corner
+    std::vector<std::uint32_t> unsure_;  ///< triangles whose edge opposite the new point may flip
+    std::uint32_t last_ = 0;             ///< a triangle with the last inserted point
 };
 
 }  // namespace stipple
