@@ -47,6 +47,7 @@ class FormulaNames {
 
 class Expression {
   public:
+    /// Parses a formula in the usual names of coordinates.
     /// @throws Error(usage) "--OPTION: 'TEXT', column N: what is wrong; what is expected"
     Expression(std::string_view option, std::string_view text, std::size_t dimension);
 

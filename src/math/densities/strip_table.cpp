@@ -16,7 +16,7 @@ constexpr std::size_t most_patches = std::size_t{1} << 22;
 constexpr std::size_t most_in_strip = 8192;
 constexpr std::size_t first_strips = 13;
 constexpr std::size_t first_patches = 7;
-constexpr std::size_t probes_a_side = 512;  // along each axis
+constexpr std::size_t probes_a_side = 512;  // probes along each axis
 constexpr std::size_t places_a_look = std::size_t{1} << 17;
 constexpr int most_looks = 8;
 

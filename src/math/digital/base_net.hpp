@@ -67,7 +67,7 @@ class BaseNet {
 
   private:
     struct Coordinate {
-        Words origin{};  ///< point 0
+        Words origin{};  ///< digits of point 0
         std::vector<Words> columns;
         std::vector<Words> steps;  ///< steps[t] = columns 0 + ... + t
         std::size_t active = 1;    ///< words that change within a block

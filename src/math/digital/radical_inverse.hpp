@@ -31,7 +31,7 @@ class RadicalInverse {
     /// @param permutation applied to every digit first; must map 0 to 0
     RadicalInverse(std::uint32_t base, std::vector<std::uint32_t> permutation);
 
-    /// phi_base(index).
+    /// Returns phi_base(index).
     [[nodiscard]] double of(std::uint64_t index) const;
 
     /// Sets out[j * stride] = of(first + j) for j < count.

@@ -4,8 +4,8 @@
 //
 //     x = (low + width u) / parts,    u in [0, 1),    in    [low / parts, (low + width) / parts).
 //
-// Promise  the point is in its half-open stratum in exact arithmetic. So it is by floor(x * parts)
-//          in floating-point arithmetic, if the stratum contains a double for which this is
+// Promise  the point is in its half-open stratum in exact arithmetic. The same holds for floor(x *
+//          parts) in floating-point arithmetic, if the stratum contains a double for which this is
 //          possible. A point that rounding would move to an edge is moved to the middle of its
 //          stratum; the probability of that is about low * 2^-53.
 #pragma once

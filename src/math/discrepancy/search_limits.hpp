@@ -114,7 +114,7 @@ void report_gap(double lower, double upper, const RunContext& run);
 /// Limits from the options; `start` is the run's clock when they are read.
 class Limits {
   public:
-    /// @throws Error(usage)
+    /// Reads the options. @throws Error(usage) if they contradict each other
     Limits(const Values& options, const RunContext& run);
 
     /// Limits for a part with these fractions of the work and of the remaining time.

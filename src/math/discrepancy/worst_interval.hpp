@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // The worst interval of points on a line: a maximum-subarray problem. A box of volume h on the
-// other axes, which contains these points there, has the excess h x length - w points. Let P_i and
-// Q_i be the excess of the interval from 0 to point i, without and with the point itself:
+// other axes, which contains these points there, has the excess h * length - w * (number of
+// points). Let P_i and Q_i be the excess of the interval from 0 to point i, without and with the
+// point itself:
 //
 //     P_i = h x_i - w #{before i},      Q_i = P_i - w;
 //

@@ -246,7 +246,7 @@ struct Weibull {
         const auto [mean, variance, skewness] = moments_by_quadrature(*weibull_law(shape, 1));
         return {scale * mean, scale * scale * variance, skewness};
     }
-    /// E (x / scale)^n.
+    /// Raw moment E (x / scale)^n.
     double raw(double n) const { return stipple::exponential(log_gamma(1 + n / shape)); }
 };
 

@@ -8,7 +8,7 @@
 // starting from the mode, computed to twice the precision of a double, and divided by their sum.
 //
 // Cost    32 bytes an outcome; tables include outcomes more than 1e-306 times as likely as the
-//         mode, up to about 75 standard deviations away.
+//         mode: a range of 75 standard deviations if there are many.
 
 #include <algorithm>
 #include <cmath>

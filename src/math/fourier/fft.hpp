@@ -50,7 +50,7 @@ class GroupTransform {
 
     void forward() const;
 
-    /// Destroys the spectrum.
+    /// Transforms back and destroys the spectrum.
     void backward() const;
 
   private:

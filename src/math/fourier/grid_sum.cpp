@@ -11,7 +11,7 @@
 namespace stipple {
 namespace {
 
-constexpr std::uint64_t block = std::uint64_t{1} << 18;  // cells
+constexpr std::uint64_t block = std::uint64_t{1} << 18;  // cells of a block
 
 // Adding 1.5 x 2^52 units rounds to a multiple of the unit, which is then in the last bits.
 constexpr double coarse_unit = 0x1p-21;

@@ -4,7 +4,8 @@
 // size are added together. Each cell is divided by a power of two and split into integer multiples
 // of 2^-21 and, for the remainder, of 2^-64. This rounds a grid once, by at most 2^-65 of that
 // power. Sums of the integers are exact, so grids can be added in any order and in any parts. The
-// sums for different sizes are added in a fixed order. So the errors are relative to each grid.
+// sums for different sizes are added in a fixed order. So rounding errors are relative to the size
+// of each grid.
 //
 // Shape   16 bytes per cell and size; numbers below 2^29 sizes, and sums below 2^42 of up to 2^20
 //         grids.

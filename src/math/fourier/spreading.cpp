@@ -67,7 +67,7 @@ class Spreader::Tiling {
     }
 
     [[nodiscard]] std::size_t count() const { return power(along_); }
-    [[nodiscard]] std::size_t pairs() const { return pairs_; }  ///< of tiles along an axis
+    [[nodiscard]] std::size_t pairs() const { return pairs_; }  ///< pairs of tiles along an axis
     [[nodiscard]] std::size_t colours() const { return power(2); }
     [[nodiscard]] std::size_t count_of_colour() const { return power(pairs_); }
     [[nodiscard]] std::size_t buffer_size() const { return power(common_.extent); }

@@ -7,8 +7,8 @@
 // edges of one separate those of the other.
 //
 // Cost    O(n log n) time, O(n) memory.
-// Promise edges touch if they are closer than the rounding error of a determinant, about 4 epsilon
-//         of its terms. The order of edges in a row is exact.
+// Promise edges count as touching if they are closer than the rounding error of a determinant,
+//         about 4 epsilon of its terms. The order of edges in a row is exact.
 // Source  M. I. Shamos, D. Hoey, 17th Symp. Foundations of Computer Science (1976) 208-215,
 //         doi:10.1109/SFCS.1976.16; OGC 06-103r4, Simple feature access (2011), 6.1.11.
 #pragma once

@@ -21,7 +21,7 @@
 //
 //         whose integrand is positive. Inclusion and exclusion over the corners,
 //         1 / (d! prod a_i) sum_S (-1)^|S| / (1 + sum_S a_i), is equal but cancels: in 10
-//         dimensions with difficulty 0.1 it has no correct digit, the integral 15.
+//         dimensions with difficulty 0.1 it has no correct digit, while the integral has 15.
 // Source  A. Genz, "Testing multidimensional integration routines", in B. Ford, J. C. Rault,
 //         F. Thomasset (eds.), Tools, Methods and Languages for Scientific and Engineering
 //         Computation, North-Holland (1984) 81-94.

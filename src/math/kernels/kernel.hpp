@@ -67,14 +67,14 @@ class Kernel {
 
 using KernelPtr = std::unique_ptr<const Kernel>;
 
-/// prod (1 + 2 pi^2 (1/6 - t + t^2)), t = |x - y|, on the unit cube: kernel of the diaphony.
+/// Kernel of the diaphony on the unit cube: prod (1 + 2 pi^2 (1/6 - t + t^2)), t = |x - y|.
 KernelPtr periodic(std::size_t dimension);
 
-/// exp(-|x - y|^2 / (2 h^2))
+/// Gaussian kernel exp(-|x - y|^2 / (2 h^2)).
 KernelPtr gaussian(std::size_t dimension, double bandwidth);
 
-/// prod p(a) exp(-a), a = sqrt(2 nu) |x - y| / h. Orders 0, 1, 2 have nu = 1/2, 3/2, 5/2 and p(a) =
-/// 1, 1 + a, 1 + a + a^2 / 3.
+/// Matern kernel prod p(a) exp(-a), a = sqrt(2 nu) |x - y| / h. Orders 0, 1, 2 have nu = 1/2, 3/2,
+/// 5/2 and p(a) = 1, 1 + a, 1 + a + a^2 / 3.
 KernelPtr matern(std::size_t dimension, double bandwidth, unsigned order);
 
 /// Kernel of an L2 discrepancy on the unit cube.

@@ -6,7 +6,7 @@
 //
 //     K(x, y) = s(x).s(y) k + s(x).grad_y k + s(y).grad_x k + div_x grad_y k
 //             = q^(-1/2) s(x).s(y) + q^(-3/2) ((s(x) - s(y)).u + d) / h^2
-//               - 3 q^(-5/2) |u|^2 / h^4,
+//               - 3 q^(-5/2) |u|^2 / h^4.
 //
 // Its mean over y with density p is 0 for every x. K(x, x) = |s(x)|^2 + d / h^2.
 //

@@ -23,13 +23,13 @@ enum class Known {
     one          ///< equals 1: the blocks are on different sides of 1/2
 };
 
-/// For kernels that depend on the order of two points.
+/// Knowledge about a factor if the kernel depends on the order of two points.
 Known known_in_order(const BlockTable::Range& rows, const BlockTable::Range& columns) {
     if (rows.greatest <= columns.least) return Known::of_rows;
     return columns.greatest <= rows.least ? Known::of_columns : Known::nothing;
 }
 
-/// For the centered kernel.
+/// Knowledge about a factor of the centered kernel.
 Known known_by_side(const BlockTable::Range& rows, const BlockTable::Range& columns) {
     const bool apart = std::min(rows.greatest, columns.greatest) <= 0.5 &&
                        std::max(rows.least, columns.least) >= 0.5;

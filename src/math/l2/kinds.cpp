@@ -17,7 +17,7 @@ constexpr AxisKernel star_kernel{
 constexpr AxisKernel extreme_kernel{
     .s01 = 24, .s11 = -48, .sigma = -24, .mean = {0, 24, -24, 0}, .total = 4};
 
-// 1/2 - t + t^2, t = |x - y|
+// 1/2 - t + t^2 with t = |x - y|
 constexpr AxisKernel periodic_kernel{
     .s00 = 24, .s02 = 48, .s11 = -96, .sigma = -48, .mean = {16, 0, 0, 0}, .total = 16};
 
@@ -25,7 +25,7 @@ constexpr AxisKernel periodic_kernel{
 constexpr AxisKernel centered_kernel{
     .s03 = 24, .sigma = -24, .mean = {-6, 24, -24, 24}, .total = 4};
 
-// 7/8 - |x - 1/2| / 4 - |y - 1/2| / 4 - 3 t / 4 + t^2 / 2
+// 7/8 - |x - 1/2| / 4 - |y - 1/2| / 4 - 3 t / 4 + t^2 / 2 with t = |x - y|
 constexpr AxisKernel mixture_kernel{.s00 = 42,
                                     .s02 = 24,
                                     .s03 = -12,
@@ -34,14 +34,14 @@ constexpr AxisKernel mixture_kernel{.s00 = 42,
                                     .mean = {29, 12, -12, -12},
                                     .total = 28};
 
-// 1/6 - t + t^2, the second Bernoulli polynomial
+// 1/6 - t + t^2 with t = |x - y|: the second Bernoulli polynomial
 constexpr AxisKernel bernoulli_kernel{
     .s00 = 8, .s02 = 48, .s11 = -96, .sigma = -48, .mean = {}, .total = 0};
 
-// (1 - t) / 2
+// (1 - t) / 2 with t = |x - y|
 constexpr AxisKernel average_kernel{.s00 = 24, .sigma = -24, .mean = {12, 24, -24, 0}, .total = 16};
 
-// 1 - 2 t
+// 1 - 2 t with t = |x - y|
 constexpr AxisKernel symmetric_kernel{
     .s00 = 48, .sigma = -96, .mean = {0, 96, -96, 0}, .total = 16};
 

@@ -4,7 +4,7 @@
 //
 // Shape    2 <= n < 2^32 points, d = 1, 2, 3; all in the box, including its upper faces.
 // Cost     O(n), searching cells with two points on average. Points crowded into few cells are left
-//          to a KdTree, after they were sorted.
+//          to a KdTree, after sorting them.
 // Promise  the result of KdTree::all_nearest, to the last bit: of equally near points, the one with
 //          the lowest index.
 #pragma once

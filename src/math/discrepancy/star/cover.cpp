@@ -4,7 +4,7 @@
 // are the corners of the cell that contains c,
 //
 //     vol(c) - #{x < c} / n <= vol(hi) - #{x <= lo} / n,
-//     #{x <= c} / n - vol(c) <= #{x <= hi} / n - vol(lo),
+//     #{x <= c} / n - vol(c) <= #{x <= hi} / n - vol(lo).
 //
 // So the worst cell bounds the discrepancy, and exceeds it by at most delta = max (vol(hi) -
 // vol(lo)). The grid is finer towards 1, where volumes change most:

@@ -35,7 +35,7 @@ using equidistribution::Matrices;
 using equidistribution::Net;
 using equidistribution::Probe;
 
-/// E(m, d) / 2^m.
+/// The bound E(m, d) / 2^m.
 double share_of(std::size_t t, std::size_t m, std::size_t dimension) {
     const double least = std::ldexp(1.0, static_cast<int>(t));
     std::vector<double> excess(m - t + 1, least);  // for nets of 2^t, 2^(t+1), ... points

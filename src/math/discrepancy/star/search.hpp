@@ -55,7 +55,7 @@ double net_bound(const BoxGrid& grid, double most, std::uint64_t work, const Run
 
 // The worst box in one and two dimensions, by sweeps over the coordinates.
 
-/// O(n) after sorting.
+/// Worst box in one dimension, in O(n) after sorting.
 SearchResult sweep_1d(const BoxGrid& grid, const RunContext& run);
 
 /// O(n^(4/3)) time in practice, O(n) memory; see strips.hpp. A deadline or stop ends it early with

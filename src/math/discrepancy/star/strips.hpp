@@ -3,12 +3,12 @@
 // The worst box in the plane, strip by strip. Ranks on the first axis are grouped into strips,
 // those on the second into blocks, of up to B points each. Consider boxes that end in a strip a0 <=
 // a < a1 and a block j0 <= j < j1, with X_a, Y_j the values at ranks and #[..] the number of points
-// with ranks (r, t). Open boxes split into parts that depend on a or j alone:
+// with ranks (r, t). Open boxes split into parts that depend on a or j alone, and a remainder:
 //
 //     n X_a Y_j - #[r < a, t < j]  =  n X_a0 Y_j0 - #[r < a0, t < j0]
 //         + { n (X_a - X_a0) Y_j0 - #[a0 <= r < a, t < j0] }
 //         + { n (Y_j - Y_j0) X_a0 - #[r < a0, j0 <= t < j] }
-//         + n (X_a - X_a0) (Y_j - Y_j0) - #[a0 <= r < a, j0 <= t < j],
+//         + n (X_a - X_a0) (Y_j - Y_j0) - #[a0 <= r < a, j0 <= t < j].
 //
 // The last line is at most n times the widths of strip and block. Closed boxes are split likewise
 // at the block's last rank:
