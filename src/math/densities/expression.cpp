@@ -196,7 +196,7 @@ class Parser final : public mu::ParserBase {
     }
 };
 
-/// What was expected at the place of muParser's error.
+/// Describes the input that was expected at muParser's error.
 std::string expectation(const mu::ParserError& error, const std::string& variables) {
     switch (error.GetCode()) {
         case mu::ecUNASSIGNABLE_TOKEN:

@@ -312,7 +312,7 @@ class StripTabulator {
     /// Largest error of the patch at samples of the parent strip on its two sides.
     [[nodiscard]] double parent_error(const SampledStrip& strip, const SampledPatch& patch) const {
         if (parent_ == nullptr) return 0;
-        const std::size_t left = strip.low == parent_->low ? 0 : 1;  // its line on the parent
+        const std::size_t left = strip.low == parent_->low ? 0 : 1;  // parent's line at its left
         const auto behind =
             std::ranges::upper_bound(parent_->patches, patch.low, {}, &SampledPatch::high);
         double worst = 0;

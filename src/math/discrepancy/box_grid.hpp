@@ -125,8 +125,8 @@ class WorstBox {
     /// Keeps a reference to the grid.
     explicit WorstBox(const BoxGrid& grid);
 
-    /// Replaces the worst box by this one, which contains `points`, if it is worse. Ignores a box
-    /// without axes.
+    /// Replaces the worst box by this one, with `points` points inside, if it is worse. Ignores a
+    /// box without axes.
     void offer(const GridBox& box, std::uint64_t points);
 
     /// Offers the box after counting the points in it.

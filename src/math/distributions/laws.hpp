@@ -10,7 +10,7 @@
 
 namespace stipple {
 
-// Closed forms.
+// Distributions with closed forms.
 MarginalPtr uniform_law(double low, double high);
 MarginalPtr log_uniform_law(double low, double high);
 MarginalPtr triangular_law(double low, double mode, double high);
@@ -21,12 +21,12 @@ MarginalPtr exponential_law(double rate);
 MarginalPtr weibull_law(double shape, double scale);
 MarginalPtr gumbel_law(double location, double scale);
 
-// By incomplete gamma and beta functions.
+// Distributions by incomplete gamma and beta functions.
 MarginalPtr gamma_law(double shape, double scale);
 MarginalPtr beta_law(double a, double b, double low, double high);
 MarginalPtr student_t_law(double degrees, double location, double scale);
 
-// Discrete.
+// Discrete distributions.
 MarginalPtr integers_law(double low, double high);
 MarginalPtr poisson_law(double mean);
 MarginalPtr binomial_law(double trials, double probability);

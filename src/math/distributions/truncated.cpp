@@ -22,7 +22,7 @@
 namespace stipple {
 namespace {
 
-/// Probability between a < b, without the cancellation of 1 minus both tails if it is small.
+/// Probability between a < b, computed without cancellation if it is small.
 double mass_between(const Marginal& law, double a, double b) {
     const double below = law.probability(a, Tail::lower);
     const double above = law.probability(b, Tail::upper);

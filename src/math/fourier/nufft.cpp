@@ -38,8 +38,8 @@ constexpr double reserve = 1.2;
 
 /// True if the division by the scaling factors keeps rounding errors small enough.
 bool keeps_digits(const KaiserBessel& window, std::size_t dimension, double allowed) {
-    // Found by trial. The largest errors are, per point, those of sums over points in one place,
-    // and those of the polynomials, which are for one axis each.
+    // Found by trial. Per point, errors are largest for sums over points in one place, and for the
+    // polynomials of each axis.
     const double times = window.magnification();
     return 1e-15 * std::pow(times, dimension) <= std::max(allowed / 8, 2e-14) &&
            6e-15 * times <= std::max(allowed / 16, 4e-14);

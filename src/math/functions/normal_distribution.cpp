@@ -45,7 +45,7 @@ constexpr std::size_t most = 128;
 
 /// Computes quantiles without the far tail. Returns whether all are valid; otherwise the caller
 /// computes the batch again. The marks are 16-bit, so that a vector holds many and many chains of
-/// operations run in parallel, which Clang needs a pragma for.
+/// operations run in parallel; Clang needs a pragma for that.
 STIPPLE_WIDE [[gnu::flatten]] bool quantiles(const double* p, double* x, std::size_t count) {
     constexpr double far = 1.4e-11;  // a little above exp(-25)
     std::array<std::uint16_t, most> marks;

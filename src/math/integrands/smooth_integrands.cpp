@@ -69,7 +69,7 @@ constexpr Param<double> phase{.name = "phase",
                               .unit = "radians",
                               .help = "Phase k at distance 1; rings get finer outwards"};
 
-/// int_0^1 e^(i k x^2) dx
+/// Returns int_0^1 e^(i k x^2) dx.
 std::complex<double> fresnel(double k) {
     const auto pieces = static_cast<int>(std::ceil(k / 2)) + 1;
     std::complex<double> sum = 0;

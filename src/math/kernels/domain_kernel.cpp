@@ -33,7 +33,7 @@ class Marginals {
 
     [[nodiscard]] std::size_t count() const { return inside_.size(); }
 
-    /// F_k(x).
+    /// Returns F_k(x).
     [[nodiscard]] double below(std::size_t k, double x, Place& place) const {
         place.point[k] = x;
         if (!domain_->contains(place.point)) return x < inside_[k] ? 0 : 1;

@@ -49,7 +49,7 @@ class Kernel {
     virtual void fill(const double* y, const Columns& x, std::size_t first, std::size_t count,
                       double* values) const = 0;
 
-    /// K(x, x)
+    /// Returns K(x, x).
     [[nodiscard]] virtual double diagonal(const double* x) const = 0;
 
     /// Mean of K(x, y) over y in the target: the unit cube, a domain, or the density of the scores.

@@ -213,7 +213,7 @@ struct Mixture {
     }
 };
 
-/// a + min(x, y) min(1 - x, 1 - y)
+/// The factor a + min(x, y) min(1 - x, 1 - y).
 struct OnePlusMinima {
     static constexpr std::size_t columns_of_factor = 3;
     static constexpr bool separates = false;

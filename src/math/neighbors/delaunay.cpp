@@ -163,7 +163,7 @@ int side_of_line(const double* a, const double* b, const double* c) {
         4 * ulp * (std::abs(left) + std::abs(right)) + std::numeric_limits<double>::min();
     if (area > bound) return 1;
     if (area < -bound) return -1;
-    // The exponent range of long double covers all products of doubles, but is slower.
+    // long double covers the exponents of all products of doubles, but is slower.
     return multiply_exactly({a, b, c}) ? exact_side<double>(a, b, c)
                                        : exact_side<long double>(a, b, c);
 }

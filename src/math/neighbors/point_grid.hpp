@@ -99,7 +99,7 @@ class GridFrame {
     /// large.
     [[nodiscard]] double gap(std::size_t k, double place, std::int64_t cell) const {
         const auto low = static_cast<double>(cell);
-        place = std::clamp(place, 0.0, static_cast<double>(counts_[k]));  // or an outer cell
+        place = std::clamp(place, 0.0, static_cast<double>(counts_[k]));  // outside: as at the edge
         const double cells = std::max(low - place, place - (low + 1)) - slacks_[k];
         if (cells <= 0) return 0;
         const double distance = cells / scales_[k];
@@ -198,7 +198,7 @@ class SortedPoints {
     template <class Visit>
     void visit_pairs(std::size_t from, std::size_t to, double radius, const RunContext& run,
                      const Visit& visit) const {
-        constexpr std::size_t between_looks = std::size_t{1} << 21;  // pairs
+        constexpr std::size_t between_looks = std::size_t{1} << 21;  // pairs per stop check
         std::size_t looked = 0;
         for (std::size_t s = from; s < to; ++s) {
             frame_.visit((*this)[s], radius, [&](std::size_t first, std::size_t last) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_faces = 200'000;
 constexpr std::size_t most_facets = 500'000;
-constexpr std::size_t most_plane_tests = 400'000'000;  // vertices with planes: a second
+constexpr std::size_t most_plane_tests = 400'000'000;  // comparisons; they take a second
 
 double dot(const PolytopePoint& a, const PolytopePoint& b, std::size_t d) {
     double sum = 0;

@@ -58,8 +58,8 @@ double net_bound(const BoxGrid& grid, double most, std::uint64_t work, const Run
 /// Worst box in one dimension, in O(n) after sorting.
 SearchResult sweep_1d(const BoxGrid& grid, const RunContext& run);
 
-/// O(n^(4/3)) time in practice, O(n) memory; see strips.hpp. A deadline or stop ends it early with
-/// the result so far.
+/// Worst box in two dimensions, in O(n^(4/3)) time in practice and O(n) memory; see strips.hpp. A
+/// deadline or stop ends it early with the result so far.
 SearchResult sweep_2d(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run);
 
 /// Worst box of each side: an open one with too few points, a closed one with too many. The value

@@ -389,7 +389,7 @@ class Sweep {
     const std::vector<double>& ys_;
     WorstBox& worst_;
 
-    // By block.
+    // State of the blocks.
     std::vector<double> y_;         ///< its reference coordinate
     std::vector<double> slope_;     ///< slope of its chord, in x
     std::vector<double> height_;    ///< of its chord, including the points in its corner
