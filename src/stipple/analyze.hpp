@@ -19,14 +19,14 @@ namespace stipple {
 /// Names of all analyzers, in alphabetical order.
 std::vector<std::string> analyzer_names();
 
-/// What the analyzer finds: numbers, flags, lists, curves and grids by name. The result depends on
-/// the points and the options alone.
-/// @throws Error(usage) for unknown names and options; Error(input) for points that the analyzer does
-/// not take; Error(limit), Error(cancelled)
+/// Returns the analyzer's results by name: numbers, flags, lists, curves and grids. They depend
+/// only on the points and the options.
+/// @throws Error(usage) for unknown names and options; Error(input) for points that the analyzer
+/// does not accept; Error(limit), Error(cancelled)
 Report analyze(std::string_view spec, const PointSet& points, const Settings& settings = {},
                const RunContext& run = {});
 
-/// Names, values and units in aligned columns.
+/// Formats names, values and units in aligned columns.
 std::string to_text(const Report& report);
 
 }  // namespace stipple

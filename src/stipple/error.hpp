@@ -19,7 +19,7 @@ class Error : public std::runtime_error {
 
     [[nodiscard]] ErrorKind kind() const { return kind_; }
 
-    /// One sentence that helps to mend the call; may be empty.
+    /// A sentence on how to correct the call; may be empty.
     [[nodiscard]] const std::string& hint() const { return hint_; }
 
   private:

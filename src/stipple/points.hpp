@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Point sets: plain values, with where they come from.
+// Point sets: values with their provenance.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace stipple {
 
-class Domain;  ///< what points live on; warp.hpp has what can be asked of it
+class Domain;  ///< the space that points live on; warp.hpp has functions that query it
 using DomainPtr = std::shared_ptr<const Domain>;
 
 /// An axis-parallel box [low, high).
@@ -28,18 +28,17 @@ struct Box {
     bool operator==(const Box&) const = default;
 };
 
-/// Room for the numbers of a point set: a vector that is there already, or fresh memory that is to
-/// be written. Large fresh rooms ask for large pages, where the system has them: the first touch of
-/// every page costs as much as making some thousand coordinates, and with pages of 4 KiB that, and
-/// filling them with zeros first, was most of the time that a large set took.
+/// Storage for the coordinates of a point set: a given vector, or fresh memory that the caller must
+/// fill. Large fresh blocks request large pages if the system has them: with 4 KiB pages, the first
+/// touch of each page and the filling with zeros took most of the time of making a large set.
 class Rows {
   public:
     Rows() = default;
 
-    /// Takes the numbers.
+    /// Takes ownership of the numbers.
     explicit Rows(std::vector<double> numbers) : given_(std::move(numbers)), view_(given_) {}
 
-    /// Room for numbers, which must be written before they are read.
+    /// Fresh memory for `count` numbers, which must be written before they are read.
     static Rows unwritten(std::size_t count);
 
     Rows(const Rows& other) : Rows(std::vector<double>(other.view_.begin(), other.view_.end())) {}
@@ -61,50 +60,51 @@ class Rows {
   private:
     std::vector<double> given_;
     std::unique_ptr<double[]> fresh_;
-    std::span<double> view_;  ///< of the one that is used
+    std::span<double> view_;  ///< of given_ or fresh_
 };
 
-/// Of coordinates whose numbers 0, 1, ... stand for words, by name: the words.
+/// Names of the levels 0, 1, ... of categorical coordinates: (column, its level names).
 using Levels = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
-/// Where a point set comes from: enough to make it again.
+/// Origin of a point set: enough to generate it again.
 struct Provenance {
-    std::string version;                                       ///< of stipple
-    std::string generator;                                     ///< empty: not known
-    std::vector<std::pair<std::string, std::string>> options;  ///< as one types them
+    std::string version;                                       ///< version of stipple
+    std::string generator;                                     ///< empty: unknown
+    std::vector<std::pair<std::string, std::string>> options;  ///< as typed on the command line
     std::uint64_t seed = 1;
     std::uint64_t count = 0;
     std::size_t dimension = 0;
     std::uint64_t start = 0;
     std::vector<std::string> warps;  ///< specs, in order
-    /// Names of the coordinates, where they have others than x, y, ...
+    /// Names of the coordinates; empty: x, y, ...
     std::vector<std::string> columns = {};
-    Levels levels = {};  ///< of columns
+    Levels levels = {};  ///< level names, by column
     std::string domain = "unit-cube";
     std::string bounds;     ///< empty: none
-    std::string shard;      ///< "I/K"; empty: the whole
-    double efficiency = 1;  ///< share of the points that warps did not drop
-    std::string command;    ///< that makes it, without what cannot change it
+    std::string shard;      ///< "I/K"; empty: the whole set
+    double efficiency = 1;  ///< fraction of the points that warps kept
+    std::string command;    ///< that makes the set, without options that do not affect it
 
-    std::optional<int> precision = {};  ///< digits after the point that were kept in writing
-    bool single = false;                ///< the numbers were cut to float32 in writing
-    /// Files that it was made from, each with the fingerprint of its bytes.
+    std::optional<int> precision = {};  ///< digits after the point to which the file was rounded
+    bool single = false;                ///< the file holds float32
+    /// Input files, each with the fingerprint of its bytes.
     std::vector<std::pair<std::string, std::string>> inputs = {};
-    /// What the generator's search found, such as a lattice's vector, by name.
+    /// Results of the generator's search, by name, such as a lattice's generating vector.
     std::vector<std::pair<std::string, std::string>> found = {};
-    /// Units with rules of a later version than the first, each with it.
+    /// Units whose stream_version is above 1, each with that version.
     std::vector<std::pair<std::string, std::uint64_t>> stream_versions = {};
-    /// What no such value can be, of one that was read; empty: nothing.
+    /// Description of an invalid field in provenance that was read; empty if all are valid.
     std::string flaw = {};
-    /// The generator's points are independent of one another; not written, but known by its name.
+    /// The generator's points are independent. Not written, since it follows from the generator's
+    /// name.
     bool independent = false;
-    /// Column of the file that tells the density of each point, "pdf" or "weight"; not written.
+    /// Column of the file that holds each point's density, "pdf" or "weight"; not written.
     std::string density_column = {};
 
     bool operator==(const Provenance&) const = default;
 };
 
-/// A file that a generator was asked to write beside the points.
+/// A file that a generator was asked to write along with the points.
 struct SideFile {
     std::string path;
     std::string bytes;
@@ -118,7 +118,7 @@ class PointSet {
     PointSet(std::size_t count, std::size_t dimension)
         : PointSet(std::vector<double>(count * dimension), dimension) {}
 
-    /// Takes rows of `dimension` numbers. @throws Error(usage) where these do not come out even
+    /// Takes rows of `dimension` numbers. @throws Error(usage) if the last row is incomplete
     PointSet(std::vector<double> rows, std::size_t dimension)
         : PointSet(Rows(std::move(rows)), dimension) {}
 
@@ -127,7 +127,7 @@ class PointSet {
     [[nodiscard]] std::size_t count() const { return flat().empty() ? 0 : count_; }
     [[nodiscard]] std::size_t dimension() const { return dimension_; }
 
-    /// Point i. @throws Error(usage) where there is none
+    /// Point i. @throws Error(usage) if i >= count()
     [[nodiscard]] std::span<double> operator[](std::size_t i) {
         require(i);
         return flat().subspan(i * dimension_, dimension_);
@@ -140,19 +140,19 @@ class PointSet {
     [[nodiscard]] std::span<double> flat() { return rows_.numbers(); }
     [[nodiscard]] std::span<const double> flat() const { return rows_.numbers(); }
 
-    /// The same numbers, wherever they come from.
+    /// Compares coordinates and dimension; the provenance may differ.
     bool operator==(const PointSet& other) const {
         return dimension_ == other.dimension_ && std::ranges::equal(flat(), other.flat());
     }
 
-    DomainPtr domain;  ///< what the points live on; the unit cube unless set
+    DomainPtr domain;  ///< the space that the points live on; null: the unit cube
 
-    /// Density of each point with respect to the domain's measure, where that is known and may not
-    /// be the domain's own; empty: it is.
+    /// Density of each point with respect to the domain's measure, set only if it may differ from the
+    /// domain's own density; empty: the domain's.
     std::vector<double> densities;
     Provenance provenance;  ///< empty unless known
 
-    std::vector<SideFile> side_files;  ///< for whoever writes the points to write, too
+    std::vector<SideFile> side_files;  ///< to be written along with the points
 
   private:
     void require(std::size_t i) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What an analyzer found: named values in order, nested where they belong together.
+// Results of an analyzer: named values in order, grouped if they belong together.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,8 @@
 
 namespace stipple {
 
-/// A picture's worth of numbers, row after row; written to files of its own, never into tables.
+/// Matrix of numbers in row-major order, to be drawn as a picture; written to a file of its own,
+/// never into tables.
 struct Grid {
     std::size_t rows = 0;
     std::size_t columns = 0;
@@ -31,8 +32,8 @@ class Report {
 
     Report() = default;
 
-    /// Adds a value under `name`: a flag, a number, a text or any other item. An entry that is there
-    /// already is replaced. A unit may be named.
+    /// Adds a value under `name`, or replaces the entry that already has this name. `unit` is its
+    /// unit of measurement.
     template <class T>
     Report& add(std::string_view name, T value, std::string_view unit = {});
 
@@ -43,15 +44,15 @@ class Report {
     [[nodiscard]] const Item* find(std::string_view dotted_key) const;
     [[nodiscard]] Item* find(std::string_view dotted_key);
 
-    /// @throws Error(usage) when there is no number under the key.
+    /// The item of this type under a key. @throws Error(usage) if there is none
     [[nodiscard]] double number(std::string_view dotted_key) const;
     [[nodiscard]] const std::string& text(std::string_view dotted_key) const;
     [[nodiscard]] const Curve& curve(std::string_view dotted_key) const;
 
-    /// Dotted keys of all that is not a grid or a group.
+    /// Dotted keys of all items except grids and groups.
     [[nodiscard]] std::vector<std::string> keys() const;
 
-    /// An expectation that the user stated (--expect) and that does not hold.
+    /// Records an expectation of the user (--expect) that does not hold.
     void unmet(std::string sentence) { unmet_.push_back(std::move(sentence)); }
     void forget_unmet() { unmet_.clear(); }
     [[nodiscard]] const std::vector<std::string>& unmet() const { return unmet_; }

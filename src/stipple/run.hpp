@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Execution context of a computation: threads, progress, cancellation, memory limit. Nothing else of
-// the world outside reaches it, and none of this changes a result.
+// Execution context of a computation: threads, progress, cancellation, memory limit. Computations
+// get nothing else from their environment, and none of these fields changes a result.
 #pragma once
 
 #include <cstdint>
@@ -17,34 +17,35 @@ struct RunContext {
     /// Threads to use, 0 for all cores.
     unsigned threads = 0;
 
-    /// Called with the fraction done, in [0, 1] and rising; from one thread at a time.
+    /// Called with the fraction done, in [0, 1], never falling; by one thread at a time.
     std::function<void(double)> progress = {};
 
-    /// Called before `progress` with a few words to show in place of the time left, which such
-    /// progress does not tell; from one thread at a time.
+    /// Called before `progress` with a short status text to show instead of the time left, because
+    /// such progress does not predict it; by one thread at a time.
     std::function<void(const std::string&)> note = {};
 
-    /// Called with a sentence that the user should see; from one thread at a time.
+    /// Called with a sentence that the user should see; by one thread at a time.
     std::function<void(const std::string&)> warn = {};
 
     std::stop_token stop = {};
 
-    /// Once a stop is requested, a search may end with the best that it has, in place of nothing.
+    /// If true, a search may return its best result so far when a stop is requested, instead of
+    /// throwing.
     bool keeps_best = false;
 
-    /// Seconds that have passed since some moment; empty where nobody keeps time.
+    /// Clock: seconds since a fixed moment. Empty if no clock is available.
     std::function<double()> seconds = {};
 
-    /// Bytes that a computation may plan to use.
+    /// Memory limit, in bytes.
     std::uint64_t max_memory = std::numeric_limits<std::uint64_t>::max();
 
-    /// Bytes that are in use and count towards max_memory, such as the points; empty: none do.
+    /// Bytes already in use that count towards max_memory, such as the points; empty: 0.
     std::function<std::uint64_t()> memory_in_use = {};
 
-    /// Number of threads meant by `threads`, at least 1.
+    /// Number of threads that `threads` stands for, at least 1.
     [[nodiscard]] unsigned thread_count() const;
 
-    /// Whether a stop was requested and the best so far will do.
+    /// Whether a stop was requested and the best result so far is acceptable.
     [[nodiscard]] bool best_is_wanted() const { return keeps_best && stop.stop_requested(); }
 
     /// @throws Error(cancelled) once a stop was requested.
@@ -53,26 +54,27 @@ struct RunContext {
     /// Reports progress and checks for a stop; call it every few milliseconds from one thread.
     void tick(std::uint64_t done, std::uint64_t total) const;
 
-    /// The same, with words for where the run stands, such as what is certain so far.
+    /// As above, with a status text, for example the best bound so far.
     void tick(std::uint64_t done, std::uint64_t total, const std::string& words) const;
 
-    /// This run, its progress never falling: stages may each report from 0 on.
+    /// A copy of this context whose progress never falls, even if several stages each report from
+    /// 0.
     [[nodiscard]] RunContext rising() const;
 
-    /// The part of a run whose progress is what lies between two fractions of the whole.
+    /// A copy of this context for one stage: its progress 0..1 is mapped to from..to of the whole.
     [[nodiscard]] RunContext stage(double from, double to) const;
 
     /// Bytes of max_memory that are not in use.
     [[nodiscard]] std::uint64_t memory_left() const;
 
-    /// This run for one of several workers that share what is left of the memory.
+    /// A copy of this context for one of several workers that share the memory left.
     [[nodiscard]] RunContext share_of_memory(std::uint64_t workers) const;
 
-    /// Gives the user a sentence, if anybody listens.
+    /// Calls `warn` with the sentence, if it is set.
     void notify(const std::string& sentence) const;
 
-    /// @throws Error(limit) naming `what` when it would need more than max_memory, together with
-    /// what is in use.
+    /// @throws Error(limit) naming `what` if `bytes` and the memory in use together exceed
+    /// max_memory.
     void need_memory(double bytes, std::string_view what) const;
 };
 

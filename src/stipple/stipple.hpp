@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// All of the public API: make point sets, warp them, measure them, read and write them.
+// The whole public API: make, warp, measure, read and write point sets.
 //
 //     #include <stipple/stipple.hpp>
 //     const stipple::PointSet points =

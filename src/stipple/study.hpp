@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Comparing samplers: every generator at every count and dimension, with several seeds, measured by
-// every analyzer; and the page that shows sets side by side.
+// Comparison of samplers: generates sets for every combination of generator, count, dimension and
+// seed, and measures each with every analyzer. Also the HTML page that shows sets side by side.
 #pragma once
 
 #include <cstdint>
@@ -22,10 +22,10 @@ struct Study {
     std::vector<std::uint64_t> counts = {1024};
     std::vector<std::uint64_t> dimensions = {2};
     std::uint64_t first_seed = 1;
-    std::uint64_t seeds = 1;  ///< sets of each generator, count and dimension
+    std::uint64_t seeds = 1;  ///< sets per generator, count and dimension
 };
 
-/// One number of one analyzer on one set.
+/// One number from one analyzer on one set.
 struct StudyValue {
     std::string generator;
     std::string analyzer;
@@ -33,15 +33,15 @@ struct StudyValue {
     std::uint64_t count = 0;
     std::uint64_t seed = 0;
     std::string key;              ///< dotted, as in Report
-    std::optional<double> value;  ///< none where it failed
-    std::string failure;          ///< why; else empty
+    std::optional<double> value;  ///< empty if the analyzer failed
+    std::string failure;          ///< why it failed; empty if it did not
 };
 
-/// All values, in the order of generators, dimensions, counts, seeds and analyzers.
+/// Returns all values, ordered by generator, dimension, count, seed and analyzer.
 /// @throws Error(usage) for units and options that do not exist; Error(cancelled)
 std::vector<StudyValue> study(const Study& study, const RunContext& run = {});
 
-/// The mean over the seeds of a study, with the interval of Student's t (NaN for a single set).
+/// Mean over the seeds, with its Student t confidence interval (NaN for a single set).
 struct StudyMean {
     std::string generator;
     std::string analyzer;
@@ -52,13 +52,13 @@ struct StudyMean {
     double mean = 0;
     double low = 0;
     double high = 0;
-    double rms = 0;  ///< the root of the mean of the squares, as of errors
+    double rms = 0;  ///< root mean square, for results that are errors
 };
 
 /// @param confidence in (0, 1)
 std::vector<StudyMean> means_of(std::span<const StudyValue> values, double confidence = 0.95);
 
-/// A set under a name.
+/// A set and its name on the page.
 struct NamedSet {
     std::string name;
     PointSet points;
