@@ -19,7 +19,7 @@ std::vector<std::string> axis_names(std::size_t dimension) {
     return names;
 }
 
-/// Of the uniform law on a box: independent coordinates of variance (extent^2) / 12.
+/// Moments of the uniform distribution on a box: independent coordinates of variance extent^2 / 12.
 Moments moments_of(const Box& box) {
     const std::size_t d = box.dimension();
     Moments m{std::vector<double>(d), std::vector<double>(d * d), std::vector<double>(d)};
@@ -30,7 +30,7 @@ Moments moments_of(const Box& box) {
     return m;
 }
 
-/// Puts the moments of a part in their place among those of the whole.
+/// Copies the moments of coordinates `at` into the moments of the whole.
 void place_moments(const Moments& part, std::span<const std::size_t> at, Moments& whole) {
     const std::size_t d = whole.dimension();
     for (std::size_t i = 0; i < at.size(); ++i) {
@@ -194,8 +194,8 @@ class ProductDomain final : public Domain {
     }
 
     std::vector<Factor> factors_;
-    /// Of the axes of the factors' cubes, one factor after the other: where each stands in the cube
-    /// of the whole, in the order of the coordinates that it is worked out from.
+    /// Position in the cube of each axis of the factors' cubes, listed factor by factor. The cube's
+    /// axes are ordered by the coordinates that they depend on.
     std::vector<std::size_t> places_;
 };
 
@@ -296,7 +296,7 @@ void scale_into(const Box& box, std::span<double> rows) {
     for (std::size_t i = 0; i < rows.size(); i += d)
         for (std::size_t k = 0; k < d; ++k) {
             const double x = box.low[k] + rows[i + k] * box.extent(k);
-            // Rounding may reach the upper face, which the half-open box does not hold.
+            // Rounding may reach the upper face, which is not in the half-open box.
             rows[i + k] = x < box.high[k] ? x : std::nextafter(box.high[k], box.low[k]);
         }
 }

@@ -18,7 +18,7 @@ Error caught_error() {
         const auto* failed = dynamic_cast<const std::system_error*>(&e);
         const bool thread =
             failed ? failed->code() == std::errc::resource_unavailable_try_again
-                   : std::string_view(e.what()).starts_with("pthread_create");  // oneTBB's
+                   : std::string_view(e.what()).starts_with("pthread_create");  // thrown by oneTBB
         if (thread)
             return {ErrorKind::limit, "a thread does not start",
                     "limits (ulimit) may allow fewer: --threads"};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Throwing the one exception type of the library, its message formatted.
+// Functions that throw Error with a formatted message.
 #pragma once
 
 #include <fmt/format.h>
@@ -18,15 +18,16 @@ template <class... Args>
     throw Error(kind, fmt::format(what, std::forward<Args>(args)...));
 }
 
-/// As fail(), with a second sentence that helps to mend the call.
+/// As fail(), with a hint: a sentence on how to correct the call.
 template <class... Args>
 [[noreturn]] void fail_with_hint(ErrorKind kind, std::string hint, fmt::format_string<Args...> what,
                                  Args&&... args) {
     throw Error(kind, fmt::format(what, std::forward<Args>(args)...), std::move(hint));
 }
 
-/// What a handler of std::exception has caught, as an Error: out of memory and a thread that does not
-/// start are limits, whatever else is none is an internal error.
+/// Converts the exception being handled to an Error. Out of memory and a thread that cannot start
+/// become limits; other standard exceptions become internal errors. Call it from a handler of
+/// std::exception.
 Error caught_error();
 
 }  // namespace stipple

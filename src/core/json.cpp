@@ -14,18 +14,18 @@ namespace {
 
 constexpr std::size_t deepest = 20;
 
-/// Of what Json::parse(text) threw.
+/// Converts an exception that Json::parse(text) threw.
 JsonError error_of(const Json::exception& error, std::string_view text) {
     if (const auto* place = dynamic_cast<const Json::parse_error*>(&error))
         return {"not JSON", std::min(place->byte > 0 ? place->byte - 1 : 0, text.size())};
-    // Its message ends in the number that is too large, in quotes.
+    // The library's message ends with the number that is too large, in quotes.
     const std::string_view message = error.what();
     const auto number = split(message.substr(message.find('\'') + 1), '\'').front();
     return {fmt::format("the number {} is beyond what a double holds", shown(number)),
             std::min(text.find(number), text.size())};
 }
 
-/// Looks for keys that stand twice in an object, of which a parser would take the last.
+/// Rejects duplicate keys in an object, of which the parser would silently keep the last.
 class Repetitions {
   public:
     explicit Repetitions(const std::string& source) : source_(source) {}
@@ -46,7 +46,7 @@ class Repetitions {
 
   private:
     std::string source_;
-    std::vector<std::vector<std::string>> objects_;  ///< that are open: their keys so far
+    std::vector<std::vector<std::string>> objects_;  ///< keys seen so far in each open object
 };
 
 }  // namespace
@@ -91,7 +91,7 @@ Json try_parse_json(std::string_view text) {
 
 Json parse_written_json(std::string_view text, const std::string& source) {
     try {
-        parse_json(text);  // which says what is wrong, and refuses what is too deep
+        parse_json(text);  // throws for invalid JSON and deep nesting
         return Json::parse(text, Repetitions(source));
     } catch (const JsonError& e) {
         const auto before = text.substr(0, e.at);

@@ -23,13 +23,13 @@ std::vector<std::string> words(std::string_view text, char separator) {
 }
 
 [[noreturn]] void refuse(const Option& option, std::string_view text, std::string_view wanted) {
-    if (text == "true" && option.type != "flag")  // disk:radius, without a value
+    if (text == "true" && option.type != "flag")  // "disk:radius", without a value
         fail(ErrorKind::usage, "--{} needs a value", option.name);
     fail(ErrorKind::usage, "--{}: '{}' is not {}", option.name, text, wanted);
 }
 
-/// Whether a text that is no number is to be read as a formula: it has an operator, but for its sign
-/// and that of an exponent, or is a constant.
+/// Whether a text that is not a number should be parsed as a formula: it has an operator other than
+/// its sign and that of an exponent, or is a constant.
 bool looks_like_formula(std::string_view text) {
     const auto digit = [&](std::size_t i) {
         return i < text.size() && (text[i] == '.' || (text[i] >= '0' && text[i] <= '9'));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Typed options of a unit, written down once: from a Schema come parsing, range checks and their
-// messages, help, `list` and the tables of README.
+// Typed options of a unit, defined once: a Schema provides parsing, range checks with their
+// messages, help, `list` and the tables of the guide.
 //
 //     constexpr Param<std::int64_t> start{.name = "start", .low = 0, .high = 9, .help = "..."};
 //     const Schema schema(start);
@@ -21,11 +21,11 @@
 
 namespace stipple {
 
-/// One of a few words.
+/// One of a fixed set of words.
 struct Choice {};
 /// Any text.
 struct Text {};
-/// The name of a file.
+/// A file name.
 struct Path {};
 /// Numbers, separated by commas.
 struct Numbers {};
@@ -34,29 +34,30 @@ struct Points {};
 /// Whole numbers separated by x; "40x25".
 struct Extents {};
 
-/// Not a plain vector: a variant of these and strings alone is never valueless for libstdc++ 12, which
-/// destroys what is not there when a copy of it runs out of memory.
+/// A type of its own, not a plain vector: libstdc++ 12 never makes a variant of these types
+/// valueless. With a plain vector, a copy that runs out of memory leaves one that is then destroyed
+/// wrongly.
 struct Table : std::vector<std::vector<double>> {
     using vector::vector;
 };
 
-/// What an option can hold.
+/// Value of an option.
 using Value = std::variant<bool, std::int64_t, double, std::string, std::vector<double>, Table,
                            std::vector<std::int64_t>>;
 
-/// The finite number that a text is, or that it is a formula of: 0.5, 1/3, sqrt(2)/2. Nothing where
-/// it is neither. @throws Error(usage) naming the option and what is wrong with a formula
+/// Parses a finite number or a formula with a finite value: 0.5, 1/3, sqrt(2)/2. Returns nullopt if
+/// the text is neither. @throws Error(usage) naming the option and the error in the formula
 std::optional<double> parse_formula(std::string_view option, std::string_view text);
 
-/// The value of a formula without variables. @throws Error(usage)
-/// Not defined here, but where formulas of densities are (math/densities/expression.cpp).
+/// Value of a formula without variables. @throws Error(usage)
+/// Defined in math/densities/expression.cpp, with the formulas of densities.
 double formula_value(std::string_view option, std::string_view text);
 
-/// Numbers with commas, or for rows of a matrix blanks, between them; each as parse_formula() takes
-/// it. @throws Error(usage)
+/// Parses numbers separated by commas, or by blanks in rows of a matrix; each may be a formula, as
+/// in parse_formula(). @throws Error(usage)
 std::vector<double> parse_numbers(std::string_view option, std::string_view text);
 
-/// A value as one types it: true, 12, 0.5, polar, "0,0", "0,0 1,0", 40x25.
+/// Formats a value as it is typed: true, 12, 0.5, polar, "0,0", "0,0 1,0", 40x25.
 std::string format_value(const Value& value);
 
 /// A number option: std::int64_t or double.
@@ -68,8 +69,8 @@ struct Param {
     T fallback{};
     T low = std::numeric_limits<T>::lowest();
     T high = std::numeric_limits<T>::max();
-    bool low_open = false;  ///< `low` itself is not allowed
-    bool optional = false;  ///< has no default: ask Values::given
+    bool low_open = false;  ///< excludes `low` itself
+    bool optional = false;  ///< has no default; check Values::given
     std::string_view unit{};
     std::string_view help{};
 };
@@ -86,7 +87,7 @@ template <>
 struct Param<Choice> {
     using Held = std::string;
     std::string_view name;
-    std::string_view fallback{};  ///< none: the option is optional
+    std::string_view fallback{};  ///< empty: the option is optional
     std::string_view choices;     ///< separated by |
     std::string_view help{};
 };
@@ -96,7 +97,7 @@ template <class T>
 struct TextualParam {
     using Held = T;
     std::string_view name;
-    std::string_view fallback{};  ///< none: the option is optional
+    std::string_view fallback{};  ///< empty: the option is optional
     std::string_view unit{};
     std::string_view help{};
 };
@@ -113,17 +114,17 @@ struct Param<Points> : detail::TextualParam<Table> {};
 template <>
 struct Param<Extents> : detail::TextualParam<std::vector<std::int64_t>> {};
 
-/// The options of one unit with their values: a plain value.
+/// Option values of one unit.
 class Values {
   public:
     struct Item {
         std::string name;
         Value value;
-        bool given = false;  ///< set by the user, not by default
+        bool given = false;  ///< set by the user, not the default
         bool operator==(const Item&) const = default;
     };
 
-    /// The option's value; its type's empty value where it is optional and was not given.
+    /// The option's value; the empty value of its type if it is optional and was not given.
     template <class T>
     [[nodiscard]] typename Param<T>::Held operator[](const Param<T>& param) const {
         return std::get<typename Param<T>::Held>(find(param.name).value);
@@ -139,7 +140,7 @@ class Values {
     [[nodiscard]] const Item* try_find(std::string_view name) const;
     [[nodiscard]] const std::vector<Item>& items() const { return items_; }
 
-    /// Sets an option, without checks; for a unit that writes down what it worked out.
+    /// Sets an option without checks, for units that record values they computed.
     void put(std::string_view name, Value value, bool given = true);
 
     bool operator==(const Values&) const = default;
@@ -148,23 +149,23 @@ class Values {
     std::vector<Item> items_;
 };
 
-/// One option as data, for parsing and for printing.
+/// Description of one option, for parsing and for help.
 struct Option {
     std::string name;
     std::string type;  ///< flag, integer, number, choice, text, file, numbers, points, extents
     Value fallback;
     bool optional = false;
-    double low = 0;   ///< of integer and number
-    double high = 0;  ///< of integer and number
+    double low = 0;   ///< for integer and number
+    double high = 0;  ///< for integer and number
     bool low_open = false;
     std::vector<std::string> choices = {};
     std::string unit = {};
     std::string help = {};
 
-    /// The value that `text` means. @throws Error(usage) saying what is allowed.
+    /// Parses a value. @throws Error(usage) that states what is allowed
     [[nodiscard]] Value parse(std::string_view text) const;
 
-    /// What is allowed: "[0, 10]", "polar|concentric", "numbers a,b,c", or nothing to say.
+    /// Allowed values: "[0, 10]", "polar|concentric"; empty if there is no limit.
     [[nodiscard]] std::string range() const;
 };
 

@@ -12,7 +12,8 @@
 namespace stipple {
 
 RunContext worth_threads(const RunContext& run, double seconds) {
-    constexpr double waking = 1e-3;  // on a busy machine; a quarter of that on an idle one
+    constexpr double waking = 1e-3;  // seconds to wake a thread on a busy machine; a quarter of
+                                     // that on an idle one
     RunContext fit = run;
     if (seconds < 2 * waking) fit.threads = 1;
     return fit;
@@ -30,8 +31,8 @@ RunContext unstopped(RunContext run) {
 
 namespace {
 
-/// More threads than cores are only had by raising the library's own bound, which is the least of
-/// all that are set: one for the whole program, that rises.
+/// Raises oneTBB's limit on threads, which defaults to the number of cores. The smallest active
+/// limit counts, so there is one for the whole program, which only grows.
 void allow(unsigned threads) {
     static std::mutex mutex;
     static std::optional<tbb::global_control> bound;

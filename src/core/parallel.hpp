@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Loops over blocks on all cores. The blocks depend on the count alone, so that sums taken block by
-// block, and then in the order of the blocks, are the same for any number of threads.
+// Loops over blocks on all cores. The blocks depend only on the count, so sums computed per block
+// and then added in block order are the same for any number of threads.
 #pragma once
 
 #include <cstddef>
@@ -12,35 +12,35 @@
 
 namespace stipple {
 
-/// A stretch [first, last) of a loop, the `index`-th of its blocks.
+/// Part [first, last) of a loop; block number `index`.
 struct Block {
     std::uint64_t first;
     std::uint64_t last;
     std::size_t index;
 };
 
-/// Number of blocks that for_each_block makes.
+/// Number of blocks in for_each_block().
 constexpr std::size_t block_count(std::uint64_t count, std::uint64_t size) {
     return static_cast<std::size_t>(count / size + (count % size != 0));
 }
 
 /// Calls body(block) for consecutive blocks of `size` that cover [0, count), on run.threads
-/// threads; reports progress, and stops early when asked to.
-/// @throws what body throws; Error(cancelled).
+/// threads. Reports progress.
+/// @throws Error(cancelled) if a stop is requested, and exceptions of body
 void for_each_block(const RunContext& run, std::uint64_t count, std::uint64_t size,
                     const std::function<void(const Block&)>& body);
 
-/// The run without reports of progress.
+/// A copy of the context without progress reports.
 RunContext silent(RunContext run);
 
-/// The run that goes on when a stop is requested.
+/// A copy of the context that ignores requests to stop.
 RunContext unstopped(RunContext run);
 
-/// The run for work that takes one core about so many seconds: as it is, or of one thread, where to
-/// wake others takes longer than they would save.
+/// A copy of the context for work of about `seconds` on one core: limited to one thread if waking
+/// others would cost more than they save.
 RunContext worth_threads(const RunContext& run, double seconds);
 
-/// Runs `work` in an arena of run.threads threads: what oneTBB does inside stays within them.
+/// Runs `work` in a oneTBB arena of run.threads threads, which limits all parallel code inside.
 void within_threads(const RunContext& run, const std::function<void()>& work);
 
 }  // namespace stipple

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Processes that do one piece of work together: each runs the same program on the same input, does
-// its part, and tells the others what came of it.
+// Group of processes that share one task: all run the same program on the same input, each does its
+// part, and they exchange the results.
 #pragma once
 
 #include <string>
@@ -19,13 +19,15 @@ class Peers {
     [[nodiscard]] virtual int rank() const { return 0; }
     [[nodiscard]] virtual int size() const { return 1; }
 
-    /// The name of its machine.
+    /// Name of this process's machine.
     [[nodiscard]] virtual std::string host() const { return {}; }
 
-    /// To be called by all, which end with one error and need not tell each other.
+    /// Must be called by all processes when all fail with the same error, so that they need not
+    /// notify each other.
     virtual void end_together() {}
 
-    /// What each of them says, in the order of ranks. All call it, equally often and in one order.
+    /// Returns the texts of all processes, ordered by rank. Collective: all processes must make the
+    /// same calls in the same order.
     virtual std::vector<std::string> exchange(std::string mine) { return {std::move(mine)}; }
 };
 

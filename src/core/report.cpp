@@ -10,7 +10,7 @@
 namespace stipple {
 namespace {
 
-/// The held T under the key. @throws Error(usage)
+/// The T under the key. @throws Error(usage) if there is none
 template <class T>
 const T& held(const Report& report, std::string_view key, std::string_view kind) {
     const Report::Item* item = report.find(key);
@@ -25,7 +25,7 @@ const T& held(const Report& report, std::string_view key, std::string_view kind)
 
 }  // namespace
 
-// Not defaulted: clang does not end with the recursion through Item.
+// Not defaulted: clang does not terminate on the recursion through Item.
 bool Report::operator==(const Report& other) const {
     return entries_ == other.entries_ && unmet_ == other.unmet_;
 }
@@ -41,7 +41,7 @@ Report& Report::put(std::string_view name, Item value, std::string_view unit) {
 
 const Report::Item* Report::find(std::string_view key) const {
     for (const auto& [name, value, unit] : entries_) {
-        if (name == key) return &value;  // a name may hold dots of its own
+        if (name == key) return &value;  // a name may itself contain dots
         const auto* group = std::get_if<Report>(&value);
         if (group == nullptr || !key.starts_with(name) || key.substr(name.size(), 1) != ".")
             continue;

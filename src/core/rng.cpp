@@ -25,14 +25,15 @@ std::array<std::uint64_t, 2> block(std::uint64_t seed, std::uint64_t stream, std
     return {join(out[0], out[1]), join(out[2], out[3])};
 }
 
-/// to_unit() of these halves, without rounding, by conversions that all vectors have.
+/// Equals to_unit() of the two halves, without rounding; uses only conversions that all vector
+/// units have.
 constexpr double unit_of(std::uint32_t low, std::uint32_t high) {
     const auto upper = static_cast<double>(static_cast<std::int32_t>(high ^ 0x80000000U)) + 0x1p31;
     return upper * 0x1p-32 + static_cast<double>(static_cast<std::int32_t>(low >> 11)) * 0x1p-53;
 }
 
-/// Numbers 2 * pair, 2 * pair + 1, ... of the stream, an even number of them, from blocks side by
-/// side: a vector holds one of the counter's four words for many blocks.
+/// Writes numbers 2 * pair, 2 * pair + 1, ... of the stream; `count` is even. Computes blocks side
+/// by side: each vector holds one counter word of many blocks.
 STIPPLE_WIDE void fill_pairs(std::uint64_t seed, std::uint64_t stream, std::uint64_t pair,
                              double* out, std::size_t count) {
     constexpr std::size_t most = 64;

@@ -4,7 +4,7 @@
 //
 //     Philox 4x32, 10 rounds; key = seed; counter = (i / 2, stream); two 64-bit numbers a block.
 //
-// Promise  the same numbers on any machine, for any number of threads, in any order of asking.
+// Promise  the same numbers on any machine, for any number of threads, in any order of evaluation.
 // Source   J. K. Salmon, M. A. Moraes, R. O. Dror, D. E. Shaw, "Parallel random numbers: as easy as
 //          1, 2, 3", SC11 (2011), doi:10.1145/2063384.2063405.
 #pragma once
@@ -15,7 +15,7 @@
 
 namespace stipple {
 
-/// The largest double below 1 that a 53-bit uniform number can be.
+/// The largest double in [0, 1) that uniform() returns.
 inline constexpr double one_minus_ulp = 1.0 - 0x1p-53;
 
 /// The 53 high bits of `bits` as a double in [0, 1).
@@ -40,7 +40,7 @@ class Rng {
     /// Uniform in {0, ..., n - 1}; each value's probability is off 1/n by at most 2^-64.
     [[nodiscard]] std::uint64_t below(std::uint64_t i, std::uint64_t n) const;
 
-    /// out[k] = uniform(first + k); much faster than one by one.
+    /// Sets out[k] = uniform(first + k); much faster than single calls.
     void fill(std::uint64_t first, std::span<double> out) const;
 
   private:

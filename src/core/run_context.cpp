@@ -17,7 +17,8 @@
 namespace stipple {
 namespace {
 
-/// Starts a thread that stays, and waits until it has allocated, for which the allocator reserves.
+/// Starts a thread that waits for `leave`. Returns once the thread has allocated memory, for which
+/// the allocator reserves address space.
 void start_one(std::vector<std::thread>& started, std::latch& leave) {
     std::binary_semaphore allocated(0);
     started.emplace_back([&] {
@@ -28,9 +29,9 @@ void start_one(std::vector<std::thread>& started, std::latch& leave) {
     allocated.acquire();
 }
 
-/// How many threads of those wanted may run, this one included, found by starting them all:
-/// limits of address space and processes let fewer start, and then half of
-/// those leave room for the work.
+/// Number of threads that can run, out of those wanted and including this one; tested by starting
+/// them all. If limits of address space or processes allow fewer, half of those that started, so
+/// that memory is left for the work.
 unsigned startable(unsigned wanted) {
     std::latch leave(1);
     std::vector<std::thread> started;
@@ -45,7 +46,7 @@ unsigned startable(unsigned wanted) {
     return wanted;
 }
 
-/// The library that shares out work ends the program where a thread does not start.
+/// Limits the threads to those that can start: oneTBB would abort the program.
 unsigned limited_by_system(unsigned wanted) {
     static std::atomic<unsigned> tried = 1;
     static std::atomic<unsigned> most = 1;
@@ -60,8 +61,8 @@ unsigned limited_by_system(unsigned wanted) {
 
 unsigned RunContext::thread_count() const {
     static const unsigned cores =
-        std::max(1U, std::thread::hardware_concurrency());   // reads a file
-    constexpr std::uint64_t bytes = std::uint64_t{1} << 20;  // a thread's, with what it allocates
+        std::max(1U, std::thread::hardware_concurrency());   // reads a file, hence static
+    constexpr std::uint64_t bytes = std::uint64_t{1} << 20;  // stack and heap of one thread
     const auto fit = std::clamp<std::uint64_t>(max_memory / bytes, 1, ~0U);
     return limited_by_system(
         static_cast<unsigned>(std::min<std::uint64_t>(threads != 0 ? threads : cores, fit)));

@@ -72,7 +72,7 @@ class SpecParser {
         return {std::move(name), std::move(value)};
     }
 
-    /// What stands up to the ']' that closes the bracket just opened.
+    /// Text up to the ']' that closes the bracket just opened.
     std::string bracketed() {
         const std::size_t begin = at_;
         std::size_t open = 1;
@@ -87,7 +87,7 @@ class SpecParser {
     std::size_t at_ = 0;
 };
 
-/// Whether what follows a comma is an option of the spec before: OPT=...
+/// Whether the text after a comma is an option of the preceding spec: OPT=...
 bool goes_on(std::string_view rest) {
     const auto end = rest.find_first_of("=,;:@[]");
     return end != std::string_view::npos && end > 0 && rest[end] == '=';
@@ -116,7 +116,7 @@ std::string format_spec(std::string_view name, const Values& values, const Schem
         const auto& item = values.find(option.name);
         const bool unset = option.optional && !item.given;
         const std::string text = format_value(item.value);
-        // As text: -0 equals 0, but is another value.
+        // Compared as text: -0 equals 0, but is a different value.
         if (unset || text == format_value(option.fallback)) continue;
         const bool brackets = text.find_first_of(", [") != std::string::npos;
         spec += fmt::format(fmt::runtime(brackets ? "{}{}=[{}]" : "{}{}={}"), separator,

@@ -24,7 +24,8 @@ std::optional<T> parse_whole(std::string_view text, int base = 10) {
     return value;
 }
 
-/// A value times a factor, or nothing when it does not fit 63 bits or is not whole.
+/// Parses a number and multiplies it; nullopt if the result is not whole or does not fit into 63
+/// bits.
 std::optional<std::int64_t> scaled(std::string_view text, double factor) {
     const auto value = parse_number(text);
     if (!value) return std::nullopt;
@@ -37,7 +38,7 @@ std::optional<std::int64_t> power(std::string_view base_text, std::string_view e
     const auto base = parse_whole<std::int64_t>(base_text);
     const auto exponent = parse_whole<int>(exponent_text);
     if (!base || !exponent || *exponent < 0) return std::nullopt;
-    const bool grows = *base > 1 || *base < -1;  // else only the exponent's parity counts
+    const bool grows = *base > 1 || *base < -1;  // otherwise only the exponent's parity matters
     const int factors = grows ? *exponent : std::min(*exponent, 2 - *exponent % 2);
     std::int64_t value = 1;
     for (int i = 0; i < factors; ++i)
@@ -45,16 +46,16 @@ std::optional<std::int64_t> power(std::string_view base_text, std::string_view e
     return value;
 }
 
-/// 0 where it is none.
+/// Factor of a size suffix (k, M, G, T); 0 for other characters.
 double suffix_factor(char suffix) {
     constexpr std::string_view letters = "KMGT";
     const auto place = letters.find(suffix == 'k' ? 'K' : suffix);
     return place == letters.npos ? 0 : std::ldexp(1.0, 10 * static_cast<int>(place + 1));
 }
 
-/// Letters to add, take away, replace, or swap with the next one.
+/// Smallest number of letters to insert, delete, replace, or swap with their neighbour.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> before;  // the row of two letters less of a
+    std::vector<std::size_t> before;  // the row for a prefix of a that is two letters shorter
     std::vector<std::size_t> last;
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -116,7 +117,7 @@ std::string format_number(double value) { return fmt::format("{}", value); }
 std::string format_bytes(double bytes) {
     constexpr std::array units = {"bytes", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
     std::size_t unit = 0;
-    // What rounds to 1000 would be written as 1e+03.
+    // 1000 and above would be written as 1e+03, and 999.5 rounds to 1000.
     while (bytes >= (unit == 0 ? 1024 : 999.5) && unit + 1 < units.size()) {
         bytes /= 1024;
         ++unit;
@@ -216,7 +217,7 @@ namespace {
 
 using Utf8 = boost::locale::utf::utf_traits<char>;
 
-/// Ends of lines, marks that turn the direction of writing, and what is no letter.
+/// Control characters, line ends, marks that change the direction of writing, and noncharacters.
 bool is_obeyed(char32_t letter) {
     const auto in = [letter](char32_t low, char32_t high) {
         return letter >= low && letter <= high;
@@ -240,7 +241,7 @@ void append_escaped(std::string& out, char32_t letter) {
         fmt::format_to(end, "\\u{:04x}", code);
 }
 
-/// The first letters, as many as a message shows of a text.
+/// The first letters, up to the maximum shown in messages.
 std::string_view front_of(std::string_view text) {
     constexpr std::size_t most = 80;
     std::size_t bytes = 0;

@@ -15,12 +15,12 @@ namespace stipple {
 namespace {
 
 constexpr std::size_t block = std::size_t{1} << 16;
-constexpr int gzip_window = 15 + 16;  // the largest; with gzip's head and check sum
+constexpr int gzip_window = 15 + 16;  // largest window; +16 selects the gzip header and checksum
 
-/// What zlib counts by is an int.
+/// zlib counts bytes with an int.
 uInt as_much(std::size_t size) { return static_cast<uInt>(std::min(size, std::size_t{1} << 30)); }
 
-/// Shows zlib the bytes, and takes away what it has used by end().
+/// Passes both spans to zlib; end() removes the parts that zlib consumed and filled.
 class ZlibTurn {
   public:
     ZlibTurn(z_stream& stream, std::string_view& in, std::span<char>& out)
@@ -73,7 +73,7 @@ struct ZstdCompression final : Compressor::Stream {
         ZSTD_outBuffer given{out.data(), out.size(), 0};
         const std::size_t left = ZSTD_compressStream2(context.get(), &given, &taken,
                                                       last ? ZSTD_e_end : ZSTD_e_continue);
-        if (ZSTD_isError(left) != 0) throw std::bad_alloc();  // all else is right by now
+        if (ZSTD_isError(left) != 0) throw std::bad_alloc();  // only memory can fail here
         in.remove_prefix(taken.pos);
         out = out.subspan(given.pos);
         return last ? left == 0 : in.empty() && !out.empty();

@@ -2,8 +2,8 @@
 //
 // Streams of gzip (RFC 1952) and Zstandard (RFC 8878), by zlib and libzstd.
 //
-// Promise  the same bytes for the same content on every machine, as long as the libraries' releases
-//          are the same: no time and no name is kept.
+// Promise  the same content gives the same bytes on every machine with the same releases of the
+//         libraries: no time and no name is stored.
 #pragma once
 
 #include <cstddef>
@@ -17,31 +17,31 @@ namespace stipple {
 
 enum class Compression { none, gzip, zstd };
 
-/// What the end of a file's name says: .gz, .zst, in letters of any case.
+/// Compression by the file name's extension: .gz or .zst, case ignored.
 Compression compression_of_name(std::string_view path);
 
-/// What the first bytes of a file say.
+/// Compression by the first bytes of a file.
 Compression compression_of_bytes(std::string_view bytes);
 
 class Compressor {
   public:
-    /// Takes the next bytes of the stream; false: it wants no more.
+    /// Takes the next bytes of the stream; returns false to stop.
     using Sink = std::function<bool(std::string_view bytes)>;
 
     /// @param kind not none
     explicit Compressor(Compression kind);
 
-    /// Passes on what the bytes become, as soon as there is enough. False: the sink wants no more.
+    /// Compresses bytes and passes on complete blocks. Returns false if the sink stopped.
     bool add(std::string_view bytes, const Sink& sink);
 
-    /// Passes on the end of the stream.
+    /// Passes on the rest of the stream. Returns false if the sink stopped.
     bool finish(const Sink& sink);
 
-    /// One stream of a kind.
+    /// Codec of one compressed stream.
     struct Stream {
         virtual ~Stream() = default;
-        /// Takes from the front of `in`, gives to the front of `out`. True: nothing is left to be
-        /// taken, and where `last`, to be given.
+        /// Consumes the front of `in` and fills the front of `out`. Returns true if all input is
+        /// consumed and, if `last`, all output is written.
         virtual bool step(std::string_view& in, std::span<char>& out, bool last) = 0;
     };
 
@@ -53,22 +53,22 @@ class Compressor {
 
 class Decompressor {
   public:
-    /// Gives the next compressed bytes, which stay until it is called again; none at their end.
+    /// Returns the next compressed bytes, which stay valid until the next call; empty at the end.
     using Refill = std::function<std::string_view()>;
 
     /// @param kind not none
-    /// @param name of the file, for messages
+    /// @param name of the file, for error messages
     Decompressor(Compression kind, Refill refill, std::string name);
 
-    /// Fills all of it, or what is left for; returns how many bytes came.
-    /// @throws Error(input): damaged, or ends too soon
+    /// Fills `bytes`, or less at the end; returns the number of bytes read.
+    /// @throws Error(input) if the compressed data is damaged or truncated
     std::size_t read(std::span<char> bytes);
 
-    /// One stream of a kind, or several in a row.
+    /// Decoder of one compressed stream, or of several in a row.
     struct Stream {
         virtual ~Stream() = default;
-        /// Takes from the front of `in`, gives to the front of `out`; true: here a stream ends.
-        /// Nothing is wrong where `wrong` stays empty.
+        /// Consumes the front of `in` and fills the front of `out`. Returns true at the end of a
+        /// stream. Sets `wrong` to a message if the data is damaged.
         virtual bool step(std::string_view& in, std::span<char>& out, std::string& wrong) = 0;
     };
 
@@ -77,8 +77,8 @@ class Decompressor {
     std::string name_;
     std::unique_ptr<Stream> stream_;
     std::string_view in_ = {};
-    bool at_end_ = false;  ///< of the compressed bytes
-    bool whole_ = false;   ///< a stream has ended, and none begun
+    bool at_end_ = false;  ///< no compressed bytes are left
+    bool whole_ = false;   ///< a stream has ended and the next has not begun
 };
 
 }  // namespace stipple

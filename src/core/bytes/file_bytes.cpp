@@ -112,7 +112,7 @@ void limit_whole_files(std::uint64_t bytes) {
 
 namespace {
 
-const FileRules* rules = nullptr;  // none: all that the user may
+const FileRules* rules = nullptr;  // null: all files are allowed
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The bytes of a file that a unit was named: tables, matrices, pictures.
+// Files read at once, such as tables, matrices and pictures that options name; and limits on which
+// files may be opened.
 #pragma once
 
 #include <cstdint>
@@ -13,41 +14,43 @@
 
 namespace stipple {
 
-/// @param error errno: what went wrong with the file. @throws Error(io) "NAME: what"; Error(limit)
-/// where it was memory
+/// Throws for a failed file operation. @param error value of errno
+/// @throws Error(io) "NAME: reason"; Error(limit) if memory ran out
 [[noreturn]] void refuse_file(const std::string& name, int error);
 
-/// What a path names, which may be nothing. @throws Error(io) where that cannot be told
+/// Status of a path; the file may not exist. @throws Error(io) if the status is unknown
 std::filesystem::file_status status_of(const std::string& path);
 
-/// Reads the file at once. @throws Error(io): missing, a directory, unreadable; Error(limit): larger
-/// than 1 GiB, or what limit_whole_files() said.
+/// Reads the whole file. @throws Error(io) if missing, a directory or unreadable; Error(limit) if
+/// larger than 1 GiB or than the limit_whole_files() limit
 std::string read_file(const std::string& path);
 
-/// Fingerprint (core/bytes/fingerprint.hpp) of the file's bytes, of which few are in memory at a time.
+/// Fingerprint (core/bytes/fingerprint.hpp) of the file's bytes, read in small blocks.
 /// @throws Error(io) as read_file(); Error(cancelled)
 std::uint64_t file_fingerprint(const std::string& path, const RunContext& run);
 
-/// From now on read_file() takes no more bytes than that, nor than 1 GiB.
+/// Lowers the size limit of read_file(), which is 1 GiB at most.
 void limit_whole_files(std::uint64_t bytes);
 
-// Which files may be opened while a stranger's text names them. All readers and writers of files ask
-// here, so that no option can be forgotten.
+// Access control for files named in untrusted text. All readers and writers of files check here, so
+// no option can bypass it.
 
-/// As long as it lives, no file is opened but these. One at a time, made and destroyed while nothing
-/// else opens files; standard input and output are not files.
+/// Restricts which files can be opened during its lifetime. Only one may exist at a time; no other
+/// thread may open files while it is created or destroyed. Standard input and output are not
+/// restricted.
 class FileRules {
   public:
-    /// @param readable what is opened for a name @param writable names of what may be written
+    /// @param readable maps a name to the path to open for it @param writable names allowed for
+    /// writing
     FileRules(std::map<std::string, std::string> readable, std::vector<std::string> writable);
     FileRules(const FileRules&) = delete;
     FileRules& operator=(const FileRules&) = delete;
     ~FileRules();
 
-    /// What to open to read a file of that name. @throws Error(usage) where it may not be read
+    /// The path to open for reading a file of this name. @throws Error(usage) if it may not be read
     static const std::string& readable(const std::string& path);
 
-    /// @throws Error(usage) where the file may not be written
+    /// @throws Error(usage) if the file may not be written
     static void require_writable(const std::string& path);
 
   private:

@@ -50,7 +50,7 @@ class HeaderReader {
         return value;
     }
 
-    /// The text behind a key of the dictionary.
+    /// Text after the key and its colon in the dictionary.
     std::string_view word_behind(std::string_view key) const {
         for (const char quote : {'\'', '"'}) {
             const auto at = text_.find(quote + std::string(key) + quote);
@@ -130,10 +130,10 @@ std::size_t npy_numbers(const NpyHeader& header, std::size_t bytes) {
 std::string npy_head(std::span<const std::uint64_t> shape, bool single) {
     std::vector<std::string> extents;
     for (const std::uint64_t extent : shape) extents.push_back(std::to_string(extent));
-    if (shape.size() == 1) extents.emplace_back();  // a comma tells a tuple of one
+    if (shape.size() == 1) extents.emplace_back();  // the trailing comma of a one-element tuple
     std::string header = fmt::format("{{'descr': '<f{}', 'fortran_order': False, 'shape': ({}), }}",
                                      single ? 4 : 8, trim(join(extents, ", ")));
-    const std::size_t before = npy_magic.size() + 4;  // with the version and the length
+    const std::size_t before = npy_magic.size() + 4;  // magic, version and length
     header.append((64 - (before + header.size() + 1) % 64) % 64, ' ');
     header += '\n';
     std::string bytes(npy_magic);

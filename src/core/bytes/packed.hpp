@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Numbers as bytes for another process of the same machine type, and back.
+// Serialization of values for another process on the same type of machine.
 #pragma once
 
 #include <cassert>
@@ -44,10 +44,10 @@ class Packer {
     std::string bytes_;
 };
 
-/// Takes in the order in which they were put.
+/// Takes values in the order in which they were put.
 class Unpacker {
   public:
-    /// Keeps a reference to the bytes.
+    /// Refers to the bytes, which must outlive it.
     explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}
 
     template <class T>

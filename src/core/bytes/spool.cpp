@@ -14,7 +14,8 @@
 namespace stipple {
 namespace {
 
-/// Whether /dev/fd/N opens a file anew, at its first byte, and does not copy descriptor N.
+/// Whether opening /dev/fd/N opens the file anew from its first byte, instead of duplicating
+/// descriptor N.
 #ifdef __linux__
 constexpr bool reopens = true;
 #else

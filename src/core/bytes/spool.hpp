@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What would take too much memory, on disk until it is needed.
+// Temporary storage on disk for data too large for memory.
 #pragma once
 
 #include <cstdio>
@@ -11,12 +11,12 @@
 
 namespace stipple {
 
-/// Bytes that are read in the order in which they were written: a file in the folder of temporary
-/// files (TMPDIR); where the system can, one without a name, which goes with the process.
-/// @throws Error(io) where it has no room
+/// Bytes that are read in the order in which they were written, in a file in the temporary folder
+/// (TMPDIR). On Linux the file has no name and disappears with the process.
+/// @throws Error(io) if the disk is full
 class Spool {
   public:
-    /// Without a buffer, what was written can be read though what came later had no room.
+    /// Unbuffered writes keep earlier data readable even if a later write fails for lack of space.
     enum class Buffered { no, yes };
     explicit Spool(Buffered buffered = Buffered::yes);
     Spool(const Spool&) = delete;
@@ -25,13 +25,13 @@ class Spool {
 
     void write(std::string_view bytes);
 
-    /// What was written is read next, from the first byte on.
+    /// Ends writing; the next read() starts at the first byte.
     void rewind();
 
-    /// Fills all of it, or what is left for; returns how many bytes came.
+    /// Fills `bytes`, or less at the end; returns the number of bytes read.
     std::size_t read(std::span<char> bytes);
 
-    /// A name under which it can be opened as long as it lives.
+    /// A path for opening the file during this object's lifetime.
     [[nodiscard]] std::string path() const;
 
   private:
@@ -42,7 +42,7 @@ class Spool {
 
     bool buffered_;
     std::string folder_;
-    std::string name_ = {};  ///< empty: it has none
+    std::string name_ = {};  ///< empty: the file has no name
     std::unique_ptr<std::FILE, Close> file_;
 };
 

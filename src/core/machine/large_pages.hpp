@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Memory that is gone through again and again is reached faster, and first touched in a tenth of
-// the time, when the system keeps it in large pages.
+// Requests for large memory pages: repeated access to such memory is faster, and the first touch
+// takes a tenth of the time.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,11 @@
 
 namespace stipple {
 
-/// Asks for large pages, if there are enough bytes for some; to be called before they are touched.
-/// Advice only: where it is refused, nothing changes.
+/// Requests large pages if the block is large enough; call it before the memory is touched. Only a
+/// hint: nothing changes if the system ignores it.
 void ask_for_large_pages(void* room, std::size_t bytes);
 
-/// Room for numbers, which must be written before they are read.
+/// Fresh memory for `count` numbers, which must be written before they are read.
 template <class Number>
 std::unique_ptr<Number[]> unwritten_room(std::size_t count) {
     auto room = std::make_unique_for_overwrite<Number[]>(count);
@@ -22,7 +22,7 @@ std::unique_ptr<Number[]> unwritten_room(std::size_t count) {
     return room;
 }
 
-/// Makes an empty vector one of so many zeros.
+/// Fills an empty vector with `count` zeros, in large pages if possible.
 template <class Number>
 void fill_with_zeros(std::vector<Number>& room, std::size_t count) {
     room.reserve(count);

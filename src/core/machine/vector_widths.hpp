@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Includes the file STIPPLE_KERNELS in the namespaces anywhere, fours and eights, for vectors of
-// STIPPLE_VECTOR_BITS bits: 128, 256 and 512. Wide ones have the instruction for a b + c with one
-// rounding. Where the compiler cannot do that, all three are the first.
+// Includes the file STIPPLE_KERNELS three times, in the namespaces anywhere, fours and eights, with
+// STIPPLE_VECTOR_BITS = 128, 256 and 512. The wider two may use fused multiply-add. Compilers
+// without this feature get only the first; the other two names are aliases of it.
 //
 //     #define STIPPLE_KERNELS "folder/kernels.hpp"
 //     #include "core/machine/vector_widths.hpp"
 //     … pick_vectors(&anywhere::sum, &fours::sum, &eights::sum) …
 //
-// No pragma once: a source may do so again for other kernels. (What is inlined into functions that
-// have instructions of their own was taken apart into single numbers before, hence pragmas.)
+// No pragma once: a source may include this file again for other kernels. (Pragmas, because target
+// attributes on functions came too late: code inlined into them had already been split into scalar
+// operations.)
 
 #define STIPPLE_VECTOR_BITS 128
 namespace anywhere {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// For code that is compiled once for every width of vectors where STIPPLE_WIDE cannot be used:
-// templates, and products that are added before they are rounded. core/machine/vector_widths.hpp includes
-// such code once for every width; pick_vectors() chooses between the results.
+// Support for code that is compiled once per vector width where STIPPLE_WIDE cannot be used:
+// templates, and code with fused multiply-add. core/machine/vector_widths.hpp includes such code
+// once per width; pick_vectors() selects the version to run.
 #pragma once
 
 #include <algorithm>
@@ -16,10 +16,10 @@
 
 namespace stipple {
 
-/// Instructions that code may be compiled for: vectors of four or of eight doubles.
+/// Instruction sets that code is compiled for: the base set, or vectors of four or eight doubles.
 enum class Vectors { anywhere, fours, eights };
 
-/// The widest that this processor has.
+/// The widest vectors that this processor supports.
 inline Vectors widest_vectors() {
 #ifdef STIPPLE_PICKS_VECTORS
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
@@ -32,7 +32,7 @@ inline Vectors widest_vectors() {
     return Vectors::anywhere;
 }
 
-/// Of one thing for each width, that of the widest vectors here, or of narrower ones.
+/// Returns the argument for the widest vectors of this processor, but not wider than `widest`.
 template <class T>
 const T& pick_vectors(const T& anywhere, const T& fours, const T& eights,
                       Vectors widest = Vectors::eights) {

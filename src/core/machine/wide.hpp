@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// STIPPLE_WIDE in front of a function compiles it once for every width of vectors and picks at run
-// time, by an indirect function of ELF. What it inlines is widened with it; results do not change,
-// since nothing is contracted or reordered. Sanitizers run before the picking can, so they get the
-// plain function.
+// STIPPLE_WIDE before a function compiles it once per vector width, including what it inlines; an
+// ELF indirect function selects a version at load time. Results do not change, since operations are
+// neither fused nor reordered. Sanitizers run before the selection can, so they get the plain
+// function.
 #pragma once
 
 #if defined(__x86_64__) && defined(__ELF__) && defined(__GNUC__) && !defined(__clang__) && \
