@@ -19,8 +19,8 @@ constexpr std::string_view open_tag = "<metadata>\n";
 constexpr std::string_view close_tag = "</metadata>\n";
 constexpr std::string_view ply_comment = "comment ";
 
-/// Calls `take` with each line and whether it is a comment, up to the end of a ply's header; the
-/// place behind it.
+/// Calls `take` with each line of a ply header and whether it is a comment. Returns the position
+/// after the header.
 template <class Take>
 std::size_t ply_header(std::string_view bytes, const Take& take) {
     std::size_t at = 0;
@@ -34,7 +34,7 @@ std::size_t ply_header(std::string_view bytes, const Take& take) {
     return at;
 }
 
-/// Provenance of lines "key: value"; nothing if none is one.
+/// Parses provenance from lines "key: value"; nullopt if no line is one.
 std::optional<CarriedMeta> of_lines(std::string of, std::string_view text) {
     CarriedMeta meta{.of = std::move(of)};
     bool found = false;
@@ -50,7 +50,7 @@ std::optional<CarriedMeta> of_ply(std::string_view bytes) {
     return of_lines("ply", comments);
 }
 
-/// Where the metadata element stands, with its tags; an empty piece if there is none.
+/// The metadata element with its tags; empty if there is none.
 std::string_view svg_piece(std::string_view bytes) {
     const auto begin = bytes.find(open_tag);
     const auto end = bytes.find(close_tag, begin == std::string_view::npos ? 0 : begin);
@@ -58,7 +58,7 @@ std::string_view svg_piece(std::string_view bytes) {
     return bytes.substr(begin, end + close_tag.size() - begin);
 }
 
-/// What stands in the metadata element; empty if there is none.
+/// Content of the metadata element, unescaped; empty if there is none.
 std::string svg_text(std::string_view bytes) {
     const auto piece = svg_piece(bytes);
     if (piece.empty()) return {};
@@ -83,7 +83,7 @@ std::string to_text(const CarriedMeta& meta) {
     if (meta.width > 0) out["width"] = meta.width;
     if (meta.sets > 0) out["sets"] = meta.sets;
     out["meta"] = to_json(meta.provenance);
-    // ASCII, as the text chunk of a picture takes it.
+    // ASCII, since a PNG text chunk cannot hold more.
     return out.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 

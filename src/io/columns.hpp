@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which columns of a table are coordinates, and how a table becomes point sets.
+// Selection of coordinate columns in a table, and conversion of a table to point sets.
 #pragma once
 
 #include <cstddef>
@@ -14,20 +14,19 @@
 
 namespace stipple::io {
 
-/// What each column is: the number of a coordinate, or one of the named values.
+/// Role of each column: the index of a coordinate, or one of the constants below.
 struct Columns {
     static constexpr std::size_t skipped = std::numeric_limits<std::size_t>::max();  ///< not read
-    static constexpr std::size_t checked = skipped - 1;     ///< a number that nobody wants
-    static constexpr std::size_t set_number = skipped - 2;  ///< tells the set
+    static constexpr std::size_t checked = skipped - 1;     ///< must be a number, but is not used
+    static constexpr std::size_t set_number = skipped - 2;  ///< number of the set
 
     std::vector<std::size_t> role;
     std::size_t dimension = 0;
-    std::vector<std::string> names =
-        {};  ///< of the coordinates, in their order, where there are any
-    /// Of coordinates whose numbers 0, 1, ... stand for words: the words; of others none.
+    std::vector<std::string> names = {};  ///< of the coordinates, in order; may be empty
+    /// Level names of each coordinate; empty for numeric coordinates.
     std::vector<std::vector<std::string>> words = {};
-    /// Name of the column behind the coordinates that tells the density; "pdf,weight" where there
-    /// are both, of which the first is read.
+    /// Name of the density column after the coordinates; "pdf,weight" if the file has both, of
+    /// which the first is read.
     std::string density = {};
 
     [[nodiscard]] std::size_t width() const { return role.size(); }
@@ -36,40 +35,40 @@ struct Columns {
     [[nodiscard]] bool has(std::size_t wanted) const;
 };
 
-/// Names of coordinates as a provenance keeps them: none where they are x, y, ..., or where a header
-/// with them would not be read as one. Columns of a `table` may be called pdf and weight.
+/// Coordinate names to store in provenance. Empty if they are the default x, y, ..., or if a header
+/// with them would not be recognized. Names pdf and weight are allowed only for a `table`.
 std::vector<std::string> kept_names(std::vector<std::string> names, bool table = false);
 
-/// Whether a text may be a word of a column: the same when it was written and read back, and no
-/// number.
+/// Whether a text can be a level name: unchanged by writing and reading, and not a number.
 bool is_word(const std::string& text);
 
-/// The column of that name or, where there is none, of that number from 1. `place` and the name of
-/// the option that has it are for the message. @throws Error(usage)
+/// Index of the column with this name or, failing that, with this number counted from 1. `place`
+/// and `option` are for the message. @throws Error(usage) if there is none
 std::size_t find_column(const std::string& wanted, const std::vector<std::string>& names,
                         const std::string& place, const char* option = "column");
 
-/// Decides what the columns are. Without names they are called x, y, ... (see coordinate_names).
-/// Columns called pdf or weight are coordinates only when picked, in tables (gaps), or where all are; so
-/// is, but for tables, a first one whose name is empty, which holds row names. A first column `set` tells the set. `place` begins
-/// the messages ("p.csv:3").
-/// @throws Error(usage) for a column that is not there; Error(input) for a wrong dimension.
+/// Assigns roles to columns. Unnamed columns are called x, y, ... (see coordinate_names). Columns
+/// pdf and weight are coordinates only if picked, in tables (gaps), or if options.all_columns. A
+/// first column with an empty name holds row names, and is a coordinate only if
+/// options.all_columns. A first column `set` is the set number. `place` begins the messages
+/// ("p.csv:3").
+/// @throws Error(usage) for a missing column; Error(input) for a wrong dimension
 Columns choose_columns(std::vector<std::string> names, std::size_t width,
                        const ReadOptions& options, const std::string& place);
 
-/// Where the last number of a row tells the density of its point, by pdf or by weight = 1 / pdf,
-/// takes it out of the rows.
-/// @throws Error(input) naming the first point whose number is none
+/// If the last number of each row is a pdf or a weight = 1 / pdf, moves it from the rows to
+/// set.densities.
+/// @throws Error(input) naming the first point with an invalid value
 void take_densities(PointSet& set);
 
-/// Keeps the coordinates of a table that holds all columns.
+/// Drops the columns of a table that are not coordinates.
 std::vector<double> keep_coordinates(std::vector<double> table, const Columns& columns);
 
-/// Tells each of the sets of a file where it is from: those of a generator have one seed after the
-/// other, unless it is the scrambles that differ.
+/// Sets the provenance of each set of a file. Generated sets have consecutive seeds, except if
+/// their scrambles differ instead.
 void tell_origin(std::vector<PointSet>& sets, const Provenance& provenance);
 
-/// Cuts rows into sets that begin at the rows `starts` (rising, the first is 0).
+/// Splits rows into sets; `starts` has the first row of each set, ascending from 0.
 std::vector<PointSet> cut_sets(std::vector<double> rows, std::size_t dimension,
                                const std::vector<std::uint64_t>& starts,
                                const Provenance& provenance);

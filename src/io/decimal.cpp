@@ -16,7 +16,7 @@
 namespace stipple::io {
 namespace {
 
-constexpr std::size_t longest = 25;  // "-1.2345678901234567e-308" and one to spare
+constexpr std::size_t longest = 25;  // "-1.2345678901234567e-308" has 24
 
 constexpr auto small_powers_of_10 = [] {
     std::array<std::uint64_t, 20> powers{1};
@@ -24,7 +24,7 @@ constexpr auto small_powers_of_10 = [] {
     return powers;
 }();
 
-/// floor(fraction * 10^precision), exactly; `fraction` in [0, 1), at most 19 digits.
+/// floor(fraction * 10^precision), exact, for `fraction` in [0, 1) and precision <= 19.
 std::uint64_t cut_fraction(double fraction, int precision) {
     const auto bits = std::bit_cast<std::uint64_t>(fraction);
     const int biased = static_cast<int>(bits >> 52);
@@ -36,9 +36,9 @@ std::uint64_t cut_fraction(double fraction, int precision) {
     return static_cast<std::uint64_t>(product >> shift);
 }
 
-/// Appends |value|, cut behind `precision` digits; any value, any precision.
+/// Appends |value|, truncated to `precision` digits after the point; for any value and precision.
 void append_cut_slowly(std::string& out, double value, int precision) {
-    constexpr int most_digits = 1074;  // that a double can have behind its point
+    constexpr int most_digits = 1074;  // the most that a double can have after the point
     std::string text = fmt::format("{:.{}f}", value, std::max(precision, most_digits));
     const auto point = text.find('.');
     if (point != std::string::npos)
@@ -60,12 +60,13 @@ void append_cut(std::string& out, double value, int precision) {
             fmt::format_to(std::back_inserter(out), FMT_COMPILE(".{:0{}}"),
                            cut_fraction(size - whole, precision), precision);
     }
-    // What was cut to nothing has no sign.
+    // No sign if all digits were cut to 0.
     if (std::signbit(value) && out.find_first_of("123456789in", start) == std::string::npos)
         out.erase(start, 1);
 }
 
-/// Where from_chars sees no double: too large is an infinity, too small the subnormal or zero.
+/// The double for text beyond from_chars' range: infinity if too large, subnormal or zero if too
+/// small.
 double beyond_range(const char* first, const char* end) {
     return std::strtod(std::string(first, end).c_str(), nullptr);
 }
@@ -74,7 +75,7 @@ double beyond_range(const char* first, const char* end) {
 
 void append_number(std::string& out, double value, std::optional<int> precision) {
     if (precision && std::isfinite(value)) return append_cut(out, value, *precision);
-    // Into a buffer on the stack: an inserter into the string costs a third more.
+    // Buffer on the stack: inserting into the string directly takes a third longer.
     std::array<char, longest> text;
     const char* const begin = text.data();
     const char* const end = fmt::format_to(text.data(), FMT_COMPILE("{}"), value);

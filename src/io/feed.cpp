@@ -17,9 +17,9 @@
 namespace stipple::io {
 namespace {
 
-/// Waits until bytes (or their end) are there.
+/// Waits until data or the end of input is available.
 void wait_for_bytes(int descriptor, const RunContext& run) {
-    constexpr int patience = 50;  // milliseconds between two looks at the stop token
+    constexpr int patience = 50;  // milliseconds between checks of the stop token
     pollfd waiting{.fd = descriptor, .events = POLLIN, .revents = 0};
     for (int ready = 0; ready == 0;) {
         run.check_stop();
@@ -41,7 +41,7 @@ std::int64_t change_time(const struct stat& status) {
 
 Feed::Feed(const std::string& path, RunContext run)
     : name_(source_name(path)), run_(std::move(run)) {
-    // Without O_NONBLOCK, opening a named pipe would wait where nobody can stop it.
+    // Without O_NONBLOCK, opening a named pipe could block uninterruptibly.
     file_.descriptor =
         path == "-" ? STDIN_FILENO
                     : ::open(FileRules::readable(path).c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
@@ -49,7 +49,7 @@ Feed::Feed(const std::string& path, RunContext run)
     if (file_.descriptor < 0 || ::fstat(file_.descriptor, &status) != 0) refuse_file(name_, errno);
     if (S_ISDIR(status.st_mode)) refuse_file(name_, EISDIR);
 #ifdef F_SETPIPE_SZ
-    // Large enough for a writer's whole block, so that both sides work at the same time.
+    // Room for a writer's whole block, so that both sides can work at the same time.
     if (S_ISFIFO(status.st_mode)) ::fcntl(file_.descriptor, F_SETPIPE_SZ, 1 << 20);
 #endif
     if (S_ISREG(status.st_mode)) size_ = static_cast<std::size_t>(status.st_size);
@@ -132,7 +132,7 @@ std::string Feed::read_all() {
     std::string bytes(front_.substr(taken_));
     taken_ = front_.size();
     if (ends_in_front()) return bytes;
-    // A byte more than a file seems to have shows its end.
+    // One byte more than the file's size, to detect its end.
     std::size_t room = size_ > bytes.size() ? size_ + 1 : bytes.size() + front_size;
     constexpr std::size_t step = std::size_t{4} << 20;  // between two looks at the stop token
     for (;; room = 2 * bytes.size()) {

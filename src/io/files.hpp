@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Whole files or standard input, read at once.
+// Point files or standard input read as a whole.
 #pragma once
 
 #include <string>
@@ -13,25 +13,25 @@
 
 namespace stipple::io {
 
-/// The bytes of a file, or of standard input for "-". @throws Error as Feed does; Error(limit)
+/// All bytes of a file, or of standard input for "-". @throws Error as Feed does; Error(limit)
 std::string read_bytes(const std::string& path, const RunContext& run);
 
-/// The format that a file's extension means or, where it leaves that open, its first bytes.
+/// Detects the format by the file's extension or, if that is ambiguous, by the first bytes.
 const Format& format_for(const std::string& path, std::string_view bytes);
 
-/// All sets in the bytes of a file; else as read_points.
+/// Parses the bytes of a file; `path` names it. Otherwise as read_points().
 std::vector<PointSet> read_sets(std::string_view bytes, const std::string& path,
                                 const ReadOptions& options, const RunContext& run,
                                 const Format* format = nullptr);
 
-/// All sets of a file, in the named format or the one that its extension or its bytes tell. Where
-/// options.source is "-", messages name `path`.
+/// Reads all sets of a file. If `format` is null, the extension or the bytes decide. Messages name
+/// options.source, or `path` if that is "-".
 /// @throws Error(input), Error(io), Error(usage)
 std::vector<PointSet> read_points(const std::string& path, const ReadOptions& options,
                                   const RunContext& run, const Format* format = nullptr);
 
-/// The one set of the file that an option of a unit names.
-/// @throws Error as read_points; Error(usage) for standard input, which could not be read again
+/// Reads the only set of a file that a unit's option names.
+/// @throws Error as read_points; Error(usage) for standard input, which cannot be read twice
 PointSet read_given(std::string_view option, const std::string& path, const ReadOptions& options,
                     const RunContext& run);
 

@@ -63,7 +63,7 @@ std::vector<std::string> Layout::columns() const {
 namespace io {
 namespace {
 
-/// Text that begins with { or [: a value a line, or one value?
+/// Distinguishes JSON lines from a single JSON value, for text that begins with { or [.
 const char* json_or_lines(std::string_view text) {
     const auto end = text.find('\n');
     const std::string_view line = trim(text.substr(0, end));

@@ -24,14 +24,14 @@
 namespace stipple::io {
 namespace {
 
-/// /dev/fd/3 -> 3; else nothing.
+/// File descriptor of the names for standard output and standard error; nullopt for other paths.
 std::optional<int> standard_descriptor(const std::string& path) {
     if (path == "-" || path == "/dev/stdout" || path == "/dev/fd/1") return STDOUT_FILENO;
     if (path == "/dev/stderr" || path == "/dev/fd/2") return STDERR_FILENO;
     return std::nullopt;
 }
 
-/// What a chain of symbolic links ends in, whether it is there or not.
+/// Resolves symbolic links at the end of a path; the target need not exist.
 std::filesystem::path follow_links(std::filesystem::path path) {
     std::error_code none;
     for (int links = 0; links < 40 && std::filesystem::is_symlink(path, none); ++links)
@@ -44,8 +44,8 @@ std::string folder_of(const std::filesystem::path& path) {
     return parent.empty() ? "." : parent.string();
 }
 
-/// A new name beside a target. It counts on from the last one, since many files of a command may wait
-/// under such names.
+/// Temporary name beside a target. The counter keeps names distinct, since one command may have
+/// many such files.
 std::string part_name(const std::filesystem::path& target) {
     static std::atomic<std::uint64_t> number = 0;
     return fmt::format("{}/.stipple-{}-{}.part", folder_of(target), ::getpid(), number++);
@@ -56,10 +56,10 @@ void append_text(std::string& record, const std::string& text) {
     record.append(reinterpret_cast<const char*>(&size), sizeof size).append(text);
 }
 
-/// Room for the name of a file.
+/// Buffer for a file name.
 using NameBuffer = std::array<char, PATH_MAX>;
 
-/// Takes no memory but the buffer's. Nothing: there are no more.
+/// Reads a text into the buffer, without allocating; nullopt at the end.
 std::optional<std::string_view> take_text(Spool& spool, NameBuffer& buffer) {
     std::size_t size = 0;
     if (spool.read({reinterpret_cast<char*>(&size), sizeof size}) < sizeof size)
@@ -69,19 +69,19 @@ std::optional<std::string_view> take_text(Spool& spool, NameBuffer& buffer) {
     return std::string_view(buffer.data(), size);
 }
 
-/// How to open a file without a name; 0 where the system has none.
+/// Flag for opening a file without a name; 0 if the system does not support that.
 #ifdef O_TMPFILE
 constexpr int unnamed_file = O_TMPFILE;
 #else
 constexpr int unnamed_file = 0;
 #endif
 
-/// The name by which the system reaches an open file that has none.
+/// Path of an open file that has no name.
 std::string name_of_descriptor(int descriptor) {
     return fmt::format("/proc/self/fd/{}", descriptor);
 }
 
-/// Whether so many files may be open and leave some for inputs.
+/// Whether enough descriptors remain for inputs.
 bool leaves_descriptors(int descriptor) {
     constexpr rlim_t spare = 64;
     rlimit limit{};
@@ -111,16 +111,16 @@ Output::Output(std::string path, std::stop_token stop)
         open_in_place();
         return;
     }
-    // A file that nobody may write is meant to stay, even where the user could replace it.
+    // A read-only file is meant to stay, even if directory permissions would allow replacing it.
     const bool protected_file = (status.st_mode & 0222) == 0 || ::access(path_.c_str(), W_OK) != 0;
     if (there && protected_file) fail(ErrorKind::io, "{}: the file is read-only", path_);
     target_ = follow_links(path_);
-    // Nobody has checked that the new bytes may run with the rights of the owner or group.
+    // Drops set-user-ID and set-group-ID: they were granted to the old content only.
     const auto mode = static_cast<mode_t>(there ? status.st_mode & 01777 : 0666);
     open_beside(mode);
     if (!there) return;
-    // The owner and what the mask took of the mode stay where that is allowed; the mode comes second,
-    // for a change of owner cuts it.
+    // Restores the owner and the full mode, if permitted; the mode second, since changing the owner
+    // clears some of its bits.
     if (::fchown(descriptor_, status.st_uid, status.st_gid) != 0) errno = 0;
     if (::fchmod(descriptor_, mode) != 0) errno = 0;
 }
@@ -151,7 +151,7 @@ void Output::open_beside(mode_t mode) {
     owned_ = true;
 }
 
-/// Makes a file without a name, where the file system has such files and lets them be named later.
+/// Creates a file without a name if the file system supports it and it can be named later.
 bool Output::open_unnamed(mode_t mode) {
     if (unnamed_file == 0) return false;
     const std::string folder = folder_of(target_);
@@ -212,7 +212,8 @@ void Output::close() {
     if (closed != 0) refuse_file(path_, errno);
 }
 
-/// Gives a file without a name the target's, or where that is taken one beside it, to be renamed.
+/// Links an unnamed file to the target's name. If that exists, links it to a temporary name, to be
+/// renamed.
 void Output::name_it() {
     const std::string unnamed = name_of_descriptor(descriptor_);
     const auto link_as = [&](const std::string& name) {
@@ -257,7 +258,7 @@ Outputs::~Outputs() {
         names_->rewind();
         NameBuffer buffer;
         for (; take_text(*names_, buffer); take_text(*names_, buffer)) ::unlink(buffer.data());
-    } catch (...) {  // their names cannot be read: they stay
+    } catch (...) {  // the names cannot be read: the files stay
     }
 }
 
@@ -266,7 +267,7 @@ void Outputs::commit() {
     std::uint64_t count = 0;
     std::vector<std::string> some;  // of the files in place
     some.reserve(named);
-    // Puts one file in place and returns its name, or nothing where there is none.
+    // Puts one file in place and returns true; false if `put` has no more files.
     const auto place = [&](const auto& put) {
         try {
             std::optional<std::string> path = put();

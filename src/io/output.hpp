@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Files that are written beside their targets and put in place when all of them are whole.
+// Output files written under temporary names, and renamed when all of them are complete.
 #pragma once
 
 #include <sys/types.h>
@@ -18,44 +18,44 @@
 
 namespace stipple::io {
 
-/// A file that comes into being when it is whole, or standard output for "-". Devices and pipes are
-/// written in place; a link's target is replaced, not the link. A name that ends in .gz or .zst gets
-/// compressed bytes. Until commit() the bytes are in a
-/// file without a name, which vanishes with the process, or in a file NAME.part where the file
-/// system has no such files.
+/// A file that appears only when it is complete, or standard output for "-". Devices and pipes are
+/// written in place; for a symbolic link, its target is replaced. Names ending in .gz or .zst get
+/// compressed bytes. Until commit() the bytes are in an unnamed file, which vanishes with the
+/// process, or in a file NAME.part if the file system has no unnamed files.
 class Output {
   public:
-    /// A write that is interrupted by a signal (its handler installed without SA_RESTART) ends when
+    /// A write that a signal interrupts (handler installed without SA_RESTART) is abandoned if
     /// `stop` was requested.
-    /// @throws Error(io) when the target cannot be made.
+    /// @throws Error(io) if the file cannot be created
     explicit Output(std::string path, std::stop_token stop = {});
-    /// Takes the bytes in place of a file; false: it wants no more.
+    /// Takes the bytes instead of a file; returns false to stop.
     using Sink = std::function<bool(std::string_view bytes)>;
     explicit Output(Sink sink);
     Output(const Output&) = delete;
     Output& operator=(const Output&) = delete;
-    /// Removes what was not committed.
+    /// Removes the file if it was not committed.
     ~Output();
 
-    /// Writes all bytes. False: the reader of the pipe went away, and nobody wants more (SIGPIPE
-    /// must be ignored).
-    /// @throws Error(io), naming the target and the reason; Error(cancelled).
+    /// Writes all bytes. Returns false if the reader closed the pipe (SIGPIPE must be ignored), or
+    /// the sink stopped.
+    /// @throws Error(io) naming the target and the reason; Error(cancelled)
     bool write(std::string_view bytes);
 
-    /// No more is written: what has a name till commit() needs no descriptor. @throws Error(io)
+    /// Ends writing. A file with a temporary name is closed, to save its descriptor. @throws
+    /// Error(io)
     void finish();
 
-    /// Puts the file in its place. @throws Error(io)
+    /// Gives the file its final name. @throws Error(io)
     void commit();
 
     [[nodiscard]] const std::string& path() const { return path_; }
 
-    /// The name until commit(), empty where it has none, and that of the target.
+    /// The temporary name, empty if there is none, and the target's name.
     [[nodiscard]] std::pair<const std::string&, const std::string&> names() const {
         return {temporary_, target_};
     }
 
-    /// Somebody else renames or removes the file of that name from now on.
+    /// Gives up the temporary file: the caller renames or removes it.
     void release() { temporary_.clear(); }
 
   private:
@@ -66,43 +66,43 @@ class Output {
     void name_it();
     void close();
 
-    std::string path_;       ///< as messages name it
-    std::string target_;     ///< what is replaced; empty: written in place
-    std::string temporary_;  ///< the name until commit(); empty: none
+    std::string path_;       ///< name in messages
+    std::string target_;     ///< file to be replaced; empty: written in place
+    std::string temporary_;  ///< name until commit(); empty: none
     std::stop_token stop_;
     Sink sink_;
-    std::unique_ptr<Compressor> compressor_;  ///< of what a name that ends in .gz or .zst gets
+    std::unique_ptr<Compressor> compressor_;  ///< for names ending in .gz or .zst
     int descriptor_ = -1;
-    bool owned_ = false;   ///< the descriptor is ours to close
-    bool broken_ = false;  ///< the pipe has no reader
+    bool owned_ = false;   ///< the destructor closes the descriptor
+    bool broken_ = false;  ///< the reader closed the pipe
 };
 
-/// The files of one command, which appear together or not at all. Their names do not take memory,
-/// however many there are.
+/// Output files of one command, which appear together or not at all. The number of files does not
+/// affect memory: their names are stored on disk.
 class Outputs {
   public:
     Outputs() = default;
     Outputs(const Outputs&) = delete;
     Outputs& operator=(const Outputs&) = delete;
-    /// Removes what was not committed.
+    /// Removes the files that were not committed.
     ~Outputs();
 
-    /// One more, made as an Output is, when the one before is written; the reference is valid until
-    /// the next.
+    /// Opens the next Output with these arguments; the previous one must be complete. The reference
+    /// is valid until the next call.
     template <class... Arguments>
     Output& add(Arguments&&... arguments) {
         set_aside();
         return files_.emplace_back(std::forward<Arguments>(arguments)...);
     }
 
-    /// Puts all files in their places. @throws Error(io), naming those that are in place already
+    /// Puts all files in place. @throws Error(io) naming the files already in place
     void commit();
 
   private:
     void set_aside();
 
-    std::list<Output> files_;  ///< those that are open, or were never beside a target, and the last
-    std::unique_ptr<Spool> names_;  ///< the others: the names they have, and are to have
+    std::list<Output> files_;       ///< open: unnamed or written in place, and the last one
+    std::unique_ptr<Spool> names_;  ///< temporary and final names of the other files
 };
 
 }  // namespace stipple::io

@@ -16,7 +16,7 @@
 namespace stipple::io {
 namespace {
 
-/// Sets that are in memory.
+/// Stream over sets in memory.
 class HeldSets final : public PointStream {
   public:
     explicit HeldSets(std::vector<PointSet> sets) : sets_(std::move(sets)) {}
@@ -46,7 +46,7 @@ class HeldSets final : public PointStream {
 
     std::vector<PointSet> sets_;
     std::size_t next_ = 0;
-    std::size_t at_ = 0;  ///< numbers of this set that were read
+    std::size_t at_ = 0;  ///< numbers of this set already read
 };
 
 class RawStream final : public PointStream {
@@ -107,13 +107,13 @@ class RawStream final : public PointStream {
     }
 
   private:
-    /// Bytes end within a point, or before those that were promised.
+    /// Reports bytes that end within a point, or before the announced number of points.
     [[noreturn]] void refuse_end() {
         if (shape_.count) PointStream::skip(1);
         refuse_part(source_);
     }
 
-    /// Looks whether the bytes may end here.
+    /// Checks that the bytes may end here.
     void check_end(std::size_t wanted) const {
         const std::size_t point = shape_.width * shape_.type.size;
         const std::size_t all = shape_.offset + numbers_ * shape_.type.size + bytes_.size();
@@ -135,7 +135,7 @@ class RawStream final : public PointStream {
              shape_.width, 8 * shape_.type.size);
     }
 
-    /// Behind the last of a known number of points nothing may follow.
+    /// Rejects bytes after the last of a known number of points.
     void check_rest() {
         if (!shape_.count || left_ > 0 || set_ < shape_.sets || ended_) return;
         ended_ = true;
@@ -156,8 +156,8 @@ class RawStream final : public PointStream {
     Columns columns_;
     Provenance provenance_;
     std::size_t set_ = 0;
-    std::uint64_t left_ = 0;   ///< points of this set
-    std::size_t numbers_ = 0;  ///< that were read
+    std::uint64_t left_ = 0;   ///< points of this set not yet read
+    std::size_t numbers_ = 0;  ///< numbers read so far
     bool ended_ = false;
     std::string bytes_;
 };
@@ -195,7 +195,8 @@ class JoinedStream final : public PointStream {
     }
 
   private:
-    /// Goes on by `count` points, or to the end; step(got) takes some of this part, behind so many.
+    /// Advances by `count` points, or to the end. step(done) advances within the current file and
+    /// returns by how many points; `done` counts the points advanced so far.
     template <class Step>
     std::uint64_t through_parts(std::uint64_t count, const Step& step) {
         std::uint64_t got = 0;
@@ -214,7 +215,7 @@ class JoinedStream final : public PointStream {
         shards_ = shards_ && part_->provenance().shard == fmt::format("{}/{}", at_, paths_.size());
     }
 
-    /// Goes to the next file. False: there is none.
+    /// Opens the next file; false if there is none.
     bool next_part() {
         if (part_->next_set())
             fail(ErrorKind::input,
@@ -236,7 +237,7 @@ class JoinedStream final : public PointStream {
         return true;
     }
 
-    /// What all shards of a set have in common.
+    /// Provenance that all shards of a set have in common.
     static Provenance unsharded(Provenance meta) {
         const auto typed = meta.command.find(" --shard " + meta.shard);
         if (typed != std::string::npos) meta.command.erase(typed, 9 + meta.shard.size());
@@ -260,7 +261,7 @@ class JoinedStream final : public PointStream {
     std::vector<std::string> paths_;
     Opener open_;
     std::unique_ptr<PointStream> part_;
-    Provenance whole_;  ///< as the first file tells it
+    Provenance whole_;  ///< of the first file
     std::size_t at_ = 0;
     std::uint64_t count_ = 0;
     bool begun_ = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Points of files and pipes that may be larger than memory: block after block, in order.
+// Streams of points from files and pipes that may be larger than memory, read block by block in
+// order.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +21,7 @@
 
 namespace stipple::io {
 
-/// Sets of points, one after the other.
+/// Sequence of point sets, read in order.
 class PointStream {
   public:
     PointStream() = default;
@@ -30,17 +31,17 @@ class PointStream {
 
     [[nodiscard]] virtual std::size_t dimension() const = 0;
 
-    /// Goes to the next set, to the first one at first. The set before must have been read to its
-    /// end. False: there is none.
+    /// Moves to the next set; the first call to the first set. The current set must have been read
+    /// to its end. Returns false if there is no more.
     virtual bool next_set() = 0;
 
-    /// Number of sets, where it is known before.
+    /// Number of sets, if known in advance.
     [[nodiscard]] virtual std::optional<std::size_t> sets() const { return std::nullopt; }
 
-    /// Whether there is one set, as far as its front tells.
+    /// Whether the front of the input suggests a single set.
     [[nodiscard]] virtual bool looks_like_one_set() const { return sets() == std::size_t{1}; }
 
-    /// Points of this set, where they are known before.
+    /// Number of points in this set, if known in advance.
     [[nodiscard]] virtual std::optional<std::uint64_t> count() const { return std::nullopt; }
 
     [[nodiscard]] virtual const Provenance& provenance() const = 0;
@@ -48,39 +49,40 @@ class PointStream {
     /// Whether all points are in memory anyway.
     [[nodiscard]] virtual bool held() const { return false; }
 
-    /// All sets, where none was gone to yet.
+    /// Reads all sets; call it before next_set().
     virtual std::vector<PointSet> read_all(const RunContext& run);
 
-    /// Takes the set's next points, as many as fit; fewer, or none, only at its end.
+    /// Reads the next points of the set into `rows`. Fewer than fit, or none, only at the set's
+    /// end.
     /// @throws Error(input), Error(io), Error(cancelled)
     virtual std::size_t read(std::span<double> rows) = 0;
 
-    /// Goes past the set's next points, as many as there are up to `count`, and says how many these
-    /// were. Where the place of every point is known, what is passed is not looked at.
+    /// Skips up to `count` points of the set and returns how many were skipped. If all points have
+    /// a fixed size, the skipped bytes are not checked.
     virtual std::uint64_t skip(std::uint64_t count);
 };
 
-/// What is small, or must be read as a whole (JSON, columns of a matrix one after the other, CSV
-/// with a column that tells the set), is read so; the rest in blocks. Errors are those of
-/// read_points, save that points before the place that is wrong were given out already.
+/// Opens a file as a stream. Small files, and those that must be read as a whole (JSON,
+/// column-major matrices, CSV with a set column), are read at once; others in blocks. Errors are
+/// those of read_points, but may occur after valid points were already returned.
 std::unique_ptr<PointStream> open_points(const std::string& path, const ReadOptions& options,
                                          const RunContext& run, const Format* format = nullptr);
 
-/// The points of several files of one set each, as one set; a file is opened when its turn comes.
-/// Their provenance is that of the whole where they are all of its shards, in order; else only the
-/// domain that they share is known.
-/// @throws Error(input) for points of different numbers of coordinates or on different domains, and
-/// for a file of several sets
+/// Concatenates files of one set each into one set; each file is opened when it is needed. If they
+/// are all shards of one set, in order, the provenance is that of the whole; otherwise only their
+/// common domain is known.
+/// @throws Error(input) for points with different numbers of coordinates or on different domains,
+/// and for a file with several sets
 using Opener = std::function<std::unique_ptr<PointStream>(const std::string& path)>;
 std::unique_ptr<PointStream> join_points(std::vector<std::string> paths, Opener open);
 
-// Below: for formats.
+// Functions for the implementation of formats.
 
-/// Bytes that are numbers, set after set.
+/// Layout of raw numbers, one set after another.
 struct RawShape {
     std::size_t sets = 1;
-    std::optional<std::uint64_t> count = {};  ///< points of a set; else all that come
-    std::size_t width = 1;                    ///< numbers of a point
+    std::optional<std::uint64_t> count = {};  ///< points per set; unset: all up to the end
+    std::size_t width = 1;                    ///< numbers per point
     RawType type = {};
     std::size_t offset = 0;  ///< bytes before the first number
 };
@@ -88,9 +90,9 @@ struct RawShape {
 std::unique_ptr<PointStream> stream_raw(std::unique_ptr<Feed> feed, const RawShape& shape,
                                         const ReadOptions& options);
 
-/// @throws Error(input) naming the first number that is not finite, its byte and, unless the shape
-/// has the width 0, its point
-/// @param before numbers before these
+/// @throws Error(input) naming the first number that is not finite, its byte and, unless
+/// shape.width is 0, its point
+/// @param before how many numbers precede these
 void check_finite(std::span<const double> numbers, const RawShape& shape, const std::string& source,
                   std::size_t before = 0);
 

@@ -14,7 +14,8 @@
 namespace stipple::io {
 namespace {
 
-/// A text as the JSON value that it looks like, if that gives the same text back.
+/// Converts a text to a JSON boolean or number if that reproduces it exactly; otherwise to a
+/// string.
 Json typed(const std::string& text) {
     if (text == "true") return true;
     if (text == "false") return false;
@@ -33,7 +34,7 @@ std::string untyped(const Json& value) {
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
-// Each says whether the value is such.
+// Parsers of JSON values; each returns whether the type is right.
 bool take(const Json& value, std::string& text) {
     if (value.is_string()) text = value.get<std::string>();
     return value.is_string();
@@ -59,7 +60,7 @@ bool take(const Json& value, std::vector<std::string>& texts) {
     return true;
 }
 
-/// Names that no header could have are as good as none.
+/// Drops names that a header could not have.
 bool take_columns(const Json& value, std::vector<std::string>& names) {
     const bool texts = take(value, names);
     names = kept_names(std::move(names));
@@ -102,7 +103,7 @@ bool take_dtype(const Json& value, bool& single) {
     return value.is_string();
 }
 
-/// Whether the value of one key is such; nothing: there is no such key.
+/// Parses the value of one key. Returns whether it is valid; nullopt for an unknown key.
 std::optional<bool> take_value(std::string_view key, const Json& value, Provenance& to) {
     if (key == "tool") return true;
     if (key == "version") return take(value, to.version);
@@ -128,7 +129,8 @@ std::optional<bool> take_value(std::string_view key, const Json& value, Provenan
     return std::nullopt;
 }
 
-/// Takes the value of one key. False: there is no such key.
+/// Parses the value of one key and records a flaw if it is invalid. Returns false for an unknown
+/// key.
 bool take(std::string_view key, const Json& value, Provenance& to) {
     const auto good = take_value(key, value, to);
     if (good == false && to.flaw.empty())
@@ -174,7 +176,7 @@ Provenance provenance_from(const Json& meta) {
 std::string to_comment_lines(const Provenance& provenance, std::string_view begin) {
     std::string lines;
     const Json meta = to_json(provenance);
-    // Bytes that are not UTF-8 (a file's name in the command) are replaced, not refused.
+    // Replaces invalid UTF-8, such as in a file name in the command, instead of failing.
     for (const auto& [key, value] : meta.items())
         lines += fmt::format("{}{}: {}\n", begin, key, json_text(value));
     return lines;
@@ -185,7 +187,7 @@ bool take_comment_line(std::string_view line, Provenance& provenance) {
     if (colon == std::string_view::npos) return false;
     const Json value = try_parse_json(line.substr(colon + 2));
     if (!value.is_discarded()) return take(line.substr(0, colon), value, provenance);
-    // A number that no double holds is no JSON either; words of others are left alone.
+    // A number beyond the range of doubles is not valid JSON; other text is ignored.
     const std::string text(line.substr(colon + 2));
     if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string::npos)
         return false;

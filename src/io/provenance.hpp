@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Provenance as the `meta` object of JSON and the `# ` lines of text formats.
+// Conversion of provenance to and from the `meta` object of JSON and the `# ` lines of text
+// formats.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,20 +12,19 @@
 
 namespace stipple::io {
 
-/// Keys tool, version, generator, options, seed, count, dimension, start, warps, domain, command;
-/// also columns, levels, bounds and shard where they are set, efficiency where points were dropped, precision and
-/// dtype where numbers were cut, inputs where files were read, found where a search was made,
-/// stream_versions above 1.
+/// Always has the keys tool, version, generator, options, seed, count, dimension, start, warps,
+/// domain and command. Has columns, levels, bounds and shard if set; efficiency if points were
+/// dropped; precision and dtype if numbers were rounded; inputs if files were read; found if a
+/// search was made; stream_versions if above 1.
 nlohmann::ordered_json to_json(const Provenance& provenance);
 
-/// Takes what it knows and ignores the rest.
+/// Parses the known keys and ignores the others.
 Provenance provenance_from(const nlohmann::ordered_json& meta);
 
-/// Lines "# key: value" (value as JSON), each with its newline, or with what begins a comment in
-/// another format.
+/// Formats lines "# key: value" with the value as JSON; `begin` replaces "# " in other formats.
 std::string to_comment_lines(const Provenance& provenance, std::string_view begin = "# ");
 
-/// The way back from such lines ("key: value" without "# "); false: not such a line.
+/// Parses one such line, without "# ", into `provenance`. Returns false for other lines.
 bool take_comment_line(std::string_view line, Provenance& provenance);
 
 }  // namespace stipple::io

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A text file in memory, and how its places are named in messages.
+// Text files in memory, with positions for error messages.
 #pragma once
 
 #include <cstddef>
@@ -9,20 +9,19 @@
 
 namespace stipple::io {
 
-/// What is said of a source without a byte: an empty file, or a pipe into which nothing came.
-/// @throws Error(input)
+/// Reports an empty input: an empty file, or a pipe that delivered nothing. @throws Error(input)
 [[noreturn]] void refuse_empty(std::string_view source, std::string_view expected);
 
-/// How messages call a source: "-" is "stdin".
+/// Name of a source in messages: "-" becomes "stdin".
 std::string source_name(std::string_view source);
 
-/// The bytes of a text without its byte-order mark; owns nothing.
+/// Text without its byte-order mark; does not own the bytes.
 class SourceText {
   public:
-    /// @throws Error(input) when it is empty, compressed, or not in one byte a letter.
+    /// @throws Error(input) if the text is empty, compressed, or in UTF-16 or similar
     SourceText(std::string_view bytes, std::string_view source);
 
-    /// A later part of a text, of which `lines_before` were read.
+    /// A later part of a text, after `lines_before` lines.
     SourceText(std::string_view bytes, std::string_view source, char newline,
                std::size_t lines_before);
 
@@ -30,13 +29,15 @@ class SourceText {
     [[nodiscard]] const char* end() const { return bytes_.data() + bytes_.size(); }
     [[nodiscard]] const std::string& source() const { return source_; }
 
-    /// What ends a line: \n, or \r where the text has no \n.
+    /// The line separator:
+    /// , or \r if the text has no
+    /// .
     [[nodiscard]] char newline() const { return newline_; }
 
-    /// From 1.
+    /// Line number of a position, from 1.
     [[nodiscard]] std::size_t line_of(const char* at) const;
 
-    /// @throws Error(input) "FILE:LINE:COLUMN: what", columns being bytes from 1.
+    /// @throws Error(input) "FILE:LINE:COLUMN: what"; columns are bytes counted from 1.
     [[noreturn]] void refuse(const char* at, const std::string& what, std::string hint = {}) const;
 
     /// @throws Error(input) "FILE: what"
@@ -49,7 +50,7 @@ class SourceText {
     std::size_t lines_before_ = 0;
 };
 
-/// The first byte that no text holds, or null.
+/// The first control byte in a line, except tab; null if there is none.
 const char* first_control_byte(std::string_view line);
 
 }  // namespace stipple::io

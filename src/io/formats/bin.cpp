@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Raw numbers, little-endian float64 (or float32), point after point and set after set, and nothing
-// else. The reader must be told the dimension, and takes all points as one set.
+// Raw numbers and nothing else: little-endian float64 (or float32), point after point and set after
+// set. Reading requires the dimension; all points form one set.
 //
-// Promise float32 is cut toward zero: what was below 1 stays below 1.
+// Promise float32 is rounded toward zero: values below 1 stay below 1.
 #include "core/bytes/raw_numbers.hpp"
 #include "core/error.hpp"
 #include "io/columns.hpp"
@@ -30,7 +30,7 @@ std::unique_ptr<PointStream> stream(std::unique_ptr<Feed>& feed, const ReadOptio
                                     const RunContext& /*run*/) {
     const RawShape shape{.width = width_of(options), .type = {.size = options.single ? 4U : 8U}};
     ReadOptions inner = options;
-    inner.dimension.reset();  // told the width of a row, not what picking leaves
+    inner.dimension.reset();  // width_of() already gives the row's width, before columns are picked
     return stream_raw(std::move(feed), shape, inner);
 }
 

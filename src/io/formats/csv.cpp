@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// Comma-separated values: a header, then a point a line.
+// Comma-separated values: a header, then one point per line.
 //
 //     x,y            set,x,y         (several sets)       x1,x2,x3,x4       (d > 3)
 //     0,0            0,0,0                                0,0,0,0
 //     0.5,0.25       1,0.5,0.25
 //
-// Numbers of the density and other extras stand behind the coordinates (x,y,pdf). The reader takes
-// commas, semicolons, tabs and blanks, with a header or without, quoted or not, comments, CRLF and
-// a byte-order mark. A header is a first line that holds no number; a first column called `set`
-// tells the set, columns called pdf or weight are no coordinates unless picked. Words stand in
-// columns whose numbers have them (length,material / 0.5,steel); without provenance, the words that
-// are read have the numbers 0, 1, ... in the order of their letters.
+// Densities and other extras follow the coordinates (x,y,pdf). The reader accepts commas,
+// semicolons, tabs and blanks, with or without header and quotes, comments, CRLF and a byte-order
+// mark. A first line without numbers is a header. A first column `set` is the set number; columns
+// pdf and weight are coordinates only if picked. Categorical columns hold their level names
+// (length,material / 0.5,steel); without provenance, these are numbered 0, 1, ... in alphabetical
+// order.
 //
-// Promise what was written reads back to the same doubles.
-// Source  Y. Shafranovich, RFC 4180, 2005 (comments and the other separators are not in it).
+// Promise written points read back as the same doubles.
+// Source  Y. Shafranovich, RFC 4180, 2005 (without comments and the other separators).
 #include <algorithm>
 #include <cmath>
 
@@ -28,7 +28,7 @@
 namespace stipple::io::csv {
 namespace {
 
-/// A text as a field.
+/// Quotes a text if it contains a separator.
 std::string field(const std::string& text) {
     return text.find_first_of(",; \t") == std::string::npos ? text : "\"" + text + "\"";
 }
@@ -42,7 +42,7 @@ void head(const Layout& layout, std::string& out) {
     out += join(names, ",") + "\n";
 }
 
-/// The words of each column, null where there are none.
+/// Level names of each column; null for numeric columns.
 std::vector<const std::vector<std::string>*> words_of(const Layout& layout) {
     std::vector<const std::vector<std::string>*> words;
     const auto& levels = layout.provenance.levels;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// A file is cut at line starts into blocks of about a mebibyte, each parsed on its own and straight
-// into its place in the result.
+// Reader for delimited text. Cuts the file at line starts into blocks of about 1 MiB and parses
+// them in parallel, each directly into its part of the result.
 //
-// Cost    45 ns a number of 17 digits on one core; memory for the points beside the file's bytes.
+// Cost    45 ns for a number of 17 digits on one core; memory for the points in addition to the
+//         file.
 // Promise the same points, and the same error, for any number of threads.
 #include "io/formats/delimited.hpp"
 
@@ -31,19 +32,19 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-/// Passes over blanks that separate nothing.
+/// Skips blanks that do not separate fields.
 const char* over_blanks(const char* p, const char* last, char separator) {
     while (p != last && is_blank(*p) && (*p != separator || separator == ' ')) ++p;
     return p;
 }
 
-/// One field of a line, without quotes and blanks around it.
+/// A field of a line, without its quotes and surrounding blanks.
 struct Field {
     std::string_view text;
-    const char* at;  ///< where it begins in the line
+    const char* at;  ///< start of the text in the line
 };
 
-/// The end of the field that begins at `p`: the next separator outside quotes.
+/// End of the field that starts at `p`: the next separator outside quotes.
 const char* field_end(const char* p, const char* last, char separator) {
     if (p != last && *p == '"') {
         const char* close = std::find(p + 1, last, '"');
@@ -65,8 +66,8 @@ Field field_between(const char* first, const char* last) {
     return {{first, static_cast<std::size_t>(last - first)}, at};
 }
 
-/// The name that a header has: letters that are not UTF-8 are those of Latin-1, as spreadsheets write
-/// them.
+/// A column's name as UTF-8: bytes that are not valid UTF-8 are read as Latin-1, which spreadsheets
+/// write.
 std::string name_in(std::string_view text) {
     std::string name(text);
     if (utf8_of(code_points(text)) == name) return name;
@@ -75,13 +76,13 @@ std::string name_in(std::string_view text) {
     return name;
 }
 
-/// The fields of a line, one after the other.
+/// Iterates over the fields of a line.
 class FieldReader {
   public:
     FieldReader(std::string_view line, char separator)
         : p_(line.data()), last_(line.data() + line.size()), separator_(separator) {}
 
-    /// Takes the next field. False: there is none.
+    /// Reads the next field; false at the end of the line.
     bool next(Field& field) {
         if (ended_) return false;
         p_ = over_blanks(p_, last_, separator_);
@@ -113,13 +114,13 @@ bool is_number(std::string_view text) {
     return !text.empty() && read_number(text.data(), last, value) == last;
 }
 
-/// Takes the finite number that a field holds. False: it holds none.
+/// Parses a finite number; false if the field is not one.
 bool take_number(const Field& field, double& value) {
     const char* const last = field.text.data() + field.text.size();
     return read_number(field.text.data(), last, value) == last && std::isfinite(value);
 }
 
-/// A number such as 0,5 with a point in place of its one comma; empty: it is none, or has both.
+/// Replaces a decimal comma (0,5) by a point; empty if the text is not such a number.
 std::string with_point(std::string_view text) {
     const auto comma = text.find(',');
     if (comma == std::string_view::npos || text.find('.') != std::string_view::npos) return {};
@@ -128,7 +129,7 @@ std::string with_point(std::string_view text) {
     return is_number(number) ? number : "";
 }
 
-/// The same of a file that has decimal commas.
+/// As take_number(), for files with decimal commas.
 bool take_number_with_comma(const Field& field, double& value) {
     if (field.text.find('.') != std::string_view::npos) return false;
     if (field.text.find(',') == std::string_view::npos) return take_number(field, value);
@@ -136,7 +137,7 @@ bool take_number_with_comma(const Field& field, double& value) {
     return !number.empty() && take_number({number, field.at}, value);
 }
 
-/// Whether a field says that its number is missing.
+/// Whether a field marks a missing number.
 bool is_gap(const Field& field) {
     double value = 0;
     const char* const last = field.text.data() + field.text.size();
@@ -144,7 +145,7 @@ bool is_gap(const Field& field) {
            (read_number(field.text.data(), last, value) == last && std::isnan(value));
 }
 
-/// What is wrong with a field that does not hold one.
+/// Describes why a field is not a finite number.
 std::string trouble_with(const Field& field, bool decimal_comma) {
     if (field.text.empty()) return "an empty field; expected a number";
     if (decimal_comma && field.text.find('.') != std::string_view::npos)
@@ -163,21 +164,21 @@ std::string trouble_with(const Field& field, bool decimal_comma) {
            "; expected a finite number";
 }
 
-/// Rows of one text.
+/// Parser of rows.
 class RowReader {
   public:
     RowReader(const SourceText& text, const Columns& columns, const Dialect& dialect)
         : text_(text), columns_(columns), dialect_(dialect) {}
 
-    /// Rows that the lines in [p, last) hold at most.
+    /// Upper bound for the number of rows in [p, last).
     [[nodiscard]] std::uint64_t most_rows(const char* p, const char* last) const {
         const auto lines = 1 + static_cast<std::uint64_t>(std::count(p, last, text_.newline()));
-        const std::uint64_t least_bytes =  // of a row
+        const std::uint64_t least_bytes =  // per row
             columns_.width() + (dialect_.gaps ? 0 : columns_.dimension);
         return std::min(lines, 1 + static_cast<std::uint64_t>(last - p) / least_bytes);
     }
 
-    /// Reads the lines in [p, last), at most as many rows as fit `room`; returns their number.
+    /// Parses the lines in [p, last) into `room`; returns the number of rows.
     std::uint64_t read(const char* p, const char* last, std::span<double> room,
                        std::vector<Mark>& marks) const {
         std::uint64_t count = 0;
@@ -189,7 +190,7 @@ class RowReader {
             const bool aside = first != end && *first == (dialect_.brackets ? '{' : '#');
             if (aside && (dialect_.brackets || trim(line) == "#"))
                 marks.push_back({count, p, unknown});
-            // A table of one column holds nothing where its number is missing.
+            // In a table with one column, an empty line is a missing number.
             const bool gap = first == end && dialect_.gaps && columns_.width() == 1;
             if (gap) room[count++] = unknown;
             if (first != end && !aside) {
@@ -205,14 +206,14 @@ class RowReader {
     }
 
   private:
-    /// The words that a column holds; null: it holds numbers.
+    /// Level names of a column; null for numeric columns.
     const std::vector<std::string>* words_of(std::size_t c) const {
         const std::size_t role = columns_.role[c];
         const bool some = role < columns_.words.size() && !columns_.words[role].empty();
         return some ? &columns_.words[role] : nullptr;
     }
 
-    /// The number that a field of a column stands for. @throws Error(input)
+    /// Value of a field: its number, or the index of its level name. @throws Error(input)
     double number_in(std::string_view line, const Field& field, std::size_t c) const {
         const auto* words = words_of(c);
         const bool gap = dialect_.gaps && is_gap(field);
@@ -234,7 +235,7 @@ class RowReader {
         return value;
     }
 
-    /// Puts a value where its column belongs; false where it cannot be.
+    /// Stores a value in its coordinate or set number; false if it is not a valid set number.
     bool store(std::size_t c, double value, double* row, double& set) const {
         const std::size_t role = columns_.role[c];
         if (role < columns_.dimension) {
@@ -246,10 +247,10 @@ class RowReader {
         return true;
     }
 
-    /// Takes a row. @throws Error(input)
+    /// Parses one row. @throws Error(input)
     void read_row(std::string_view line, double* row, double& set) const {
         FieldReader fields(dialect_.brackets ? inside_brackets(line) : line, dialect_.separator);
-        const char* surplus = nullptr;  // the first field beyond the last column
+        const char* surplus = nullptr;  // first field beyond the last column
         std::size_t count = 0;
         for (Field field{}; fields.next(field); ++count) {
             if (count == columns_.width()) surplus = field.at;
@@ -267,7 +268,7 @@ class RowReader {
                                             : std::string()));
     }
 
-    /// Says first what is no text. @throws Error(input)
+    /// Reports a control byte in the line if there is one, else the error. @throws Error(input)
     [[noreturn]] void refuse(std::string_view line, const char* at, const std::string& what) const {
         if (const char* bad = first_control_byte(line))
             text_.refuse(bad, fmt::format("byte 0x{:02X} is not text; expected numbers",
@@ -293,18 +294,18 @@ class RowReader {
     Dialect dialect_;
 };
 
-/// A stretch of whole lines, and what was read there.
+/// A block of whole lines and the results of parsing it.
 struct Piece {
     const char* first = nullptr;
     const char* last = nullptr;
-    std::uint64_t room = 0;  ///< rows that it can hold at most
+    std::uint64_t room = 0;  ///< upper bound for the number of rows
     std::uint64_t begin = 0;
     std::uint64_t count = 0;
     std::vector<Mark> marks = {};
     std::optional<Error> error = {};
 };
 
-/// Cuts [body, end) at the first line start of each block.
+/// Divides [body, end) into blocks; each ends at the first line start after its nominal end.
 std::vector<Piece> cut_at_lines(const SourceText& text, const char* body, const RowReader& reader,
                                 const RunContext& run) {
     const auto line_from = [&](std::uint64_t byte) {
@@ -323,7 +324,7 @@ std::vector<Piece> cut_at_lines(const SourceText& text, const char* body, const 
     return pieces;
 }
 
-/// Closes the gaps behind pieces that held fewer rows than lines.
+/// Moves rows together: pieces may hold fewer rows than were reserved for them.
 Rows close_gaps(std::vector<Piece>& pieces, std::vector<double> numbers, std::size_t dimension) {
     Rows rows;
     std::uint64_t count = 0;
@@ -350,7 +351,7 @@ bool is_header(const std::vector<Field>& fields) {
            std::ranges::any_of(fields, [](const Field& f) { return !f.text.empty(); });
 }
 
-/// Whether numbers, some with a decimal comma, stand between tabs.
+/// Whether the fields are numbers between tabs, at least one with a decimal comma.
 bool has_tabs_and_commas(std::string_view line) {
     if (line.find('\t') == std::string_view::npos) return false;
     bool comma = false;
@@ -362,7 +363,7 @@ bool has_tabs_and_commas(std::string_view line) {
     return comma;
 }
 
-/// What separates fields, told by a line; a header may have names with blanks between tabs.
+/// Guesses the separator from a line. Names in a header may contain blanks if tabs separate them.
 char separator_of(std::string_view line) {
     if (has_tabs_and_commas(line)) return '\t';
     for (const char separator : {';', ','})
@@ -413,7 +414,7 @@ std::vector<std::uint64_t> set_starts(const SourceText& text, const Rows& rows,
                                       std::size_t dimension) {
     std::vector<std::uint64_t> starts{0};
     for (const Mark& mark : rows.marks) {
-        if (mark.row == 0) continue;  // comments above the first point
+        if (mark.row == 0) continue;  // comments before the first point
         if (mark.row == starts.back() || mark.row * dimension == rows.numbers.size())
             text.refuse(mark.at,
                         "a set without points; a line such as this stands between two sets");
@@ -449,10 +450,10 @@ Top read_top(const SourceText& text) {
 
 namespace {
 
-/// Rows whose set numbers change, brought together: the sets in the order of their first rows.
+/// Groups rows by set number; sets are ordered by their first rows.
 std::vector<PointSet> gather_sets(Rows rows, std::size_t dimension, const Provenance& provenance) {
     std::vector<Mark>& marks = rows.marks;
-    // Blocks repeat the number of the set that they begin in; `#` lines mean nothing here.
+    // Blocks repeat the number of their first set. `#` lines have no meaning in a table.
     std::erase_if(marks, [](const Mark& mark) { return std::isnan(mark.number); });
     const auto same = [](const Mark& a, const Mark& b) { return a.number == b.number; };
     marks.erase(std::unique(marks.begin(), marks.end(), same), marks.end());
@@ -475,17 +476,18 @@ std::vector<PointSet> gather_sets(Rows rows, std::size_t dimension, const Proven
     return result;
 }
 
-/// What the top of a table tells.
+/// Results of reading the top of a table.
 struct TableHead {
     Top top;
     Dialect dialect;
     Columns columns;
-    bool names = false;        ///< the first line is a header
-    bool row_names = false;    ///< the first column, which has no name
-    std::string counter = {};  ///< the first column, taken for a coordinate, that counts the rows
-    std::string measure = {};  ///< the column pdf or weight beside columns with names of their own
-    const char* body = nullptr;  ///< where rows begin
-    bool words_to_find = false;  ///< the first row has words that nothing above it tells of
+    bool names = false;          ///< the first line is a header
+    bool row_names = false;      ///< the first column has no name and holds row names
+    std::string counter = {};    ///< name of the first column if it is a coordinate that counts the
+                                 ///< rows
+    std::string measure = {};    ///< name of the column pdf or weight next to named columns
+    const char* body = nullptr;  ///< start of the rows
+    bool words_to_find = false;  ///< the first row has words that are not known levels
 
     void tell_row_names(const std::string& source, const RunContext& run) const {
         if (row_names)
@@ -506,7 +508,7 @@ struct TableHead {
     }
 };
 
-/// Shows the fields of the first thousand rows, until it gives false.
+/// Calls `look` with the fields of each of the first 1000 rows, until it returns false.
 void look_at_rows(const SourceText& text, const char* body, char separator,
                   const std::function<bool(const std::vector<Field>&)>& look) {
     int left = 1000;
@@ -518,7 +520,7 @@ void look_at_rows(const SourceText& text, const char* body, char separator,
     }
 }
 
-/// Whether the first fields of the rows are 0, 1, 2, ... or 1, 2, 3, ...
+/// Whether the first fields are 0, 1, 2, ... or 1, 2, 3, ...
 bool counts_rows(const SourceText& text, const char* body, char separator) {
     constexpr int few = 3;
     int rows = 0;
@@ -532,7 +534,7 @@ bool counts_rows(const SourceText& text, const char* body, char separator) {
     return counts && rows >= few && (first == 0 || first == 1);
 }
 
-/// Whether the first number that is not whole has a decimal comma.
+/// Whether the first fractional number has a decimal comma.
 bool has_decimal_comma(const SourceText& text, const char* body, char separator) {
     bool comma = false;
     if (separator == ',' || separator == ' ') return comma;
@@ -547,7 +549,7 @@ bool has_decimal_comma(const SourceText& text, const char* body, char separator)
     return comma;
 }
 
-/// Whether a field holds a word that stands for a number, rather than a number with a mistake.
+/// Whether a field holds a level name, rather than a misspelled number.
 bool holds_word(const Field& field) {
     const auto is_letter = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
@@ -556,8 +558,8 @@ bool holds_word(const Field& field) {
     return is_word(std::string(field.text)) && std::ranges::any_of(field.text, is_letter);
 }
 
-/// The words of a column, sorted; none where it holds numbers, too, or more words than are levels, and
-/// of a single row, whose word is rather a mistake.
+/// Sorted distinct words of a column. Empty if the column also holds numbers, has too many words,
+/// or has only one row, whose word is more likely a mistake.
 std::vector<std::string> words_in_column(const SourceText& text, const TableHead& head,
                                          std::size_t c) {
     constexpr std::size_t most = 10'000;
@@ -567,7 +569,7 @@ std::vector<std::string> words_in_column(const SourceText& text, const TableHead
         const std::string_view line = line_at(text, at);
         if (trim(line).empty() || trim(line).starts_with('#')) continue;
         const auto fields = fields_of(line, head.dialect.separator);
-        if (fields.size() <= c) break;  // the row is refused later
+        if (fields.size() <= c) break;  // an error is reported later
         if (head.dialect.gaps && is_gap(fields[c])) continue;
         if (!holds_word(fields[c]) || words.size() > most) return {};
         words.emplace(fields[c].text);
@@ -577,7 +579,7 @@ std::vector<std::string> words_in_column(const SourceText& text, const TableHead
     return {words.begin(), words.end()};
 }
 
-/// Finds the words of columns of which nothing tells them.
+/// Finds the level names of columns for which the provenance has none.
 void find_words(TableHead& head, const SourceText& text, const std::string& source,
                 const RunContext& run) {
     for (std::size_t c = 0; head.words_to_find && c < head.columns.width(); ++c) {
@@ -596,7 +598,7 @@ void find_words(TableHead& head, const SourceText& text, const std::string& sour
     }
 }
 
-/// Which columns hold words, as the provenance tells, and whether others do.
+/// Takes level names from the provenance and detects further columns with words.
 void take_words(TableHead& head, const SourceText& text) {
     Columns& columns = head.columns;
     columns.words.resize(columns.names.size());
@@ -610,7 +612,8 @@ void take_words(TableHead& head, const SourceText& text) {
             const std::size_t role = columns.role[c];
             if (role >= columns.words.size() || (head.dialect.gaps && is_gap(fields[c]))) continue;
             auto& words = columns.words[role];
-            // They were written as numbers; but nan may be a word.
+            // A number that is not a level name: the column was written as numbers. "nan" may be a
+            // level.
             if (is_number(fields[c].text) &&
                 std::ranges::find(words, fields[c].text) == words.end())
                 words.clear();
@@ -647,14 +650,14 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
         !options.all_columns && names[0] != "set" &&
         counts_rows(text, head.body, head.dialect.separator))
         head.counter = names[0];
-    // Points of our own have usual names beside them.
+    // Points written by stipple have default names next to pdf or weight.
     if (head.names && options.columns.empty() && !head.top.provenance.columns.empty())
         for (std::size_t c = 0; c < names.size(); ++c)
             if (head.columns.role[c] == Columns::checked) head.measure = names[c];
     return head;
 }
 
-/// Rows of a text that is parsed in parts, each of whole lines.
+/// Stream of rows, parsed in parts of whole lines.
 class DelimitedStream final : public PointStream {
   public:
     DelimitedStream(std::unique_ptr<Feed> feed, const TableHead& head, const SourceText& front,
@@ -677,7 +680,7 @@ class DelimitedStream final : public PointStream {
     std::size_t dimension() const override { return columns_.dimension; }
     const Provenance& provenance() const override { return provenance_; }
 
-    /// Below a header sets are told by a column; lines `#` stand in texts without.
+    /// With a header, a column numbers the sets; without one, `#` lines separate them.
     bool looks_like_one_set() const override { return names_ && !numbered(); }
 
     bool next_set() override {
@@ -706,7 +709,7 @@ class DelimitedStream final : public PointStream {
     }
 
   private:
-    /// A line `#` between two sets, and the first row behind it among all.
+    /// A `#` line between two sets, and the index of the first row after it.
     struct Cut {
         std::uint64_t row;
         std::size_t line;
@@ -718,7 +721,7 @@ class DelimitedStream final : public PointStream {
     bool numbered() const { return columns_.has(Columns::set_number); }
     bool cut_here() const { return !marks_.empty() && marks_.front().row == at_; }
 
-    /// Parses the next part; false at the end. A part may hold no rows.
+    /// Parses parts until there is a new row or a cut; false at the end. A part may hold no rows.
     bool refill() {
         while (at_ == part_end()) {
             if (!read_lines()) {
@@ -731,7 +734,7 @@ class DelimitedStream final : public PointStream {
         return true;
     }
 
-    /// Moves what is left of an incomplete line to the front, and reads on behind it.
+    /// Moves the incomplete last line to the front of the buffer and reads on.
     bool read_lines() {
         text_.erase(0, used_);
         used_ = 0;
@@ -756,7 +759,7 @@ class DelimitedStream final : public PointStream {
         for (const Mark& mark : rows_.marks) {
             if (numbered()) break;
             const Cut cut{part_begin_ + mark.row, text.line_of(mark.at)};
-            if (cut.row == 0) continue;  // comments above the first point
+            if (cut.row == 0) continue;  // comments before the first point
             if (cut.row == last_cut_.row) refuse_empty(cut.line);
             marks_.push_back(cut);
             last_cut_ = cut;
@@ -764,8 +767,8 @@ class DelimitedStream final : public PointStream {
         lines_ = text.line_of(text.end()) - 1;
     }
 
-    /// Finds where the column that tells the set changes. What is read in parts cannot be brought
-    /// together, as the rows of a small file are.
+    /// Finds changes of the set number. Unlike in a small file, rows of one set must be adjacent:
+    /// earlier rows are no longer available.
     void cut_at_numbers(const SourceText& text) {
         for (const Mark& mark : rows_.marks) {
             if (std::isnan(mark.number) || mark.number == number_) continue;
@@ -800,15 +803,15 @@ class DelimitedStream final : public PointStream {
     char newline_;
     bool started_ = false;
     std::string text_;
-    std::size_t used_ = 0;   ///< bytes of text_ that were parsed
-    std::size_t lines_ = 0;  ///< before the next part
+    std::size_t used_ = 0;   ///< bytes of text_ already parsed
+    std::size_t lines_ = 0;  ///< lines before the next part
     Rows rows_;
-    std::uint64_t part_begin_ = 0;  ///< the first row of this part among all
-    std::uint64_t at_ = 0;          ///< the next row among all
+    std::uint64_t part_begin_ = 0;  ///< index of this part's first row in the stream
+    std::uint64_t at_ = 0;          ///< index of the next row in the stream
     std::vector<Cut> marks_;
     Cut last_cut_{0, 0};
-    double number_ = unknown;          ///< of the set, where a column tells it
-    std::unordered_set<double> seen_;  ///< numbers of sets that began
+    double number_ = unknown;          ///< number of the current set, from the set column
+    std::unordered_set<double> seen_;  ///< set numbers seen so far
 };
 
 }  // namespace
@@ -839,7 +842,7 @@ std::unique_ptr<PointStream> stream_delimited(std::unique_ptr<Feed>& feed,
     try {
         head = read_head(front, options);
     } catch (const Error&) {
-        return nullptr;  // the whole text says better what is wrong
+        return nullptr;  // reading the whole text gives a better message
     }
     const bool cut_off = std::find(head->body, front.end(), front.newline()) == front.end();
     if (cut_off || head->words_to_find) return nullptr;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Rows of numbers in text, read on all cores: the common part of csv, txt, psa and jsonl.
+// Parallel reader of rows of numbers in text, shared by csv, txt, psa and jsonl.
 #pragma once
 
 #include <cstdint>
@@ -16,61 +16,61 @@
 
 namespace stipple::io {
 
-/// How a row is written.
+/// Syntax of a row.
 struct Dialect {
-    char separator = ' ';        ///< a blank stands for any run of blanks and tabs
-    bool brackets = false;       ///< a row is [x,y]; lines that begin with { stand between rows
+    char separator = ' ';        ///< a blank matches any run of blanks and tabs
+    bool brackets = false;       ///< rows are [x,y]; lines starting with { separate sets
     bool comma = false;          ///< numbers have a decimal comma: 0,5
-    bool gaps = false;           ///< numbers may be missing: NaN
-    std::size_t model_line = 0;  ///< that decided what the columns are; 0: none did
+    bool gaps = false;           ///< missing numbers are allowed, and read as NaN
+    std::size_t model_line = 0;  ///< number of the line that defined the columns; 0: none
 };
 
-/// A line between rows at which a new set may begin.
+/// A line between rows where a new set may begin.
 struct Mark {
-    std::uint64_t row;  ///< the first row behind it
+    std::uint64_t row;  ///< index of the first row after it
     const char* at;
-    double number;  ///< of the set; NaN for a line `#`, or one that begins with {
+    double number;  ///< the set's number; NaN for `#` lines and lines starting with {
 };
 
 struct Rows {
-    std::vector<double> numbers;  ///< columns.dimension of each row
+    std::vector<double> numbers;  ///< columns.dimension numbers per row
     std::vector<Mark> marks;
 };
 
-/// Reads rows from `body`, the start of a line, to the end of the text. Blank lines and comments are
-/// passed over.
-/// @throws Error(input), the first in the text whatever the threads; Error(limit),
-/// Error(cancelled).
+/// Reads the rows from `body`, the start of a line, to the end of the text. Blank lines and
+/// comments are skipped.
+/// @throws Error(input) for the first error in the text, whatever the number of threads;
+/// Error(limit), Error(cancelled)
 Rows read_rows(const SourceText& text, const char* body, const Columns& columns,
                const Dialect& dialect, const RunContext& run);
 
-/// Where sets begin: at the marks behind the first row.
-/// @throws Error(input) for a set without points.
+/// Index of the first row of each set: 0 and the rows after marks.
+/// @throws Error(input) for a set without points
 std::vector<std::uint64_t> set_starts(const SourceText& text, const Rows& rows,
                                       std::size_t dimension);
 
-/// What stands above the first row, and what it tells.
+/// Everything above the first row.
 struct Top {
-    Provenance provenance;  ///< of `# key: value` lines
-    const char* first;      ///< the first line that is neither blank nor a comment
-    const char* next;       ///< the line below it
+    Provenance provenance;  ///< from `# key: value` lines
+    const char* first;      ///< first line that is neither blank nor a comment
+    const char* next;       ///< the line after it
 };
 
-/// @throws Error(input) when nothing but comments is there.
+/// @throws Error(input) if there are only comments or blank lines
 Top read_top(const SourceText& text);
 
-/// The line that begins there, without what ends it.
+/// The line that starts at `begin`, without its line end.
 std::string_view line_at(const SourceText& text, const char* begin);
 
-/// Where the line below begins, or the end of the text.
+/// Start of the next line, or the end of the text.
 const char* next_line(const SourceText& text, const char* at);
 
-/// Reads csv, tsv and txt: whatever separates, with a header or without.
+/// Reads csv, tsv and txt with any separator, with or without a header.
 std::vector<PointSet> read_delimited(std::string_view bytes, const ReadOptions& options,
                                      const RunContext& run);
 
-/// The same in blocks; nothing where the front does not show what the columns are. The rows of a
-/// set must stand together.
+/// As read_delimited(), in blocks. Returns null if the front of the file does not determine the
+/// columns. Rows of one set must be adjacent.
 std::unique_ptr<PointStream> stream_delimited(std::unique_ptr<Feed>& feed,
                                               const ReadOptions& options, const RunContext& run);
 

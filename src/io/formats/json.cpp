@@ -7,15 +7,15 @@
 //     [0.5,0.25]
 //     ]}
 //
-// Several sets stand as "sets":[[[0,0],[0.5,0.25]],...] in place of the points; `count` is then
-// that of each set, or a list where they differ. Rows with extras name their "columns". The reader
-// takes the keys in any order, ignores those that it does not know, and takes a bare [[x,y],...]
-// or records [{"x":0,"y":0},...] too.
+// Several sets are "sets":[[[0,0],[0.5,0.25]],...] instead of the points; `count` then applies to
+// each set, or is a list if they differ. Rows with extras have "columns". The reader accepts the
+// keys in any order and ignores unknown ones. It also accepts a bare [[x,y],...] and records
+// [{"x":0,"y":0},...].
 //
-// The points are scanned here rather than by the JSON library, which takes eight times as long for
-// them and cannot say where a point stands that is not like the others; all else is left to it.
+// The points are parsed here, since the JSON library takes eight times as long and cannot locate a
+// malformed point; everything else is left to it.
 //
-// Cost    45 ns a number on one core; memory for the points beside the file's bytes.
+// Cost    45 ns per number on one core; memory for the points in addition to the file.
 // Source  T. Bray, RFC 8259, 2017.
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -75,7 +75,7 @@ class Reader {
                 "\"points\":[[0.1,0.2],...]");
     }
 
-    /// @throws Error(input) where what is to be a coordinate of records is no number
+    /// @throws Error(input) if a coordinate of a record is not a number
     void require_numbers(const Columns& columns) {
         for (std::size_t c = 0; c < words_.size(); ++c)
             if (words_[c] != nullptr && columns.role[c] < columns.dimension) {
@@ -94,7 +94,7 @@ class Reader {
         while (p_ != last_ && (*p_ == ' ' || *p_ == '\n' || *p_ == '\r' || *p_ == '\t')) ++p_;
     }
 
-    /// What stands at the cursor, for messages.
+    /// The word at the cursor, for messages.
     [[nodiscard]] std::string_view word() const {
         const char* end = std::find_if(p_, last_, [](char c) {
             return c == ',' || c == ']' || c == '}' || c == ':' || c == '\n' || c == '\r' ||
@@ -109,7 +109,7 @@ class Reader {
         text_.refuse(p_, "found " + shown(word()) + "; expected " + expected);
     }
 
-    /// Takes `c`, or leaves the cursor.
+    /// Skips blanks and consumes `c`; returns false if another character follows.
     bool accept(char c) {
         skip_blanks();
         if (p_ == last_ || *p_ != c) return false;
@@ -146,7 +146,8 @@ class Reader {
         expect(']', "',' or ']'");
     }
 
-    /// Its values go where the names of the first record stand; what is no number is noted.
+    /// Parses a record into the columns named by the first one; remembers values that are not
+    /// numbers.
     void read_record() {
         expect('{', "a record such as {\"x\":0.1,\"y\":0.2}");
         const char* const begin = p_ - 1;
@@ -180,7 +181,7 @@ class Reader {
                                             count, width));
     }
 
-    /// A name of the first record.
+    /// Adds a name of the first record; returns its index.
     std::size_t add_name(std::string_view key) {
         if (std::ranges::find(keys_, key) != keys_.end())
             text_.refuse(key.data(), "a name for a second time");
@@ -191,7 +192,7 @@ class Reader {
         return keys_.size() - 1;
     }
 
-    /// Where the first record has the name; mostly at the same place.
+    /// Index of the name in the first record. `place` is a guess: the order is usually the same.
     [[nodiscard]] std::size_t column_of(std::string_view key, std::size_t place) const {
         if (place < keys_.size() && keys_[place] == key) return place;
         const auto it = std::ranges::find(keys_, key);
@@ -200,7 +201,7 @@ class Reader {
         return static_cast<std::size_t>(it - keys_.begin());
     }
 
-    /// A first row as long as the others makes this the only allocation.
+    /// Reserves for all rows, assuming that they are as long as the first, to allocate only once.
     void reserve_for(const char* begin) {
         const auto rows = (last_ - begin) / std::max<std::ptrdiff_t>(p_ - begin, 1) + 1;
         const std::size_t room = static_cast<std::size_t>(rows) * width;
@@ -242,7 +243,8 @@ class Reader {
         ++p_;
     }
 
-    /// The text of a value that is not ours to scan; all that is left, where it is too deep.
+    /// Skips a value for the JSON library to parse and returns its text; the rest of the text if it
+    /// is nested too deep.
     std::string_view skip_value() {
         const std::string_view rest(p_, last_);
         const auto [size, too_deep] = json_extent(rest);
@@ -309,8 +311,8 @@ class Reader {
     const RunContext& run_;
     const char* p_;
     const char* last_;
-    std::vector<std::string_view> keys_;  ///< of the first record, as they are written
-    std::vector<const char*> words_;      ///< the first value under each that is no number
+    std::vector<std::string_view> keys_;  ///< names in the first record, still escaped
+    std::vector<const char*> words_;      ///< for each column, the first value that is not a number
 };
 
 std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,

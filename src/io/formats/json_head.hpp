@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What json and jsonl say about points besides the points:
+// Data besides the points, common to json and jsonl:
 //
 //     {"format":"stipple.points","version":1,"meta":{...},"dimension":2,"count":1024
 #pragma once
@@ -19,33 +19,36 @@
 
 namespace stipple::io {
 
-/// The text above, up to the points: without a closing brace. Extras add "columns":["x","y","pdf"].
+/// The text above, up to the points and without a closing brace. Extras add
+/// "columns":["x","y","pdf"].
 std::string json_head(const Layout& layout, const Counts& counts);
 
-/// What a reader found.
+/// Contents of the head.
 struct JsonHead {
     Provenance provenance = {};
-    std::vector<std::string> columns = {};  ///< empty: not named
+    std::vector<std::string> columns = {};  ///< empty: none given
     std::optional<std::uint64_t> dimension = {};
-    std::vector<std::uint64_t> counts = {};  ///< empty: not said; one: of each set
-    const char* dimension_at = nullptr;      ///< where they are said
+    std::vector<std::uint64_t> counts = {};  ///< per set; empty: not given; one number: the same
+                                             ///< for all sets
+    const char* dimension_at = nullptr;      ///< position in the text, for messages
     const char* counts_at = nullptr;
 };
 
-/// Takes one key. @throws Error(input) when it says that these are no points that we know.
+/// Stores the value of one key. @throws Error(input) for an invalid value or an unsupported format
 void take_key(const SourceText& text, const char* at, std::string_view key,
               const nlohmann::ordered_json& value, JsonHead& head);
 
-/// The JSON value of a piece of the text. @throws Error(input) at the byte where it stops being
-/// one, or is too deep.
+/// Parses a piece of the text. @throws Error(input) at the first byte that is invalid or nested too
+/// deep
 nlohmann::ordered_json parse_piece(const SourceText& text, std::string_view piece);
 
-/// Decides what the columns of rows of `width` numbers are, and notes the one of densities.
-/// @throws Error(input) when the head says otherwise.
+/// Assigns roles to columns of rows with `width` numbers, and records the density column in the
+/// head.
+/// @throws Error(input) if the head contradicts them
 Columns json_columns(const SourceText& text, JsonHead& head, std::size_t width,
                      const ReadOptions& options);
 
-/// @throws Error(input) when the head counts otherwise.
+/// @throws Error(input) if the counts in the head differ
 void check_counts(const SourceText& text, const JsonHead& head,
                   const std::vector<std::uint64_t>& found);
 

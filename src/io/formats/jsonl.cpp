@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// JSON lines: an object about a set, then a point a line.
+// JSON lines: one object that describes a set, then one point per line.
 //
 //     {"format":"stipple.points","version":1,"meta":{...},"dimension":2,"count":2}
 //     [0,0]
 //     [0.5,0.25]
 //
-// Several sets: each has such a line before its points, with its number under "set". The reader
-// also takes lines of points without any object, and objects without any of the keys.
+// Each of several sets has such an object before its points, with its number under "set". The
+// reader also accepts points without any object, and objects without some of the keys.
 //
-// Source  https://jsonlines.org; the points are read like the rows of csv.
+// Source  https://jsonlines.org; points are parsed like rows of csv.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -43,7 +43,7 @@ JsonHead head_at(const SourceText& text, const char* line) {
     return head;
 }
 
-/// The first line from `line` on that is neither blank nor an object.
+/// The first line at or after `line` that is neither blank nor an object.
 const char* first_row(const SourceText& text, const char* line) {
     for (; line != text.end(); line = next_line(text, line)) {
         const std::string_view content = trim(line_at(text, line));

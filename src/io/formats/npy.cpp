@@ -30,7 +30,7 @@ void rows(const Layout& layout, std::size_t, std::uint64_t, std::span<const doub
     append_raw(out, numbers, layout.single);
 }
 
-/// Point after point what was stored with the first index running fastest.
+/// Converts column-major order to row-major.
 std::vector<double> rows_first(const std::vector<double>& stored, std::size_t sets, std::size_t n,
                                std::size_t d) {
     std::vector<double> table(stored.size());
@@ -41,7 +41,7 @@ std::vector<double> rows_first(const std::vector<double>& stored, std::size_t se
     return table;
 }
 
-/// @throws Error(input) where the array is not one of points
+/// @throws Error(input) if the array's shape does not fit points
 RawShape shape_of(const NpyHeader& header) {
     const std::size_t rank = header.shape.size();
     if (rank == 0 || rank > 3)
@@ -75,7 +75,7 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     return cut_sets(keep_coordinates(std::move(table), columns), columns.dimension, starts, {});
 }
 
-/// Point after point; what is stored with the first index running fastest needs all of it.
+/// Streams row-major arrays. Returns null for column-major ones, which must be read as a whole.
 std::unique_ptr<PointStream> stream(std::unique_ptr<Feed>& feed, const ReadOptions& options,
                                     const RunContext& run) {
     const std::string source = source_name(options.source);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Polygon file: the points as vertices x, y, z (0 where there is none), and no faces; binary, or
-// text where digits are asked for. With several sets, a vertex also has its set's number.
+// Polygon file with the points as vertices x, y, z (missing coordinates are 0) and no faces;
+// binary, or text if a precision is given. With several sets, each vertex also has its set's
+// number.
 //
-// Shape   1 to 3 dimensions, float64 or float32; extras are properties of their names. Write only.
+// Shape   1 to 3 dimensions, float64 or float32; extras become properties of the same name. Write
+//         only.
 // Source  G. Turk, The PLY polygon file format, Stanford University, 1994.
 #include <fmt/format.h>
 

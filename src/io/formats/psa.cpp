@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Point set analysis: the number of points on the first line, then `x y` a line.
+// Point set analysis: the number of points on the first line, then one point `x y` per line.
 //
 // Shape   one set of 2-D points.
-// Beware  never detected: without its name, the first line would be a point with one coordinate.
+// Beware  never detected by content: its first line looks like a point with one coordinate.
 // Source  the text files of PSA, the program for point set analysis by T. Schloemer.
 #include "core/error.hpp"
 #include "core/text.hpp"

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// A picture: every point a disk on a light ground, y upward, the longer side 1000 units. A disk's
-// radius is 0.15 of the mean distance sqrt(area / n), between 0.5 and 10 units.
-//
-// Of more coordinates than two, every pair in a panel of its own, side by side for as many as make
-// one point: x_i to the right and x_j > x_i upward in column i and row j - 1, with the ranges that
-// a panel shows below it. Where the points' domain is one (no product), lengths are alike along all
-// coordinates; else each is stretched to its panel: pixel, time and lens of one row have different
+// A picture: every point is a disk on a light ground, with y upward; the longer side has 1000
+// units. The radius of the disks is 0.15 times the mean distance sqrt(area / n), between 0.5 and 10
 // units.
 //
-// Shape   one set of points of 2 to 8 coordinates; extras are left out. Write only.
-// Beware  a tenth of a unit is what a point's place is cut to: for eyes, not for numbers. Disks of
-//         d coordinates are d (d - 1) / 2 a point.
+// With more than two coordinates, each pair has a panel: column i, row j - 1 shows x_i to the right
+// and x_j > x_i upward, with the ranges below the panel. All panels have the same scale if the
+// points' domain is a single one. On products of domains each coordinate is scaled to the panel,
+// since pixel, time and lens of one row have different units.
+//
+// Shape   one set of points with 2 to 8 coordinates; extras are omitted. Write only.
+// Beware  positions are rounded to a tenth of a unit: for viewing, not for reading back. Each point
+//         of d coordinates gives d (d - 1) / 2 disks.
 // Source  W3C, Scalable Vector Graphics 1.1.
 #include <fmt/format.h>
 
@@ -30,7 +30,7 @@ namespace {
 constexpr double margin = 20;
 constexpr double longer_side = 1000;
 
-/// The panel of two coordinates: where it stands, and how points are scaled into it.
+/// Panel of two coordinates: its position on the sheet, and the scaling of points into it.
 struct Panel {
     std::size_t i;
     std::size_t j;
@@ -38,7 +38,7 @@ struct Panel {
     double top;
     double width;
     double height;
-    double room;  ///< for words below it
+    double room;  ///< width available to the caption below
     double low_x;
     double high_y;
     double scale_x;
@@ -53,7 +53,7 @@ struct Sheet {
     double radius = 0;
 };
 
-/// @throws Error(input) where a side is no number of float64.
+/// @throws Error(input) if a side is too long for float64
 const Box& finite(const Box& box) {
     for (std::size_t k = 0; k < box.dimension(); ++k)
         if (!std::isfinite(box.extent(k)))
@@ -70,7 +70,7 @@ Box box_of(const Layout& layout) {
     return {std::vector<double>(d, 0.0), std::vector<double>(d, 1.0)};
 }
 
-/// @param alike lengths along all coordinates are
+/// @param alike whether all coordinates have the same scale
 Panel panel_of(const Box& box, std::size_t i, std::size_t j, bool alike) {
     const auto columns = static_cast<double>(box.dimension() - 1);
     const double side = (longer_side - (columns - 1) * margin) / columns;
@@ -110,14 +110,14 @@ Sheet sheet_of(const Layout& layout) {
     return sheet;
 }
 
-/// Less the letters that mean something to XML.
+/// Removes characters with a special meaning in XML, and control characters.
 std::string without_markup(std::string text) {
     std::erase_if(
         text, [](char c) { return c == '<' || c == '&' || static_cast<unsigned char>(c) < 0x20; });
     return text;
 }
 
-/// What a picture is called.
+/// Title of the picture.
 std::string title_of(const Layout& layout) {
     std::string title = fmt::format("{} points", layout.counts[0]);
     if (!layout.provenance.generator.empty()) title = layout.provenance.generator + ", " + title;
@@ -125,8 +125,7 @@ std::string title_of(const Layout& layout) {
     return without_markup(title);
 }
 
-/// What is on the axes of a panel, and from where to where, in the margin below it; in the letters
-/// that fit.
+/// Caption below a panel: the names and ranges of its axes, in a font size that fits.
 std::string caption_of(const Layout& layout, const Panel& panel) {
     const auto names = coordinate_names(layout.dimension, layout.provenance);
     const Box box = box_of(layout);

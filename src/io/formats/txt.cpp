@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Plain text: a point a line, its coordinates separated by one blank, no header; a line `#` between
-// two sets. The reader is that of csv.
+// Plain text: one point per line, coordinates separated by one blank, no header; a line `#`
+// separates two sets. Read by the reader of csv.
 //
-// Promise what was written reads back to the same doubles.
-// Source  the format of UTK and other sampling programs; what gnuplot and numpy.loadtxt read.
+// Promise written points read back as the same doubles.
+// Source  the format of UTK and other sampling programs; also read by gnuplot and numpy.loadtxt.
 #include "io/decimal.hpp"
 #include "io/format.hpp"
 #include "io/formats/delimited.hpp"

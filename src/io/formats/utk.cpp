@@ -5,7 +5,7 @@
 //     UTK! <u8 type> 0 0 0 <u32 sets> <u32 n> <u32 d>
 //
 // Shape   d columns, extras among them. Types are int32, int64, uint32, uint64, float32 and float64,
-//         coded 0 to 5; the last two are written. All is little-endian.
+// Beware  UTK calls these files .bin; they are detected by their first four bytes.
 // Beware  UTK calls these files .bin: they are known by their first four bytes.
 // Source  UTK, the Uni{corn|form} tool kit, include/utk/utils/PointsetIO.hpp.
 #include <array>
@@ -41,7 +41,7 @@ void rows(const Layout& layout, std::size_t, std::uint64_t, std::span<const doub
     append_raw(out, numbers, layout.single);
 }
 
-/// @throws Error(input) where the bytes are no such file's first ones
+/// @throws Error(input) if the bytes are not the head of such a file
 RawShape shape_of(std::string_view bytes, const std::string& source) {
     const auto refuse = [&](std::size_t byte, const std::string& what) {
         fail(ErrorKind::input, "{}: byte {}: {}", source, byte, what);
