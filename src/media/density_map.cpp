@@ -33,7 +33,7 @@ Cells cells_of_png(std::string_view bytes, const std::string& path, bool invert,
     return {picture.width, picture.height, std::move(values)};
 }
 
-/// @throws Error(input) naming the first value that is not as expected
+/// @throws Error(input) naming the first value for which `good` is false
 template <class Good>
 void check_values(const Cells& cells, const std::string& path, const Good& good,
                   const char* expected) {
@@ -63,7 +63,8 @@ Cells cells_of_array(std::string_view bytes, const std::string& path, const RunC
     return cells;
 }
 
-/// Densities that are not a picture's shades: they need to be checked, and have no white.
+/// Checks densities from a PFM or NPY file. Inverts them relative to their maximum, since they have
+/// no white.
 Cells densities(Cells cells, const std::string& path, bool invert) {
     check_values(
         cells, path, [](double value) { return value >= 0 && std::isfinite(value); },
@@ -95,23 +96,24 @@ Cells read_cells(const std::string& path, bool invert, const RunContext& run) {
     return cells;
 }
 
-/// The fraction of a cell that lies before `wanted`, below 1.
+/// Fraction of the cell's mass below `wanted`, less than 1.
 double fraction_before(std::span<const double> sums, std::size_t cell, double wanted) {
     const double before = cell == 0 ? 0 : sums[cell - 1];
     return std::min((wanted - before) / (sums[cell] - before), one_minus_ulp);
 }
 
-/// Sums of a bucket, most often: a look at none beyond it, which would be on another line of memory.
+/// Number of sums searched in a bucket before looking beyond it; mostly enough, and beyond would be
+/// another cache line.
 constexpr std::size_t few_in_bucket = 4;
 
-/// The share of the total that lies before a place in a cell.
+/// Fraction of the total mass before a position in a cell.
 double share_before(std::span<const double> sums, std::size_t cell, double fraction) {
     if (!(sums.back() > 0)) return 0;
     const double before = cell == 0 ? 0 : sums[cell - 1];
     return std::min((before + fraction * (sums[cell] - before)) / sums.back(), 1.0);
 }
 
-/// (cell + fraction) / cells, kept in that cell when rounding would leave it.
+/// (cell + fraction) / cells, adjusted so that rounding does not leave the cell.
 double coordinate(std::size_t cell, double fraction, std::size_t cells) {
     const auto count = static_cast<double>(cells);
     const auto floor = static_cast<double>(cell);
@@ -126,7 +128,7 @@ double coordinate(std::size_t cell, double fraction, std::size_t cells) {
 DensityMap::DensityMap(std::size_t width, std::size_t height, std::vector<double> values)
     : width_(width), height_(height), values_(std::move(values)) {
     fill_with_zeros(row_sums_, width * height);
-    // First to a largest value of 1, so that no sum is too large for a double.
+    // First scaled to a maximum of 1, so that the sum cannot overflow.
     const double top = std::ranges::max(values_);
     double sum = 0;
     for (double& value : values_) sum += value /= top;
@@ -146,7 +148,7 @@ DensityMap::DensityMap(std::size_t width, std::size_t height, std::vector<double
     lay_out_guides();
 }
 
-// A bucket of about 2 cells lies in one cache line of sums, mostly.
+// Buckets of about 2 cells, so that a bucket's sums mostly lie in one cache line.
 void DensityMap::lay_out_guides() {
     const std::size_t buckets = (width_ + 1) / 2;
     row_guide_size_ = buckets + 1;
@@ -187,8 +189,8 @@ std::array<double, 2> DensityMap::place(double u, double v) const {
     return {across(visit), visit.y};
 }
 
-/// In three steps, each some points ahead of the next, so that cells of many points are on their
-/// way from memory at a time.
+/// Three pipeline stages, each some points ahead of the next, so that the memory accesses of many
+/// points overlap.
 [[gnu::flatten]] void DensityMap::place_all(std::span<const double> cube,
                                             std::span<double> image) const {
     constexpr std::size_t ahead = 8;
@@ -203,7 +205,7 @@ std::array<double, 2> DensityMap::place(double u, double v) const {
         }
         if (i >= ahead && i - ahead < count) {
             const Visit& next = visits[(i - ahead) % ring];
-            // The bucket's sums and the one before may lie on two lines of memory.
+            // The bucket's sums and the one before may lie in two cache lines.
             const std::size_t sum = next.row * width_ + row_guides_[next.bucket];
             __builtin_prefetch(&row_sums_[std::max<std::size_t>(sum, 1) - 1]);
             __builtin_prefetch(&row_sums_[std::min(sum + 2, row_sums_.size() - 1)]);

@@ -5,21 +5,22 @@
 //
 //     cell (i, j) = [i/W, (i+1)/W) x [j/H, (j+1)/H),    mean over the square = 1.
 //
-// PNG     value = luminance x alpha (media/png_picture.hpp), samples taken as linear; the top row of
-//         the picture is the top of the square, y near 1. Inverted, for ink on paper:
-//         (1 - luminance) x alpha. What is transparent gets no points either way.
+// PNG     value = luminance x alpha (media/png_picture.hpp), samples taken as linear; the picture's
+// top row is at y near 1. Inverted, for ink on paper: (1 - luminance) x alpha. Transparent areas
+// get no points either way.
 // PFM     value = the grey of media/pfm_picture.hpp; the top row is the top of the square. Inverted:
 //         largest value - value.
 // NPY     shape (H, W), row 0 at y = 0; any real type. Inverted: largest value - value.
 //
-// A uniform point (u, v) is placed row first: y where the sum of the rows reaches v of the whole,
-// then x where the sum of that row's cells reaches u of the row: the marginal, then the
-// conditional, both piecewise linear, by guide tables (math/densities/guide_table.hpp).
+// A uniform point (u, v) is mapped by inversion: y where the cumulative sum of the rows reaches the
+// fraction v, then x where the cumulative sum of that row's cells reaches the fraction u. Both the
+// marginal and the conditional distribution are piecewise linear, and are inverted with guide
+// tables (math/densities/guide_table.hpp).
 //
-// Shape   W, H >= 1; values finite, none negative, not all 0.
-// Cost    18 bytes a cell; all is O(1) a point on average. At 4096 x 4096, where memory is what
-//         costs, place_all() takes 70 ns a point and place() some 4 times as long.
-// Promise at(place(u, v)) > 0; find() gives u and v back within the rounding of the sums.
+// Shape   W, H >= 1; values finite, not negative, not all 0.
+// Cost    18 bytes a cell; O(1) time a point on average. At 4096 x 4096, limited by memory access,
+//         place_all() takes 70 ns a point and place() about 4 times as long.
+// Promise at(place(u, v)) > 0; find() returns u and v up to the rounding of the sums.
 #pragma once
 
 #include <array>
@@ -37,13 +38,13 @@ namespace stipple {
 
 class DensityMap {
   public:
-    /// Values row after row from y = 0, not all 0; scales them to a mean of 1.
+    /// Scales the values to a mean of 1. @param values in row-major order from y = 0, not all 0
     DensityMap(std::size_t width, std::size_t height, std::vector<double> values);
 
     [[nodiscard]] std::size_t width() const { return width_; }
     [[nodiscard]] std::size_t height() const { return height_; }
 
-    /// Row after row from y = 0; their mean is 1.
+    /// In row-major order from y = 0; the mean is 1.
     [[nodiscard]] std::span<const double> values() const { return values_; }
 
     /// Density at a point of the closed unit square.
@@ -56,29 +57,29 @@ class DensityMap {
     /// Largest density at points of the closed rectangle [x0, x1] x [y0, y1].
     [[nodiscard]] double largest_in(double x0, double x1, double y0, double y1) const;
 
-    /// Image of a point of [0, 1)^2 under the map that takes the uniform density to this one,
-    /// rising in v along y, and in u along x.
+    /// Maps a point of [0, 1)^2 so that uniform points get this density. y increases with v, and x
+    /// with u.
     [[nodiscard]] std::array<double, 2> place(double u, double v) const;
 
-    /// The same for rows u, v of `cube`, whose cells are fetched from memory side by side.
+    /// place() for all rows (u, v) of `cube`; overlaps their memory accesses.
     void place_all(std::span<const double> cube, std::span<double> image) const;
 
-    /// The way back, from the closed unit square into the closed unit square. What lies in an empty
-    /// cell goes where its neighbours meet.
+    /// Inverse of place(), from the closed unit square into itself. A point of an empty cell maps
+    /// to the common boundary of its neighbours.
     [[nodiscard]] std::array<double, 2> find(double x, double y) const;
 
   private:
-    /// A point on its way to its place: what is known once its row is.
+    /// A point whose row is known, but whose x is not yet.
     struct Visit {
         std::size_t row;
-        std::size_t bucket;  ///< of row_guides_
-        double wanted;       ///< the sum of the row's cells that it falls on
+        std::size_t bucket;  ///< index into row_guides_
+        double wanted;       ///< cumulative sum within the row to search for
         double y;
     };
-    /// What a row is searched with.
+    /// Data for searching one row.
     struct Row {
         double total;
-        double most;  ///< the largest number below it
+        double most;  ///< the largest double below total
         Buckets buckets;
     };
 
@@ -95,24 +96,24 @@ class DensityMap {
     std::size_t width_;
     std::size_t height_;
     std::vector<double> values_;
-    std::vector<double> row_sums_;  ///< of each row: sums of the cells up to each
+    std::vector<double> row_sums_;  ///< cumulative sums of the cells, row by row
     std::vector<Row> rows_;
-    GuideTable column_;                      ///< the rows, one above the other
-    std::vector<std::uint32_t> row_guides_;  ///< one row's after the other
+    GuideTable column_;                      ///< for searching the rows
+    std::vector<std::uint32_t> row_guides_;  ///< guide tables of the rows, concatenated
     std::size_t row_guide_size_ = 0;
     double largest_ = 0;
 };
 
 /// Reads a picture or an array. @throws Error(io): missing or unreadable; Error(input), naming the
-/// file: neither PNG, PFM nor NPY, damaged, not two-dimensional, empty, negative, not finite, all
-/// zero; Error(limit)
+/// file: neither PNG, PFM nor NPY, damaged, not two-dimensional, empty, negative, not finite, or
+/// all zero; Error(limit)
 DensityMap read_density(const std::string& path, bool invert, const RunContext& run);
 
-/// Reads an array of lengths as it is. @throws as read_density; what is no array, and a length that
-/// is not above 0, are Error(input)
+/// Reads an NPY array of lengths, unscaled. @throws as read_density; Error(input) also for other
+/// formats and for lengths that are not above 0
 PlaneValues read_lengths(const std::string& path, const RunContext& run);
 
-/// As read_density, for a region: 1 where the value is not 0, before scaling.
+/// As read_density, for a region: values other than 0 become 1 before scaling.
 DensityMap read_mask(const std::string& path, bool invert, const RunContext& run);
 
 }  // namespace stipple

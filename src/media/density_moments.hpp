@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// Mass, first and second moments of a density over polygons, exactly: the density is constant on
-// each pixel of a W x H grid over a rectangle, and is repeated beyond it (torus). By Green's
-// theorem
+// Exact mass, first and second moments of a density over polygons. The density is constant on each
+// pixel of a W x H grid over a rectangle, and is continued periodically (torus). By Green's theorem
 //
 //     integral of t^k rho(t, y) over P  =  closed integral of F_k(x, y) dy along P's edges,
 //     F_k(x, y) = integral of t^k rho(t, y) dt from 0 to x,
 //
-// with F_k tabulated at the left side of each pixel. Edges are parted where they cross the sides of
-// pixels; on a part the integrand is a polynomial of degree 3 at most, so that Simpson's rule is
+// with F_k tabulated at the left side of each pixel. Edges are split where they cross pixel
+// boundaries; on each part the integrand is a polynomial of degree at most 3, so Simpson's rule is
 // exact.
 //
-// Cost    O(pixels that the edges cross); 32 bytes a pixel.
-// Promise exact up to rounding, some 1e-15 of the mass of a row of pixels times a polygon's height.
+// Cost    O(number of pixels that the edges cross); 32 bytes a pixel.
+// Promise exact up to rounding, about 1e-15 times the mass of a row of pixels times the polygon's
+//         height.
 #pragma once
 
 #include <cstddef>
@@ -25,14 +25,14 @@ namespace stipple {
 
 class DensityMoments {
   public:
-    /// Values row after row from y = 0; W x H of them cover [0, sides].
+    /// @param values in row-major order from y = 0; the W x H pixels cover [0, sides]
     DensityMoments(std::size_t width, std::size_t height, std::span<const double> values,
                    Vec2 sides);
 
-    /// Moments of the cell about its site, which is at `site`.
+    /// Moments of a Voronoi cell about its site; `site` is the site's position.
     [[nodiscard]] CellMoments operator()(const VoronoiCell& cell, Vec2 site) const;
 
-    /// Integral of the density along a straight line.
+    /// Integral of the density along a line segment.
     [[nodiscard]] double along(Vec2 from, Vec2 to) const;
 
   private:
@@ -44,7 +44,7 @@ class DensityMoments {
         double density = 0;
     };
 
-    /// One pixel of the plane; x_low is its left side, in the plane as well.
+    /// One pixel of the plane; x_low is the x of its left side, not reduced to the torus.
     struct Place {
         Pixel left;
         double x_low;
@@ -59,8 +59,9 @@ class DensityMoments {
     std::int64_t width_;
     std::int64_t height_;
     Vec2 sides_;
-    Vec2 size_;                  ///< of a pixel
-    std::vector<Pixel> pixels_;  ///< rows of width + 1: the last are the sums of whole rows
+    Vec2 size_;                  ///< size of a pixel
+    std::vector<Pixel> pixels_;  ///< rows of width + 1 entries; the last entry holds the row's
+                                 ///< total
 };
 
 }  // namespace stipple

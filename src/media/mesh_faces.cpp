@@ -11,7 +11,7 @@
 namespace stipple {
 namespace {
 
-/// Newell's normal: its length is twice the area of a flat polygon.
+/// Newell's normal; for a flat polygon its length is twice the area.
 Vector3 normal_of(const std::vector<Vector3>& corners) {
     Vector3 normal{};
     for (std::size_t i = 1; i + 1 < corners.size(); ++i)
@@ -20,7 +20,7 @@ Vector3 normal_of(const std::vector<Vector3>& corners) {
     return normal;
 }
 
-/// Whether all corners are in one plane, up to the rounding of coordinates to single precision.
+/// Whether all corners lie in one plane, up to rounding of coordinates to single precision.
 bool is_flat(const std::vector<Vector3>& corners, const Vector3& normal) {
     const Vector3 up = normalized(normal);
     double extent = 0;
@@ -35,7 +35,7 @@ bool is_flat(const std::vector<Vector3>& corners, const Vector3& normal) {
     return height <= 1e-5 * extent + 0x1p-22 * size;
 }
 
-/// Corners without the coordinate in which the normal is largest.
+/// Projects the corners along the axis with the largest normal component.
 Ring dropped(const std::vector<Vector3>& corners, const Vector3& normal) {
     std::size_t axis = 0;
     for (const std::size_t k : {1U, 2U})
@@ -48,7 +48,7 @@ Ring dropped(const std::vector<Vector3>& corners, const Vector3& normal) {
 std::optional<PolygonTriangles> cut(const std::vector<Vector3>& corners, const Vector3& normal,
                                     const RunContext& run) {
     if (largest(normal) > 0) return polygon_triangles(dropped(corners, normal), run);
-    // No area, or parts on both sides of a crossing that are as large.
+    // Zero normal: no area, or a self-intersection with equal areas on both sides.
     PolygonTriangles fan;
     for (std::uint32_t k = 2; k < corners.size(); ++k) {
         const Vector3 part =

@@ -69,7 +69,7 @@ Property property_of(TokenFile& file) {
     return property;
 }
 
-/// The header; the file then stands at what follows.
+/// Parses the header; the file is then positioned after it.
 Header header_of(TokenFile& file) {
     Header header;
     file.next("ply");
@@ -95,7 +95,7 @@ Header header_of(TokenFile& file) {
     }
 }
 
-/// The numbers behind the header, one after the other.
+/// The numbers after the header, in order.
 class Body {
   public:
     Body() = default;
@@ -103,7 +103,7 @@ class Body {
     Body& operator=(const Body&) = delete;
     virtual ~Body() = default;
 
-    /// What is read next, for complaints.
+    /// Sets the position reported in error messages.
     void stand_at(const Element& element, const Property& property, std::uint64_t row) {
         element_ = &element;
         property_ = &property;
@@ -115,11 +115,11 @@ class Body {
                            element_->count);
     }
 
-    /// The next number. @throws Error(input) when there is none.
+    /// Reads the next number. @throws Error(input) if there is none
     virtual double next(const RawType& type) = 0;
-    /// Complains about the last number.
+    /// Reports an error at the last number.
     [[noreturn]] virtual void refuse(const std::string& what) = 0;
-    /// Holds that nothing is left.
+    /// Checks that no data is left.
     virtual void finish() = 0;
 
   private:
@@ -180,7 +180,7 @@ class BinaryBody final : public Body {
   private:
     std::string_view bytes_;
     std::size_t at_;
-    std::size_t last_ = 0;  ///< where the last number began
+    std::size_t last_ = 0;  ///< start of the last number
     std::string name_;
 };
 
@@ -253,7 +253,7 @@ class Assembly {
     std::vector<std::uint32_t> polygon_;
 };
 
-/// @throws Error(input) when the header announces no mesh.
+/// @throws Error(input) if the header does not describe a mesh
 void check(const Header& header, TokenFile& file) {
     const auto has = [&](std::string_view element, std::string_view property, bool list) {
         for (const Element& e : header.elements)

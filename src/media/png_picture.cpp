@@ -14,8 +14,8 @@
 namespace stipple {
 namespace {
 
-/// libpng reports errors by a long jump. The functions that set its target hold no objects with
-/// destructors, which the jump would pass over.
+/// libpng reports errors by longjmp. The functions that call setjmp hold no objects with
+/// destructors, since the jump would skip those.
 class ErrorText {
   public:
     [[nodiscard]] const char* error() const { return text_.data(); }
@@ -43,7 +43,8 @@ class Decoder : public ErrorText {
     Decoder& operator=(const Decoder&) = delete;
     ~Decoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
 
-    /// Reads what precedes the pixels, and asks for samples of 16 bits without a palette. False: error().
+    /// Reads everything before the pixels; requests 16-bit samples without a palette. On failure
+    /// returns false and sets error().
     bool read_head() {
         if (info_ == nullptr) return false;
         if (setjmp(png_jmpbuf(png_)) != 0) return false;
@@ -56,7 +57,7 @@ class Decoder : public ErrorText {
         return true;
     }
 
-    /// Reads all rows, and the end of the file. False: error().
+    /// Reads all rows and the end of the file. On failure returns false and sets error().
     bool read_rows(png_bytep* rows) {
         if (setjmp(png_jmpbuf(png_)) != 0) return false;
         png_read_image(png_, rows);
@@ -81,7 +82,7 @@ class Decoder : public ErrorText {
     png_infop info_ = nullptr;
 };
 
-/// The same the other way: bytes are taken as libpng gives them.
+/// Counterpart of Decoder: collects the bytes that libpng writes.
 class Encoder : public ErrorText {
   public:
     Encoder() {
@@ -93,7 +94,7 @@ class Encoder : public ErrorText {
     Encoder& operator=(const Encoder&) = delete;
     ~Encoder() { png_destroy_write_struct(&png_, &info_); }
 
-    /// Writes a whole picture. False: error().
+    /// Writes a whole picture. On failure returns false and sets error().
     bool write(const PngShape& shape, std::span<png_bytep> rows, std::span<png_text> texts) {
         if (info_ == nullptr) return false;
         if (setjmp(png_jmpbuf(png_)) != 0) return false;
@@ -114,7 +115,7 @@ class Encoder : public ErrorText {
     [[nodiscard]] std::string take() { return std::move(bytes_); }
 
   private:
-    /// No exception may pass through libpng.
+    /// No exception may propagate through libpng.
     [[nodiscard]] bool append(const char* bytes, std::size_t size) noexcept {
         try {
             bytes_.append(bytes, size);
@@ -135,12 +136,12 @@ class Encoder : public ErrorText {
     png_infop info_ = nullptr;
 };
 
-/// Whether no chunk says that it is longer than what is left: libpng allocates what it says.
+/// Whether every chunk fits into the file: libpng would allocate the length that a chunk claims.
 bool chunks_fit(std::string_view png) {
     for (png.remove_prefix(png_magic.size()); png.size() >= 8;) {
         const std::size_t length = png_get_uint_32(reinterpret_cast<png_const_bytep>(png.data()));
         if (png.size() < 12 || length > png.size() - 12) return false;
-        if (png.substr(4, 4) == "IEND") break;  // what follows is not read
+        if (png.substr(4, 4) == "IEND") break;  // the rest is not read
         png.remove_prefix(12 + length);
     }
     return true;
@@ -173,7 +174,7 @@ PngPicture read_png(std::string_view bytes, const std::string& source, const Run
     if (channels % 2 == 0) picture.opacity.resize(pixels);
     for (std::size_t i = 0; i < pixels; ++i) {
         const std::uint16_t* s = &samples[i * channels];
-        // Whole numbers, so that equal samples give the grey that one sample would.
+        // Integer weights, so that equal samples give exactly the grey of one sample.
         picture.grey[i] = channels < 3
                               ? s[0] / largest
                               : (2126. * s[0] + 7152. * s[1] + 722. * s[2]) / (10000 * largest);
@@ -182,7 +183,8 @@ PngPicture read_png(std::string_view bytes, const std::string& source, const Run
     return picture;
 }
 
-/// PNG, second edition (ISO/IEC 15948:2004), 5.3: length, type, data, CRC of the last two.
+/// Format of a chunk (PNG, second edition, ISO/IEC 15948:2004, 5.3): length, type, data, CRC of
+/// type and data.
 std::string png_with_text(std::string_view png, std::string_view keyword, std::string_view text) {
     constexpr std::size_t behind_header = 8 + 12 + 13;
     std::string content("tEXt");
@@ -202,9 +204,9 @@ std::string png_with_text(std::string_view png, std::string_view keyword, std::s
 
 namespace {
 
-/// What stands behind the keyword of an iTXt chunk (11.3.4.5): two bytes that say whether and how
-/// the text is compressed, language and translated keyword, each up to a 0, and the text. Nothing
-/// of a compressed one.
+/// Text of an iTXt chunk (11.3.4.5). `data` follows the keyword: compression flag and method,
+/// language and translated keyword, each terminated by 0, and the text. nullopt if it is
+/// compressed.
 std::optional<std::string> international_text(std::string_view data) {
     if (data.size() < 2 || data[0] != 0) return std::nullopt;
     data.remove_prefix(2);
@@ -240,7 +242,7 @@ std::string encode_png(const PngShape& shape, std::string_view bytes,
     if (std::max(shape.width, shape.height) > PNG_UINT_31_MAX)
         fail(ErrorKind::limit, "a PNG picture of {} x {} pixels is too large", shape.width,
              shape.height);
-    // libpng takes rows and texts that it could write to, and does not.
+    // libpng's interface requires mutable rows and texts, although it does not modify them.
     std::vector<PngText> held(texts.begin(), texts.end());
     std::vector<png_text> chunks(held.size());
     for (std::size_t i = 0; i < held.size(); ++i) {

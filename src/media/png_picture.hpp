@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// A PNG picture as numbers. Grey of a colour is its luminance by the weights of ITU-R BT.709,
+// Reading and writing PNG pictures as numbers. Colours are converted to luminance by the weights of
+// ITU-R BT.709,
 //
 //     Y = 0.2126 R + 0.7152 G + 0.0722 B,
 //
-// of the samples as they stand in the file: taken as linear, no gamma is undone.
+// applied to the samples as stored: they are taken as linear, without gamma correction.
 //
-// Shape   any PNG: 1 to 16 bits, grey, colour or palette, opaque or not, interlaced or not.
-// Cost    24 bytes a pixel while it is read, at most.
-// Promise malformed files end in an Error; nothing is printed.
-// Beware  colour profiles and gamma chunks are passed over.
+// Shape   any PNG: 1 to 16 bits; grey, colour or palette; with or without alpha and interlacing.
+// Cost    at most 24 bytes a pixel while reading.
+// Promise malformed files throw an Error; nothing is printed.
+// Beware  colour profiles and gamma chunks are ignored.
 #pragma once
 
 #include <cstddef>
@@ -28,40 +29,39 @@ namespace stipple {
 struct PngPicture {
     std::size_t width = 0;
     std::size_t height = 0;
-    std::vector<double> grey;     ///< in [0, 1], row after row from the top
-    std::vector<double> opacity;  ///< the same of alpha; empty: opaque
+    std::vector<double> grey;     ///< in [0, 1], in row-major order from the top
+    std::vector<double> opacity;  ///< alpha of each pixel, likewise; empty: opaque
 };
 
 inline constexpr std::string_view png_magic = "\x89PNG\r\n\x1a\n";
 
-/// @throws Error(input) "SOURCE: what is wrong" for bytes that are no whole PNG picture,
-/// Error(limit)
+/// @throws Error(input) "SOURCE: error" if the bytes are not a complete PNG picture; Error(limit)
 PngPicture read_png(std::string_view bytes, const std::string& source, const RunContext& run);
 
-/// The shape of a picture without colour profile.
+/// Properties of a picture without colour profile.
 struct PngShape {
     std::size_t width = 0;
     std::size_t height = 0;
-    int bits = 8;         ///< of a sample: 8 or 16
-    bool colour = false;  ///< red, green and blue samples; else grey
-    bool linear = false;  ///< says that samples are proportional to light; else no gamma is said
+    int bits = 8;         ///< bits per sample: 8 or 16
+    bool colour = false;  ///< samples are red, green, blue; false: grey
+    bool linear = false;  ///< declares samples proportional to light; false: no gamma is stored
 };
 
-/// A keyword (1 to 79 letters of Latin-1) and what it says, in UTF-8; an iTXt chunk.
+/// Keyword (1 to 79 letters of Latin-1) and UTF-8 text of an iTXt chunk.
 using PngText = std::pair<std::string, std::string>;
 
-/// Such a picture with texts; samples row after row from the top, the high byte first.
-/// @throws Error(limit) for a picture too large for PNG.
+/// Encodes a picture with texts. Samples are in row-major order from the top, high byte first.
+/// @throws Error(limit) if the picture is too large for PNG
 std::string encode_png(const PngShape& shape, std::string_view bytes,
                        std::span<const PngText> texts);
 
-/// Samples as bytes for that; of 8 bits: at most 255.
+/// Converts samples to bytes for encode_png(); with 8 bits, samples must be at most 255.
 std::string png_bytes_of_samples(std::span<const std::uint16_t> samples, int bits);
 
-/// The picture with a text chunk behind its header; ASCII.
+/// Inserts an ASCII text chunk after the header of a PNG.
 std::string png_with_text(std::string_view png, std::string_view keyword, std::string_view text);
 
-/// The text of the first such chunk, if there is one.
+/// Text of the first chunk with this keyword; nullopt if there is none.
 std::optional<std::string> text_of_png(std::string_view png, std::string_view keyword);
 
 }  // namespace stipple

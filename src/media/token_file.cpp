@@ -14,7 +14,7 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-/// "a number" in [low, high], as far as that is a limit.
+/// Appends the limits to `what`: "a number in [low, high]".
 std::string expected(std::string_view what, std::uint64_t low, std::uint64_t high) {
     if (low == high) return fmt::format("{}, {}", what, low);
     if (high != ~std::uint64_t{0}) return fmt::format("{} in [{}, {}]", what, low, high);

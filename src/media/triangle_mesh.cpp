@@ -13,7 +13,7 @@
 namespace stipple {
 namespace {
 
-constexpr std::size_t between_stops = 65536;  ///< rows
+constexpr std::size_t between_stops = 65536;  ///< rows between checks for a stop
 
 double coordinate(TokenFile& file, const char* what) {
     const Token token = file.next_on_line(what);
@@ -26,14 +26,14 @@ double coordinate(TokenFile& file, const char* what) {
     return *value;
 }
 
-/// The corner that names the highest vertex, which may come after it.
+/// The corner with the highest vertex index so far, checked when all vertices are known.
 struct Highest {
     Token token;
     std::int64_t place = -1;
 };
 
-/// The place of the vertex that a corner "7", "7/1", "7//3" or "-1" names; numbers below 0 count
-/// back from the vertices so far.
+/// Vertex index of a corner "7", "7/1", "7//3" or "-1"; negative numbers count back from the latest
+/// vertex.
 std::uint32_t corner(TokenFile& file, std::size_t vertices, Highest& highest) {
     const Token token = file.next("a corner");
     const std::string_view text = token.text.substr(0, token.text.find('/'));

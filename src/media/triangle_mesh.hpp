@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // Triangle meshes from files: PLY (ascii or binary little endian) and Wavefront OBJ. Polygons are
-// cut into triangles: in the coordinate plane that is nearest to theirs, in a fan from the first
-// corner if they are convex there; what else a file holds is skipped.
+// triangulated in the coordinate plane nearest to their own; convex ones become a fan from the
+// first corner. Other contents of a file are skipped.
 //
 //     const TriangleMesh mesh = read_mesh("bunny.ply", run);
 //
 // Shape   at least one triangle; finite coordinates in [-1e150, 1e150].
-// Promise every complaint names the file with line and column, or with the byte where it is binary
-//         (all from 1).
-// Beware  the surface of a polygon that is not flat is that of its triangles; a warning counts them.
+// Promise every error names the file with line and column, or with the byte if binary (all from 1).
+// Beware  a polygon that is not flat is replaced by its triangles; a warning states how many there
+//         are.
 // Source  G. Turk, The PLY polygon file format, Stanford University, 1994; Wavefront Technologies,
 //         The Advanced Visualizer manual, appendix B1 (OBJ).
 #pragma once
@@ -27,7 +27,7 @@ namespace stipple {
 
 struct TriangleMesh {
     std::vector<Vector3> vertices;
-    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< corners, as places in `vertices`
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into `vertices`
 
     [[nodiscard]] std::array<Vector3, 3> corners(std::size_t triangle) const {
         const auto& [a, b, c] = triangles[triangle];
@@ -35,10 +35,10 @@ struct TriangleMesh {
     }
 };
 
-/// Polygons of a mesh, to be cut once all vertices are known.
+/// Polygons of a mesh, triangulated once all vertices are known.
 class MeshFaces {
   public:
-    /// @param polygon places of its corners, at least 3
+    /// @param polygon vertex indices of its corners, at least 3
     void add(std::span<const std::uint32_t> polygon);
 
     /// @throws Error(input) naming the first face, counted from 1, that is not a simple polygon
@@ -50,17 +50,17 @@ class MeshFaces {
     std::vector<std::size_t> ends_;
 };
 
-/// The largest size of a coordinate.
+/// Limit for the magnitude of coordinates.
 constexpr double most_coordinate = 1e150;
 
-/// Reads a mesh; the kind of file is told by its first line. @throws Error(io) as read_file,
-/// Error(input): not a mesh, numbers that are none, corners that are not there, a file that is cut.
+/// Reads a mesh; the first line determines the format. @throws Error(io) as read_file;
+/// Error(input): not a mesh, invalid numbers, missing vertices, a truncated file
 TriangleMesh read_mesh(const std::string& path, const RunContext& run);
 
-/// The mesh of a PLY file's bytes; messages call it `name`. @throws Error(input)
+/// Parses the bytes of a PLY file; messages call it `name`. @throws Error(input)
 TriangleMesh parse_ply(std::string bytes, const std::string& name, const RunContext& run);
 
-/// The mesh of an OBJ file's bytes; messages call it `name`. @throws Error(input)
+/// Parses the bytes of an OBJ file; messages call it `name`. @throws Error(input)
 TriangleMesh parse_obj(std::string bytes, const std::string& name, const RunContext& run);
 
 }  // namespace stipple
