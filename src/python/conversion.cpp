@@ -13,7 +13,7 @@
 namespace stipple::python {
 namespace {
 
-/// An array over numbers that `owner` keeps.
+/// An array that views `numbers` and keeps their owner alive.
 template <class T, class Owner>
 py::array array_over(std::vector<py::ssize_t> shape, const T* numbers,
                      std::unique_ptr<Owner> owner) {

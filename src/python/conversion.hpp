@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Points, reports and records as Python has them.
+// Conversion of points, reports and records to and from Python objects.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -19,19 +19,20 @@ namespace py = pybind11;
 
 using Array = py::array_t<double, py::array::c_style>;
 
-/// The rows of an array (n, d) of finite numbers, copied; on a domain, as a spec.
+/// Copies the rows of an array (n, d) of finite numbers into a set on the domain with this spec.
 PointSet points_of(const Array& rows, const std::string& domain);
 
-/// An array (n, d) that owns the numbers of a set, which are not copied.
+/// An array (n, d) that takes over the numbers of a set without copying.
 py::array array_of(PointSet points);
 
-/// An array (sets, n, d) where all sets have as many points; else a list of arrays.
+/// An array (sets, n, d) if all sets have the same number of points; otherwise a list of arrays.
 py::object arrays_of(std::vector<PointSet> sets);
 
-/// Dictionaries, lists, numbers and texts.
+/// Converts JSON to dictionaries, lists, numbers and texts.
 py::object object_of(const nlohmann::ordered_json& value);
 
-/// A dictionary of flags, numbers, texts, dictionaries and arrays: curves (k,), grids (rows, columns).
+/// Converts a report to a dictionary of flags, numbers, texts, dictionaries and arrays: curves
+/// (k,), grids (rows, columns).
 py::dict dict_of(const Report& report);
 
 }  // namespace stipple::python

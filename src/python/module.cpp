@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// stipple._stipple: the library's calls as the package stipple wraps them. Points come as arrays (n, d)
-// that were checked there, settings as pairs of texts, domains as specs.
+// stipple._stipple: the library's functions, wrapped by the Python package stipple. Points arrive
+// as arrays (n, d) already checked there, settings as pairs of texts, domains as specs.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
@@ -41,7 +41,7 @@ Spec spec_of(const std::string& text, const Settings& settings) {
     return spec;
 }
 
-/// What is asked of a generator.
+/// Arguments of generate().
 struct Asked {
     std::string generator;
     Settings settings;
@@ -50,7 +50,7 @@ struct Asked {
     std::uint64_t seed;
     std::uint64_t start;
     std::uint64_t sets;
-    std::string bounds;  ///< empty: none
+    std::string bounds;  ///< empty: the unit cube
     std::vector<std::string> warps;
 };
 
@@ -71,7 +71,7 @@ SetsToMake to_make(const Asked& asked) {
     return make;
 }
 
-/// The points, and their provenance where it is wanted.
+/// Returns the points, and their provenance if requested.
 py::tuple generate(const Asked& asked, bool with_meta, const How& how) {
     auto sets = released(how, [&](const RunContext& run) {
         const GeneratedSets made(to_make(asked), run);
@@ -87,7 +87,7 @@ py::tuple generate(const Asked& asked, bool with_meta, const How& how) {
     return py::make_tuple(points, meta);
 }
 
-/// The images of points, or what they are the images of, and the domain of these as a spec.
+/// Returns the images or, if `back`, the preimages of points, and the spec of their domain.
 py::tuple warp(const std::string& text, const Settings& settings, const Array& rows,
                const std::string& domain, bool back, const How& how) {
     const Spec spec = spec_of(text, settings);
@@ -98,7 +98,7 @@ py::tuple warp(const std::string& text, const Settings& settings, const Array& r
     return py::make_tuple(array_of(std::move(image)), on);
 }
 
-/// A warp by itself, of points of the cube whose images have so many numbers.
+/// A chain of this warp alone, for images with `images` numbers per row.
 WarpChain chain_to(const Spec& spec, std::size_t images) {
     const Warp& unit = find_warp(spec.name);
     const std::size_t given = spec.coordinates.empty() ? images : spec.coordinates.size();
@@ -127,7 +127,7 @@ py::array column(std::vector<double> values) {
     return array_of({std::move(values), 1}).attr("reshape")(-1).cast<py::array>();
 }
 
-/// The density that a warp gives its images.
+/// Density of the warp's images, at each row.
 py::array warp_density(const std::string& text, const Settings& settings, const Array& rows) {
     const PointSet points = points_of(rows, "unit-cube");
     return column(chain_to(spec_of(text, settings), points.dimension()).density(points.flat()));
@@ -167,9 +167,9 @@ py::list read(const std::string& path, const std::string& format, std::size_t di
     return all;
 }
 
-using Given = std::tuple<Array, std::string, std::string>;  ///< rows, domain, meta as JSON
+using Given = std::tuple<Array, std::string, std::string>;  ///< rows, domain, provenance as JSON
 
-/// A set with the provenance that it had.
+/// A set with its previous provenance.
 PointSet set_of(const Given& given) {
     const auto& [rows, domain, meta] = given;
     PointSet points = points_of(rows, domain);
@@ -269,14 +269,14 @@ plot::Drawing report_picture(std::vector<std::pair<std::string, Measurement>> na
     return plot::draw_chart(plot::chart_of(reports, key), style);
 }
 
-/// A drawing as a file of the format, with the sizes that `stipple plot` gives it.
+/// Encodes a drawing in the format, at the size that `stipple plot` uses.
 py::bytes picture_bytes(const plot::Drawing& drawing, const std::string& format) {
     if (format == "png") return plot::png_bytes_of(drawing, 2);
     if (format == "pdf") return plot::pdf_bytes(drawing, 1);
     return plot::svg_bytes(drawing, 1);
 }
 
-/// A sequence by index.
+/// Random access to the points of a sequence.
 class Indexed {
   public:
     Indexed(const std::string& text, const Settings& settings, std::optional<std::size_t> d,

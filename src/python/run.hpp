@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Long work from Python: without the interpreter's lock, while the calling thread looks for Ctrl-C and
-// shows progress.
+// Long computations called from Python: they run without the interpreter's lock, while the calling
+// thread checks for Ctrl-C and reports progress.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -24,17 +24,18 @@ namespace stipple::python {
 
 namespace py = pybind11;
 
-/// What a call says beside its work.
+/// Run options of a call.
 struct How {
     unsigned threads = 0;
-    double max_memory = 0;  ///< bytes; 0: any
-    py::object progress;    ///< called with the share that is done, or None
+    double max_memory = 0;  ///< memory limit in bytes; 0: none
+    py::object progress;    ///< called with the fraction done; or None
 };
 
-/// Shows the notes that the work gave, as warnings.
+/// Issues the notes of the computation as Python warnings.
 void show(const std::vector<std::string>& notes);
 
-/// What work(run) gives, on another thread. @throws what it throws; KeyboardInterrupt
+/// Runs work(run) on another thread and returns its result. @throws exceptions of work;
+/// KeyboardInterrupt
 template <class Work>
 auto released(const How& how, Work work) {
     using Result = decltype(work(std::declval<const RunContext&>()));
@@ -65,7 +66,7 @@ auto released(const How& how, Work work) {
         const py::gil_scoped_release free;
         return worker->done_within(std::chrono::milliseconds(50));
     };
-    std::exception_ptr problem;  // Ctrl-C, or one of whoever shows progress
+    std::exception_ptr problem;  // Ctrl-C, or an exception from the progress function
     while (!done_soon()) {
         if (problem) continue;
         try {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A thread that does the calls of one thread of Python, one after the other, so that what the library
-// keeps for a thread, its memory and TBB's place for it, is there for the next call.
+// A thread that runs all calls made by one Python thread, so that thread-local resources of the
+// library (memory, TBB's thread slot) are reused by the next call.
 #pragma once
 
 #include <unistd.h>
@@ -26,7 +26,7 @@ class Worker {
         thread_.join();
     }
 
-    /// @param work throws nothing; empty: the last
+    /// @param work must not throw; empty: ends the thread
     void begin(std::function<void()> work) {
         const std::lock_guard lock(mutex_);
         work_ = std::move(work);
@@ -34,13 +34,13 @@ class Worker {
         changed_.notify_all();
     }
 
-    /// Whether the work is done after this time.
+    /// Waits up to `time`; returns whether the work is done.
     bool done_within(std::chrono::milliseconds time) {
         std::unique_lock lock(mutex_);
         return changed_.wait_for(lock, time, [&] { return !waits_; });
     }
 
-    /// In a child that was forked there is no thread, nor may there be a join.
+    /// False in a forked child, which has no such thread and must not join it.
     [[nodiscard]] bool alive() const { return process_ == getpid(); }
 
   private:
@@ -65,7 +65,8 @@ class Worker {
     std::thread thread_;
 };
 
-/// The worker of this thread, or a new one where that is busy: whoever shows progress may call, too.
+/// The worker of this Python thread; a new one if it is busy, since progress functions may make
+/// calls, too.
 class HiredWorker {
   public:
     HiredWorker() : worker_(std::move(idle())) {

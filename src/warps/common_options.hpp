@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What warps of all kinds do with their options.
+// Options shared by many warps, and their checks.
 #pragma once
 
 #include <string_view>
@@ -16,20 +16,22 @@ constexpr Param<double> length_option(std::string_view name, double fallback,
     return {.name = name, .fallback = fallback, .low = 1e-150, .high = 1e150, .help = help};
 }
 
-/// @throws Error(usage) when a centre's coordinate is so far that the shape is lost in rounding.
+/// @throws Error(usage) if a coordinate x of a centre is so large that rounding destroys the shape
+/// of size `reach`
 void refuse_far(double x, double reach);
 
-/// A number for each of d coordinates, of an option that has one for all or one for each.
-/// @throws Error(usage)
+/// Expands an option with one number for all coordinates, or one for each, to d numbers.
+/// @throws Error(usage) for another count
 std::vector<double> one_for_each(const Param<Numbers>& option, std::vector<double> numbers,
                                  std::size_t d);
 
-/// Numbers >= 0 that sum to 1 within 1e-12, or to anything where `normalize`, divided by their sum.
+/// Checks that weights are >= 0 and sum to 1 within 1e-12; if `normalize`, any sum is accepted.
+/// Returns them divided by their sum.
 /// @throws Error(usage)
 std::vector<double> checked_weights(const Param<Numbers>& option, std::vector<double> weights,
                                     bool normalize);
 
-/// Running sums of such weights, the last of them 1.
+/// Cumulative sums of such weights; the last is exactly 1.
 std::vector<double> sums_to_1(const std::vector<double>& weights);
 
 }  // namespace stipple::warps

@@ -4,18 +4,18 @@
 //
 //     r = R cbrt(xi0),  z = r (1 - 2 xi1),  longitude 2 pi xi2
 //
-// and back.
+// and its inverse.
 //
 // Shape   3 unit coordinates, 3 coordinates.
-// Strata  xi0 grows from the centre, xi1 falls from the north pole to the south pole, xi2 turns
-//         from x towards y; all as they are, not as 1 - xi. Strata become pieces of shells.
-// Cost    O(1) a point; on one core about 11 ns forward, 40 ns back.
+// Strata  xi0 increases from the centre, xi1 decreases from the north pole to the south pole, xi2
+//         turns from x towards y; xi are used directly, not as 1 - xi. Strata become pieces of
+//         shells.
+// Cost    O(1) a point; on one core about 11 ns forward, 40 ns inverse.
 // Promise density 3 / (4 pi R^3). Points lie in the closed ball up to the rounding stated at
-//         contains(). Forward and back again is the same point within 1e-14 of |c| + R; for c = 0
-//         also the same xi within 1e-14, save that all xi1 and xi2 meet in the centre, which goes
-//         back to xi1 = 1/2, xi2 = 0, and all xi2 on the axis, which goes back to xi2 = 0. The same
-//         bits on every machine.
-// Beware  R xi0 in place of its cube root is the usual mistake: points crowd in the middle.
+//         contains(). A round trip returns the same point within 1e-14 of |c| + R and, for c = 0,
+//         the same xi within 1e-14. Exceptions: the centre returns xi1 = 1/2, xi2 = 0, and points
+//         on the axis xi2 = 0. The same bits on every machine.
+// Beware  using R xi0 instead of its cube root is a common mistake: points crowd in the middle.
 // Source  L. Devroye, Non-Uniform Random Variate Generation (1986), chapter V.4,
 //         doi:10.1007/978-1-4613-8643-8.
 
@@ -37,7 +37,7 @@ namespace {
 constexpr Param<double> ball_radius{
     .name = "radius", .fallback = 1, .low = 1e-90, .high = 1e90, .help = "Radius, above 0"};
 
-/// The shares of the volume within, above and before a point of the unit ball.
+/// Cube coordinates of a point of the unit ball.
 std::array<double, 3> shares(const Vector3& v) {
     const double r = length(v);
     return {std::min(r * r * r, 1.0), 0.5 * one_minus_cos(v), turns_of(v[0], v[1])};
@@ -53,7 +53,8 @@ class BallDomain final : public NamedDomain {
         return 4 * std::numbers::pi / 3 * r * r * r;
     }
 
-    /// Up to 8 epsilon (R + largest |c|) beyond the sphere: the rounding of a point that was made.
+    /// Allows 8 epsilon (R + largest |c|) beyond the sphere, the rounding error of generated
+    /// points.
     bool contains(std::span<const double> point) const override {
         return length(sphere_.unit(point)) <= 1 + slack_;
     }
@@ -61,8 +62,8 @@ class BallDomain final : public NamedDomain {
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         std::ranges::copy(shares(sphere_.unit(point)), cube.begin());
     }
-    /// Disks of the ball between the box's sides, over z, which is cut where a disk meets a side or
-    /// a corner.
+    /// Integrates, over z, the area that the ball's disk has between the box's sides. The integral
+    /// is split where the disk touches a side or a corner.
     std::optional<Estimate> box_mass(const Box& box) const override {
         std::array<double, 3> low{};
         std::array<double, 3> high{};

@@ -8,16 +8,16 @@
 //                       diagonals, with density 1 / (8 R cos^2 theta), theta the angle from the
 //                       nearer axis; E cos 4 theta = 3 - pi. Kept to show the bias
 //
-// and back (square-normalize has no way back).
+// and the inverse of method angle (square-normalize has none).
 //
 // Shape   1 unit coordinate, square-normalize 2; 2 coordinates.
-// Strata  xi turns from the x axis towards the y axis, as it is, not as 1 - xi; strata become arcs.
-//         square-normalize looks at the strata of the square from its centre, which is dropped.
-// Cost    O(1) a point; on one core about 5 ns forward, 30 ns back.
+// Strata  xi turns from the x axis towards the y axis; it is used directly, not as 1 - xi; strata
+//         become arcs. square-normalize projects the strata of the square from its centre, which is
+//         dropped.
+// Cost    O(1) a point; on one core about 5 ns forward, 30 ns inverse.
 // Promise density 1 / (2 pi R) for angle. Points lie on the circle up to the rounding stated at
-//         contains(). Forward and back again is the same point within 1e-14 of |c| + R; for c = 0
-//         also the same xi within 1e-15, save that 1 goes back to 0. The same bits on every
-//         machine.
+//         contains(). A round trip returns the same point within 1e-14 of |c| + R and, for c = 0,
+//         the same xi within 1e-15, except that xi = 1 returns 0. The same bits on every machine.
 // Source  L. Devroye, Non-Uniform Random Variate Generation (1986), chapter V.4,
 //         doi:10.1007/978-1-4613-8643-8.
 
@@ -55,8 +55,7 @@ class CircleDomain final : public NamedDomain {
 
     double measure() const override { return 2 * std::numbers::pi * at_.size; }
 
-    /// Up to 8 epsilon (R + largest |c|) away from the circle: the rounding of a point that was
-    /// made.
+    /// Allows a distance of 8 epsilon (R + largest |c|), the rounding error of generated points.
     bool contains(std::span<const double> point) const override {
         const auto [x, y] = at_.to_frame(point[0], point[1]);
         return std::abs(std::sqrt(x * x + y * y) - 1) <= slack_;
@@ -119,7 +118,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     if (center.size() != 2)
         fail(ErrorKind::usage, "--center: 2 numbers are needed, x,y; {} given", center.size());
     for (const double x : center) refuse_far(x, r);
-    const Placement at{{center[0] + 0.0, center[1] + 0.0}, r};  // -0 would show in points
+    const Placement at{{center[0] + 0.0, center[1] + 0.0}, r};  // -0 would appear in the points
     const auto circle = std::make_shared<CircleDomain>(at, want.spec({radius.name, middle.name}));
     if (want.options[method] == "angle") return row_mapping(circle, ByAngle{at});
     return row_mapping(circle, BySquare{at});

@@ -4,19 +4,19 @@
 //
 //     1 - cos theta = 2 sin^2(alpha / 2) xi0,  longitude 2 pi xi1,  solid angle 4 pi sin^2(alpha/2)
 //
-// and back. 1 - cos is never taken as a difference, so that cones may be as thin as one likes.
+// and its inverse. 1 - cos is never computed as a difference, so cones may be arbitrarily thin.
 //
 // Shape   2 unit coordinates; 3 coordinates, of unit length. alpha = 90 is a hemisphere, 180 the
 //         sphere.
 // Units   degrees for alpha.
-// Strata  xi0 falls from the axis, where it is 0, to the rim; xi1 turns from x towards y when the
-//         axis is z; both as they are, not as 1 - xi. Strata become rectangles of heights and
+// Strata  xi0 increases from 0 on the axis to 1 at the rim; xi1 turns from x towards y if the axis
+//         is z. xi are used directly, not as 1 - xi. Strata become rectangles of heights and
 //         longitudes.
-// Cost    O(1) a point; on one core about 6 ns forward, 35 ns back.
+// Cost    O(1) a point; on one core about 6 ns forward, 35 ns inverse.
 // Promise density 1 / (solid angle). Directions lie in the cone up to the rounding stated at
-//         contains(). Forward and back again is the same direction within 1e-14; about z also x and
-//         y within 1e-14 of themselves, and the same xi within 1e-14, save that all xi1 meet in
-//         the axis, which goes back to xi1 = 0. The same bits on every machine.
+//         contains(). A round trip returns the same direction within 1e-14; about z also x and y
+//         within a relative 1e-14, and the same xi within 1e-14, except that the axis returns xi1 =
+//         0. The same bits on every machine.
 // Source  L. Devroye, Non-Uniform Random Variate Generation (1986), chapter V.4,
 //         doi:10.1007/978-1-4613-8643-8 (Archimedes' theorem).
 
@@ -39,17 +39,17 @@ constexpr Param<double> half_angle{.name = "half-angle",
                                    .unit = "degrees",
                                    .help = "Angle between the axis and the rim"};
 
-/// The part of the sphere within an angle of an axis.
+/// Spherical cap: the directions within an angle of an axis.
 struct Cap {
     Frame frame;
     CosSin rim;   ///< of the angle from the axis to the rim
-    CosSin half;  ///< of half of it
+    CosSin half;  ///< of half that angle
 
-    /// Of the angle from the axis to the rim.
+    /// 1 - cos and 1 + cos of the angle from the axis to the rim.
     double rim_minus() const { return rim.cos > 0.5 ? 2 * half.sin * half.sin : 1 - rim.cos; }
     double rim_plus() const { return rim.cos < -0.5 ? 2 * half.cos * half.cos : 1 + rim.cos; }
 
-    /// The share of the solid angle within, and the longitude.
+    /// Cube coordinates of a direction: fraction of the solid angle within, and longitude in turns.
     std::array<double, 2> shares(std::span<const double> point) const {
         const Vector3 v = frame.in(vector_of(point));
         const double least = one_minus_abs_cos(v);
@@ -68,19 +68,19 @@ class ConeDomain final : public NamedDomain {
 
     double measure() const override { return 2 * std::numbers::pi * cap_.rim_minus(); }
 
-    /// Up to 8 epsilon beyond the rim, and as much longer or shorter than 1: the rounding of a
-    /// direction that was made. Thin cones about z: 8 epsilon of the rim's distance from the axis.
+    /// Allows 8 epsilon beyond the rim and in the length, the rounding error of generated
+    /// directions. For thin cones about z: 8 epsilon of the rim's distance from the axis.
     bool contains(std::span<const double> point) const override {
         const auto [x, y, z] = cap_.frame.in(vector_of(point));
         const double rr = x * x + y * y;
         if (!(std::abs(std::sqrt(rr + z * z) - 1) <= slack)) return false;
-        // Distances on the sphere from the pole that is nearer to the rim.
+        // Distances on the sphere from the pole nearer to the rim.
         if (cap_.half.sin <= cap_.half.cos)
             return std::sqrt(rr + (z - 1) * (z - 1)) <= 2 * cap_.half.sin + rim_slack_;
         return std::sqrt(rr + (z + 1) * (z + 1)) >= 2 * cap_.half.cos - slack;
     }
 
-    /// Between the highest and the lowest point of the cap along every axis.
+    /// From the lowest to the highest point of the cap along each axis.
     Box bounding_box() const override {
         const auto [cos_rim, sin_rim] = cap_.rim;
         Box box;
@@ -99,7 +99,7 @@ class ConeDomain final : public NamedDomain {
         return Discontinuities{.circles = {{cap_.frame.z, cap_.rim.cos}}};
     }
     std::optional<Moments> moments() const override {
-        // By v = 1 - z, which is uniform up to that of the rim: thin cones keep digits.
+        // With v = 1 - z, which is uniform, thin cones lose no digits.
         const double v = cap_.rim_minus();
         const AxialMoments round{.along = {1 - 0.5 * v, v * v / 12, 0},
                                  .across = v * (0.5 - v / 6),
@@ -131,7 +131,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const double degrees = want.options[half_angle];
     const Frame frame = frame_of(want.options);
     const bool along = std::ranges::count_if(frame.z, [](double x) { return x != 0; }) == 1;
-    // Directions about a slanted axis are rounded by some 1e-14 degrees, along all coordinates.
+    // Directions about an oblique axis have rounding errors of about 1e-14 degrees.
     if (!along && degrees < 1e-10)
         fail(ErrorKind::usage,
              "--half-angle: {} is below 1e-10, the least about an axis that is no coordinate axis",

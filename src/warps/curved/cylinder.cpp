@@ -5,21 +5,21 @@
 //
 //     point = c + R cos(2 pi xi1) x + R sin(2 pi xi1) y + H (xi0 - 1/2) z
 //
-// in a frame about its axis z; with --caps onto its whole surface. Each cap has the share
-// s = R / (2 (R + H)) of the area: for xi0 < s the point is on the lower one, R sqrt(xi0 / s) from
-// the axis, for xi0 > 1 - s on the upper one, R sqrt((1 - xi0) / s) from it; in between on the
-// side, at the height H ((xi0 - s) / (1 - 2 s) - 1/2).
+// in a frame about its axis z; with --caps onto its whole surface. Each cap has the fraction s = R
+// / (2 (R + H)) of the area. Points with xi0 < s are on the lower cap, R sqrt(xi0 / s) from the
+// axis; those with xi0 > 1 - s on the upper one, R sqrt((1 - xi0) / s) from it. The others are on
+// the side, at the height H ((xi0 - s) / (1 - 2 s) - 1/2).
 //
 // Shape   2 unit coordinates, 3 coordinates.
-// Strata  xi0 rises from the lower end, with --caps from the centre of the lower cap to that of the
-//         upper one; xi1 turns from x towards y when the axis is z; both as they are. Strata become
-//         rectangles, on the caps pieces of rings.
-// Cost    O(1) a point; on one core about 6 ns forward (7 with caps), 35 to 50 ns back.
+// Strata  xi0 increases from the lower end, with --caps from the centre of the lower cap to that of
+//         the upper one; xi1 turns from x towards y if the axis is z. xi are used directly. Strata
+//         become rectangles, on the caps pieces of rings.
+// Cost    O(1) a point; on one core about 6 ns forward (7 with caps), 35 to 50 ns inverse.
 // Promise density 1 / (2 pi R H), with --caps 1 / (2 pi R (R + H)). Points lie on the surface up to
-//         the rounding stated at contains(). Forward and back again is the same point within 1e-14
-//         of |c| + R + H. The same bits on every machine.
-// Beware  of points that were not made here, those next to the upper cap's centre go back to an xi0
-//         that is rounded next to 1, and forward again 1e-8 R away.
+//         the rounding stated at contains(). A round trip returns the same point within 1e-14 of
+//         |c| + R + H. The same bits on every machine.
+// Beware  given points near the centre of the upper cap have an inverse xi0 rounded next to 1,
+//         which maps to a point up to 1e-8 R away.
 // Source  L. Devroye, Non-Uniform Random Variate Generation (1986), chapter V.4,
 //         doi:10.1007/978-1-4613-8643-8 (Archimedes' theorem).
 
@@ -38,7 +38,7 @@ constexpr auto height = length_option("height", 1, "Height along the axis, above
 
 constexpr Param<bool> caps{.name = "caps", .help = "The ends, too: the whole surface"};
 
-/// Where a point is around the axis: distance from it, height, angle.
+/// Cylindrical coordinates of a point: distance from the axis, height, angle.
 struct Polar {
     double distance;
     double height;
@@ -70,7 +70,7 @@ struct Cylinder {
         return plus(center, frame.out({at.distance * c, at.distance * s, at.height}));
     }
 
-    /// The share of the area below a point, and the turn.
+    /// Cube coordinates of a point: fraction of the area below it, and angle in turns.
     std::array<double, 2> shares(std::span<const double> point) const {
         const auto [distance, z, turns] = polar(point);
         const double share = cap_share();
@@ -89,8 +89,8 @@ class CylinderDomain final : public NamedDomain {
 
     double measure() const override { return shape_.area(); }
 
-    /// Up to 16 epsilon (R + H + largest |c|) away from the surface: the rounding of a point that
-    /// was made.
+    /// Allows a distance of 16 epsilon (R + H + largest |c|), the rounding error of generated
+    /// points.
     bool contains(std::span<const double> point) const override {
         const auto [distance, z, turns] = shape_.polar(point);
         const double slack = shape_.slack();
@@ -136,7 +136,7 @@ struct Whole {
     Vector3 forward(const std::array<double, 2>& xi) const {
         const double below = xi[0];
         const double above = 1 - below;
-        const double end = std::min(below, above);  // area left to the nearer centre of a cap
+        const double end = std::min(below, above);  // area up to the nearer cap's centre
         const double ratio = std::sqrt(std::min(end / cap, 1.0));
         const double z = std::max(0.0, std::min((below - cap) / side, 1.0)) - 0.5;
         return shape.place({shape.radius * ratio, shape.height * z, xi[1]});

@@ -7,19 +7,18 @@
 //     cosine        cos theta / pi                        sin^2 theta = xi0
 //     cosine-power  (k + 1) cos^k theta / (2 pi)          cos theta = (1 - xi0)^(1 / (k + 1))
 //
-// with longitude 2 pi xi1. Cosine can also come from the disk of Shirley and Chiu's concentric map
-// (--disk concentric), its points lifted onto the sphere (Malley): any uniform disk gives it.
+// with longitude 2 pi xi1. Cosine may also use Shirley and Chiu's concentric disk (--disk
+// concentric): lifting any uniform disk onto the sphere gives the cosine density (Malley).
 //
 // Shape   2 unit coordinates; 3 coordinates, of unit length.
-// Strata  xi0 falls from the axis, where it is 0, to the horizon; xi1 turns from x towards y when
-//         the axis is z; both as they are, not as 1 - xi. Strata become rectangles of heights and
-//         longitudes; with --disk concentric neighbours stay neighbours.
-// Cost    O(1) a point; on one core about 6 ns forward, 35 ns back; cosine-power 11 and 70.
-// Promise forward and back again is the same direction within 1e-14; about z also the same xi
-//         within 1e-14, save that all xi1 meet in the axis, which goes back to xi1 = 0. The same
-//         bits on every machine.
-// Beware  of directions that were not made here, those next to the horizon go back to an xi0 that
-//         is rounded next to 1, and forward again to a height of the root of that: 1e-8.
+// Strata  xi0 increases from 0 on the axis to 1 at the horizon; xi1 turns from x towards y if the
+//         axis is z. xi are used directly, not as 1 - xi. Strata become rectangles of heights and
+//         longitudes; --disk concentric keeps neighbours adjacent.
+// Cost    O(1) a point; on one core about 6 ns forward, 35 ns inverse; cosine-power 11 and 70.
+// Promise a round trip returns the same direction within 1e-14; about z also the same xi within
+//         1e-14, except that the axis returns xi1 = 0. The same bits on every machine.
+// Beware  given directions near the horizon have an inverse xi0 rounded next to 1, which maps to a
+//         height of the square root of that error: 1e-8.
 // Source  P. Shirley, K. Chiu, J. Graphics Tools 2(3) (1997) 45-52,
 //         doi:10.1080/10867651.1997.10487479 (concentric); T. Malley, M.Sc. thesis, University of
 //         Utah (1988).
@@ -55,8 +54,8 @@ constexpr Param<Choice> disk_map{
     .choices = "polar|concentric",
     .help = "Of method cosine: the map from the square to the disk below the hemisphere"};
 
-/// The distribution of the angle from the axis: cos^k theta, with the share of the directions that
-/// are nearer to the axis. Directions are in the frame of the axis.
+/// Density proportional to cos^k of the angle from the axis, and the fraction of directions nearer
+/// to the axis. Directions are in the axis' frame.
 struct CosineLaw {
     static constexpr bool hemisphere = true;
     double power;
@@ -76,7 +75,7 @@ struct CosineLaw {
         return 0 - exp_minus_1((power + 1) * log);
     }
 
-    /// The height is z = u^(1/p) with p = k + 1: Beta(p, 1).
+    /// The height z = u^(1/p), p = k + 1, has the distribution Beta(p, 1).
     AxialMoments moments() const {
         const double p = power + 1;
         const double all = (p + 1) * (p + 2) * (p + 3);
@@ -111,7 +110,7 @@ struct CosinePower {
 
     Vector3 forward(const std::array<double, 2>& xi) const {
         const double u = std::min(xi[0], one_minus_ulp);
-        const double log = log_1p(0 - u) / (power + 1);  // of cos theta
+        const double log = log_1p(0 - u) / (power + 1);  // logarithm of cos theta
         const double less = xi[0] < 1 ? exp_minus_1(log) : -1;
         const double z = 1 + less;
         const double r = std::sqrt(0 - less * (1 + z));
@@ -129,8 +128,8 @@ struct CosineConcentric {
         return frame.out({x, y, std::sqrt((1 - r) * (1 + r))});
     }
 
-    /// The disk's way back, but with the radius from the height, which has its digits near the
-    /// horizon.
+    /// The disk's inverse, except that the radius is computed from the height, which is accurate
+    /// near the horizon.
     std::array<double, 2> inverse(std::span<const double> point) const {
         const auto [x, y, z] = frame.in(vector_of(point));
         const bool wide = std::abs(x) > std::abs(y);
@@ -140,7 +139,8 @@ struct CosineConcentric {
         const double zz = z * z / (rr + z * z);
         const double size = rr < z * z ? std::sqrt(rr) : 1 - zz / (1 + std::sqrt(1 - zz));
         const double eighths = 8 * turns_of(std::abs(along), std::abs(across));
-        // 1 itself would be on the horizon; next to it, in the corners, rounding may make it.
+        // 1 itself would be on the horizon; rounding may produce it next to the horizon, in the
+        // corners.
         const double last = size < 1 ? one_minus_ulp : 1;
         const double first = std::min(0.5 + 0.5 * std::copysign(size, along), last);
         const double second = std::min(0.5 + 0.5 * std::copysign(size * eighths, across), last);

@@ -10,17 +10,17 @@
 //     1 - cos theta = 2 (1 - g)^2 u ((1 + g) w + u) / D^2
 //     1 + cos theta = 2 (1 + g)^2 w ((1 - g) u + w) / D^2,      longitude 2 pi xi1,
 //
-// which is the usual inverse in factors that are sums of positive numbers: g = 0 is no special
-// case, and both poles keep their digits.
+// This is the usual inverse, factored into sums of positive numbers: g = 0 is no special case, and
+// no digits are lost at either pole.
 //
-// Shape   2 unit coordinates; 3 coordinates, a unit vector. g > 0 goes forward, along the axis.
-// Strata  xi0 is taken as it is, not as 1 - xi (textbooks do both): 0 is the axis, and small xi0 is
-//         near it. xi1 turns about the axis; for +z from x towards y. Strata become rings of
-//         sectors.
-// Cost    O(1) a point; on one core about 7 ns forward, 25 ns back.
-// Promise unit vectors up to 8 epsilon. Forward and back again is the same vector within 1e-14 and,
-//         off the poles, the same xi within 1e-13, about other axes 1e-12; all xi1 meet in the
-//         poles. The same bits on every machine.
+// Shape   2 unit coordinates; 3 coordinates, a unit vector. g > 0 scatters forward, along the axis.
+// Strata  xi0 is used directly, not as 1 - xi (textbooks do both): 0 is the axis, small xi0 are
+//         near it. xi1 turns about the axis; for +z from x towards y. Strata become sectors of
+//         rings.
+// Cost    O(1) a point; on one core about 7 ns forward, 25 ns inverse.
+// Promise unit vectors up to 8 epsilon. A round trip returns the same vector within 1e-14 and,
+//         except at the poles, the same xi within 1e-13; 1e-12 about oblique axes. The same bits on
+//         every machine.
 // Source  L. G. Henyey, J. L. Greenstein, "Diffuse radiation in the Galaxy", Astrophysical J. 93
 //         (1941) 70-83, doi:10.1086/144246.
 
@@ -52,7 +52,7 @@ struct Phase {
         return {v < c ? 1 - small : small - 1, std::sqrt(small * (2 - small))};
     }
 
-    /// sqrt(1 + g^2 - 2 g cos theta), the distance between g times the axis and the direction.
+    /// sqrt(1 + g^2 - 2 g cos theta): the distance from g times the axis to the direction.
     double distance(double v, double c) const {
         const double square = g > 0 ? (1 - g) * (1 - g) + 2 * g * v : (1 + g) * (1 + g) - 2 * g * c;
         return std::sqrt(square);
@@ -65,7 +65,7 @@ struct Phase {
         const double far = (1 - g) * c / (t * (t + (1 + g)));
         return near < 0.5 ? near : 1 - far;
     }
-    /// Legendre's polynomials of the cosine have the means g^l.
+    /// The mean of the Legendre polynomial P_l of the cosine is g^l.
     AxialMoments moments() const {
         const double rest = (1 - g) * (1 + g);
         return {.along = {g, rest / 3, -0.4 * g * rest},

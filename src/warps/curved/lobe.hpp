@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Directions about an axis whose density depends on the angle from it alone: a lobe. With u the
-// probability of the cone about the axis that the direction is on the rim of, and theta its angle,
+// Lobe: a distribution of directions whose density depends only on the angle theta from an axis. u
+// is the probability of the cone about the axis whose rim contains the direction.
 //
 //     struct Lobe {
 //         static constexpr bool hemisphere;          // no direction is beyond a right angle
@@ -35,8 +35,8 @@ class LobeDomain final : public NamedDomain {
 
     double measure() const override { return (Lobe::hemisphere ? 2 : 4) * std::numbers::pi; }
 
-    /// Unit vectors, up to 8 epsilon, and as much below the horizon of a hemisphere: the rounding
-    /// of one that was made.
+    /// Unit vectors up to 8 epsilon, and as much below the horizon of a hemisphere: the rounding
+    /// error of generated directions.
     bool contains(std::span<const double> point) const override {
         constexpr double slack = 8 * std::numeric_limits<double>::epsilon();
         const Vector3 v{point[0], point[1], point[2]};
@@ -64,8 +64,8 @@ class LobeDomain final : public NamedDomain {
         const Vector3 local = frame_.in({point[0], point[1], point[2]});
         put_clamped<2>({lobe_.fraction(local), turns_of(local[0], local[1])}, cube);
     }
-    /// The horizon of a hemisphere; else where nearly all or nearly nothing is nearer to the axis,
-    /// so that peaks are not missed.
+    /// The horizon of a hemisphere; for other lobes, circles around nearly all and around nearly
+    /// none of the probability, so that integration does not miss peaks.
     std::optional<Discontinuities> discontinuities() const override {
         if constexpr (Lobe::hemisphere)
             return Discontinuities{.circles = {{frame_.z, 0}}, .level = lobe_.level()};
@@ -92,7 +92,7 @@ class LobeDomain final : public NamedDomain {
     Frame frame_;
 };
 
-/// Directions by a lobe about the z axis of a frame.
+/// Maps the square to directions of a lobe about the z axis of a frame.
 template <class Lobe>
 struct ByLobe {
     Lobe lobe;

@@ -7,21 +7,21 @@
 //     t = (xi0 - S_i) / (S_{i+1} - S_i)
 //     lambda0 = 1 - sqrt(t),  lambda1 = xi1 sqrt(t),  lambda2 = (1 - xi1) sqrt(t)
 //
-// with which the corners are weighted, as `triangle` does. The sums are kept to twice the working
-// precision and then rounded once.
+// as the weights of the corners, like `triangle`. The sums are computed in twice the working
+// precision and rounded once.
 //
 // Shape   2 unit coordinates; 3 coordinates, with the normal 6, with the barycentrics 7: position,
-//         number of the triangle from 0, lambda0, lambda1, lambda2.
-// Strata  xi0 goes through the triangles in the order of the file, in each from its first corner to
-//         the opposite edge, xi1 along that edge from corner 2 to 1; both as they are. Strata keep
-//         together as far as the order of the file does.
-// Cost    set-up O(n log n) for n triangles; O(1) a point forward, O(log n) back; on one core about
-//         22 ns forward, 740 ns back for 3600 triangles.
-//         Where triangles lie upon each other, a point goes back to one of them, by its digits, so
-//         that each gets its share of them.
-// Promise density 1 / area; a triangle's share of the points is exact to 2^-53. Points lie on the
-//         mesh up to the rounding stated at contains(). Forward and back again is the same point
-//         within 1e-15 n of the mesh's size, for n triangles. The same bits on every machine.
+//         index of the triangle from 0, lambda0, lambda1, lambda2.
+// Strata  xi0 runs through the triangles in file order, in each from its first corner to the
+//         opposite edge; xi1 runs along that edge from corner 2 to 1. xi are used directly. Strata
+//         are as compact as the order of the file.
+// Cost    set-up O(n log n) for n triangles; O(1) a point forward, O(log n) inverse; on one core
+//         about 22 ns forward, 740 ns inverse for 3600 triangles.
+// Promise density 1 / area; a triangle's fraction of the points is exact to 2^-53. Points lie on
+//         the mesh up to the rounding stated at contains(). A round trip returns the same point
+//         within 1e-15 n of the mesh's size, for n triangles. If triangles coincide, a hash of the
+//         point's digits selects one for the inverse, so that each gets its fraction of the points.
+//         The same bits on every machine.
 // Source  G. Turk, "Generating random points in triangles", in: A. S. Glassner (ed.), Graphics Gems
 //         (1990) 24-28.
 
@@ -61,11 +61,11 @@ constexpr Param<Choice> attributes{
 
 using Pair = std::array<double, 2>;
 
-// Numbers that a point has.
+// Numbers per point.
 constexpr std::size_t with_normal = 6;
 constexpr std::size_t with_barycentrics = 7;
 
-/// The area of each triangle and those before it. @throws Error(input) where there is none
+/// Cumulative areas of the triangles. @throws Error(input) if the total is 0
 std::vector<double> areas_up_to(const TriangleMesh& mesh, const std::string& name,
                                 const RunContext& run) {
     std::vector<double> areas;
@@ -81,11 +81,11 @@ std::vector<double> areas_up_to(const TriangleMesh& mesh, const std::string& nam
 
 std::uint64_t digits_of(const Vector3& at, std::uint64_t before) {
     for (const double x : at)
-        before = Rng(before, 0).bits(std::bit_cast<std::uint64_t>(x + 0.0));  // never -0
+        before = Rng(before, 0).bits(std::bit_cast<std::uint64_t>(x + 0.0));  // maps -0 to 0
     return before;
 }
 
-/// Warns of triangles that have the corners of others, in any order.
+/// Warns of triangles that have the same corners as others, in any order.
 void note_doubled(const TriangleMesh& mesh, const std::string& name, const RunContext& run) {
     std::vector<std::uint64_t> digits;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -106,7 +106,7 @@ void note_doubled(const TriangleMesh& mesh, const std::string& name, const RunCo
 }
 
 Vector3 weighted(const std::array<Vector3, 3>& v, const std::array<double, 3>& w) {
-    return {w[0] * v[0][0] + w[1] * v[1][0] + w[2] * v[2][0] + 0.0,  // never -0
+    return {w[0] * v[0][0] + w[1] * v[1][0] + w[2] * v[2][0] + 0.0,  // maps -0 to 0
             w[0] * v[0][1] + w[1] * v[1][1] + w[2] * v[2][1] + 0.0,
             w[0] * v[0][2] + w[1] * v[1][2] + w[2] * v[2][2] + 0.0};
 }
@@ -127,8 +127,8 @@ class MeshDomain final : public NamedDomain {
 
     double measure() const override { return area_; }
 
-    /// Up to 16 epsilon of the largest coordinate away from a triangle: the rounding of a point
-    /// that was made. Normals and barycentrics must be those of a triangle there, within 1e-12.
+    /// Allows a distance of 16 epsilon of the largest coordinate from a triangle, the rounding
+    /// error of generated points. Normals and barycentrics must match such a triangle within 1e-12.
     bool contains(std::span<const double> point) const override { return find(point).has_value(); }
 
     Box bounding_box() const override {
@@ -161,7 +161,7 @@ class MeshDomain final : public NamedDomain {
         return {"share of the area in the order of the file", "place between corners 2 and 1"};
     }
 
-    /// The point of the surface at xi0, xi1: a triangle and the weights of its corners.
+    /// A point of the surface, as a triangle and the weights of its corners.
     struct Place {
         std::size_t triangle;
         std::array<double, 3> weights;
@@ -176,7 +176,7 @@ class MeshDomain final : public NamedDomain {
         return weighted(mesh_.corners(at.triangle), at.weights);
     }
 
-    /// xi0 and xi1 of a point of the surface, if it is one.
+    /// xi0 and xi1 of a point of the surface; nullopt if the point is not on it.
     std::optional<Pair> find(std::span<const double> point) const {
         const Vector3 at = vector_of(point);
         const double reach = 16 * epsilon * size_;
@@ -184,8 +184,9 @@ class MeshDomain final : public NamedDomain {
         std::optional<Pair> best;
         double least = std::numeric_limits<double>::infinity();
         std::uint32_t first = 0;
-        std::vector<std::pair<std::uint32_t, Pair>> around;  // triangles not only at their rims
-        // Where triangles meet, the one from which the way forward comes nearest.
+        std::vector<std::pair<std::uint32_t, Pair>> around;  // triangles that contain the point in
+                                                             // their interior
+        // Of adjacent triangles, takes the one whose forward map comes nearest to the point.
         tree_.visit(at, reach, [&](std::uint32_t i, const Foot& foot) {
             if (dimension() == with_normal &&
                 !(largest(minus(normal(i), vector_of(point.subspan(3)))) <= 1e-12))
@@ -208,14 +209,14 @@ class MeshDomain final : public NamedDomain {
     }
 
   private:
-    /// Of triangles upon each other each has its share of the points, by the digits of a point.
+    /// Selects one of several coinciding triangles by a hash of the point, so that each gets its
+    /// fraction.
     static Pair one_of(std::vector<std::pair<std::uint32_t, Pair>>& around, const Vector3& at) {
         std::ranges::sort(around, {}, &std::pair<std::uint32_t, Pair>::first);
         return around[Rng(digits_of(at, 0), 1).below(0, around.size())].second;
     }
 
-    /// What the triangle's points are between: all that they give changes evenly from corner to
-    /// corner.
+    /// Rows at the triangle's corners. Rows of its points are linear in between.
     std::array<std::vector<double>, 3> rows_at_corners(std::size_t i) const {
         const auto corners = mesh_.corners(i);
         const auto& [a, b, c] = corners;
@@ -245,7 +246,7 @@ class MeshDomain final : public NamedDomain {
         const double sum = at.weights[1] + at.weights[2];
         const double root = std::min(sum, 1.0);
         const double share = shares_.begin(at.triangle) + root * root * shares_.width(at.triangle);
-        const double end = shares_.end(at.triangle);  // where the next triangle begins
+        const double end = shares_.end(at.triangle);  // start of the next triangle
         return {std::min(share, end == 1 ? 1 : std::nextafter(end, 0)),
                 sum > 0 ? std::min(at.weights[1] / sum, 1.0) : 0};
     }
@@ -267,7 +268,7 @@ class MeshDomain final : public NamedDomain {
 
     TriangleMesh mesh_;
     TriangleTree tree_;
-    GuideTable shares_;  ///< of the triangles in the area, side by side
+    GuideTable shares_;  ///< cumulative fractions of the area, by triangle
     double area_ = 0;
     double size_ = 0;
 };

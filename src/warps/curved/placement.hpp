@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Where shapes stand in space: options that several warps share, with their checks.
+// Position and orientation of shapes in space: options shared by several warps, with their checks.
 #pragma once
 
 #include <span>
@@ -20,18 +20,18 @@ constexpr Param<Numbers> center{{.name = "center", .fallback = "0,0,0", .help = 
 constexpr Param<Numbers> axis{
     {.name = "axis", .fallback = "0,0,1", .help = "Axis: x,y,z, of any length but 0"}};
 
-/// The centre of a shape of this radius. @throws Error(usage): not three numbers, or so far that
-/// the shape is lost in rounding.
+/// The centre of a shape of size `reach`. @throws Error(usage) unless it is three numbers, or if it
+/// is so far away that rounding destroys the shape
 Vector3 center_of(const Values& options, double reach);
 
-/// The frame about --axis. @throws Error(usage): not three numbers, or null.
+/// The frame about --axis. @throws Error(usage) unless it is three numbers, not all 0
 Frame frame_of(const Values& options);
 
 /// Three numbers of an option. @throws Error(usage) naming it.
 Vector3 vector_of(const Param<Numbers>& option, const std::vector<double>& numbers);
 
-/// The box around all that is within `beyond` of a cylinder about a point: `along` a direction to
-/// both sides, with the radius `across`.
+/// The box around everything within `beyond` of a cylinder about `middle`. The cylinder extends by
+/// `along` to both sides in a direction, and has the radius `across`.
 Box box_about(const Vector3& middle, const Vector3& direction, double beyond, double along,
               double across);
 
@@ -40,21 +40,21 @@ struct Sphere {
     double radius;
     Vector3 center;
 
-    /// The point where centre and radius are 0 and 1.
+    /// Maps a point of space to the unit ball's coordinates: centre 0, radius 1.
     [[nodiscard]] Vector3 unit(std::span<const double> point) const {
         return {(point[0] - center[0]) / radius, (point[1] - center[1]) / radius,
                 (point[2] - center[2]) / radius};
     }
 
-    /// The point of space for one of the unit ball.
+    /// Maps a point of the unit ball to space.
     [[nodiscard]] Vector3 place(const Vector3& v) const {
         return {center[0] + radius * v[0], center[1] + radius * v[1], center[2] + radius * v[2]};
     }
 
     [[nodiscard]] Box bounding_box() const { return box_about(center, {}, radius, 0, 0); }
 
-    /// How far rounding may take a point from where it should be, in radii: 8 epsilon (R + largest
-    /// |c|) / R.
+    /// Rounding error of a point's position, relative to the radius: 8 epsilon (R + largest |c|) /
+    /// R.
     [[nodiscard]] double rounding() const;
 };
 

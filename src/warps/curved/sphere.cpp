@@ -9,18 +9,18 @@
 //     naive-lat-long  z = cos(pi xi0),  theta = 2 pi xi1: BIASED towards the poles (E z^2 = 1/2
 //                     in place of 1/3 on the unit sphere); kept to show the bias
 //
-// and back (rejection has no way back). sqrt(1 - z^2) is 2 sqrt(xi0 (1 - xi0)).
+// and the inverses of z and naive-lat-long. sqrt(1 - z^2) is computed as 2 sqrt(xi0 (1 - xi0)).
 //
 // Shape   2 unit coordinates, rejection 3; 3 coordinates.
-// Strata  xi0 falls from the north pole, where it is 0, to the south pole; xi1 turns from x towards
-//         y; both as they are, not as 1 - xi. Strata become rectangles of heights and longitudes.
-//         rejection keeps the cones of the strata that are left.
-// Cost    O(1) a point; on one core about 7 ns forward, 40 ns back.
-// Promise density 1 / (4 pi R^2) for all but naive-lat-long: 1 / (2 pi^2 R r), r the distance from
+// Strata  xi0 increases from 0 at the north pole to 1 at the south pole; xi1 turns from x towards
+//         y. xi are used directly, not as 1 - xi. Strata become rectangles of heights and
+//         longitudes. With rejection, strata become the cones of those that remain.
+// Cost    O(1) a point; on one core about 7 ns forward, 40 ns inverse.
+// Promise density 1 / (4 pi R^2), except for naive-lat-long: 1 / (2 pi^2 R r), r the distance from
 //         the axis, infinite at the poles. Points lie on the sphere up to the rounding stated at
-//         contains(). Forward and back again is the same point within 1e-14 of |c| + R; for c = 0
-//         also the same xi within 1e-14, save that all xi1 meet in the poles, which go back to
-//         xi1 = 0. The same bits on every machine.
+//         contains(). A round trip returns the same point within 1e-14 of |c| + R and, for c = 0,
+//         the same xi within 1e-14, except that the poles return xi1 = 0. The same bits on every
+//         machine.
 // Source  Archimedes, On the Sphere and Cylinder (areas of zones). Rejection: G. Marsaglia, Annals
 //         of Mathematical Statistics 43 (1972) 645-646, doi:10.1214/aoms/1177692644, compares it.
 
@@ -59,8 +59,7 @@ class SphereDomain final : public NamedDomain {
         return 4 * std::numbers::pi * sphere_.radius * sphere_.radius;
     }
 
-    /// Up to 8 epsilon (R + largest |c|) away from the sphere: the rounding of a point that was
-    /// made.
+    /// Allows a distance of 8 epsilon (R + largest |c|), the rounding error of generated points.
     bool contains(std::span<const double> point) const override {
         return std::abs(length(sphere_.unit(point)) - 1) <= slack_;
     }

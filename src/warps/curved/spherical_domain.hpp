@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// A convex polygon of directions, uniform in solid angle. Its cells are the way back of a map,
-// other than the warp's own, so that they do not line up with its strata.
+// A convex polygon of directions, uniform in solid angle. Its cells come from the inverse of a map
+// other than the warp's own, so that they are not aligned with the warp's strata.
 //
-// The area of spherical triangles keeps its digits, however small or thin they are:
+// The area of a spherical triangle loses no digits, however small or thin the triangle is:
 //
 //     tan(area / 2) = |a . (b - a) x (c - a)| / (1 + a.b + b.c + c.a),    a where the two shorter
 //                                                                         edges meet
 //
-// Moments on a polygon of area A, whose edges e have inward unit normals n_e, from those about an
-// axis w, by Stokes's theorem:
+// Moments on a polygon of area A by Stokes's theorem, from moments about an axis w. Edges e have
+// inward unit normals n_e:
 //
 //     T_k(w) = integral of (w . v)^k over it,    T_0 = A,
 //     (k + 1) T_k(w) = (k - 1) w . w T_(k-2)(w) + sum_e w . n_e integral of (w . v)^(k-1) along e
@@ -34,7 +34,7 @@
 
 namespace stipple::warps {
 
-/// a . (b x c) of three unit vectors, to its last digits where they are close together, too.
+/// Triple product a . (b x c) of three unit vectors, accurate even if they are close together.
 double corner_volume(const Vector3& a, const Vector3& b, const Vector3& c);
 
 /// Half the area of the triangle of three unit vectors, in turns of 2 pi: in [0, 1/2].
@@ -44,12 +44,12 @@ class SphericalDomain final : public NamedDomain {
   public:
     using Cells = std::function<std::array<double, 2>(std::span<const double>)>;
 
-    /// @param corners in order, either way around; unit vectors, neighbours not equal
-    /// @param inward unit normals of the planes of the edges after each corner; empty: by the
-    /// corners, neighbours of which are not opposite then
-    /// @param cells the map's way back
-    /// @param slack how far beyond the planes of the edges, and how much longer or shorter than 1,
-    /// rounding may take a direction that was made
+    /// @param corners in order, in either direction; unit vectors, neighbours distinct
+    /// @param inward unit normals of the planes of the edges after each corner; empty: computed
+    /// from the corners, whose neighbours must not be antipodal
+    /// @param cells the inverse that defines the cells
+    /// @param slack tolerance for rounding: beyond the edges' planes, and in the length of a
+    /// direction
     SphericalDomain(std::string spec, std::vector<Vector3> corners, std::vector<Vector3> inward,
                     Cells cells, double area, double slack, std::vector<std::string> axes);
 
@@ -62,27 +62,27 @@ class SphericalDomain final : public NamedDomain {
         put_clamped(cells_(point), cube);
     }
 
-    /// The great circles of its edges.
+    /// The great circles of the edges.
     std::optional<Discontinuities> discontinuities() const override;
 
-    /// Within 1e-8 of their size; none for areas below 1e-3, where differences lose too many
+    /// Accurate to a relative 1e-8; nullopt for areas below 1e-3, where differences lose too many
     /// digits.
     std::optional<Moments> moments() const override;
     std::vector<std::string> cube_axes() const override { return axes_; }
 
   private:
-    /// Whether a vector is of length 1 and inside all edges, both up to `slack`.
+    /// Whether a vector has length 1 and is inside all edges, both up to `slack`.
     bool holds(const Vector3& v, double slack) const;
 
-    /// T_1, T_2, T_3 about an axis.
+    /// The moments T_1, T_2, T_3 about an axis.
     std::array<double, 3> axial(const Vector3& w) const;
 
-    /// The highest that the edge after corner i reaches along `up`.
+    /// The largest coordinate along `up` on the edge after corner i.
     double edge_top(std::size_t i, const Vector3& up) const;
 
     std::vector<Vector3> corners_;
     std::vector<Vector3> inward_;
-    double turn_ = 1;  ///< of the corners about a direction inside: 1 or -1
+    double turn_ = 1;  ///< orientation of the corners as seen from outside: 1 or -1
     Cells cells_;
     double area_;
     double slack_;

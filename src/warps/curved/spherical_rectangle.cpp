@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Unit square onto the directions from a point o to a rectangle with corner s and edges ex, ey,
-// uniform in the solid angle that it fills (Urena, Fajardo, King). In coordinates along the edges,
-// from o, the rectangle is [x0, x1] x [y0, y1] at a distance z. xi0 says how far along x to go
-// until that share of the solid angle is behind; then sin(elevation) is uniform in xi1:
+// uniform in its solid angle (Urena, Fajardo, King). In coordinates along the edges, with origin o,
+// the rectangle is [x0, x1] x [y0, y1] at a distance z. xi0 determines x: the part of the rectangle
+// up to x has the fraction xi0 of the solid angle. Then sin(elevation) is uniform in xi1:
 //
 //     h(y) = y / sqrt(x^2 + y^2 + z^2),    sin(elevation) = h(y0) + xi1 (h(y1) - h(y0))
 //
@@ -13,24 +13,24 @@
 //     tan H = g0 g1 z (y1 - y0) / ((w0 w1)^2 + g0 g1 (z^2 + y0 y1)),
 //     g_i = x + sqrt(x^2 + w_i^2),  w_i^2 = y_i^2 + z^2
 //
-// and back, with x = z tan(phi), G = Delta - H,
+// and the inverse: with x = z tan(phi), G = Delta - H,
 //
 //     tan(phi) = sin(H - G) / (2 sqrt(sin H sin G sin(H + kappa1) sin(G + kappa1)))
 //
-// which keeps the digits that differences of arc cosines lose where the rectangle is small, far or
-// seen at a flat angle; x and y are turned so that it is at x <= 0 <= y, mostly, and sin(H +
-// kappa1) is sin(G + pi - kappa0) where that angle is the smaller one.
+// These forms keep the digits that differences of arc cosines lose if the rectangle is small,
+// distant or seen at a grazing angle. x and y are flipped so that mostly x <= 0 <= y, and sin(H +
+// kappa1) is computed as sin(G + pi - kappa0) if that angle is smaller.
 //
-// Shape   2 unit coordinates; 3 coordinates: the unit vector from o, not the point it meets, which
-//         is at o + t w, where that crosses the plane of the rectangle.
-// Strata  xi0 runs along ex, xi1 along ey, from s, both as they are, not as 1 - xi. Strata become
-//         quadrilaterals between planes through o and a parallel of ey.
-// Cost    O(1) a point; on one core about 14 ns forward, 62 ns back.
-// Promise density 1 / (solid angle). Directions meet the rectangle up to 16 epsilon beyond the
-//         planes through o and its edges. Forward and back again is the same xi within 1e-15 over the
-//         smaller of the two angles at which it is seen, and the same direction within 1e-14, save
-//         above the rectangle itself: next to its sides an ulp of xi is a direction that is
-//         1e-16 / (angle) further. The same bits on every machine.
+// Shape   2 unit coordinates; 3 coordinates: the unit vector w from o, not the point that it hits,
+//         which is o + t w in the plane of the rectangle.
+// Strata  xi0 runs along ex, xi1 along ey, both from s; xi are used directly, not as 1 - xi. Strata
+//         become quadrilaterals between planes through o and a parallel of ey.
+// Cost    O(1) a point; on one core about 14 ns forward, 62 ns inverse.
+// Promise density 1 / (solid angle). Directions hit the rectangle, with a tolerance of 16 epsilon
+//         at the planes through o and its edges. A round trip returns the same xi within 1e-15 over
+//         the smaller of the two angles at which the rectangle is seen, and the same direction
+//         within 1e-14. Exception: if o is above the rectangle itself, an ulp of xi near its sides
+//         changes the direction by 1e-16 / (angle). The same bits on every machine.
 // Source  C. Urena, M. Fajardo, A. King, "An area-preserving parametrization for spherical
 //         rectangles", Computer Graphics Forum 32(4) (2013) 59-66, doi:10.1111/cgf.12151.
 
@@ -59,19 +59,19 @@ constexpr Param<Points> edges{
 constexpr Param<Numbers> origin{
     {.name = "origin", .fallback = "0,0,0", .help = "Point o that looks at the rectangle: x,y,z"}};
 
-/// A rectangle seen from 0: corner (x0, y0, z) in a frame along its edges, z > 0.
+/// A rectangle seen from the origin: corner (x0, y0, z) in a frame along its edges, z > 0.
 struct Rectangle {
     Frame frame;
     double x0, x1, y0, y1, z;
 
-    /// The unit vector to a point of its plane, in space.
+    /// Direction of the point (x, y) of its plane, as a unit vector in space.
     Vector3 towards(double x, double y) const { return normalized(frame.out({x, y, z})); }
 
     std::vector<Vector3> corners() const {
         return {towards(x0, y0), towards(x1, y0), towards(x1, y1), towards(x0, y1)};
     }
 
-    /// Unit normals of the planes through 0 and the edges after these corners.
+    /// Inward unit normals of the planes through the origin and the edges after these corners.
     std::vector<Vector3> inward() const {
         const auto normal = [this](double x, double y, double height) {
             return normalized(frame.out({x, y, height}));
@@ -79,14 +79,14 @@ struct Rectangle {
         return {normal(0, z, -y0), normal(-z, 0, x1), normal(0, -z, y1), normal(z, 0, -x0)};
     }
 
-    /// x and y change places.
+    /// Exchanges x and y.
     Rectangle transposed() const { return {{frame.y, frame.x, frame.z}, y0, y1, x0, x1, z}; }
 };
 
 class Urena {
   public:
     explicit Urena(const Rectangle& rectangle) : seen_(rectangle) {
-        // Turned so that the digits are kept: mostly x <= 0 and y >= 0.
+        // Flipped to keep digits: mostly x <= 0 and y >= 0.
         const auto turn = [](double& low, double& high, Vector3& along) {
             low = -std::exchange(high, -low);
             along = times(along, -1);
@@ -106,7 +106,7 @@ class Urena {
         w1_ = std::sqrt(seen_.y1 * seen_.y1 + z * z);
         before_ = half_up_to(seen_.x0);
         behind_ = half_up_to(-seen_.x1);
-        // As two triangles, save where those are so large that their diagonal is no arc.
+        // Sum of two triangles, unless they are so large that their diagonal is not an arc.
         const auto c = seen_.corners();
         half_ = half_area_turns(c[0], c[1], c[2]) + half_area_turns(c[0], c[2], c[3]);
         if (half_ > 0.01) half_ = half_up_to(seen_.x1) - before_;
@@ -158,7 +158,7 @@ class Urena {
     }
 
   private:
-    /// Half the solid angle between x = -infinity and x, in turns.
+    /// Half the solid angle from x = -infinity to x, in turns.
     [[gnu::always_inline]] double half_up_to(double x) const {
         const double z = seen_.z;
         const double m = z * z + seen_.y0 * seen_.y1;
@@ -168,20 +168,22 @@ class Urena {
         const double g0 = x > 0 ? r0 + x : w0_ * w0_ / (r0 - x);
         const double g1 = x > 0 ? r1 + x : w1_ * w1_ / (r1 - x);
         if (m >= 0) return turns_of(w0_ * w0_ * (w1_ * w1_) + g0 * g1 * m, g0 * g1 * n);
-        // The foot of z is within y: (w0 w1)^2 = m^2 + n^2, and g0 g1 + m is not a difference.
+        // If the foot of z is within y: (w0 w1)^2 = m^2 + n^2, so that g0 g1 + m is not a
+        // difference.
         const double more0 = x * (g0 + w0_) / (r0 + w0_);  // g0 - w0
         const double more1 = x * (g1 + w1_) / (r1 + w1_);
         const double sum = (more0 * g1 + w0_ * more1) + n * n / (w0_ * w1_ - m);
         return turns_of(m * sum + n * n, g0 * g1 * n);
     }
 
-    /// H from G or G from H, as pi - low - high less it: next to pi, where the foot of z is nearly
-    /// in the rectangle, angles themselves have lost the digits of their sines.
+    /// H from G, or G from H: pi - low - high minus the other. Near pi, where the foot of z is
+    /// almost in the rectangle, the angles have lost the digits of their sines.
     CosSin rest_of(const CosSin& p) const {
         return {p.sin * both_.sin - p.cos * both_.cos, p.sin * both_.cos + p.cos * both_.sin};
     }
 
-    /// sin(p + low) = sin(q + high), where the four angles sum to pi, by whichever loses no digits.
+    /// sin(p + low) = sin(q + high), since the four angles sum to pi; computed in the form that
+    /// loses no digits.
     static double sine_of_sum(const CosSin& p, const CosSin& q, const CosSin& low,
                               const CosSin& high) {
         const double first = p.sin * low.cos + p.cos * low.sin;
@@ -189,7 +191,7 @@ class Urena {
         return p.cos * low.cos > p.sin * low.sin ? first : second;
     }
 
-    /// 1 - h(y) and 1 + h(y), for the sine h of an elevation.
+    /// 1 - h(y) and 1 + h(y), where h is the sine of an elevation.
     struct Gaps {
         double below;
         double above;
@@ -205,21 +207,21 @@ class Urena {
     }
 
     Rectangle seen_;
-    double from_x_ = 0;  ///< xi0 or, where x is turned, 1 - xi0
+    double from_x_ = 0;  ///< the map uses xi0, or 1 - xi0 if x is flipped
     double sign_x_ = 1;
-    double from_y_ = 0;  ///< the same of xi1 and y
+    double from_y_ = 0;  ///< likewise for xi1 and y
     double sign_y_ = 1;
     double half_ = 0;    ///< half the solid angle, in turns
     double before_ = 0;  ///< H at x0
     double behind_ = 0;  ///< G at x1
     double w0_ = 0;
     double w1_ = 0;
-    CosSin low_{};   ///< of pi - kappa0
-    CosSin high_{};  ///< of kappa1
-    CosSin both_{};  ///< of their sum
+    CosSin low_{};   ///< pi - kappa0
+    CosSin high_{};  ///< kappa1
+    CosSin both_{};  ///< sum of both
 };
 
-/// @throws Error(usage) when these are not the edges of a rectangle.
+/// @throws Error(usage) unless these are the edges of a rectangle
 void check_edges(const Table& table, double size_x, double size_y, double cosine) {
     if (!(size_x > 0 && size_y > 0))
         fail(ErrorKind::usage, "--edges: {} has an edge of length 0", format_value(table));
@@ -270,7 +272,7 @@ Rectangle rectangle_of(const Values& options) {
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const Rectangle rectangle = rectangle_of(want.options);
-    // Cells are Urena's map back with x and y exchanged.
+    // Cells come from the inverse of Urena's map with x and y exchanged.
     const Urena turned(rectangle.transposed());
     const auto cells = [turned](std::span<const double> point) {
         const auto [v, u] = turned.inverse(point);

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
 //
 // Unit square onto the directions in a spherical triangle with corners a, b, c, uniform in solid
-// angle (Arvo). The great circle through b that leaves the share xi0 of the area A next to the edge
-// ab meets the edge ac at c', q away from a:
+// angle (Arvo). The great circle through b that separates the fraction xi0 of the area A, next to
+// the edge ab, meets the edge ac at c'. With q the distance from a to c':
 //
 //     tan(q/2) = sin(A xi0 / 2) / (tan(ab/2) sin(alpha - A xi0 / 2)),    alpha the angle at a
 //
-// and the point w is on the arc from b to c', with 1 - cos(bw) = xi1 (1 - cos(bc')). All is
-// written in differences of vectors and tangents of half angles, where Arvo's cosines lose the
-// digits of small triangles: the first from tan(A/2) = tan(p/2) tan(q/2) sin(alpha) /
-// (1 + tan(p/2) tan(q/2) cos(alpha)), for a triangle with sides p and q next to the angle alpha.
+// The point w is on the arc from b to c', with 1 - cos(bw) = xi1 (1 - cos(bc')). Differences of
+// vectors and tangents of half angles are used throughout, since Arvo's cosines lose the digits of
+// small triangles. The first formula follows from tan(A/2) = tan(p/2) tan(q/2) sin(alpha) / (1 +
+// tan(p/2) tan(q/2) cos(alpha)), for a triangle with sides p and q that enclose the angle alpha.
 //
 // Shape   2 unit coordinates; 3 coordinates, of unit length. Sides below 180 degrees.
-// Strata  xi0 is the share of the area from the edge ab towards c, xi1 the place along the arc from
-//         b, as the share of the area on its way; both as they are, not as 1 - xi. Strata become
-//         quadrilaterals between arcs through b, triangles where they touch it.
-// Cost    O(1) a point; on one core about 11 ns forward, 46 ns back.
-// Promise density 1 / A. Directions lie in the triangle up to the rounding stated at slack_of().
-//         Forward and back again is the same direction within 1e-14; nearly hemispheres, within
-//         that over the distance stated there. The same bits on every machine.
+// Strata  xi0 is the fraction of the area from the edge ab towards c; xi1 is the fraction of the
+//         area along the arc from b. xi are used directly, not as 1 - xi. Strata become
+//         quadrilaterals between arcs through b, or triangles if they touch it.
+// Cost    O(1) a point; on one core about 11 ns forward, 46 ns inverse.
+// Promise density 1 / A. Directions lie in the triangle up to the rounding stated at slack_of(). A
+//         round trip returns the same direction within 1e-14; for near-hemispheres, within 1e-14
+//         over the distance stated there. The same bits on every machine.
 // Source  J. Arvo, "Stratified sampling of spherical triangles", SIGGRAPH 95, 437-438,
 //         doi:10.1145/218380.218500.
 
@@ -40,7 +40,7 @@ constexpr Param<Points> vertices{
      .fallback = "1,0,0 0,1,0 0,0,1",
      .help = "Three directions a b c, of any length; xi1 = 0 is the edge ab, xi2 = 0 is b"}};
 
-/// The map for the corners in this order.
+/// Arvo's map for corners in this order.
 class Arvo {
   public:
     Arvo(const Vector3& a, const Vector3& b, const Vector3& c)
@@ -49,7 +49,7 @@ class Arvo {
         to_c_ = tangent(a, c);
         sin_ = length(ac);
         cos_ = length(plus(a, c));
-        // tan(ab/2) times cosine and sine of alpha.
+        // tan(ab/2) times the cosine and sine of alpha.
         const double volume = corner_volume(a, b, c);
         const Vector3 sum = plus(a, b);
         along_ = length(ab_) / length(sum) * dot(tangent(a, b), to_c_);
@@ -60,7 +60,7 @@ class Arvo {
     Vector3 forward(const std::array<double, 2>& xi) const {
         const auto [c, s] = cos_sin_turns(half_area_ * xi[0]);
         const double x = across_ * c - along_ * s;
-        const bool beyond = s * cos_ >= x * sin_;  // c' is at c, or by rounding behind it
+        const bool beyond = s * cos_ >= x * sin_;  // c' is at c, or beyond it by rounding
         const Vector3 arc = beyond ? bc_ : arc_from_b(x, s);
         const double whole = 0.25 * dot(arc, arc);  // sin^2 of half the arc from b to c'
         const double part = xi[1] * whole;
@@ -76,7 +76,7 @@ class Arvo {
     std::array<double, 2> inverse(std::span<const double> point) const {
         const Vector3 way = minus(vector_of(point), b_);
         const Vector3 plane = cross(b_, way);
-        // cos q and sin q at which the plane through b and w meets the edge ac, times a length.
+        // cos q and sin q times a common length, where the plane through b and w meets the edge ac.
         const double x = 0 - turn_ * dot(plane, to_c_);
         const double y = std::max(0.0, 0 - turn_ * dot(plane, ab_));
         if (x * x + y * y == 0) return {0, 0};  // b itself
@@ -84,13 +84,13 @@ class Arvo {
         const Vector3& whole = share < 1 ? arc : bc_;
         const double part = dot(way, way) / dot(whole, whole);
         if (part < 1) return {share, part};
-        // On the edge ac: w itself is c', which that plane may not tell where a is next to b.
+        // On the edge ac, w itself is c'; the plane is ill-conditioned if a is next to b.
         const Vector3 off = minus(vector_of(point), a_);
         return {at(dot(vector_of(point), a_), std::max(0.0, dot(off, to_c_))).share, 1};
     }
 
   private:
-    /// The unit tangent of the sphere at `from`, towards `to`.
+    /// Unit tangent of the sphere at `from`, towards `to`.
     static Vector3 tangent(const Vector3& from, const Vector3& to) {
         const Vector3 chord = minus(to, from);
         return normalized(plus(chord, times(from, 0.5 * dot(chord, chord))));
@@ -101,7 +101,7 @@ class Arvo {
         Vector3 arc;   ///< the chord from b to c'
     };
 
-    /// For cos q and sin q times a length.
+    /// @param x, y cos q and sin q times a common length
     Foot at(double x, double y) const {
         const double size = std::sqrt(x * x + y * y);
         const double c = x >= 0 ? size + x : y;  // cos(q/2) and sin(q/2), times a length
@@ -109,7 +109,7 @@ class Arvo {
         return {turns_of(c + along_ * s, across_ * s) / half_area_, arc_from_b(c, s)};
     }
 
-    /// The chord from b to c', for cos(q/2) and sin(q/2) times a length.
+    /// The chord from b to c'. @param c, s cos(q/2) and sin(q/2) times a common length
     Vector3 arc_from_b(double c, double s) const {
         const double scale = 2 * s / (c * c + s * s);
         return {scale * (c * to_c_[0] - s * a_[0]) - ab_[0],
@@ -127,12 +127,12 @@ class Arvo {
     double cos_ = 0;
     double along_ = 0;
     double across_ = 0;
-    double turn_ = 1;  ///< of a, b, c: 1 counter-clockwise, seen from outside
+    double turn_ = 1;  ///< orientation of a, b, c: 1 counter-clockwise, seen from outside
 };
 
 using Corners = std::array<Vector3, 3>;
 
-/// How far the point opposite of a corner is from the edge from p to q.
+/// Distance of the point opposite to a corner from the edge from p to q.
 double from_opposite(const Vector3& corner, const Vector3& p, const Vector3& q) {
     const Vector3 normal = normalized(cross(p, minus(q, p)));
     const double height = dot(normal, corner);
@@ -141,15 +141,15 @@ double from_opposite(const Vector3& corner, const Vector3& p, const Vector3& q) 
     return beside ? std::abs(height) : std::min(length(plus(p, corner)), length(plus(q, corner)));
 }
 
-/// 16 epsilon; more for a triangle that is nearly a hemisphere, where a point opposite of a corner
-/// is near the opposite edge: over its distance from it.
+/// Tolerance: 16 epsilon; for near-hemispheres divided by the distance of a corner's antipode from
+/// the opposite edge.
 double slack_of(const Corners& v) {
     return 16 * epsilon /
            std::min({1.0, from_opposite(v[0], v[1], v[2]), from_opposite(v[1], v[2], v[0]),
                      from_opposite(v[2], v[0], v[1])});
 }
 
-/// @throws Error(usage) when they are not the corners of a triangle.
+/// @throws Error(usage) unless these are the corners of a triangle
 Corners corners_of(const Table& table) {
     if (table.size() != 3 || table[0].size() != 3)
         fail(ErrorKind::usage,
@@ -180,7 +180,7 @@ Corners corners_of(const Table& table) {
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const Corners v = corners_of(want.options[vertices]);
-    // Cells are Arvo's map back about the next corner.
+    // Cells come from the inverse of Arvo's map about the next corner.
     const auto cells = [next = Arvo(v[1], v[2], v[0])](std::span<const double> point) {
         return next.inverse(point);
     };

@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit square onto the surface of a torus, uniform by area. A tube of radius r about a circle of
-// radius R <= its own centre c; theta the angle around the tube, from its outermost point, phi the
+// Unit square onto the surface of a torus, uniform by area: a tube of radius r about a circle of
+// radius R >= r and centre c. theta is the angle around the tube from its outermost point, phi the
 // angle around the axis z:
 //
 //     point = c + (R + r cos theta) (cos phi x + sin phi y) + r sin theta z,    phi = 2 pi xi1
 //     (R theta + r sin theta) / (2 pi R) = xi0
 //
-// With E = pi - theta, M = pi - 2 pi xi0 and e = r / R <= 1 that is Kepler's equation
-// E - e sin E = M. Markley's rational approximation of the sine makes it a cubic equation, whose
-// root is within 1e-3 of E, and one step of fifth order does the rest. E - sin E is summed as a
-// power series below 1/2, so that no digits are lost where e is near 1.
+// With E = pi - theta, M = pi - 2 pi xi0 and e = r / R <= 1, this is Kepler's equation E - e sin E
+// = M. Markley's rational approximation of the sine turns it into a cubic equation, whose root is
+// within 1e-3 of E; one correction step of fifth order suffices. E - sin E is computed as a power
+// series below 1/2, so that no digits are lost if e is near 1.
 //
 // Shape   2 unit coordinates, 3 coordinates; r <= R.
-// Strata  xi0 turns around the tube, from the outermost point upwards and in; xi1 turns from x
-//         towards y when the axis is z; both as they are, not as 1 - xi. Strata become rectangles
-//         bent around the tube, longer inside.
-// Cost    O(1) a point; on one core about 18 ns forward, 80 ns back.
+// Strata  xi0 turns around the tube, from the outermost point upwards and inwards; xi1 turns from x
+//         towards y if the axis is z. xi are used directly, not as 1 - xi. Strata become rectangles
+//         bent around the tube, longer on the inside.
+// Cost    O(1) a point; on one core about 18 ns forward, 80 ns inverse.
 // Promise density 1 / (4 pi^2 R r). Points lie on the surface up to the rounding stated at
-//         contains(). Forward and back again is the same point within 1e-14 of |c| + R. The same
-//         bits on every machine.
-// Beware  uniform angles are not uniform by area: they are dense inside.
+//         contains(). A round trip returns the same point within 1e-14 of |c| + R. The same bits on
+//         every machine.
+// Beware  uniform angles are not uniform by area: they are denser on the inside.
 // Source  P. Diaconis, S. Holmes, M. Shahshahani, "Sampling from a manifold", IMS Collections 10
-//         (2013) 102-125, doi:10.1214/12-IMSCOLL1006 (the density; inverted here, not rejected).
+//         (2013) 102-125, doi:10.1214/12-IMSCOLL1006 (the density; inverted here, without
+//         rejection).
 //         F. L. Markley, "Kepler equation solver", Celestial Mechanics and Dynamical Astronomy 63
 //         (1995) 101-111, doi:10.1007/BF00691917.
 
@@ -41,7 +42,7 @@ namespace stipple::warps::torus_surface {
 namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
-constexpr double least = 1e-150;  ///< in place of a divisor that is 0
+constexpr double least = 1e-150;  ///< replaces a zero divisor
 
 constexpr auto major_radius =
     length_option("major-radius", 1, "Radius R of the circle in the middle of the tube");
@@ -49,7 +50,7 @@ constexpr auto major_radius =
 constexpr auto minor_radius =
     length_option("minor-radius", 0.4, "Radius r of the tube, at most the major radius");
 
-/// E - sin E for E in [0, pi], to its last digits.
+/// E - sin E for E in [0, pi], without loss of digits.
 inline double less_sine(double angle, double sine) {
     const double z = angle * angle;
     // 1/15!, then 1/13!, ...
@@ -69,16 +70,17 @@ struct Torus {
         return 16 * std::numeric_limits<double>::epsilon() * (major + minor + largest(center));
     }
 
-    /// A point in the half plane through the axis: E in turns, and above or below the middle.
+    /// Coordinates of a point in the half plane through the axis: an angle around the tube, and a
+    /// side.
     struct Section {
-        double inner;   ///< the angle around the tube from its innermost point, in [0, 1/2] turns
+        double inner;   ///< angle around the tube from its innermost point, in [0, 1/2] turns
         bool below;     ///< z < 0
-        double around;  ///< the angle about the axis in turns
-        double tube;    ///< distance from the middle of the tube
+        double around;  ///< angle about the axis in turns
+        double tube;    ///< distance from the centre line of the tube
     };
 
     [[gnu::always_inline]] Section section(std::span<const double> point) const {
-        // In units of a power of 2, in which no square over- or underflows.
+        // Scaled by a power of 2, so that no square overflows or underflows.
         const double unit = std::ldexp(1.0, -std::ilogb(major));
         const auto [x, y, z] = times(frame.in(minus(vector_of(point), center)), unit);
         const double inwards = unit * major - std::sqrt(x * x + y * y);
@@ -93,7 +95,7 @@ struct Torus {
         return (major - minor) / major * angle + minor / major * less_sine(angle, s);
     }
 
-    /// Markley's start for the angle in [0, pi] whose mean anomaly is M in [0, pi].
+    /// Markley's initial value for the angle in [0, pi] with mean anomaly M in [0, pi].
     double first_angle(double mean) const {
         constexpr double pi = std::numbers::pi;
         const double e = minor / major;
@@ -106,19 +108,19 @@ struct Torus {
         const double root =
             rough_cube_root(std::max(r + std::sqrt(std::max(q * q * q + r * r, 0.0)), least));
         const double w = root * root;
-        // 0 / 0 for M = 0 and e = 1.
+        // Avoids 0 / 0 for M = 0 and e = 1.
         const double below = std::max(w * w + w * q + q * q, least);
         return std::min((2 * r * w + mean * below) / (below * d), pi);
     }
 
-    /// Cosine and sine of half the angle whose mean anomaly is M in [0, pi].
+    /// Cosine and sine of half the angle with mean anomaly M in [0, pi]. @param angle initial value
     CosSin half_angle(double mean, double angle) const {
         const double e = minor / major;
         const double lacks = (major - minor) / major;
         const auto [c, s] = cos_sin_turns(0.25 * std::numbers::inv_pi * angle);
         const double sine = 2 * s * c;
         const double excess = lacks * angle + e * less_sine(angle, sine) - mean;
-        // The left side about the angle is the excess plus first (x + a x^2 + b x^3 + ...).
+        // Kepler's equation expanded about the angle: excess plus first (x + a x^2 + b x^3 + ...).
         const double inverse = 1 / std::max(lacks + 2 * e * s * s, least);
         const double sines = e * sine * inverse;
         const double cosines = e * (1 - 2 * s * s) * inverse;
@@ -129,7 +131,7 @@ struct Torus {
         const double rest = near * (b - near * (sines * (1 / 24.0) + near * cosines * (1 / 120.0)));
         const double miss = near * (1 + near * (a + rest)) - wanted;
         const double step = near - miss * (1 - 2 * a * near);
-        // On by half of the step, which is below 1e-3: by the power series.
+        // Advances by half of the step, which is below 1e-3, with power series.
         const double h = 0.5 * step;
         const double hh = h * h;
         const double sine_h = h * (1 - hh * (1 / 6.0) * (1 - hh * (1 / 20.0)));
@@ -153,8 +155,8 @@ class TorusDomain final : public NamedDomain {
 
     double measure() const override { return two_pi * torus_.major * (two_pi * torus_.minor); }
 
-    /// Up to 16 epsilon (R + r + largest |c|) away from the surface: the rounding of a point that
-    /// was made.
+    /// Allows a distance of 16 epsilon (R + r + largest |c|), the rounding error of generated
+    /// points.
     bool contains(std::span<const double> point) const override {
         return std::abs(torus_.section(point).tube - torus_.minor) <= torus_.slack();
     }

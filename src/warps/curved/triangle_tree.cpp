@@ -9,7 +9,7 @@
 namespace stipple {
 namespace {
 
-/// The share of the way from a to b at which their line is nearest to the point, in [0, 1].
+/// Position, as a fraction in [0, 1], of the edge's point that is nearest to the given point.
 double place_on_edge(const Vector3& a, const Vector3& b, const Vector3& point) {
     const Vector3 edge = minus(b, a);
     const double square = dot(edge, edge);
@@ -54,7 +54,7 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh, const RunContext& run) : me
             std::tie(low[k], high[k]) = std::minmax({a[k], b[k], c[k]});
         entries.emplace_back(Bounds({low[0], low[1], low[2]}, {high[0], high[1], high[2]}), i);
     }
-    boxes_ = decltype(boxes_)(entries);  // all at once, which packs them
+    boxes_ = decltype(boxes_)(entries);  // bulk loading packs the tree
 }
 
 void TriangleTree::visit(const Vector3& point, double reach,

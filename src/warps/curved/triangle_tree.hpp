@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Which triangles of a mesh a point lies on: Boost's tree of the boxes around them.
+// Finds the triangles of a mesh that a point lies on, with Boost's R-tree of their bounding boxes.
 //
 // Shape   any number of triangles, also without area.
-// Cost    O(n log n) to build, O(log n) for a point on a mesh whose triangles are well spread.
-// Promise every triangle within the reach, and no other; in no order to rely on.
+// Cost    O(n log n) to build; O(log n) per point if the mesh's triangles are well spread.
+// Promise finds all triangles within the distance, and only these; in unspecified order.
 #pragma once
 
-#define BOOST_ALLOW_DEPRECATED_HEADERS  // Boost.Geometry includes one, with a note at each compile
+#define BOOST_ALLOW_DEPRECATED_HEADERS  // Boost.Geometry includes one, which prints a note at each \
+                                        // compilation
 
 #include <array>
 #include <boost/geometry/geometries/box.hpp>
@@ -22,8 +23,8 @@
 
 namespace stipple {
 
-/// Where a point is on a triangle: its barycentrics, none below 0, summing to 1, of the triangle's
-/// point that is nearest, and its distance from there.
+/// Projection of a point onto a triangle: the barycentrics (>= 0, sum 1) of the nearest point of
+/// the triangle, and the distance from it.
 struct Foot {
     std::array<double, 3> weights;
     double distance;
@@ -35,7 +36,7 @@ class TriangleTree {
     /// `mesh` must outlive the tree. @throws Error(cancelled)
     TriangleTree(const TriangleMesh& mesh, const RunContext& run);
 
-    /// Calls `seen` with every triangle whose distance from the point is at most `reach`.
+    /// Calls `seen` for every triangle at a distance of at most `reach` from the point.
     void visit(const Vector3& point, double reach,
                const std::function<void(std::uint32_t, const Foot&)>& seen) const;
 

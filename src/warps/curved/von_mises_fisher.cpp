@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit square onto directions about an axis by von Mises' and Fisher's distribution on the sphere,
+// Unit square onto directions about an axis with the von Mises-Fisher distribution on the sphere,
 // with concentration kappa:
 //
 //     density kappa exp(kappa cos theta) / (4 pi sinh kappa);    kappa = 0: uniform
 //
-// With xi0 the probability of the cone about the axis, longitude 2 pi xi1 and
+// With u = xi0 the probability of the cone about the axis, longitude 2 pi xi1 and
 //
 //     1 - cos theta = -log1p(xi0 expm1(-2 kappa)) / kappa        where theta <= 90 degrees,
 //     1 + cos theta =  log1p((1 - xi0) expm1(2 kappa)) / kappa   beyond,
 //
-// so that neither pole loses digits, and no kappa overflows.
+// so that no digits are lost at either pole, and no kappa overflows.
 //
 // Shape   2 unit coordinates; 3 coordinates, a unit vector.
-// Strata  xi0 is taken as it is, not as 1 - xi: 0 is the axis, and small xi0 is near it. xi1 turns
-//         about the axis; for +z from x towards y. Strata become rings of sectors. Where kappa is
-//         large, xi0 = 1 is taken as 1 - 2^-55.
-// Cost    O(1) a point; on one core about 8 ns forward, 40 ns back.
-// Promise unit vectors up to 8 epsilon. Forward and back again is the same vector within 1e-14. For
-//         the default axis it is also the same xi within 1e-13, save that all xi1 meet in the
-//         poles; about another axis rounding of the vector moves xi0 by up to 1e-15 (1 +
-//         sqrt(kappa)), and xi1 by 1e-15 / sin theta. The same bits on every machine.
+// Strata  xi0 is used directly, not as 1 - xi: 0 is the axis, small xi0 are near it. xi1 turns
+//         about the axis; for +z from x towards y. Strata become sectors of rings. If kappa is
+//         large, xi0 = 1 is replaced by 1 - 2^-55.
+// Cost    O(1) a point; on one core about 8 ns forward, 40 ns inverse.
+// Promise unit vectors up to 8 epsilon. A round trip returns the same vector within 1e-14. For the
+//         default axis it also returns the same xi within 1e-13, except at the poles. About another
+//         axis, rounding of the vector changes xi0 by up to 1e-15 (1 + sqrt(kappa)), and xi1 by
+//         1e-15 / sin theta. The same bits on every machine.
 // Source  R. Fisher, "Dispersion on a sphere", Proc. R. Soc. A 217 (1953) 295-305,
 //         doi:10.1098/rspa.1953.0064.
 
@@ -47,8 +47,8 @@ class Fisher {
 
     explicit Fisher(double kappa) : kappa_(std::max(kappa, 1e-17)) {
         constexpr double most = 55 * 0.6931471805599453;  // -log 2^-55
-        // Below 1e-17, the density is uniform to the last bit; above 20, 1 + cos keeps its digits
-        // as the complement of 1 - cos, since no xi below 1 comes near the far pole.
+        // Below 1e-17 the density is uniform to the last bit. Above 20, 1 + cos keeps its digits as
+        // the complement of 1 - cos, since no xi below 1 reaches the vicinity of the far pole.
         const bool both = kappa_ <= 20;
         near_factor_ = exp_minus_1(-2 * kappa_);
         if (both) far_factor_ = exp_minus_1(2 * kappa_);
@@ -74,7 +74,7 @@ class Fisher {
         return kappa_ * stipple::exponential(-kappa_ * one_minus_cos(w)) / (around * -near_factor_);
     }
 
-    /// Along the axis, the cumulants are the derivatives of log(sinh kappa / kappa).
+    /// The cumulants along the axis are the derivatives of log(sinh kappa / kappa).
     AxialMoments moments() const {
         if (kappa_ < 1) return series_moments();
         const double k = kappa_;
@@ -88,8 +88,8 @@ class Fisher {
     }
 
   private:
-    /// E z^n = sum kappa^j / j! m(n + j) over sum kappa^j / j! m(j), m those of the uniform
-    /// distribution.
+    /// E z^n = (sum of kappa^j / j! m(n + j)) / (sum of kappa^j / j! m(j)), where m are the moments
+    /// of the uniform distribution.
     AxialMoments series_moments() const {
         std::array<double, 4> sums{};
         double term = 1;
@@ -103,9 +103,9 @@ class Fisher {
 
     double kappa_;
     double near_factor_ = -1;  ///< expm1(-2 kappa)
-    double far_factor_ = 0;    ///< expm1(2 kappa), where it is used
-    double turn_ = 0.5;        ///< the xi of 90 degrees; 2: always near
-    double last_ = 2;          ///< 1 - cos of xi = 1
+    double far_factor_ = 0;    ///< expm1(2 kappa), if it is used
+    double turn_ = 0.5;        ///< the xi of 90 degrees; 2: never reached
+    double last_ = 2;          ///< 1 - cos at xi = 1
 };
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto outcomes 0 ... m - 1 with given probabilities p_i, each coordinate by itself, or
-// onto values that stand for them:
+// Unit cube onto outcomes 0 ... m - 1 with given probabilities p_i, on each coordinate
+// independently, or onto values assigned to the outcomes:
 //
 //     inversion  the first outcome with p_0 + ... + p_i > xi
 //     alias      slot i = floor(m xi): outcome i where m xi - i < q_i, else its alias a_i; the m
 //                slots hold p_i m = q_i + sum over a_j = i of (1 - q_j)
 //
-// Two coordinates of the same distribution are two dice: 1/36 each pair.
+// Two coordinates of the same distribution are independent, like two dice: each pair has 1/36.
 //
 // Shape   any number of coordinates; 1 to 2^24 outcomes.
-// Strata  inversion: xi is taken as it is, and outcomes come in order, so that n strata give each
-//         outcome n p_i times, rounded up or down. alias: strata are kept only within a slot.
-// Cost    O(1) a coordinate expected, by a guide table or the aliases; about 5 ns on one core.
-// Promise an outcome of probability 0 never comes, for no xi. The way back of inversion is the
+// Strata  inversion: xi is used directly, and outcomes are in order, so that n strata give each
+//         outcome n p_i times, rounded up or down. alias: strata are preserved only within a slot.
+// Cost    O(1) a coordinate on average, with a guide table or aliases; about 5 ns on one core.
+// Promise an outcome of probability 0 never occurs, for any xi. The inverse of inversion is the
 //         middle of the outcome's interval; alias has none. The same bits on every machine.
 // Source  A. J. Walker, ACM Trans. Math. Software 3 (1977) 253-256, doi:10.1145/355744.355749;
 //         M. D. Vose, IEEE Trans. Software Eng. 17 (1991) 972-975, doi:10.1109/32.92917 (aliases).
@@ -47,12 +47,12 @@ constexpr Param<Choice> method{
 constexpr Param<bool> normalize{.name = "normalize",
                                 .help = "Divide the probabilities by their sum"};
 
-/// Outcomes with their probabilities.
+/// Distribution over the outcomes.
 struct Outcomes : LineDistribution {
     std::vector<double> weight;  ///< probability
     std::vector<double> value;
-    GuideTable sums;                 ///< of probabilities, the last is 1
-    std::vector<std::size_t> order;  ///< of outcomes by value
+    GuideTable sums;                 ///< cumulative probabilities; the last is 1
+    std::vector<std::size_t> order;  ///< indices of the outcomes, sorted by value
 
     explicit Outcomes(const Values& options);
 
@@ -69,7 +69,7 @@ struct Outcomes : LineDistribution {
         const std::size_t i = find(x);
         return 0.5 * (sums.begin(i) + sums.end(i));
     }
-    /// Outcomes have equal cells in the cube.
+    /// All outcomes have cells of the same size in the cube.
     bool even() const override { return false; }
     double cube_coordinate(double x) const override {
         return (static_cast<double>(find(x)) + 0.5) / static_cast<double>(count());
@@ -80,7 +80,7 @@ struct Outcomes : LineDistribution {
     }
     bool contains(double x) const override { return find(x) < count(); }
     double measure() const override { return static_cast<double>(count()); }
-    /// Outcomes that can come.
+    /// Number of outcomes with positive probability.
     Positive positive() const override {
         const auto likely = std::ranges::count_if(weight, [](double p) { return p > 0; });
         return {{}, static_cast<double>(likely)};
@@ -98,7 +98,7 @@ struct Outcomes : LineDistribution {
         }
         return m;
     }
-    /// Of the outcomes whose cube coordinates are in [low, high).
+    /// Probability of the outcomes whose cube coordinates are in [low, high).
     Estimate probability(double low, double high) const override {
         double sum = 0;
         for (std::size_t i = 0; i < count(); ++i) {
@@ -148,7 +148,7 @@ std::vector<double> values_of(const Values& options, std::size_t m) {
     if (values.size() != m)
         fail(ErrorKind::usage, "--values: {} number{} for {} probabilit{}", values.size(),
              values.size() == 1 ? "" : "s", m, m == 1 ? "y" : "ies");
-    for (double& x : values) x += 0.0;  // -0 would show in points
+    for (double& x : values) x += 0.0;  // -0 would appear in the points
     return values;
 }
 
@@ -162,7 +162,7 @@ Outcomes::Outcomes(const Values& options)
     sums = GuideTable(sums_to_1(weight), 2 * count());
 }
 
-/// Vose's way: slots that are short are filled up from outcomes that have more than one slot.
+/// Vose's method: fills short slots from outcomes that have more than one slot.
 ByAlias::ByAlias(const Values& options) : Outcomes(options) {
     const std::size_t m = count();
     share.resize(m);
@@ -185,7 +185,7 @@ ByAlias::ByAlias(const Values& options) : Outcomes(options) {
         small.push_back(l);
     }
     for (const std::uint32_t i : large) share[i] = 1;
-    for (const std::uint32_t i : small) {  // short by rounding alone
+    for (const std::uint32_t i : small) {  // short only by rounding
         if (weight[i] > 0)
             share[i] = 1;
         else

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit square onto a box of the plane, with a density that a formula f(x, y) gives: the marginal,
-// then the conditional,
+// Unit square onto a box of the plane, with the density given by a formula f(x, y): first the
+// marginal, then the conditional distribution,
 //
 //     p(x) = integral of p(x, y) dy from xi0,    p(y | x) = p(x, y) / p(x) from xi1,
 //
@@ -9,15 +9,15 @@
 // exactly.
 //
 // Shape   2 unit coordinates, 2 coordinates in the box.
-// Strata  xi0 and xi1 are taken as they are: small xi0 is left, small xi1 below, for each x. Strata
-//         of xi0 are strips of equal mass between verticals.
-// Cost    about 100 ns a point; the table takes 40 ms for a smooth f, 0.5 s where f jumps along a
-//         slanting line, at the default tolerance, and as the inverse of the tolerance.
-// Promise no probability is off by more than about the tolerance, by which the table differs from
-//         f. The density of the points is the table's, to rounding; that of the domain is f over its
-//         integral by quadrature. Forward and back is xi within 1e-13.
-//         No point where f is 0 beside a jump, but for what 9 points of a patch do not show.
-// Beware  never F(x, y) / F(x, y_max), which is the distribution of y given X <= x.
+// Strata  xi0 and xi1 are used directly: small xi0 is left and, at each x, small xi1 is at the
+//         bottom. Strata of xi0 are vertical strips of equal mass.
+// Cost    about 100 ns a point. At the default tolerance the table takes 40 ms for a smooth f, 0.5
+//         s if f jumps along an oblique line; the time is proportional to 1 / tolerance.
+// Promise no probability is off by more than about the tolerance, to which the table approximates
+//         f. The points' density is the table's, up to rounding; the domain's is f over its
+//         integral by quadrature. A round trip returns xi within 1e-13. No points where f is 0 next
+//         to a jump, unless the 9 points sampled per patch miss that.
+// Beware  F(x, y) / F(x, y_max) would be wrong: it is the distribution of y given X <= x.
 
 #include <array>
 #include <memory>
@@ -70,7 +70,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
         fail(ErrorKind::usage, "--density: give a formula in x and y, such as 'x + y'");
     const Box box = parse_box(want.options[bounds], 2);
     Expression f(density.name, want.options[density], 2);
-    Values plain = want.options;  // without blanks: the spec is one word
+    Values plain = want.options;  // blanks removed: a spec is one word
     plain.put(density.name, f.text());
     const auto domain = std::make_shared<FormulaBox>(
         format_spec(want.warp.name, plain, want.warp.options), std::move(f), box);

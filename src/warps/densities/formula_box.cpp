@@ -13,28 +13,28 @@
 namespace stipple::warps {
 namespace {
 
-// One coordinate inside the other: in three, what is affordable is less. Intervals to begin with
-// are many enough to see what is narrow.
+// Quadrature is nested, one coordinate inside another, so three dimensions afford less. The initial
+// intervals are numerous enough to detect narrow peaks.
 Effort effort_for(std::size_t dimension) {
     if (dimension <= 1) return {1e-12, 5000, 1023};
     if (dimension == 2) return {1e-9, 150, 25};
     return {1e-5, 12, 5};
 }
 
-/// @param share of the box's extent along an axis, at most, that the cell has
+/// @param share upper limit for the cell's extent along an axis, as a fraction of the box's
 Effort effort_in_cell(std::size_t dimension, double share) {
     if (dimension <= 1) return {1e-10, 200};
     if (dimension == 3) return {1e-4, 5};
-    // Of 17 values an interval, so that they are some 512 over the box.
+    // Each interval takes 17 values, so that there are about 512 over the box.
     const auto first = 2 * static_cast<std::size_t>(26 * std::clamp(share, 0.0, 1.0)) + 1;
     return {1e-6, 80, std::max<std::size_t>(first, 3)};
 }
 
-/// The integral by the mean of values at places of a sequence that fills the box evenly, and what it may
-/// be off by: six times its standard error, from the means of some stretches.
+/// Integral estimated by the mean over an evenly distributed sequence of places. The error is six
+/// times the standard error, from the means of consecutive stretches.
 Estimate mean_integral(const Expression& f, const Box& box) {
     constexpr std::size_t stretches = 32;
-    constexpr std::size_t places = 4096;  // of each
+    constexpr std::size_t places = 4096;  // in each stretch
     constexpr double steps[3][3] = {{0.6180339887498949},
                                     {0.7548776662466927, 0.5698402909980532},
                                     {0.8191725133961645, 0.6710436067037893, 0.5497004779019703}};
@@ -75,7 +75,7 @@ FormulaBox::FormulaBox(std::string spec, Expression f, Box box)
 Estimate FormulaBox::integral() const {
     std::call_once(once_, [this] {
         const std::string what = "--density: " + f_.text();
-        // Quadrature may go by what is narrow; that its result is too far from a mean tells.
+        // Quadrature may miss a narrow peak; then its result deviates too far from the mean.
         constexpr int most_tries = 4;
         const Estimate mean = mean_integral(f_, box_);
         Effort effort = effort_for(dimension());
@@ -127,7 +127,7 @@ std::optional<Moments> FormulaBox::moments() const {
     if (d > 2) return std::nullopt;
     const Estimate whole = integral();
     bool fine = whole.error <= 1e-6 * whole.value;
-    // E of a product of coordinates from the middle of the box, in halves of its extents.
+    // Mean of a product of centred coordinates, in units of half the box's extents.
     const auto expect = [&](std::size_t i, std::size_t p, std::size_t j, std::size_t q) {
         const auto off = [&](std::span<const double> x, std::size_t k) {
             return (x[k] - box_.low[k]) / (0.5 * box_.extent(k)) - 1;
@@ -181,7 +181,7 @@ Support FormulaBox::support() const {
         while (k < d && ++at[k] == steps) at[k++] = 0;
         more = k < d;
     }
-    // Less than the whole by more than rounding: there is a gap.
+    // A gap exists if the measure is smaller than the whole by more than rounding.
     const double whole = measure();
     if (positive.value >= (1 - 1e-9) * whole)
         return {.measure = Estimate{whole, 0}, .boxes = {box_}};

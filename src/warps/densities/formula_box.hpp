@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A box with the density that a formula gives, over its integral: what expression-2d and rejection
-// make points for. Cells of it are boxes; their probabilities are integrals by quadrature
+// A box with the density given by a formula over its integral: the domain of expression-2d and
+// rejection. Its cells are boxes; their probabilities are computed by quadrature
 // (math/densities/quadrature.hpp).
 #pragma once
 
@@ -23,7 +23,7 @@ class FormulaBox final : public NamedDomain {
     Box bounding_box() const override { return box_; }
     double density(std::span<const double> point) const override;
 
-    /// The place in the box.
+    /// Relative position in the box.
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         place_->to_cube(point, cube);
     }
@@ -34,24 +34,24 @@ class FormulaBox final : public NamedDomain {
     }
     std::vector<std::string> cube_axes() const override { return place_->cube_axes(); }
 
-    /// By quadrature, within 1e-6 of the box's extents; none where that is not reached, or in three
-    /// dimensions.
+    /// By quadrature, to 1e-6 of the box's extents. nullopt if that accuracy is not reached, and in
+    /// three dimensions.
     std::optional<Moments> moments() const override;
 
-    /// Looked for on a grid of cells, the measure by quadrature.
+    /// Searched on a grid of cells; the measure by quadrature.
     Support support() const override;
 
     const Expression& formula() const { return f_; }
     const Box& box() const { return box_; }
 
-    /// Integral of the formula over the box, worked out when it is first asked for.
-    /// @throws Error(usage) where the formula is no density in the box
+    /// Integral of the formula over the box; computed at the first call.
+    /// @throws Error(usage) if the formula is not a density in the box
     Estimate integral() const;
 
   private:
     Expression f_;
     Box box_;
-    DomainPtr place_;  ///< the box with the uniform distribution
+    DomainPtr place_;  ///< uniform distribution on the box
     mutable std::once_flag once_;
     mutable Estimate integral_;
 };

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit square onto itself, with the density of W x H pixels of a picture or an array, constant on
-// each or bilinear between their middles (beyond the outermost ones as there): the marginal, then
-// the conditional,
+// Unit square onto itself, with the density of a picture or array of W x H pixels. The density is
+// constant on each pixel, or bilinear between pixel centres (constant beyond the outermost ones).
+// First the marginal, then the conditional distribution:
 //
 //     y:  mass below y = xi1 of the whole,    x:  mass left of x at that height = xi0 of it,
 //
 // both inverted exactly. p(x, y) = value / mean value.
 //
-// Shape   2 unit coordinates, 2 coordinates of [0, 1)^2, x to the right, y up; pixels are W by H of
-//         the square, whatever the picture's aspect.
-// Strata  xi0 and xi1 are taken as they are: left stays left, and below stays below. Strata of xi1
-//         are strips of equal mass; those of xi0 are cut in proportion in each row of pixels, so
-//         that they are torn where rows differ, unless it is bilinear.
-// Cost    O(1) a point: 70 ns at 4096 x 4096, where memory is what costs; 18 bytes a pixel. Bilinear
+// Shape   2 unit coordinates, 2 coordinates in [0, 1)^2, x to the right, y up; the picture fills
+//         the square, whatever its aspect ratio.
+// Strata  xi0 and xi1 are used directly: left stays left, and below stays below. Strata of xi1 are
+//         horizontal strips of equal mass. Those of xi0 are divided separately in each row of
+//         pixels, so that they are torn between different rows, unless bilinear.
+// Cost    O(1) a point: 70 ns at 4096 x 4096, limited by memory access; 18 bytes a pixel. Bilinear:
 //         O(log W), 0.9 us there; 130 bytes a pixel.
-// Promise no point where the picture is 0. Forward, back and forward again is the same point within
-//         1e-15 / p; back and forward give xi within 4e-16 times the pixels of a side. Bilinear: the
-//         same point within 1e-14, but for 1e-7 beside places where the density falls to 0, on
-//         which xi of 0 may put a point.
+// Promise no point where the picture is 0. Forward, inverse and forward again give the same point
+//         within 1e-15 / p; inverse and forward give xi within 4e-16 times the number of pixels
+//         along a side. Bilinear: the same point within 1e-14, but 1e-7 next to places where the
+//         density falls to 0, which a point may hit if xi is 0.
 // Source  Marginal and conditional: P. Shirley, C. Wang, K. Zimmerman, "Monte Carlo techniques for
 //         direct lighting calculations", ACM Trans. Graph. 15(1) (1996) 1-36,
 //         doi:10.1145/226150.226151. Guide tables: H.-C. Chen, Y. Asau, AIIE Trans. 6(2) (1974)
@@ -49,7 +49,7 @@ constexpr Param<Choice> interpolation{
     .choices = "constant|bilinear",
     .help = "The density of a pixel is constant, or bilinear between the pixels' middles"};
 
-/// What both have in common.
+/// Common part of both domains.
 class SquareDomain : public NamedDomain {
   public:
     explicit SquareDomain(const WarpRequest& want) : NamedDomain(want.spec(), 2, 2) {}
@@ -65,7 +65,7 @@ class SquareDomain : public NamedDomain {
     bool shows_gaps() const override { return true; }
 };
 
-/// The box's part of the square.
+/// Intersection of the box with the square.
 Box clipped(const Box& box) {
     Box part = box;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -89,7 +89,7 @@ class ImageDomain final : public SquareDomain {
         cube[0] = u;
         cube[1] = v;
     }
-    /// Within a row of pixels the share left of x is the same at all heights.
+    /// Within a row of pixels, the fraction left of x does not depend on y.
     std::optional<Estimate> box_mass(const Box& box) const override {
         const Box part = clipped(box);
         const double left = part.low[0];
@@ -136,8 +136,8 @@ class ImageDomain final : public SquareDomain {
     DensityMap map_;
 };
 
-/// From cell to cell of the pixels' middles, the first and the last of them cut by the square's
-/// sides. The integral is the mean of the pixels, 1: each has the same share in it.
+/// Bilinear between the pixel centres; the outermost cells end at the square's sides. The integral
+/// is the mean of the pixels, 1, since all have the same weight in it.
 class BilinearDomain final : public SquareDomain {
   public:
     explicit BilinearDomain(const WarpRequest& want)
@@ -185,17 +185,17 @@ class BilinearDomain final : public SquareDomain {
     }
 
   private:
-    /// A rectangle on which the density is bilinear.
+    /// A rectangle with a bilinear density.
     struct Patch {
         double x, y, width, height;
-        std::array<double, 4> corners;  ///< left and right below, left and right above
+        std::array<double, 4> corners;  ///< left and right at the bottom, left and right at the top
 
         [[nodiscard]] double mass() const {
             return 0.25 * width * height * (corners[0] + corners[1] + corners[2] + corners[3]);
         }
 
-        /// From the integrals of s^i t^j over the unit square, of which those of a corner's share
-        /// are products of the integrals of (1 - s) s^i, or of s^(i + 1).
+        /// Computed from the integrals of s^i t^j over the unit square. For each corner these are
+        /// products of the integrals of (1 - s) s^i or of s^(i + 1).
         [[nodiscard]] Moments moments() const {
             const double sum = corners[0] + corners[1] + corners[2] + corners[3];
             const auto mean = [&](std::size_t i, std::size_t j) {
@@ -220,13 +220,13 @@ class BilinearDomain final : public SquareDomain {
         }
     };
 
-    /// Where cell i of a side begins: at the square's side, then at middles of pixels.
+    /// Start of cell i along a side: the square's side, then the pixel centres.
     static double edge(std::size_t i, std::size_t pixels) {
         if (i == 0) return 0;
         const double middle = (static_cast<double>(i) - 0.5) / static_cast<double>(pixels);
         return i > pixels ? 1 : middle;
     }
-    /// The cell in which x lies.
+    /// Index of the cell that contains x.
     static std::size_t cell(double x, std::size_t pixels) {
         auto i = std::min(static_cast<std::size_t>(x * static_cast<double>(pixels) + 0.5), pixels);
         while (i > 0 && x < edge(i, pixels)) --i;
@@ -234,7 +234,7 @@ class BilinearDomain final : public SquareDomain {
         return i;
     }
 
-    /// At an edge of cells.
+    /// Value at a grid point of the cells.
     [[nodiscard]] double node(std::size_t i, std::size_t j) const {
         const auto pixel = [](std::size_t edge, std::size_t pixels) {
             return std::min(std::max<std::size_t>(edge, 1), pixels) - 1;
@@ -242,7 +242,7 @@ class BilinearDomain final : public SquareDomain {
         return map_.values()[pixel(j, map_.height()) * map_.width() + pixel(i, map_.width())];
     }
 
-    /// In cell (i, j).
+    /// Value at (x, y), which is in cell (i, j).
     [[nodiscard]] double value_in(std::size_t i, std::size_t j, double x, double y) const {
         const auto share = [](double at, std::size_t k, std::size_t pixels) {
             const double low = edge(k, pixels);
@@ -257,7 +257,7 @@ class BilinearDomain final : public SquareDomain {
         return value_in(cell(x, map_.width()), cell(y, map_.height()), x, y);
     }
 
-    /// Calls visit(patch) for the parts of a box of the square.
+    /// Calls visit(patch) for the intersection of the box with each cell.
     template <class Visit>
     void for_patches(const Box& box, const Visit& visit) const {
         const std::size_t w = map_.width();
@@ -277,7 +277,7 @@ class BilinearDomain final : public SquareDomain {
             }
     }
 
-    /// A strip for each row of cells, so that y comes first.
+    /// One strip for each row of cells, with x and y exchanged.
     [[nodiscard]] std::vector<Strip> strips(const RunContext& run) const {
         const std::size_t w = map_.width();
         const std::size_t h = map_.height();

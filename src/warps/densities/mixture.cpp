@@ -3,25 +3,25 @@
 // Mixture of other warps with weights w_i that sum to 1:
 //
 //     component i where w_0 + ... + w_i-1 <= xi0 < w_0 + ... + w_i,
-//     its first coordinate xi0' = (xi0 - w_0 - ... - w_i-1) / w_i, the others as they are;
+// its first coordinate xi0' = (xi0 - w_0 - ... - w_i-1) / w_i, the others unchanged;
 //     density = sum_i w_i density_i.
 //
-// Components are specs with | between them, as in
+// Components are specs separated by |, as in
 //
 //     mixture:weights=[0.6,0.4],components=[von-mises-fisher:kappa=50,axis=[1,0,0]|sphere]
 //
-// All must give directions (unit vectors of the plane or space), or all must fill the same number
-// of dimensions of the line, plane or space, and none may drop points, which would change the
-// weights. The domain is the whole sphere or space. Its cells are zones of height and longitude or,
-// in space, boxes of the normal probabilities of (x - middle) / (width / 4) of the bounding box.
+// All components must give directions (unit vectors of the plane or space), or all must fill the
+// same number of dimensions. None may drop points, which would change the weights. The domain is
+// the whole sphere or space. Its cells are zones of height and longitude; in space, boxes in the
+// normal probabilities of (x - middle) / (width / 4), relative to the bounding box.
 //
 // Shape   as many unit coordinates as the components take, and as many coordinates as they give.
-// Strata  xi0 as it is, cut by the weights and stretched: n strata give each component n w_i of
-//         them, rounded up or down. All else is the components'.
-// Cost    that of the components, and about 8 ns a point on one core.
-// Promise a component of weight 0 never comes. Probabilities of cells are the weighted sums of the
-//         components'. There is no way back: a point may come from several components. The same
-//         bits on every machine, where the components have them.
+// Strata  xi0 is used directly, divided by the weights and rescaled: n strata give each component n
+//         w_i of them, rounded up or down. Otherwise strata are those of the components.
+// Cost    that of the components, plus about 8 ns a point on one core.
+// Promise a component of weight 0 never occurs. Probabilities of cells are the weighted sums of the
+//         components' probabilities. There is no inverse, since a point may come from several
+//         components. The same bits on every machine, if that holds for the components.
 
 #include <fmt/format.h>
 
@@ -71,13 +71,14 @@ struct Component {
     std::unique_ptr<Mapping> mapping;
 };
 
-/// What a mixture lives on. Probabilities of cells are sums over the components of weight times
-/// probability: of a box, the exact share of the area for shapes of the plane and by the
-/// distribution functions for distributions of each coordinate; of a zone of the sphere, by
-/// quadrature cut at the component's rim (math/geometry/zone_integral.hpp).
+/// Domain of a mixture. The probability of a cell is the sum over components of weight times
+/// probability. For boxes this is exact for plane shapes (area) and for distributions of each
+/// coordinate (distribution functions). For zones of the sphere it is computed by quadrature, split
+/// at the component's rim (math/geometry/zone_integral.hpp).
 class MixtureDomain final : public NamedDomain {
   public:
-    /// Parts that give directions, or fill the same number of dimensions; weights that sum to 1.
+    /// @param parts that give directions or fill the same number of dimensions; weights that sum to
+    /// 1
     MixtureDomain(const std::vector<Component>& parts, std::string spec)
         : NamedDomain(std::move(spec), parts[0].mapping->domain()->dimension(),
                       parts[0].mapping->domain()->cube_dimension()) {
@@ -95,8 +96,8 @@ class MixtureDomain final : public NamedDomain {
         });
     }
 
-    /// That of all directions where a part has them all, and of the box that each part fills; else
-    /// what the parts cover together is not known, and it is taken as a part of all space.
+    /// All directions if a part covers them all; the box if every part fills it. Otherwise the
+    /// union of the parts is unknown, and the measure is that of all space.
     double measure() const override {
         const auto has_all = [&](const DomainPtr& part) {
             return part->measure() > (1 - 1e-12) * all_directions();
@@ -105,7 +106,7 @@ class MixtureDomain final : public NamedDomain {
         return fills_box_ ? volume_of(box_) : std::numeric_limits<double>::infinity();
     }
 
-    /// What any of the parts covers.
+    /// Union of the parts' supports.
     Support support() const override {
         const double all = measure();
         std::vector<Support> supports;
@@ -193,14 +194,14 @@ class MixtureDomain final : public NamedDomain {
     double middle(std::size_t k) const { return box_.low[k] + 0.5 * box_.extent(k); }
     double scale(std::size_t k) const { return box_.extent(k) > 0 ? 0.25 * box_.extent(k) : 1; }
 
-    /// Where an edge of a cell of the cube is in space.
+    /// Position in space of a cell's edge in the cube.
     double edge(double u, std::size_t k) const {
         if (u <= 0 || u >= 1)
             return std::copysign(std::numeric_limits<double>::infinity(), u - 0.5);
         return middle(k) + scale(k) * normal_quantile(u);
     }
 
-    /// The sum over the parts of their weights times what `mass` says of each.
+    /// Sum over the parts of weight times mass(part).
     template <class Mass>
     Estimate weighted(const Mass& mass) const {
         Estimate sum;
@@ -209,7 +210,8 @@ class MixtureDomain final : public NamedDomain {
         return sum;
     }
 
-    /// Of directions; parts without discontinuities have zones for cells themselves.
+    /// Probability of a zone of directions; parts without discontinuities use zones as cells
+    /// themselves.
     static Estimate zone_mass(const Domain& part, const Box& cell) {
         const auto discontinuities = part.discontinuities();
         if (!discontinuities) return part.probability(cell);
@@ -221,19 +223,19 @@ class MixtureDomain final : public NamedDomain {
     std::vector<DomainPtr> parts_;
     std::vector<double> weights_;
     Box box_;
-    bool fills_box_ = false;  ///< each part does
+    bool fills_box_ = false;  ///< every part fills the box
 };
 
 class Mixture final : public Mapping {
   public:
-    /// @param sums of the weights; the last is 1
+    /// @param sums cumulative weights; the last is 1
     Mixture(std::vector<Component> parts, std::vector<double> sums, std::string spec)
         : Mapping(std::make_shared<MixtureDomain>(parts, std::move(spec)),
                   "this warp has no inverse"),
           parts_(std::move(parts)),
           shares_(std::move(sums), 2 * parts_.size()) {}
 
-    /// Rows go through by component, some at a time: few enough to stay in the nearest caches.
+    /// Processes rows grouped by component, in batches small enough for the nearest caches.
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> /*keep*/) const override {
         constexpr std::size_t some = 512;
@@ -270,14 +272,14 @@ class Mixture final : public Mapping {
     }
 
   private:
-    /// Rows of one component.
+    /// Buffers for the rows of one component.
     struct Work {
         std::vector<double> from;
         std::vector<double> to;
         std::vector<std::uint8_t> keep;
     };
 
-    /// The row of the cube that a component takes in place of its own.
+    /// The row of the cube that component c receives.
     void stretch(std::size_t c, std::span<const double> row, std::span<double> to) const {
         std::ranges::copy(row, to.begin());
         const double u = (row[0] - shares_.begin(c)) / shares_.width(c);
@@ -299,10 +301,10 @@ class Mixture final : public Mapping {
     }
 
     std::vector<Component> parts_;
-    GuideTable shares_;  ///< of the components, side by side
+    GuideTable shares_;  ///< cumulative weights of the components
 };
 
-/// The parts between | outside of brackets.
+/// Splits at | outside of brackets.
 std::vector<std::string> parts_of(std::string_view text) {
     std::vector<std::string> parts(1);
     int open = 0;
@@ -342,7 +344,7 @@ bool gives_directions(const Mapping& mapping) {
     return true;
 }
 
-/// What the points of a component are, for people; equal where components can be mixed.
+/// Describes the points of a component; components can be mixed if the texts are equal.
 std::string space_of(const Component& part, const Warp& warp) {
     const Domain& domain = *part.mapping->domain();
     const std::size_t m = domain.dimension();

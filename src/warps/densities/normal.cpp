@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto the whole line, plane or space by a normal distribution with mean m and covariance
-// C = L L^T, L Cholesky's lower factor:
+// Unit cube onto the whole line, plane or space with a normal distribution of mean m and covariance
+// C = L L^T, where L is the lower Cholesky factor:
 //
 //     x = m + L z,    z_k = Phi^-1(xi_k),    density exp(-|z|^2 / 2) / ((2 pi)^(d/2) det L),
 //
-// so that x_k depends on xi_1 ... xi_k alone, and back: z = L^-1 (x - m), xi_k = Phi(z_k), which is
-// Rosenblatt's transformation.
+// so that x_k depends only on xi_1 ... xi_k. The inverse is z = L^-1 (x - m), xi_k = Phi(z_k). This
+// is Rosenblatt's transformation.
 //
-// Shape   any number of coordinates, as many as there are, or as the mean or the covariance has.
-// Strata  xi is taken as it is, not as 1 - xi: small xi is far below the mean. The first and the
-//         last stratum are endless; 0 is taken as 2^-54, the middle of the step of random numbers
-//         at 0, and 1 as 1 - 2^-55, so that they are 8.2924 standard deviations below and 8.3744
-//         above the mean, not infinitely many, and a note says so; what is below 1e-300, as 1e-300.
+// Shape   any number of coordinates: as given, or as the mean or the covariance has.
+// Strata  xi is used directly, not as 1 - xi: small xi is far below the mean. The first and the
+//         last stratum are unbounded. 0 is replaced by 2^-54, the middle of the random numbers'
+//         step at 0, and 1 by 1 - 2^-55: 8.2924 standard deviations below and 8.3744 above the
+//         mean, instead of infinity; a note reports it. Other values below 1e-300 are replaced by
+//         1e-300.
 // Cost    O(1) a coordinate without a covariance, about 6 ns on one core; O(d) with one.
-// Promise forward and back again is the same xi within 1e-14, in the lower tail within 1e-13 of
-//         itself (2e-15 z^2, below z = -7); with a covariance, times its condition number's root.
-//         Both ways and the density give the same bits on every machine.
+// Promise a round trip returns the same xi within 1e-14, in the lower tail within a relative 1e-13
+//         (2e-15 z^2, below z = -7); with a covariance, times the square root of its condition
+//         number. Forward map, inverse and density give the same bits on every machine.
 // Source  M. Rosenblatt, Annals of Mathematical Statistics 23 (1952) 470-472,
 //         doi:10.1214/aoms/1177729394. Phi^-1: Wichura 1988, see
 //         math/functions/normal_distribution.hpp.
@@ -55,7 +56,7 @@ constexpr Param<Numbers> covariance{
      .fallback = {},
      .help = "Covariance matrix in place of deviations: d x d numbers, row after row: 2,1 1,2"}};
 
-/// Mean and lower factor; a diagonal factor is its diagonal alone.
+/// Mean and lower factor; a diagonal factor is stored as its diagonal.
 struct Shape {
     std::vector<double> mean;
     std::vector<double> factor;
@@ -77,14 +78,14 @@ double Shape::covariance(std::size_t i, std::size_t j) const {
     return sum;
 }
 
-/// m + s z in place.
+/// Replaces z by m + s z.
 STIPPLE_WIDE void spread(const double* middle, const double* scale, std::size_t d,
                          std::span<double> rows) {
     for (std::size_t i = 0; i < rows.size(); i += d)
         for (std::size_t k = 0; k < d; ++k) rows[i + k] = middle[k] + scale[k] * rows[i + k];
 }
 
-/// m + L z in place, each row from its last coordinate to its first.
+/// Replaces z by m + L z, in each row from the last coordinate to the first.
 STIPPLE_WIDE void mix(const double* middle, const double* factor, std::size_t d,
                       std::span<double> rows) {
     for (std::size_t i = 0; i < rows.size(); i += d)
@@ -111,7 +112,7 @@ class NormalDomain final : public NamedDomain {
         return true;
     }
 
-    /// 4 standard deviations to both sides.
+    /// 4 standard deviations to each side.
     Box bounding_box() const override {
         Box box;
         for (std::size_t k = 0; k < dimension(); ++k) {
@@ -164,7 +165,7 @@ class NormalDomain final : public NamedDomain {
     }
 
   private:
-    /// Of the coordinates k and beyond, given the standardised ones before.
+    /// Probability of the box in the coordinates from k on, given the standardised ones before k.
     Estimate mass_from(const Box& box, std::vector<double>& z, std::size_t k) const {
         const std::size_t d = dimension();
         if (k == d) return {1, 0};
@@ -187,7 +188,7 @@ class NormalDomain final : public NamedDomain {
             return rest.value * stipple::exponential(-0.5 * x * x) /
                    std::sqrt(2 * std::numbers::pi);
         };
-        constexpr double far = 9;  // 2e-19 is beyond
+        constexpr double far = 9;  // probability beyond: 2e-19
         Estimate mass = integrate_smooth(slice, std::max(low, -far), std::min(high, far));
         mass.error += inner;
         return mass;
@@ -216,7 +217,7 @@ std::vector<double> deviations_of(const Values& options, std::size_t d) {
     return numbers;
 }
 
-/// The lower factor of --covariance. @throws Error(usage) naming what is wrong with the matrix.
+/// Lower factor of --covariance. @throws Error(usage) naming the defect of the matrix
 std::vector<double> factor_of(const std::vector<double>& matrix, std::size_t d) {
     if (matrix.size() != d * d)
         fail(ErrorKind::usage, "--covariance: {} x {} numbers are needed, row after row; {} given",
@@ -254,7 +255,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     if (want.options[mean].size() > 1) d = want.options[mean].size();
     Shape shape{.mean = one_for_each(mean, want.options[mean], d),
                 .factor = correlated ? factor_of(matrix, d) : deviations_of(want.options, d)};
-    for (double& m : shape.mean) m += 0.0;  // -0 would show in points
+    for (double& m : shape.mean) m += 0.0;  // -0 would appear in the points
     return domain_mapping<NormalDomain>(std::move(shape), want.spec());
 }
 

@@ -1,29 +1,28 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto the interval [a, b], each coordinate by itself, with a density in proportion to
+// Unit cube onto the interval [a, b], each coordinate independently, with a density proportional to
 // x^k, by inversion; with p = k + 1
 //
 //     x^p = (1 - xi) a^p + xi b^p,    k = -1:  log x = (1 - xi) log a + xi log b.
 //
 // k = 2 on [-1, 1] is the density 3 x^2 / 2 and the map x = cbrt(2 xi - 1).
 //
-// On one side of 0 the power is measured from the end with the larger |x|^p, of size e; the other
-// is of size o, r = (o / e)^p < 1, and w is the probability between x and e:
+// On one side of 0, the power is measured from the end with the larger |x|^p, whose magnitude is e.
+// The other end has magnitude o; r = (o / e)^p < 1, and w is the probability between x and e:
 //
 //     |x| = e (1 - w (1 - r))^(1/p) = e exp(log1p(w expm1(p log(o / e))) / p),
 //
-// the second form where r > 1/2, which takes k = -1 as a limit.
+// where the second form is used if r > 1/2, and has k = -1 as its limit.
 //
-// Shape   any number of coordinates, each by the same distribution. An interval with negative
-//         numbers needs an even k; one that contains 0 needs k > -1, and one that ends there k
-//         above about -0.954, so that what is below the smallest number has no more than 1e-14 of
-//         the mass.
-// Strata  xi is taken as it is, not as 1 - xi: xi = 0 is a, and strata become intervals of equal
+// Shape   any number of coordinates, all with the same distribution. An interval with negative
+//         numbers requires an even k. One that contains 0 requires k > -1, and one that ends at 0 k
+//         above about -0.954, so that at most 1e-14 of the mass is below the smallest double.
+// Strata  xi is used directly, not as 1 - xi: xi = 0 is a, and strata become intervals of equal
 //         probability in the same order.
 // Cost    O(1) a coordinate; on one core about 1 ns for k = 1, 4 for k = 2, 5 for others.
-// Promise x in [a, b]. Forward and back again is the same xi within 1e-14 (1 + |k| / 10), times
-//         1 + |log(b / a)| where the range does not contain 0, and max(|a|, |b|) / (b - a). Both
-//         ways and the density give the same bits on every machine.
+// Promise x in [a, b]. A round trip returns the same xi within 1e-14 (1 + |k| / 10), times 1 +
+//         |log(b / a)| if the range does not contain 0, and times max(|a|, |b|) / (b - a). Forward
+//         map, inverse and density give the same bits on every machine.
 
 #include <array>
 #include <cmath>
@@ -53,16 +52,16 @@ constexpr Param<double> exponent{
 constexpr Param<Numbers> range{
     {.name = "range", .fallback = "0,1", .help = "The interval: a,b with a < b"}};
 
-/// How x^p is undone; by logarithms on one side of 0 where x^p hardly changes.
+/// Inverse of x^p; logarithms if the interval is on one side of 0 and x^p hardly varies on it.
 enum class Root { none, square, cube, other, logarithm };
 
-/// y^(1/p) for y >= 0 by the cheapest way; of a cube root also for y < 0.
+/// y^(1/p) for y >= 0, computed in the cheapest way; cube roots also for y < 0.
 template <Root root>
 [[gnu::always_inline]] inline double rooted(double y, double inverse_p) {
     if constexpr (root == Root::none) return y;
     if constexpr (root == Root::square) return std::sqrt(y);
     if constexpr (root == Root::cube) return cube_root(y);
-    // Its error is |log x| units in the last place, at most 40 of them, which is enough here.
+    // The error is |log x| units in the last place, at most 40, which is enough here.
     const double root_of_y = stipple::exponential(logarithm(y) * inverse_p);
     return y > 0 ? root_of_y : 0;
 }
@@ -74,7 +73,7 @@ struct Interval {
     double size;  ///< the larger of |a| and |b|
 };
 
-/// y^p for y in [0, 1], likewise.
+/// y^p for y in [0, 1], computed likewise.
 template <Root root>
 double powered(double y, double p) {
     if constexpr (root == Root::none) return y;
@@ -83,11 +82,11 @@ double powered(double y, double p) {
     return y > 0 ? stipple::exponential(logarithm(y) * p) : 0;
 }
 
-/// What the distributions have in common: all but their ways forward and back.
+/// Common base of the distributions: everything except the forward map and its inverse.
 struct PowerLaw : LineDistribution, Interval {
     explicit PowerLaw(const Interval& interval) : Interval(interval), unit(size) {}
 
-    double unit;      ///< the end where |x|^p is larger, from which densities are measured
+    double unit;      ///< the end with the larger |x|^p, relative to which densities are measured
     double peak = 0;  ///< density at |x| = unit
 
     std::pair<double, double> range() const override { return {a, b}; }
@@ -97,8 +96,8 @@ struct PowerLaw : LineDistribution, Interval {
     LineMoments moments() const override;
 
   private:
-    /// E (x / unit)^n times a constant, of an interval on one side of 0; `other` is the end that is
-    /// not 1.
+    /// E (x / unit)^n times a constant, for an interval on one side of 0; `other` is the end that
+    /// is not 1.
     static double one_sided_sum(double s, double other) {
         if (other == 0) return 1 / s;
         const double log = logarithm(other);
@@ -110,7 +109,7 @@ struct PowerLaw : LineDistribution, Interval {
     LineMoments narrow_moments() const;
 };
 
-/// By quadrature, where the ends are so near each other that powers would lose digits.
+/// By quadrature, for ends so close to each other that powers would lose digits.
 LineMoments PowerLaw::narrow_moments() const {
     const double middle = 0.5 * (a + b);
     const auto sum = [&](std::size_t n, double about) {
@@ -129,7 +128,7 @@ LineMoments PowerLaw::moments() const {
     const double near = std::min(std::abs(a), std::abs(b));
     if (!around_0 && near > 0.5 * size && std::abs(p) * logarithm(size / near) < 1)
         return narrow_moments();
-    const double heavier = around_0 || p > 0 ? size : near;  // the end where the density is larger
+    const double heavier = around_0 || p > 0 ? size : near;  // the end with the larger density
     const double other = (p > 0 ? near : size) / heavier;
     const double sign = b <= 0 ? -1 : 1;
     std::array<double, 4> sums;
@@ -143,15 +142,15 @@ LineMoments PowerLaw::moments() const {
             sign * heavier * heavier * heavier * third};
 }
 
-/// An interval on one side of 0, measured from its heavier end.
+/// An interval on one side of 0; the power is measured from the heavier end.
 template <Root root>
 struct OneSided final : PowerLaw {
     using PowerLaw::PowerLaw;
 
     static constexpr bool narrow = root == Root::logarithm;  ///< r > 1/2
 
-    double heavy = 1;        ///< size of the end with the larger |x|^p
-    double sign = 1;         ///< of x
+    double heavy = 1;        ///< magnitude of the end with the larger |x|^p
+    double sign = 1;         ///< sign of x
     bool heavy_last = true;  ///< the heavier end is b
     double w_at_0 = 1;
     double slope = -1;
@@ -180,7 +179,7 @@ struct OneSided final : PowerLaw {
     }
 };
 
-/// An interval around 0, where k is even and p odd.
+/// An interval around 0; k is even and p odd.
 template <Root root>
 struct TwoSided final : PowerLaw {
     using PowerLaw::PowerLaw;
@@ -190,7 +189,7 @@ struct TwoSided final : PowerLaw {
     double inverse_p = 1;
 
     double forward(double u) const {
-        const double y = low + u * (high - low);  // 2 xi - 1 exactly, for [-1, 1]
+        const double y = low + u * (high - low);  // exactly 2 xi - 1 for [-1, 1]
         const double x = size * std::copysign(rooted<root>(std::abs(y), inverse_p), y) + 0.0;
         return std::max(a, std::min(x, b));
     }
@@ -252,8 +251,8 @@ std::unique_ptr<Mapping> mapping_of(const Interval& interval, const WarpRequest&
     return narrow ? one_sided<Root::logarithm>(interval, want) : one_sided<root>(interval, want);
 }
 
-/// A range from 0 on needs numbers for all but a share of 1e-14 of its mass: x^-0.99 has a good
-/// part of it below the smallest. @throws Error(usage)
+/// Checks that at most 1e-14 of the mass is below the smallest double, if the range ends at 0;
+/// x^-0.99, for example, has a large fraction there. @throws Error(usage)
 void require_numbers_near_0(double k, double size) {
     constexpr double smallest = std::numeric_limits<double>::min();
     const double depth = logarithm(smallest / size);
