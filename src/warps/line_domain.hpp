@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Coordinates that are independent of each other, each by a distribution on the line, and the
-// mapping onto them by inversion. A distribution is
+// Independent coordinates, each with a distribution on the line, and the mapping onto them by
+// inversion. A distribution is
 //
 //     struct Decay final : LineDistribution {
 //         double forward(double u) const;   // the quantile of u in [0, 1]
@@ -9,7 +9,8 @@
 //         ...                               // what LineDistribution asks for
 //     };
 //
-// or has `void forward_all(std::span<double> numbers) const` in place of forward(), which takes
+// or has `void forward_all(std::span<double> numbers) const` instead of forward(), which maps many
+// numbers at a time and avoids copying the distribution.
 // many numbers at a time and does not copy what it is made of.
 #pragma once
 
@@ -38,34 +39,36 @@ class LineDistribution {
   public:
     virtual ~LineDistribution() = default;
 
-    /// The way back, to the number in [0, 1] that has this image; rounding may leave [0, 1].
+    /// Inverse of the quantile: the number in [0, 1] that maps to x; rounding may leave [0, 1].
     [[nodiscard]] virtual double inverse(double x) const = 0;
-    [[nodiscard]] virtual double density(double x) const = 0;           ///< 0 outside
-    [[nodiscard]] virtual std::pair<double, double> range() const = 0;  ///< what a picture shows
+    [[nodiscard]] virtual double density(double x) const = 0;           ///< for pictures
+    [[nodiscard]] virtual std::pair<double, double> range() const = 0;  ///< range shown in a
+                                                                        ///< picture
     [[nodiscard]] virtual bool contains(double x) const {
         return x >= range().first && x <= range().second;
     }
-    [[nodiscard]] virtual double measure() const {  ///< of all that it contains
+    [[nodiscard]] virtual double measure() const {  ///< length of the whole range
         return range().second - range().first;
     }
-    /// Not finite where there is none, or none that is known.
+    /// NaN or infinite if they do not exist or are unknown.
     [[nodiscard]] virtual LineMoments moments() const = 0;
 
-    /// Whether inverse() is the distribution function, which makes all intervals of the cube as
-    /// likely as they are long.
+    /// Whether inverse() is the distribution function, so that the probability of an interval of
+    /// the cube is its length.
     [[nodiscard]] virtual bool even() const { return true; }
 
-    /// Whether it is of outcomes, and cube_coordinate() is the middle of a cell that is as long as the
-    /// outcome is likely.
+    /// Whether it is discrete, with cube_coordinate() in the middle of a cell whose length is the
+    /// outcome's probability.
     [[nodiscard]] virtual bool has_outcomes() const { return false; }
 
-    /// Coordinate in the cube, and the probability between two of them, where not even().
+    /// Coordinate in the cube, and the probability between two such coordinates; needed if not
+    /// even().
     [[nodiscard]] virtual double cube_coordinate(double x) const { return inverse(x); }
     [[nodiscard]] virtual Estimate probability(double low, double high) const {
         return {high - low, 0};
     }
 
-    /// Where the density is not 0: intervals side by side, and their length.
+    /// Where the density is not 0: disjoint intervals and their total length.
     struct Positive {
         std::vector<std::pair<double, double>> intervals;
         double length;
@@ -86,7 +89,7 @@ class LineDistribution {
 class LineDomain final : public NamedDomain {
   public:
     /// @param distributions one for each coordinate
-    /// @param what what the coordinates of the cube are, for people
+    /// @param what description of the cube's coordinates
     LineDomain(std::vector<std::shared_ptr<const LineDistribution>> distributions, std::string spec,
                std::string what)
         : NamedDomain(std::move(spec), distributions.size(), distributions.size()),
@@ -176,7 +179,7 @@ class LineDomain final : public NamedDomain {
     }
     bool shows_gaps() const override { return true; }
 
-    /// The distributions' ways back, point after point, of points that it contains.
+    /// Inverse of the distributions for rows of points that the domain contains.
     void inverse(std::span<const double> image, std::span<double> cube) const {
         const std::size_t d = axes_.size();
         for (std::size_t i = 0; i < image.size(); i += d)
@@ -189,8 +192,8 @@ class LineDomain final : public NamedDomain {
     std::string what_;
 };
 
-// The distribution is taken by value: what is written cannot change it, so that its constants stay
-// in registers. All calls are inlined: one that is not keeps the loop from being widened.
+// Takes the distribution by value: writes to `numbers` cannot alias it, so its constants stay in
+// registers. All calls are inlined, since a call would prevent vectorization of the loop.
 template <class Law>
 STIPPLE_WIDE [[gnu::flatten]] void map_numbers(const Law law, std::span<double> numbers) {
     for (double& x : numbers) x = law.forward(x);
@@ -228,7 +231,7 @@ class LineMapping final : public Mapping {
             map_numbers(law, numbers);
     }
 
-    /// Coordinate k of all rows, some at a time side by side.
+    /// Maps coordinate k of all rows, gathered in blocks.
     void map_column(std::size_t k, std::span<double> rows) const {
         std::array<double, 256> column;
         const std::size_t d = laws_.size();
@@ -241,12 +244,13 @@ class LineMapping final : public Mapping {
         }
     }
 
-    std::vector<std::shared_ptr<const Law>> laws_;  ///< one for all coordinates, or one for each
+    std::vector<std::shared_ptr<const Law>> laws_;  ///< one for all coordinates, or one per
+                                                    ///< coordinate
     const LineDomain& line_;
 };
 
-/// The mapping of d coordinates by one distribution for all, or by one for each.
-/// @param no_way_back why there is no inverse; empty where there is one
+/// Mapping of d coordinates, with one distribution for all or one for each.
+/// @param no_way_back why there is no inverse; empty if there is one
 template <class Law>
 std::unique_ptr<Mapping> line_mapping(std::vector<std::shared_ptr<const Law>> laws, std::size_t d,
                                       std::string spec, std::string what,

@@ -15,8 +15,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least = 1e-300;
 
-/// A distribution as the line's domain and mapping take it. Endless tails end where random numbers
-/// do: 0 is taken as 2^-54, and 1 as 1 - 2^-55; what is below 1e-300 but not 0, as 1e-300.
+/// Adapts a distribution for LineDomain and LineMapping. Unbounded tails end at the range of the
+/// random numbers: 0 is replaced by 2^-54, and 1 by 1 - 2^-55; other values below 1e-300 by 1e-300.
 class MarginalLine final : public LineDistribution {
   public:
     explicit MarginalLine(MarginalPtr law)
@@ -29,8 +29,8 @@ class MarginalLine final : public LineDistribution {
         if (!has_density(ends_.second)) high = high == 0 ? -least : std::nextafter(high, -infinity);
     }
 
-    /// Where the density is 0 or infinite at an end, rounding does not reach the end, and where it
-    /// is infinite, nothing does.
+    /// If the density is 0 or infinite at an end, rounding does not reach that end; if it is
+    /// infinite, no number does.
     void forward_all(std::span<double> numbers) const {
         if (law_->discrete()) return law_->quantiles(numbers);
         std::array<double, 256> u;
@@ -66,7 +66,7 @@ class MarginalLine final : public LineDistribution {
         if (endless_.first || endless_.second) return infinity;
         return law_->discrete() ? law_->outcomes() : ends_.second - ends_.first;
     }
-    /// NaN for those of more than one outcome that are beyond the range of numbers.
+    /// NaN for moments outside the range of doubles, unless there is only one outcome.
     LineMoments moments() const override {
         constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
         const auto [mean, variance, skewness] = law_->moments();
@@ -75,7 +75,8 @@ class MarginalLine final : public LineDistribution {
         return {mean, variance == 0 && law_->outcomes() != 1 ? unknown : variance,
                 lost ? unknown : third};
     }
-    /// In an endless direction, all but exp(-10) = 4.5e-5, or 6 times the middle two thirds.
+    /// On an unbounded side, cuts off a probability of exp(-10) = 4.5e-5, but shows at most 6 times
+    /// the width of the middle two thirds.
     std::pair<double, double> range() const override {
         constexpr double beyond = 4.5399929762484854e-5;
         constexpr double sixth = 1 / 6.0;
@@ -93,7 +94,7 @@ class MarginalLine final : public LineDistribution {
         return {{range()}, measure()};
     }
 
-    /// The middle of an outcome's cell.
+    /// Discrete: to_cube gives the middle of an outcome's cell.
     bool even() const override { return !law_->discrete(); }
     bool has_outcomes() const override { return law_->discrete(); }
     double cube_coordinate(double x) const override {
@@ -106,7 +107,8 @@ class MarginalLine final : public LineDistribution {
     }
 
   private:
-    /// Whether a tail is endless, or a table's, which goes on where outcomes hardly ever come.
+    /// Whether a side is unbounded, or is the end of a table of outcomes, beyond which others are
+    /// very unlikely.
     bool has_thin_end(double x) const {
         return std::isinf(x) ||
                (law_->discrete() && law_->density(x) < 1e-9 * law_->density(law_->quantile(0.5)));
@@ -121,11 +123,11 @@ class MarginalLine final : public LineDistribution {
         if (std::isfinite(law_->density(x))) return x;
         return tail == Tail::lower ? inside_.first : inside_.second;
     }
-    /// Of an outcome: F just below it, and at it.
+    /// The distribution function just below an outcome, and at it.
     std::pair<double, double> cell(double x) const {
         return {law_->probability(std::nextafter(x, -infinity)), law_->probability(x)};
     }
-    /// Of the outcomes the middle of whose cell is below u.
+    /// Probability of the outcomes whose cells have their middle below u.
     double mass_before(double u) const {
         if (u <= 0 || u >= 1) return u <= 0 ? 0 : 1;
         const double x = law_->quantile(u);
@@ -136,7 +138,7 @@ class MarginalLine final : public LineDistribution {
     MarginalPtr law_;
     std::pair<double, double> ends_;
     std::pair<bool, bool> endless_;
-    std::pair<double, double> inside_;  ///< the ends, or next to them
+    std::pair<double, double> inside_;  ///< the ends, or the nearest numbers inside
 };
 
 }  // namespace

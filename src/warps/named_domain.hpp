@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the domains of warps have in common: they are told their spec and their dimensions. And the
-// mapping onto one that knows both ways itself: to_cube(), and
+// Base of the warps' domains, which stores their spec and dimensions; and the mapping onto a domain
+// that implements both directions itself: to_cube(), and
 //
 //     void from_cube(std::span<const double> cube, std::span<double> image) const;   // many points
 #pragma once
@@ -33,7 +33,7 @@ class NamedDomain : public Domain {
     std::size_t cube_dimension_;
 };
 
-/// Writes coordinates of the cube that rounding may have taken out of it.
+/// Writes cube coordinates, clamped to [0, 1] since rounding may leave it.
 template <std::size_t d>
 void put_clamped(const std::array<double, d>& from, std::span<double> cube) {
     for (std::size_t k = 0; k < d; ++k) cube[k] = std::clamp(from[k], 0.0, 1.0);
@@ -58,7 +58,7 @@ class DomainMapping final : public Mapping {
     const Known& known_;
 };
 
-/// The mapping onto the domain that is made of these.
+/// Mapping onto the domain constructed from these arguments.
 template <class Known, class... Args>
 std::unique_ptr<Mapping> domain_mapping(Args&&... args) {
     return std::make_unique<DomainMapping<Known>>(

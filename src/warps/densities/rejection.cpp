@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto a box of d dimensions, with any density that a formula gives and that is bounded:
-// the point of the box that xi0 ... xi(d-1) make is kept if
+// Unit cube onto a box of d dimensions, with any bounded density given by a formula. A point of the
+// box, determined by xi0 ... xi(d-1), is kept if
 //
 //     xi_d * bound  <  f(point).
 //
-// The share kept, the efficiency, is the integral of f over bound times the volume of the box.
+// The fraction kept, the efficiency, is the integral of f divided by bound times the box's volume.
 //
-// Shape   d + 1 unit coordinates, d = 1 to 3 as --bounds has ranges; d coordinates.
-// Strata  coordinates are kept as they are, and so are their strata, less the points dropped; the
-//         last coordinate decides.
-// Cost    an evaluation of f a point, some 100 ns.
-// Promise exact for any f below the bound; where f is met above it, the run ends with the place and
-//         the value. density() is f over its integral by quadrature.
-// Beware  f above the bound where no point fell is not noticed.
+// Shape   d + 1 unit coordinates, where d = 1 to 3 is the number of ranges in --bounds; d
+//         coordinates.
+// Strata  coordinates keep their strata, except for the points dropped; the last coordinate decides
+//         which.
+// Cost    one evaluation of f per point, about 100 ns.
+// Promise exact for any f below the bound. A value above the bound is an error that reports the
+//         place and the value. density() is f over its integral by quadrature.
+// Beware  f above the bound goes unnoticed if no point falls there.
 // Source  J. von Neumann, "Various techniques used in connection with random digits", NBS Applied
 //         Mathematics Series 12 (1951) 36-38.
 
@@ -83,7 +84,8 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
         fail(ErrorKind::usage, "--density: give a formula, such as 'exp(-x*x - y*y)'");
     const Box box = formula_bounds(want.options[bounds], 3);
     Expression f(density.name, want.options[density], box.dimension());
-    Values law = want.warp.options.defaults();  // the bound is the method's, not the density's
+    Values law = want.warp.options.defaults();  // the bound belongs to the method, not to the
+                                                // density
     law.put(density.name, f.text());
     law.put(bounds.name, want.options[bounds]);
     return std::make_unique<Rejection>(

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto an interval, each coordinate by itself, with a density given by a table of rows
-// x_i, f_i, by exact inversion (math/densities/line_table.hpp):
+// Unit cube onto an interval, each coordinate independently, with a density given by a table of
+// rows x_i, f_i, by exact inversion (math/densities/line_table.hpp):
 //
 //     linear    the density is straight between rows
 //     constant  the density is f_i from x_i on up to x_i+1; the last f is not used
 //
 // Densities may have any scale: they are divided by their integral.
 //
-// Shape   any number of coordinates by the same distribution; 2 rows or more, x rising. Where
-//         linear, two rows may have the same x: a jump.
-// Strata  xi is the probability below x, taken as it is, not as 1 - xi; strata become intervals of
+// Shape   any number of coordinates, all with the same distribution; at least 2 rows, x ascending.
+//         If linear, two rows may have the same x: a jump.
+// Strata  xi is the probability below x, used directly, not as 1 - xi; strata become intervals of
 //         equal probability in the same order.
-// Cost    O(1) a coordinate expected, by a guide table; about 5 ns on one core.
-// Promise x in [first, last], the last only for xi = 1; never inside a piece of mass 0. Forward and
-//         back again is the same xi within 1e-14, times max|x| / h of the piece. The same bits on
-//         every machine.
+// Cost    O(1) a coordinate on average, with a guide table; about 5 ns on one core.
+// Promise x in [first, last], last only for xi = 1; never inside a piece of mass 0. A round trip
+//         returns the same xi within 1e-14 times max|x| / h of the piece. The same bits on every
+//         machine.
 
 #include <array>
 #include <cmath>
@@ -49,7 +49,7 @@ struct Tabulated final : LineDistribution {
 
     LineTable table;
 
-    /// 1 itself is the upper end.
+    /// xi = 1 maps to the upper end.
     void forward_all(std::span<double> numbers) const {
         std::array<std::uint8_t, 256> is_one;
         for (std::size_t first = 0; first < numbers.size(); first += is_one.size()) {
@@ -72,7 +72,7 @@ struct Tabulated final : LineDistribution {
     Positive positive() const override { return all_of(table.positive_intervals()); }
 };
 
-/// Numbers of the table in order, with the name that messages give it. @throws Error
+/// Reads the table's rows and orders them; `name` is for messages. @throws Error
 Table table_of(const Values& options, const std::string& name, const RunContext& run) {
     Table table = options[rows];
     if (options.given(file)) {
@@ -119,7 +119,7 @@ LineTable table_from(const Values& options, const RunContext& run) {
         const auto& row = rows_given[i];
         const auto& next = rows_given[i + 1];
         if (!(row[0] < next[0])) continue;        // a jump
-        pieces.push_back({.x_low = row[0] + 0.0,  // -0 would show in points
+        pieces.push_back({.x_low = row[0] + 0.0,  // -0 would appear in the points
                           .x_high = next[0] + 0.0,
                           .f_low = row[1],
                           .f_high = linear ? next[1] : row[1]});

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto a box with the tent density: the triangle filter of image reconstruction, in each
-// coordinate by itself:
+// Unit cube onto a box with the tent density, the triangle filter of image reconstruction, in each
+// coordinate independently:
 //
 //     p(x) = (1 - |x - c| / r) / r,  |x - c| <= r
 //     x = c + r (2 xi - 1) / (1 + sqrt(2 min(xi, 1 - xi)))
 //
-// which is the inverse of the distribution function, c - r + r sqrt(2 xi) up to the middle and its
-// mirror image behind, without the cancellation beside the middle. Back: with y = |x - c| / r,
-// xi = (1 - y)^2 / 2 on the left of c and 1 minus it on the right.
+// This is the inverse of the distribution function, c - r + r sqrt(2 xi) up to the middle and its
+// mirror image beyond, in a form without cancellation near the middle. Conversely, with y = |x - c|
+// / r, xi = (1 - y)^2 / 2 to the left of c and 1 minus that to the right.
 //
-// Shape   as many coordinates as there are unit coordinates.
-// Strata  xi is taken as it is, not as 1 - xi: small xi is on the left. Strata become boxes, wide
+// Shape   as many coordinates as unit coordinates.
+// Strata  xi is used directly, not as 1 - xi: small xi is on the left. Strata become boxes, wide
 //         near the rim.
-// Cost    O(1) a coordinate; about 2 ns forward, 4 ns back on one core.
-// Promise the density above, 0 at the rim, where xi = 0 and 1 are and nothing else is. Points lie in the closed box up
-//         to 8 epsilon (r + |c|). Forward and back again is the same point, and for c = 0 the same
-//         xi, within 1e-14. The same bits on every machine.
+// Cost    O(1) a coordinate; about 2 ns forward, 4 ns inverse on one core.
+// Promise the density above; it is 0 at the rim, which only xi = 0 and 1 reach. Points lie in the
+//         closed box up to 8 epsilon (r + |c|). A round trip returns the same point and, for c = 0,
+//         the same xi, within 1e-14. The same bits on every machine.
 
 #include <algorithm>
 #include <cmath>
@@ -47,9 +47,10 @@ struct Tent final : LineDistribution {
     double r;
     double c;
     double most =
-        1 - 2 * epsilon * (1 + std::abs(c) / r);  ///< next to 1 when rounded to the grid of c
+        1 - 2 * epsilon * (1 + std::abs(c) / r);  ///< largest offset that stays inside when rounded
+                                                  ///< to the spacing of doubles near c
 
-    /// On the rim, where the density is 0, for 0 and 1 alone.
+    /// Only u = 0 and 1 map to the rim, where the density is 0.
     double forward(double u) const {
         const double rest = u < 0.5 ? u : 1 - u;
         const double off = (2 * u - 1) / (1 + std::sqrt(2 * rest));
@@ -66,7 +67,7 @@ struct Tent final : LineDistribution {
         return contains(x) ? std::max(0.0, 1 - std::abs(x - c) / r) / r : 0;
     }
 
-    /// Up to 8 epsilon (r + |c|) beyond the rim: the rounding of a point that was made.
+    /// Allows 8 epsilon (r + |c|) beyond the rim, the rounding error of generated points.
     bool contains(double x) const override {
         return std::abs(x - c) <= r + 8 * epsilon * (r + std::abs(c));
     }
@@ -82,7 +83,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     std::vector<std::shared_ptr<const Tent>> axes;
     for (std::size_t k = 0; k < (same ? 1 : want.given); ++k) {
         const double r = radii[k];
-        const double c = centers[k] + 0.0;  // -0 would show in points
+        const double c = centers[k] + 0.0;  // -0 would appear in the points
         if (!(r >= 1e-150 && r <= 1e150))
             fail(ErrorKind::usage, "--radius: {} is outside [1e-150, 1e+150]", r);
         if (!(r > 64 * epsilon * std::abs(c)))

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto an interval, each coordinate by itself, by inversion:
+// Unit cube onto an interval, each coordinate independently, by inversion:
 //
 //     x = low + y (high - low),    I_y(a, b) = xi,    density of y: y^(a-1) (1-y)^(b-1) / B(a, b)
 //
-// Shape   any number of coordinates; one number for all coordinates, or one for each, for each
-//         parameter.
-// Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the
+// Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
+// Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability in the
 //         same order.
 // Cost    O(1) a coordinate; about 1.5 us on one core.
-// Promise x in [low, high], at the ends only for xi = 0 and 1, and not where the density is
-//         infinite there; quantiles within 1e-13 of themselves in both tails. The same bits on
-//         every machine.
-// Beware  for b below 1 much may be nearer to high than numbers can tell: with b = 0.5, 1e-8 of
-//         all. Where that matters, take high = 0 and low below it.
+// Promise x in [low, high], at the ends only for xi = 0 and 1, and never where the density is
+//         infinite; quantiles within a relative 1e-13 in both tails. The same bits on every
+//         machine.
+// Beware  if b is below 1, much of the mass may be closer to high than the spacing of doubles: 1e-8
+//         of it with b = 0.5. If that matters, use high = 0 and low below it.
 
 #include "warps/marginal_mapping.hpp"
 

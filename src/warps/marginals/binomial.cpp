@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto whole numbers from 0 to n, each coordinate by itself, by inversion:
+// Unit cube onto whole numbers from 0 to n, each coordinate independently, by inversion:
 //
 //     the first k with p(0) + ... + p(k) > xi,    p(k) = n! / (k! (n-k)!) p^k (1-p)^(n-k)
 //
-// Shape   any number of coordinates; one number for all coordinates, or one for each, for each
-//         parameter.
-// Strata  xi is taken as it is: outcomes come in order, so that n strata give each outcome n p
-//         times, rounded up or down.
-// Cost    O(1) a coordinate expected, by a guide table; about 5 ns on one core. The table has at
-//         most 75 sqrt(n p (1 - p)) outcomes, or n + 1.
-// Promise the ends of outcomes' intervals are right to their last digits, from both ends. The way
-//         back is the middle of the interval. The same bits on every machine.
+// Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
+// Strata  xi is used directly, and outcomes are in order: n strata give an outcome of probability p
+//         n p times, rounded up or down.
+// Cost    O(1) a coordinate on average, with a guide table; about 5 ns on one core. The table has
+//         at most 75 sqrt(n p (1 - p)) outcomes, or n + 1.
+// Promise the bounds of outcomes' intervals are accurate to the last digit, measured from either
+//         end. The inverse is the middle of the outcome's interval. The same bits on every machine.
 
 #include "warps/marginal_mapping.hpp"
 

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto the distribution of numbers that were measured, each coordinate by itself: of n
-// numbers x_0 <= ... <= x_n-1,
+// Unit cube onto the distribution of measured numbers, each coordinate independently: for n numbers
+// x_0 <= ... <= x_n-1,
 //
 //     steps   x_i for xi in [i / n, (i + 1) / n): each number as often as it stands there
 //     linear  x_i + (h - i) (x_i+1 - x_i),  h = xi (n - 1),  i = floor(h): straight between them
 //
-// Shape   any number of coordinates, of one column for all or one for each; linear needs 2 numbers
-//         or more, no two the same.
-// Strata  xi is taken as it is, in the order of the numbers.
-// Cost    O(1) a coordinate expected, by a guide table; about 5 ns on one core for few numbers.
-// Promise steps: n strata give each number as often as it stands there. The same bits on every
-//         machine.
+// Shape   any number of coordinates; one column for all or one for each; linear requires at least 2
+//         numbers, all distinct.
+// Strata  xi is used directly, in the order of the numbers.
+// Cost    O(1) a coordinate on average, with a guide table; about 5 ns on one core for few numbers.
+// Promise steps: n strata give each number as often as it occurs. The same bits on every machine.
 // Source  linear: definition 7 of R. J. Hyndman, Y. Fan, The American Statistician 50 (1996)
 //         361-365, doi:10.1080/00031305.1996.10473566.
 

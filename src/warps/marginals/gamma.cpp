@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto the half-line x >= 0, each coordinate by itself, by inversion:
+// Unit cube onto the half-line x >= 0, each coordinate independently, by inversion:
 //
 //     P(shape, x / scale) = xi,    density of y = x / scale: y^(shape-1) exp(-y) / Gamma(shape)
 //
-// Shape   any number of coordinates; one number for all coordinates, or one for each, for each
-//         parameter.
-// Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the
-//         same order. The last is endless; xi = 1 is taken as 1 - 2^-55.
+// Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
+// Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability in the
+//         same order. The last is unbounded; xi = 1 is replaced by 1 - 2^-55.
 // Cost    O(1) a coordinate; 0.6 to 1 us, 8 us for a shape of 1e6 on one core.
-// Promise quantiles within 1e-13 of themselves in both tails. The same bits on every machine for
-//         the same release of Boost, whose functions are computed through math/functions.
+// Promise quantiles within a relative 1e-13 in both tails. The same bits on every machine for the
+//         same release of Boost, whose functions are computed through math/functions.
 
 #include "warps/marginal_mapping.hpp"
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto the whole line, each coordinate by itself, by inversion:
+// Unit cube onto the whole line, each coordinate independently, by inversion:
 //
 //     x = location - scale log(-log xi),    P(X <= x) = exp(-exp(-(x - location) / scale)),
 //     the distribution of the largest of many
 //
-// Shape   any number of coordinates; one number for all coordinates, or one for each, for each
-//         parameter.
-// Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the
-//         same order. The first and the last are endless; 0 is taken as 2^-54 and 1 as 1 - 2^-55.
+// Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
+// Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability in the
+//         same order. The first and the last are unbounded; 0 is replaced by 2^-54 and 1 by 1 -
+//         2^-55.
 // Cost    O(1) a coordinate; about 15 ns on one core.
-// Promise x within 1e-13 of the larger of itself and the location. The same bits on every machine.
+// Promise x within 1e-13 of max(|x|, |location|). The same bits on every machine.
 
 #include "warps/marginal_mapping.hpp"
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto whole numbers of a range, each coordinate by itself, by inversion:
+// Unit cube onto the integers of a range, each coordinate independently, by inversion:
 //
 //     x = low + floor(xi (high - low + 1))
 //
-// Shape   any number of coordinates; one number for all coordinates, or one for each, for each
-//         parameter.
-// Strata  xi is taken as it is: outcomes come in order, so that n strata give each outcome n p
-//         times, rounded up or down.
+// Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
+// Strata  xi is used directly, and outcomes are in order: n strata give an outcome of probability p
+//         n p times, rounded up or down.
 // Cost    O(1) a coordinate; about 3 ns on one core.
-// Promise each number comes for the same share of xi. The way back is the middle of its interval.
-//         The same bits on every machine.
+// Promise each number occurs for the same fraction of xi. The inverse is the middle of its
+//         interval. The same bits on every machine.
 
 #include "warps/marginal_mapping.hpp"
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto an interval of positive numbers, each coordinate by itself, by inversion:
+// Unit cube onto an interval of positive numbers, each coordinate independently, by inversion:
 //
 //     x = low (high / low)^xi,    density 1 / (x log(high / low))
 //
-// Shape   any number of coordinates; one number for all coordinates, or one for each, for each
-//         parameter.
-// Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the
+// Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
+// Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability in the
 //         same order.
 // Cost    O(1) a coordinate; about 6 ns on one core.
-// Promise x within 1e-13 of itself. The same bits on every machine.
+// Promise x within a relative 1e-13. The same bits on every machine.
 
 #include "warps/marginal_mapping.hpp"
 

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto the half-line x > 0, each coordinate by itself, by inversion:
+// Unit cube onto the half-line x > 0, each coordinate independently, by inversion:
 //
 //     x = exp(mu + sigma Phi^-1(xi)),    density exp(-z^2 / 2) / (sigma x sqrt(2 pi))
 //
 // with z = (log x - mu) / sigma.
 //
 // Shape   any number of coordinates; mu and sigma, or mean m and deviation s of x itself: sigma^2 =
-//         log(1 + (s / m)^2), mu = log m - sigma^2 / 2; one number for all coordinates, or one for
-//         each.
-// Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the
-//         same order. The first and the last are endless; 0 is taken as 2^-54 and 1 as 1 - 2^-55.
+//         log(1 + (s / m)^2), mu = log m - sigma^2 / 2; each is one number for all coordinates, or
+//         one for each.
+// Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability in the
+//         same order. The first and the last are unbounded; 0 is replaced by 2^-54 and 1 by 1 -
+//         2^-55.
 // Cost    O(1) a coordinate; about 15 ns on one core.
-// Promise x within 1e-15 (1 + |log x|) of itself. The same bits on every machine.
+// Promise x within a relative 1e-15 (1 + |log x|). The same bits on every machine.
 
 #include "warps/marginal_mapping.hpp"
 

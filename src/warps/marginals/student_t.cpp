@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto the whole line, each coordinate by itself, by inversion:
+// Unit cube onto the whole line, each coordinate independently, by inversion:
 //
 //     x = location + scale t,    P(T > t) = I_z(nu / 2, 1 / 2) / 2,    z = nu / (nu + t^2)
-//     for nu degrees of freedom; 1 of them is Cauchy's distribution
+//     for nu degrees of freedom; nu = 1 is Cauchy's distribution
 //
-// Shape   any number of coordinates; one number for all coordinates, or one for each, for each
-//         parameter.
-// Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the
-//         same order. The first and the last are endless; 0 is taken as 2^-54 and 1 as 1 - 2^-55.
+// Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
+// Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability in the
+//         same order. The first and the last are unbounded; 0 is replaced by 2^-54 and 1 by 1 -
+//         2^-55.
 // Cost    O(1) a coordinate; about 4 us on one core.
-// Promise quantiles within 1e-13 of themselves in both tails. The same bits on every machine for
-//         the same release of Boost, whose functions are computed through math/functions.
+// Promise quantiles within a relative 1e-13 in both tails. The same bits on every machine for the
+//         same release of Boost, whose functions are computed through math/functions.
 
 #include "warps/marginal_mapping.hpp"
 

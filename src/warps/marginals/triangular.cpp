@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto an interval, each coordinate by itself, by inversion:
+// Unit cube onto an interval, each coordinate independently, by inversion:
 //
 //     x = low + sqrt(xi (high - low) (mode - low))             up to the mode, and beyond
 //     x = high - sqrt((1 - xi) (high - low) (high - mode)),
 //     density 2 / (high - low) at the mode, and straight from there to 0 at both ends.
 //
-// Shape   any number of coordinates; one number for all coordinates, or one for each, for each
-//         parameter.
-// Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the
+// Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
+// Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability in the
 //         same order.
 // Cost    O(1) a coordinate; about 2 ns on one core.
 // Promise x in [low, high], at the ends only for xi = 0 and 1. The same bits on every machine.

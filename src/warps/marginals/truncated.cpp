@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
-// Any other distribution on the line between two ends a and b, each coordinate by itself, by
-// inversion of
+// Any other distribution on the line, restricted to the interval between two ends a and b, each
+// coordinate independently, by inversion of
 //
 //     (F(x) - F(a)) / (F(b) - F(a)) = xi,
 //
-// all from the tail in which probabilities are smaller (math/distributions/truncated.cpp), so that
-// the part of a normal distribution from 30 standard deviations on keeps its digits.
+// computed from the tail with the smaller probabilities (math/distributions/truncated.cpp), so that
+// a normal distribution loses no digits even beyond 30 standard deviations.
 //
-// Shape   any number of coordinates; one end or both; for each end one number for all coordinates,
+// Shape   any number of coordinates; one end or both; each end is one number for all coordinates,
 //         or one for each.
-// Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the
+// Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability in the
 //         same order.
-// Cost    that of the distribution, and about 15 ns a coordinate on one core.
-// Promise x in [a, b]. Of continuous distributions the part must have a probability above 1e-290,
-//         and of discrete ones it is cut exactly. The same bits on every machine.
-// Beware  digits are those of the interval: x is off by 1e-15 of its width also near its ends, and
-//         where the interval has a share s of the probability beyond them, by 1e-16 / s of it.
+// Cost    that of the distribution, plus about 15 ns a coordinate on one core.
+// Promise x in [a, b]. For continuous distributions the interval must have a probability above
+//         1e-290; discrete ones are cut exactly. The same bits on every machine.
+// Beware  x is accurate relative to the interval, not to its ends: to 1e-15 of the width. If the
+//         interval has only a fraction s of the probability beyond its ends, to 1e-16 / s of the
+//         width.
 
 #include <algorithm>
 #include <limits>
@@ -39,7 +40,7 @@ constexpr Param<Numbers> high{
     {.name = "high",
      .help = "Upper end: one number for all coordinates, or one for each; default: none"}};
 
-/// Members of the family that --of names. @throws Error(usage)
+/// Members of the family named by --of. @throws Error(usage)
 std::vector<MarginalPtr> members_of(const std::string& text) {
     const Spec spec = parse_spec(text);
     if (!spec.coordinates.empty())

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto a box, each coordinate by itself, by inversion:
+// Unit cube onto a box, each coordinate independently, by inversion:
 //
 //     x = low + xi (high - low),    density 1 / (high - low)
 //
-// Shape   any number of coordinates; one number for all coordinates, or one for each, for each
-//         parameter.
-// Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the
+// Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
+// Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability in the
 //         same order.
 // Cost    O(1) a coordinate; about 1 ns on one core.
 // Promise x in [low, high], and high only by rounding. The same bits on every machine.

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto the half-line x >= 0, each coordinate by itself, by inversion:
+// Unit cube onto the half-line x >= 0, each coordinate independently, by inversion:
 //
 //     x = scale (-log(1 - xi))^(1 / shape),    P(X > x) = exp(-(x / scale)^shape)
 //
-// Shape   any number of coordinates; one number for all coordinates, or one for each, for each
-//         parameter.
-// Strata  xi is taken as it is, not as 1 - xi: strata become intervals of equal probability in the
-//         same order. The last is endless; xi = 1 is taken as 1 - 2^-55.
+// Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
+// Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability in the
+//         same order. The last is unbounded; xi = 1 is replaced by 1 - 2^-55.
 // Cost    O(1) a coordinate; about 90 ns on one core.
-// Promise x within 1e-13 of itself. The same bits on every machine.
+// Promise x within a relative 1e-13. The same bits on every machine.
 
 #include "warps/marginal_mapping.hpp"
 

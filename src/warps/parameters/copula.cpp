@@ -16,7 +16,8 @@
 namespace stipple::parameters {
 namespace {
 
-/// The smaller of the two shares; an end, which is infinitely far, as the random number next to it.
+/// The smaller of the two probabilities; 0, which is infinitely far, becomes the smallest random
+/// number.
 double tail(const Share& share) {
     const double m = std::min(share.below, share.above);
     return m > 0 ? std::max(m, 1e-300) : 0x1p-54;
@@ -54,7 +55,7 @@ Copula::Place Copula::place(std::size_t i, std::span<const double> y, double squ
 }
 
 void Copula::forward(std::span<Share> row) const {
-    std::vector<double> y(d_);  // L y are the scores
+    std::vector<double> y(d_);  // L y = scores
     double squares = 0;
     for (std::size_t i = 0; i < d_; ++i) {
         const auto [middle, spread] = place(i, y, squares);
@@ -120,7 +121,7 @@ bool is_correlation(const std::vector<double>& matrix, std::size_t d) {
 
 namespace {
 
-/// The nearest matrix whose eigenvalues are not below `least`.
+/// The nearest symmetric matrix whose eigenvalues are at least `least`.
 std::vector<double> lifted(const std::vector<double>& matrix, std::size_t d, double least) {
     const auto [values, vectors] = jacobi_eigen(matrix, d);
     std::vector<double> out(d * d);
@@ -136,7 +137,7 @@ std::vector<double> lifted(const std::vector<double>& matrix, std::size_t d, dou
 
 std::vector<double> nearest_correlation(std::vector<double> matrix, std::size_t d) {
     constexpr double least = 1e-6;
-    std::vector<double> correction(d * d);  // Dykstra's, of the projection that is not linear
+    std::vector<double> correction(d * d);  // Dykstra's correction for the projection onto a cone
     for (int step = 0; step < 500; ++step) {
         std::vector<double> shifted(d * d);
         for (std::size_t i = 0; i < d * d; ++i) shifted[i] = matrix[i] - correction[i];
@@ -149,7 +150,7 @@ std::vector<double> nearest_correlation(std::vector<double> matrix, std::size_t 
         matrix = std::move(next);
         if (change < 1e-10) break;
     }
-    // The last step set the diagonal, and may have taken a hair off the least eigenvalue.
+    // The last step set the diagonal to 1, which may have lowered the smallest eigenvalue slightly.
     while (!is_correlation(matrix, d))
         for (std::size_t i = 0; i < d * d; ++i)
             if (i % (d + 1) != 0) matrix[i] *= 1 - 1e-9;

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// Copulas: how coordinates that are uniform, each by itself, depend on each other. With L L^T = R, a
-// matrix of correlations, and independent uniform u,
+// Copulas: the dependence between coordinates that are uniform individually. With L L^T = R, a
+// correlation matrix, and independent uniform u,
 //
 //     Gaussian   z_i = Phi^-1(u_i),    v_i = Phi((L z)_i)
 //     Student    v_i = T_nu(t_i),      t_i = m_i + s_i T_(nu+i)^-1(u_i),
 //
-// where m_i and s_i^2 = L_ii^2 (nu + q_i) / (nu + i) are those of Student's distribution given the i
-// coordinates before, and q_i is the sum of squares of the y with L y = t up to there. Both are
-// Rosenblatt's map: u_i decides v_i given those before, so that strata of the first coordinate are
-// kept, and there is a way back.
+// where m_i and s_i^2 = L_ii^2 (nu + q_i) / (nu + i) are the parameters of Student's distribution
+// given the i preceding coordinates, and q_i is the sum of squares of their y, with L y = t. Both
+// are Rosenblatt's map: u_i determines v_i given the preceding ones, so that strata of the first
+// coordinate are preserved and an inverse exists.
 //
-// Shape   d coordinates; each as the probability p below and the probability q = 1 - p above, so
-//         that both tails keep all their digits.
-// Cost    d^2 / 2 multiplications and d quantiles a point.
+// Shape   d coordinates; each is stored as the probability p below and q = 1 - p above, so that
+//         both tails keep all digits.
+// Cost    d^2 / 2 multiplications and d quantiles per point.
 // Promise the same bits on every machine.
 // Source  M. Rosenblatt, Ann. Math. Statist. 23 (1952) 470-472, doi:10.1214/aoms/1177729394;
 //         P. Ding, Amer. Statist. 70 (2016) 293-295, doi:10.1080/00031305.2016.1164756 (Student's
@@ -29,7 +29,7 @@
 
 namespace stipple::parameters {
 
-/// The probability of what is below a place, and of what is above.
+/// The probabilities below and above a position.
 struct Share {
     double below = 0.5;
     double above = 0.5;
@@ -37,48 +37,49 @@ struct Share {
 
 class Copula {
   public:
-    /// @param correlations d x d, row after row; a valid matrix
-    /// @param degrees of freedom of Student's copula; none: Gaussian
+    /// @param correlations d x d in row-major order; a valid matrix
+    /// @param degrees degrees of freedom of Student's copula; nullopt: Gaussian
     Copula(const std::vector<double>& correlations, std::optional<double> degrees);
 
-    /// From independent coordinates to those that depend on each other, in place.
+    /// Maps independent coordinates to dependent ones, in place.
     void forward(std::span<Share> row) const;
     void inverse(std::span<Share> row) const;
 
-    /// Whether coordinate i stays what it is.
+    /// Whether coordinate i is unchanged.
     [[nodiscard]] bool leaves(std::size_t i) const;
 
     /// Whether coordinate i depends on others.
     [[nodiscard]] bool joins(std::size_t i) const;
 
-    /// With respect to the uniform distribution.
+    /// Density with respect to the uniform distribution.
     [[nodiscard]] double density(std::span<const Share> row) const;
 
   private:
-    /// Of the score of coordinate i, given those before: score = middle + L_ii y_i, and y_i has
-    /// the distribution for i given coordinates, times the spread.
+    /// Conditional distribution of the score of coordinate i, given those before: score = middle +
+    /// L_ii y_i, where y_i / spread has the distribution for i given coordinates.
     struct Place {
         double middle;
         double spread;
     };
     [[nodiscard]] Place place(std::size_t i, std::span<const double> y, double squares) const;
-    /// By the distribution for some coordinates given.
+    /// Conversions by the distribution for `given` preceding coordinates.
     [[nodiscard]] double score(const Share& share, std::size_t given) const;
     [[nodiscard]] Share share(double score, std::size_t given) const;
 
     std::size_t d_;
-    std::vector<double> factor_;  ///< L, row after row
+    std::vector<double> factor_;  ///< L, in row-major order
     std::optional<double> degrees_;
-    std::vector<MarginalPtr> laws_;  ///< Student's, for 0, 1, ... coordinates given
+    std::vector<MarginalPtr> laws_;  ///< Student's, given 0, 1, ... preceding coordinates
 };
 
-/// The correlation 2 sin(pi r / 6) of normal scores whose rank correlation, Spearman's, is r.
+/// Correlation 2 sin(pi r / 6) of normal scores with Spearman's rank correlation r.
 double score_correlation(double spearman);
 
 /// Whether a symmetric matrix with ones on its diagonal has a Cholesky factor.
 bool is_correlation(const std::vector<double>& matrix, std::size_t d);
 
-/// The nearest such matrix, in the sum of squares, that has one; eigenvalues are at least 1e-6.
+/// The nearest correlation matrix with a Cholesky factor, by the sum of squares; eigenvalues are at
+/// least 1e-6.
 ///
 /// Source  N. J. Higham, IMA J. Numer. Anal. 22 (2002) 329-343, doi:10.1093/imanum/22.3.329.
 std::vector<double> nearest_correlation(std::vector<double> matrix, std::size_t d);

@@ -19,14 +19,14 @@ namespace {
 
 using Increment = Scored::Increment;
 
-constexpr double farthest = 37;  // Phi(-37) is some 1e-300
+constexpr double farthest = 37;  // Phi(-37) is about 1e-300
 constexpr double panel = 1.0 / 8;
 
 double normal_density(double z) {
     return exponential(-z * z / 2) / std::sqrt(2 * std::numbers::pi);
 }
 
-/// Sum of weight f(x) over the nodes of Gauss's rule between two ends.
+/// Gauss's rule for the integral of f between two ends.
 template <std::size_t n, class F>
 double by_gauss(double low, double high, const F& f) {
     using Rule = boost::math::quadrature::gauss<double, n>;
@@ -41,13 +41,13 @@ double by_gauss(double low, double high, const F& f) {
     return half * sum;
 }
 
-/// The score below which the probability is `below`.
+/// Normal score for a probability `below`.
 double score_of(double below, double above) {
     const double m = std::max(std::min(below, above), 1e-300);
     return detail::normal_quantile(below < above ? below - 0.5 : 0.5 - above, m);
 }
 
-/// Four increments, or fewer, with the same moments up to the seventh.
+/// Reduces increments to at most four with the same moments up to the seventh.
 void gather(std::span<const Increment> many, std::vector<Increment>& out) {
     constexpr std::size_t nodes = 4;
     if (many.size() <= nodes) {
@@ -98,7 +98,7 @@ std::vector<Increment> mirrored(std::vector<Increment> increments) {
     return increments;
 }
 
-/// S(t), for cos and sin of t.
+/// S(t). @param c, s cosine and sine of t
 double slope(const std::vector<Increment>& a, const std::vector<Increment>& b, double c, double s) {
     const double reach = 12 * c;
     const double exponent = -0.5 / (c * c);
@@ -115,7 +115,7 @@ double slope(const std::vector<Increment>& a, const std::vector<Increment>& b, d
     return sum / (2 * std::numbers::pi);
 }
 
-/// The integral of S from an angle on, and where it reaches some value.
+/// Integral of S from an angle on, and the angle where it reaches a given value.
 class Part {
   public:
     template <class Slope>
@@ -161,7 +161,7 @@ class Part {
         }
         return p;
     }
-    /// From -1 to x, times half the width.
+    /// Integral from -1 to x, times half the width.
     [[nodiscard]] double integral(double x) const {
         const auto p = legendre(x);
         double sum = series_[0] * (x + 1);
@@ -256,7 +256,7 @@ void Scored::take_cells() {
 }
 
 void Scored::take_panels() {
-    const auto matters = [&](double z) {  // beyond that
+    const auto matters = [&](double z) {  // whether increments beyond z matter
         const double size = at(z) / deviation_;
         return normal_distribution(-std::abs(z)) * std::max(1.0, size * size) > 1e-13;
     };
@@ -298,7 +298,7 @@ void Scored::add_panel(double low, double high, double x_low, double x_high) {
         increments_.push_back({(low + high) / 2, gained});
         return;
     }
-    // The rule's own weights, in the order in which it asked.
+    // Weights of the rule, in the order of its evaluations.
     using Rule = boost::math::quadrature::gauss<double, 10>;
     for (std::size_t i = 0; i < nodes.size(); ++i)
         nodes[i].size *=
@@ -309,7 +309,7 @@ void Scored::add_panel(double low, double high, double x_low, double x_high) {
 
 namespace {
 
-/// The integral of f over the normal distribution, f being smooth between cuts.
+/// Integral of f over the normal distribution; f must be smooth between cuts.
 template <class F>
 double normal_mean(std::vector<double> cuts, const F& f) {
     for (double z = -farthest; z <= farthest; z += 0.5) cuts.push_back(z);
@@ -358,7 +358,8 @@ double Scored::scores_for(const Scored& other, double r) const {
              extreme(other, -1), extreme(other, 1));
     const double size = deviation_ * other.deviation_;
     const double wanted = std::abs(r);
-    // Kernels become narrower, by octaves of the cosine, down to what increments can tell.
+    // Kernels become narrower: the cosine is halved in each octave, down to the increments'
+    // resolution.
     const int octaves = stepped_ && other.stepped_ ? 21 : 4;
     double low = 0, reached = 0, rate = 0;
     for (int octave = 0; octave < octaves; ++octave) {
@@ -378,7 +379,8 @@ double Scored::scores_for(const Scored& other, double r) const {
         rate = part.end_slope();
         low = high;
     }
-    // From there to the end as a power of what is left, with the slope that was found.
+    // Extrapolates from there to the end by a power of the remaining angle that has the computed
+    // slope.
     const double width = std::numbers::pi / 2 - low;
     const double power = std::max(1.0, rate * width / (end - reached));
     const double left = exponential(logarithm((end - wanted) / (end - reached)) / power) * width;

@@ -63,7 +63,8 @@ void LinearPart::move_inside(std::span<double> row) const {
 
 namespace {
 
-/// Those of an affine constraint in no more variables than a polytope can have.
+/// Half-spaces of an affine constraint; nullopt if it is not affine or has more variables than a
+/// polytope can.
 std::optional<std::vector<HalfSpace>> half_spaces(const Expression& constraint) {
     constexpr std::size_t most = 12;
     VariableNames own = constraint.variables();
@@ -121,7 +122,7 @@ std::optional<LinearPart> take_linear_part(const std::vector<UniformRange>& rang
         return part;
     } catch (const Error& e) {
         if (e.kind() != ErrorKind::limit) throw;
-        return std::nullopt;  // too large: all points are tried
+        return std::nullopt;  // too large: falls back to rejection
     }
 }
 

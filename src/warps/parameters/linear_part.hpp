@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Parameters that linear constraints join, uniform on the polytope that these leave of their ranges
-// (math/polytopes), and the map of the cube onto it, with no point dropped. A constraint belongs here if it is
-// affine in parameters that are uniform on ranges of their own and that no copula joins:
+// Parameters joined by linear constraints: uniform on the polytope of their ranges and the
+// constraints (math/polytopes). The cube is mapped onto it, and no point is dropped. A constraint
+// qualifies if it is affine, and all its parameters are uniform on fixed ranges and in no copula:
 //
 //     {"range": [0, 2]}, {"range": [0, 2]}, "a + 2*b < 3 && a > b"
 //
-// What depends on such a parameter still follows its own distribution, given it; and whatever other
-// constraints drop, what is left follows the distribution under all of them.
+// Parameters that depend on these still follow their own conditional distributions. If other
+// constraints drop points, the remaining ones follow the distribution under all constraints.
 #pragma once
 
 #include <cstddef>
@@ -23,19 +23,20 @@ namespace stipple::parameters {
 
 class LinearPart {
   public:
-    /// @param coordinates those of the polytope, among all parameters
-    /// @param ranges of these
+    /// @param coordinates indices of the polytope's coordinates among all parameters
+    /// @param ranges of these coordinates
     LinearPart(std::vector<std::size_t> coordinates, const Box& ranges,
                const std::vector<HalfSpace>& cuts, std::vector<Expression> constraints);
 
     [[nodiscard]] const std::vector<std::size_t>& coordinates() const { return coordinates_; }
     [[nodiscard]] bool holds(std::size_t k) const;
     [[nodiscard]] const Polytope& polytope() const { return polytope_; }
-    /// Of the volume of the ranges.
+    /// Volume of the polytope as a fraction of the ranges' volume.
     [[nodiscard]] double share() const { return share_; }
 
-    /// Puts the coordinates into rows of all parameters. Rounding breaks no constraint, also where it
-    /// is strict: such points move towards the middle until they break none.
+    /// Writes the coordinates into rows of all parameters. Points that rounding moved onto or
+    /// beyond a constraint are moved towards the middle until all constraints hold, strict ones
+    /// too.
     void from_cube(std::span<const double> cube, std::span<double> rows,
                    std::size_t dimension) const;
     void to_cube(std::span<const double> row, std::span<double> cube) const;
@@ -50,11 +51,12 @@ class LinearPart {
     std::vector<Expression> constraints_;
 };
 
-/// A range of which a parameter is uniform; none: it is not, or depends on others.
+/// Range of a parameter with a uniform distribution; nullopt if it has another one, or depends on
+/// other parameters.
 using UniformRange = std::optional<std::pair<double, double>>;
 
-/// Takes the constraints that belong to a polytope out of a list; nothing if there are none, or if
-/// their polytope is too large. @throws Error(usage) if no parameters satisfy them
+/// Removes the constraints that form a polytope from the list. nullopt if there are none, or if the
+/// polytope is too large. @throws Error(usage) if no parameters satisfy them
 std::optional<LinearPart> take_linear_part(const std::vector<UniformRange>& ranges,
                                            std::vector<Expression>& constraints);
 

@@ -24,7 +24,7 @@
 namespace stipple::parameters {
 namespace {
 
-/// A value of the file, and where it stands: $.parameters[2].range.
+/// A value of the file and its path, such as $.parameters[2].range.
 class Place {
   public:
     Place(const Json& value, std::string path, const std::string& source)
@@ -36,7 +36,7 @@ class Place {
         throw Error(ErrorKind::input, fmt::format("{}: {}: {}", source_, path_, what), hint);
     }
 
-    /// Does work whose errors are those of this place.
+    /// Runs work() and reports its usage errors at this path.
     template <class Work>
     auto naming(const Work& work) const {
         try {
@@ -70,7 +70,7 @@ class Place {
         return x;
     }
 
-    /// Refuses what is no object, and the first key that is none of these.
+    /// Rejects a value that is not an object, and unknown keys.
     void check_keys(const std::vector<std::string>& known, const char* expected) const {
         if (!value_.is_object()) refuse(expected);
         for (const auto& [key, ignored] : value_.items())
@@ -84,7 +84,7 @@ class Place {
     const std::string& source_;
 };
 
-/// A number, or a formula in the parameters before.
+/// A number, or a formula in the preceding parameters.
 struct Entry {
     double number = 0;
     std::optional<Expression> formula = {};
@@ -100,7 +100,7 @@ Entry entry_of(const Place& place, const FormulaNames& before) {
         [&] { return Entry{.formula = Expression("", place.value().get<std::string>(), before)}; });
 }
 
-/// All numbers are in the provenance of points.
+/// Limits the numbers, since all of them are stored in the points' provenance.
 void check_size(const Place& values, std::size_t count) {
     constexpr std::size_t most = 100'000;
     if (count > most)
@@ -108,7 +108,7 @@ void check_size(const Place& values, std::size_t count) {
                       "take some thousand quantiles of them");
 }
 
-/// What the keys of one parameter give, with the names of those before it.
+/// Reads the keys of one parameter. @param before names of the preceding parameters
 class ParameterReader {
   public:
     ParameterReader(const Place& place, const FormulaNames& before)
@@ -159,7 +159,7 @@ class ParameterReader {
         return unit;
     }
 
-    /// What a header and a cell of a table can hold, and a spec.
+    /// Checks that a word can be used in a table's header and cells, and in a spec.
     static void check_word(const Place& at, const std::string& word) {
         if (word.empty() || word != printable(word) || word != trim(word) || word.size() > 200 ||
             word.find_first_of("\"[]") != std::string::npos || word[0] == '#' || word[0] == '{' ||
@@ -175,9 +175,9 @@ class ParameterReader {
         place_.check_keys(more, "expected an object");
     }
 
-    /// The distribution's name and numbers.
+    /// A distribution's name and parameters.
     struct Law {
-        const char* key;  ///< that names it
+        const char* key;  ///< the key that named it
         std::string family;
         std::vector<std::pair<std::string, Entry>> numbers;
         std::optional<std::pair<Entry, Entry>> within = {};
@@ -312,7 +312,8 @@ class ParameterReader {
         });
     }
 
-    /// Of the levels: those that the file gives, or equal ones. Whole numbers are ratios, 2:1:1.
+    /// Probabilities of the levels from the file; equal ones if it has none. Whole numbers are
+    /// ratios, 2:1:1.
     std::vector<double> probabilities(std::size_t count) const {
         std::vector<double> p(count, 1);
         bool ratios = true;
@@ -343,13 +344,13 @@ class ParameterReader {
     const FormulaNames& before_;
 };
 
-/// What joins parameters: one of both.
+/// The dependence between parameters: at most one of both.
 struct Joint {
     std::optional<Copula> copula = {};
     std::optional<Reordering> reordering = {};
 };
 
-/// What the key "correlation" says.
+/// Reads the key "correlation".
 class CorrelationReader {
   public:
     CorrelationReader(const Place& place, const std::vector<Parameter>& parameters)
@@ -387,7 +388,7 @@ class CorrelationReader {
     }
 
   private:
-    /// Whether a set is reordered, in place of a copula.
+    /// Whether sets are reordered, instead of using a copula.
     bool read_reordering() const {
         if (!place_.has("reordering")) return false;
         const Place at = place_.at("reordering");
@@ -443,12 +444,12 @@ class CorrelationReader {
         const std::size_t d = parameters_.size();
         if (given_[i * d + j]) pair.refuse("the pair stands twice");
         given_[i * d + j] = given_[j * d + i] = true;
-        spearman_[i * d + j] = spearman_[j * d + i] = r;  // asked for by a reordering alone
+        spearman_[i * d + j] = spearman_[j * d + i] = r;  // used only by a reordering
         const double scores = of_scores(pair, i, j, r, kind, student);
         matrix_[i * d + j] = matrix_[j * d + i] = scores;
     }
 
-    /// The correlation of the scores, of which the copula is made, that has a parameter's.
+    /// Correlation of the copula's scores for which the parameters have the correlation r.
     double of_scores(const Place& pair, std::size_t i, std::size_t j, double r,
                      std::string_view kind, bool student) {
         const MarginalPtr& a = parameters_[i].law;
@@ -458,7 +459,7 @@ class CorrelationReader {
             pair.refuse("Kendall's tau is not known of integers, levels and others that have ties",
                         student ? "" : "give \"spearman\"");
         if (kind == "kendall") return std::copysign(cos_sin_turns(std::abs(r) / 4).sin, r);
-        // Of a parameter that depends on others it is that of its probability, given these.
+        // If the parameter depends on others: correlation of its conditional probability.
         if (kind == "spearman" && (!a || !b || !discrete)) return score_correlation(r);
         if (!a || !b) pair.refuse("a parameter that depends on others has no correlation known");
         if (student) pair.refuse("is known of the Gaussian copula only", "give \"kendall\"");
@@ -473,7 +474,7 @@ class CorrelationReader {
         return *made;
     }
 
-    /// Says which correlations would be possible. @throws Error(input)
+    /// Reports the nearest possible correlations. @throws Error(input)
     [[noreturn]] void offer_nearest() const {
         const std::size_t d = parameters_.size();
         auto nearest = nearest_correlation(matrix_, d);
@@ -494,11 +495,11 @@ class CorrelationReader {
 
     const Place& place_;
     const std::vector<Parameter>& parameters_;
-    std::vector<double> matrix_;  ///< of the scores
+    std::vector<double> matrix_;  ///< correlations of the scores
     std::vector<double> spearman_;
     std::vector<bool> given_;
     bool ranks_only_ = true;  ///< rank correlations of scores are those of the parameters
-    std::vector<std::shared_ptr<const Scored>> numbers_;  ///< a parameter, where it was asked for
+    std::vector<std::shared_ptr<const Scored>> numbers_;  ///< per parameter; null until needed
     std::vector<std::shared_ptr<const Scored>> ranks_;
 };
 
@@ -541,7 +542,7 @@ std::string one_line(std::string_view json, const std::string& source) {
 
 namespace {
 
-/// The column of a file that a parameter names.
+/// Numbers of the column in a file that the parameter names.
 Json column_of(const Place& parameter, const RunContext& run) {
     const Place file = parameter.at("file");
     const std::string path = file.text("expected the name of a file");
@@ -560,7 +561,7 @@ Json column_of(const Place& parameter, const RunContext& run) {
     return Json(std::vector<double>(read.flat().begin(), read.flat().end()));
 }
 
-/// The text of a file, with the numbers of columns that it names.
+/// Text of the file, with the columns that it refers to inserted as numbers.
 std::string text_of(const std::string& path, const RunContext& run) {
     const std::string text = read_file(path);
     Json value = parse_written_json(text, path);

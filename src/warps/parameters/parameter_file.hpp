@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Parameter files: JSON, as data/parameters.schema.json and `stipple help parameters` say.
+// Parameter files: JSON as documented in data/parameters.schema.json and `stipple help parameters`.
 #pragma once
 
 #include <string>
@@ -12,27 +12,27 @@
 
 namespace stipple::parameters {
 
-/// Opens no file: a text that names others is refused.
-/// @param source what messages call the text
-/// @throws Error(input) "SOURCE: $.parameters[2].range: what is wrong; what is expected"
+/// Parses a parameter file's text; texts that refer to other files are rejected.
+/// @param source name of the text in messages
+/// @throws Error(input) "SOURCE: $.parameters[2].range: error; what is expected"
 ParameterSpace parse_parameters(std::string_view json, const std::string& source);
 
-/// The warp onto the parameters of a file, with the file's text in it.
+/// The warp of a parameter file, with the file's text in its spec.
 struct NamedParameters {
     Spec spec;
-    std::string domain;  ///< of its images, as text
+    std::string domain;  ///< spec of the images' domain
     std::vector<std::string> names;
     Levels levels;
 };
 
-/// Columns of other files that it names are read, too, and stand in the text.
+/// Reads a parameter file. Columns of other files that it refers to are read, too, and inserted.
 /// @throws Error(input), Error(io)
 NamedParameters read_parameters(const std::string& path, const RunContext& run = {});
 
-/// The same warp, which leaves the numbers in the unit cube.
+/// The same warp, but with images in the unit cube.
 Spec in_unit_cube(Spec parameters);
 
-/// The same text on one line, as a spec and a provenance keep it. @throws Error(input)
+/// The text on one line, for specs and provenance. @throws Error(input)
 std::string one_line(std::string_view json, const std::string& source);
 
 }  // namespace stipple::parameters

@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto named parameters, as a parameter file says: each by the quantiles of its
-// distribution, which may depend on the parameters before it, joined by a copula, and kept where all
-// constraints hold.
+// Unit cube onto the named parameters of a parameter file. Each parameter is a quantile of its
+// distribution, which may depend on preceding parameters; a copula may join them; points that
+// violate a constraint are dropped.
 //
 //     x_k = F_k^-1(v_k | x_1 ... x_(k-1)),    v = copula(u)
 //
-// Constraints that are linear in parameters uniform on ranges leave a polytope of these, and densities
-// stay known. Where that is less than a tenth of their volume, they are mapped onto it and no point is
-// dropped (linear_part.hpp); else rejection keeps what neighbours and strata points have.
+// Linear constraints on parameters that are uniform on ranges restrict these to a polytope, and
+// densities remain known. If the polytope is less than a tenth of the ranges' volume, the cube is
+// mapped onto it, and no point is dropped (linear_part.hpp). Otherwise points are rejected, which
+// preserves neighbours and strata.
 //
-// Shape   one unit coordinate a parameter.
-// Strata  without a copula, xi as it is, also where a set is reordered; with one, those of the first
-//         parameter that it joins; on a polytope, the first parameter's xi chooses a simplex.
-// Cost    that of the quantiles, and d^2 / 2 multiplications of a copula; some 50 ns a constraint;
-//         of a polytope, some 20 ns a coordinate.
-// Promise a point breaks no constraint. The way back of outcomes is the middle of their interval.
+// Shape   one unit coordinate per parameter.
+// Strata  without a copula, xi is used directly, even if sets are reordered. With one, the strata
+//         of the first parameter that it joins are preserved. On a polytope, the first parameter's
+//         xi selects a simplex.
+// Cost    that of the quantiles, and d^2 / 2 multiplications for a copula; about 50 ns per
+//         constraint; for a polytope, about 20 ns a coordinate.
+// Promise no point violates a constraint. The inverse of an outcome is the middle of its interval.
 //         The same bits on every machine.
-// Beware  constraints that are not linear, or join what is not uniform, leave a density that is known
-//         up to a factor: it, and cells of known probability, are refused.
+// Beware  with nonlinear constraints, or linear ones on parameters that are not uniform, the
+//         density is known only up to a factor. Densities and cells of known probability are then
+//         errors.
 
 #include <algorithm>
 #include <cmath>
@@ -57,8 +60,8 @@ class ParameterDomain final : public NamedDomain {
         axes_ = each_->domain().get();
     }
 
-    /// Where the parameters do not depend on each other but for linear constraints, which are left
-    /// out: each by itself.
+    /// The mapping of each coordinate alone, if the parameters are independent apart from linear
+    /// constraints; else null.
     const Mapping* by_axes() const {
         return axes_ != nullptr && !space_.has_copula() && space_.density_known() ? each_.get()
                                                                                   : nullptr;
@@ -90,7 +93,7 @@ class ParameterDomain final : public NamedDomain {
         to_own_cube(point, cube);
         if (linear()) linear()->to_cube(point, cube);
     }
-    /// Without constraints.
+    /// Inverse that ignores constraints.
     void to_own_cube(std::span<const double> point, std::span<double> cube) const {
         by_axes() ? axes_->to_cube(point, cube) : space_.to_cube(point, cube);
     }
@@ -158,7 +161,8 @@ class ParameterDomain final : public NamedDomain {
                 "in ranges");
     }
 
-    /// Around some images, fewer of many parameters, where the distributions depend on each other.
+    /// Estimated from some images, for dependent distributions; fewer images if there are many
+    /// parameters.
     Box box_of_images() const {
         const std::size_t d = dimension();
         const std::size_t count = std::clamp<std::size_t>(0x100000 / d, 64, 4096);
@@ -174,12 +178,12 @@ class ParameterDomain final : public NamedDomain {
     }
 
     ParameterSpace space_;
-    std::unique_ptr<Mapping> each_;  ///< parameter by itself; none where some depend on others
-    const Domain* axes_ = nullptr;   ///< of that
+    std::unique_ptr<Mapping> each_;  ///< maps each parameter alone; null if some depend on others
+    const Domain* axes_ = nullptr;   ///< the domain of each_
 };
 
-/// Onto the parameters, or onto the numbers of the cube that give parameters which break no
-/// constraint.
+/// Mapping onto the parameters or, if `in_cube`, onto the cube's points whose parameters satisfy
+/// all constraints.
 class ParameterMapping final : public Mapping {
   public:
     ParameterMapping(std::shared_ptr<const ParameterDomain> parameters, bool in_cube)
@@ -248,7 +252,8 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
              "an example");
     const std::string source = by_file ? std::string(want.options[file]) : "parameters";
     const std::string text = by_file ? read_file(source) : std::string(want.options[json]);
-    Values known = want.warp.options.defaults();  // a domain tells all, without the file
+    Values known = want.warp.options.defaults();  // the domain's spec has the text, not the file's
+                                                  // name
     known.put(json.name, stipple::parameters::one_line(text, source));
     auto domain = std::make_shared<const ParameterDomain>(
         format_spec(want.warp.name, known, want.warp.options),

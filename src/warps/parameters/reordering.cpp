@@ -20,7 +20,7 @@ namespace {
 
 struct Ranked {
     double number;
-    std::uint32_t tie;  ///< orders equal numbers
+    std::uint32_t tie;  ///< order of equal numbers
     std::uint32_t point;
 
     bool operator<(const Ranked& other) const {
@@ -28,7 +28,7 @@ struct Ranked {
     }
 };
 
-/// Sorts them.
+/// Ranks of the points; sorts the items.
 Ranks ranks_of(std::vector<Ranked>& items) {
     std::ranges::sort(items, std::less{});
     Ranks ranks(items.size());
@@ -59,7 +59,7 @@ std::vector<double> quotient(const std::vector<double>& p, const std::vector<dou
     return s;
 }
 
-/// The numbers of a set by their coordinates, and the scores of their ranks.
+/// The numbers of a set sorted by coordinate, and the scores of their ranks.
 class ScoredSet {
   public:
     ScoredSet(std::span<const double> rows, const std::vector<MarginalPtr>& laws,
@@ -87,10 +87,10 @@ class ScoredSet {
         return numbers_[k].front() == numbers_[k].back();
     }
 
-    /// Whether some points have the same parameter.
+    /// Whether some points have the same value of the parameter.
     [[nodiscard]] bool tied(std::size_t k) const { return tied_[k] != 0; }
 
-    /// Spearman's, of parameters; 0 where one is the same in all points.
+    /// Spearman's rank correlation of two parameters; 0 if one has the same value in all points.
     [[nodiscard]] double rank_correlation(std::size_t j, std::size_t k,
                                           const std::vector<Ranks>& ranks) const {
         double sum = 0, of_j = 0, of_k = 0;
@@ -104,7 +104,7 @@ class ScoredSet {
         return of_j > 0 && of_k > 0 ? sum / std::sqrt(of_j * of_k) : 0;
     }
 
-    /// E, of the scores of all coordinates.
+    /// E, the correlations of the scores of all coordinates.
     [[nodiscard]] std::vector<double> correlations() const {
         double squares = 0;
         for (const double score : scores_) squares += score * score;
@@ -121,7 +121,7 @@ class ScoredSet {
         return e;
     }
 
-    /// The ranks of R S^T; S is lower triangular with S_00 = 1.
+    /// Ranks of R S^T; S is lower triangular with S_00 = 1.
     [[nodiscard]] std::vector<Ranks> transformed(const std::vector<double>& s) const {
         std::vector<Ranks> ranks(d_, ranks_[0]);
         for_each_block(run_, d_ - 1, 1, [&](const Block& column) {
@@ -136,7 +136,7 @@ class ScoredSet {
         return ranks;
     }
 
-    /// Gives the numbers of each coordinate out by ranks.
+    /// Writes to each point the number of its rank, in every coordinate.
     void give_out(const std::vector<Ranks>& ranks, std::span<double> rows) const {
         for (std::size_t k = 0; k < d_; ++k)
             for (std::size_t i = 0; i < scores_.size(); ++i)
@@ -144,7 +144,7 @@ class ScoredSet {
     }
 
   private:
-    /// Equal parameters have the mean of their ranks; from the mean of all on.
+    /// Ranks of a coordinate relative to their mean; equal parameters get the mean of their ranks.
     void rank_equals(std::size_t k, const MarginalPtr& law) {
         const auto& numbers = numbers_[k];
         const auto parameter = [&](double u) { return law ? law->quantile(u) : u; };
@@ -162,14 +162,15 @@ class ScoredSet {
 
     std::size_t d_;
     RunContext run_;
-    std::vector<double> scores_;                   ///< of the ranks 0, 1, ...
-    std::vector<Ranks> ranks_;                     ///< a coordinate, by points
-    std::vector<std::vector<double>> numbers_;     ///< a coordinate, in their order
-    std::vector<std::vector<double>> mean_ranks_;  ///< of these
+    std::vector<double> scores_;                   ///< scores of the ranks 0, 1, ...
+    std::vector<Ranks> ranks_;                     ///< ranks of the points, by coordinate
+    std::vector<std::vector<double>> numbers_;     ///< sorted numbers, by coordinate
+    std::vector<std::vector<double>> mean_ranks_;  ///< mean rank of each sorted number, relative to
+                                                   ///< the middle
     std::vector<std::uint8_t> tied_;
 };
 
-/// What correlations of scores are asked for, so that ranks have those that they shall have.
+/// Adjusts the correlations of the scores until the ranks have the requested correlations.
 class Corrections {
   public:
     Corrections(const std::vector<double>& spearman, std::vector<double> scores,
@@ -183,7 +184,8 @@ class Corrections {
 
     [[nodiscard]] const std::vector<double>& asked() const { return asked_; }
 
-    /// Corrects what is asked for by what the ranks lack; returns the most, in terms of scores.
+    /// Adds the ranks' remaining error to the requested score correlations; returns the largest
+    /// error, in terms of scores.
     double correct(const std::vector<Ranks>& ranks) {
         double worst = 0;
         for (std::size_t j = 0; j < d_; ++j)
@@ -200,7 +202,7 @@ class Corrections {
     double next(std::size_t j, std::size_t k, double lacks) {
         const double now = asked_[j * d_ + k];
         if (!set_.tied(j) && !set_.tied(k)) return now + lacks;
-        double& step = step_[j * d_ + k];  // ranks of what is equal follow scores more, or less
+        double& step = step_[j * d_ + k];  // ranks of ties respond more, or less, to scores
         double& before = before_[j * d_ + k];
         if (std::abs(lacks) > std::abs(before) / 2 && before != 0)
             step = lacks * before < 0 ? step / 2 : std::min(1.5 * step, 8.0);
@@ -212,12 +214,12 @@ class Corrections {
     const std::vector<double>& spearman_;
     const ScoredSet& set_;
     std::size_t d_;
-    std::vector<double> asked_;  ///< of the scores
+    std::vector<double> asked_;  ///< correlations requested for the scores
     std::vector<double> step_;
-    std::vector<double> before_;  ///< what ranks lacked
+    std::vector<double> before_;  ///< previous error
 };
 
-/// Q. @throws Error(input) where there is none
+/// Q. @throws Error(input) if there is none
 std::vector<double> factor_of(const ScoredSet& set, const std::vector<std::string>& names) {
     const std::size_t d = names.size();
     for (std::size_t k = 0; k < d; ++k)

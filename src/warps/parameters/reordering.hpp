@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
 //
-// Iman and Conover's reordering: the numbers that a set has in each coordinate are given out anew
-// among its points, so that ranks have the correlations that are asked for. With the van der Waerden
-// scores R_ik = Phi^-1(r / (n + 1)) of the rank r = 1 ... n of point i in coordinate k,
+// Iman and Conover's reordering: rearranges the numbers of each coordinate among the points of a
+// set, so that the ranks have requested correlations. With the van der Waerden scores R_ik =
+// Phi^-1(r / (n + 1)) of the rank r = 1 ... n of point i in coordinate k,
 //
 //     T = R S^T,   S = P Q^-1,   P P^T = C,   Q Q^T = E,
 //
-// where E are the correlations of the scores and C those that they shall have, 2 sin(pi r / 6) for a
-// rank correlation r. Point i then has the number of coordinate k whose rank is that of T_ik. What
-// ranks still lack is added to C and the scores are transformed again, as long as that helps; of
-// parameters that are equal in several points, whose ranks are their means, more or less of it.
+// where E are the correlations of the scores and C the requested ones, 2 sin(pi r / 6) for a rank
+// correlation r. Point i gets the number of coordinate k whose rank is that of T_ik. The ranks'
+// remaining error is added to C, and the scores are transformed again as long as that helps. For
+// parameters with ties, whose ranks are averaged, a multiple of the error is added.
 //
-// The paper has random scores. Here they are those of the points, so that their own order is what
-// the reordering starts from, and nothing is random.
+// The paper uses random scores. Here they are the scores of the points themselves, so that their
+// existing order is the starting point and nothing is random.
 //
-// Shape   n > d points of d coordinates, no coordinate the same in all points.
-// Cost    up to 11 times d sorts of n numbers and n d^2 multiplications, 31 times with equal ones;
-//         36 n d bytes.
+// Shape   n > d points of d coordinates; no coordinate is the same in all points.
+// Cost    up to 11 rounds, 31 with ties, of d sorts of n numbers and n d^2 multiplications; 36 n d
+//         bytes.
 // Promise each coordinate keeps its numbers exactly: a Latin hypercube remains one. The first
-//         coordinate keeps their order, too. Equal numbers are in the order of the points, equal
-//         scores in that of the numbers. The same bits on every machine.
+//         coordinate also keeps its order. Equal numbers are ordered by point, equal scores by
+//         number. The same bits on every machine.
 // Source  R. L. Iman, W. J. Conover, Commun. Statist. B 11 (1982) 311-334,
 //         doi:10.1080/03610918208812265.
 #pragma once
@@ -34,21 +34,22 @@
 
 namespace stipple::parameters {
 
-/// 0, 1, ... of the points in one coordinate.
+/// Ranks 0, 1, ... of the points in one coordinate.
 using Ranks = std::vector<std::uint32_t>;
 
 class Reordering {
   public:
-    /// @param spearman rank correlations, d x d, row after row
-    /// @param scores correlations of scores that would have them; a valid matrix
+    /// @param spearman requested rank correlations, d x d in row-major order
+    /// @param scores correlations of scores that give them; a valid matrix
     /// @param names of the coordinates, for messages
-    /// @param laws by which coordinates become what is ranked, where that is discrete
+    /// @param laws distributions that map coordinates to the ranked parameters, for discrete ones;
+    /// else null
     Reordering(std::vector<double> spearman, std::vector<double> scores,
                std::vector<std::string> names, std::vector<MarginalPtr> laws);
 
-    /// Reorders a whole set, in place, and tells the user where the rank correlations are others.
-    /// @throws Error(input) for too few points, and for those whose order in one coordinate is that
-    /// in others; Error(limit), Error(cancelled)
+    /// Reorders a whole set, in place. Reports rank correlations that could not be reached.
+    /// @throws Error(input) for too few points, and if some coordinates have the same order;
+    /// Error(limit), Error(cancelled)
     void apply(std::span<double> rows, const RunContext& run) const;
 
   private:

@@ -4,17 +4,16 @@
 //
 //     r = sqrt(q^2 + xi0 (R^2 - q^2)),  theta = 2 pi xi1,    point = c + r (cos theta, sin theta)
 //
-// and back: xi0 = (r - q) (r + q) / (R^2 - q^2). With q = 0 it is the disk, by its polar method.
+// The inverse is xi0 = (r - q) (r + q) / (R^2 - q^2). With q = 0 it is the disk's polar method.
 //
 // Shape   2 unit coordinates, 2 coordinates.
-// Strata  xi0 and xi1 are taken as they are, not as 1 - xi: small xi0 is near the inner rim, xi1
-//         turns from the x axis towards the y axis. Strata become parts of rings between two
-//         angles.
-// Cost    O(1) a point; about 9 ns forward, 15 ns back on one core.
-// Promise density 1 / (pi (R^2 - q^2)). Points lie in the closed annulus up to
-//         16 epsilon (R + |cx| + |cy|). Forward and back again is the same point within 1e-14 of
-//         |c| + R; for c = 0 also the same xi within 1e-14 R / (R - q), save that all xi1 meet in
-//         the centre of a disk. The same bits on every machine.
+// Strata  xi0 and xi1 are used directly, not as 1 - xi: small xi0 is near the inner rim, xi1 turns
+//         from the x axis towards the y axis. Strata become sectors of rings.
+// Cost    O(1) a point; about 9 ns forward, 15 ns inverse on one core.
+// Promise density 1 / (pi (R^2 - q^2)). Points lie in the closed annulus up to 16 epsilon (R + |cx|
+//         + |cy|). A round trip returns the same point within 1e-14 of |c| + R; for c = 0 also the
+//         same xi within 1e-14 R / (R - q), except for xi1 at the centre of a disk. The same bits
+//         on every machine.
 
 #include "core/error.hpp"
 #include "warps/planar/placed_shape.hpp"

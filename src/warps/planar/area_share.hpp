@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Probability of a box for points that are uniform on a shape of the plane: the area that they
-// share, over the shape's.
+// Probability of a box for points uniform on a plane shape: the area of their intersection divided
+// by the shape's area.
 #pragma once
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 
 namespace stipple::warps {
 
-/// @param shared the area of the shape within a box, given by its corners counterclockwise from the
-/// lowest; the box is not larger than the one around the shape. Far from 0, where coordinates round
-/// more coarsely than the shape's size, that rounding is the error.
+/// @param shared returns the area of the shape within a box. The box is given by its corners,
+/// counterclockwise from the lowest, and is inside the shape's bounding box. Far from 0, the error
+/// is the rounding of coordinates, which is coarse relative to the shape's size.
 template <class Shared>
 Estimate area_share(const Box& box, const Domain& shape, const Shared& shared) {
     const Box around = shape.bounding_box();
@@ -32,7 +32,7 @@ Estimate area_share(const Box& box, const Domain& shape, const Shared& shared) {
     const double area =
         shared(Polygon{{low[0], low[1]}, {high[0], low[1]}, {high[0], high[1]}, {low[0], high[1]}});
     const double share = std::clamp(area / shape.measure(), 0.0, 1.0);
-    constexpr double near = 16;  // within which rounding is that of an exact value
+    constexpr double near = 16;  // within this distance, rounding counts as exact
     return {share, far > near ? 8 * std::numeric_limits<double>::epsilon() * far : 0};
 }
 

@@ -8,19 +8,18 @@
 //     rejection   c + R (a, b), kept if a^2 + b^2 < 1: the share kept is pi / 4 = 0.785...
 //     naive       r = R xi0,  theta = 2 pi xi1: BIASED towards the centre; kept to show the bias
 //
-// and back. The point is c + r (cos theta, sin theta).
+// and the inverses. The point is c + r (cos theta, sin theta).
 //
 // Shape   2 unit coordinates, 2 coordinates.
-// Strata  xi0 is taken as it is, not as 1 - xi0: small xi0 is near the centre (polar, naive), left
+// Strata  xi0 is used directly, not as 1 - xi0: small xi0 is near the centre (polar, naive) or left
 //         (concentric, rejection). xi1 turns from the x axis towards the y axis (polar, naive).
-//         polar makes rings of sectors of strata, concentric keeps neighbours neighbours, rejection
-//         keeps the strata as they are and loses those outside.
-// Cost    O(1) a point; about 5 ns forward, 9 ns back on one core.
-// Promise density 1 / (pi R^2) for all but naive: 1 / (2 pi R r), infinite at the centre. Points
-//         lie in the closed disk up to 16 epsilon (R + |cx| + |cy|). Forward and back again is
-//         the same point within 1e-14 of |c| + R; for c = 0 also the same xi within 1e-14, save
-//         that all xi1 meet in the centre (polar, naive), which goes back to xi1 = 0. The same bits
-//         on every machine.
+//         With polar, strata become sectors of rings; concentric keeps neighbours adjacent;
+//         rejection preserves strata and loses those outside.
+// Cost    O(1) a point; about 5 ns forward, 9 ns inverse on one core.
+// Promise density 1 / (pi R^2), except for naive: 1 / (2 pi R r), infinite at the centre. Points
+//         lie in the closed disk up to 16 epsilon (R + |cx| + |cy|). A round trip returns the same
+//         point within 1e-14 of |c| + R; for c = 0 also the same xi within 1e-14, except that the
+//         centre returns xi1 = 0 (polar, naive). The same bits on every machine.
 // Source  Concentric: P. Shirley, K. Chiu, "A low distortion map between disk and square",
 //         J. Graphics Tools 2(3) (1997) 45-52, doi:10.1080/10867651.1997.10487479.
 
@@ -48,7 +47,7 @@ constexpr Param<Choice> method{
 
 constexpr auto radius = length_option("radius", 1, "Radius of the disk, above 0");
 
-// The methods on the unit disk. Those that are uniform have the domain's density.
+// The methods on the unit disk.
 
 struct Rejection {
     static PlanePoint forward(double u, double v) { return {2 * u - 1, 2 * v - 1}; }

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit square onto an ellipse with semi-axes a and b about a centre c, turned by an angle phi: the
-// unit disk, stretched along its axes and turned,
+// Unit square onto an ellipse with semi-axes a and b about a centre c, rotated by an angle phi. The
+// unit disk is stretched along its axes and rotated,
 //
 //     point = c + (cos phi  -sin phi; sin phi  cos phi) (a x, b y),   (x, y) in the unit disk
 //
-// where (x, y) is made of xi by the disk's polar or concentric map (math/geometry/disk_maps.hpp).
+// where (x, y) is the image of xi under the disk's polar or concentric map
+// (math/geometry/disk_maps.hpp).
 //
 // Shape   2 unit coordinates, 2 coordinates.
 // Units   phi in degrees, from the x axis towards the y axis.
-// Strata  xi0 and xi1 are taken as they are, not as 1 - xi, as disk does: polar makes parts of
-//         elliptic rings of strata, small xi0 near the centre, and xi1 = 0 is the first axis;
-//         concentric takes squares about the centre to ellipses and keeps neighbours neighbours.
-// Cost    O(1) a point; about 9 ns forward, 14 ns back on one core.
-// Promise density 1 / (pi a b). Points lie in the closed ellipse up to 16 epsilon
-//         (max(a, b) + |cx| + |cy|). Forward and back again is the same point within 1e-14 of
-//         |c| + max(a, b), times max(a, b) / min(a, b). The same bits on every machine.
+// Strata  xi0 and xi1 are used directly, not as 1 - xi, as in disk. With polar, strata become
+//         sectors of elliptic rings; small xi0 is near the centre, and xi1 = 0 is the first axis.
+//         concentric maps squares about the centre to ellipses and keeps neighbours adjacent.
+// Cost    O(1) a point; about 9 ns forward, 14 ns inverse on one core.
+// Promise density 1 / (pi a b). Points lie in the closed ellipse up to 16 epsilon (max(a, b) + |cx|
+//         + |cy|). A round trip returns the same point within 1e-14 of |c| + max(a, b), times
+//         max(a, b) / min(a, b). The same bits on every machine.
 
 #include <numbers>
 
@@ -57,7 +58,8 @@ struct Ellipse {
         return a * b * area_in_disk(window, {0, 0}, 1);
     }
 
-    /// To first order, the distance is what x^2/a^2 + y^2/b^2 is above 1, over its slope.
+    /// To first order, the distance is the excess of x^2/a^2 + y^2/b^2 over 1, divided by its
+    /// gradient.
     double beyond(double x, double y) const {
         const double p = x / a;
         const double q = y / b;
@@ -66,7 +68,8 @@ struct Ellipse {
         return excess > 0 ? excess / slope : excess;
     }
 
-    /// The outermost points along the axes of the plane.
+    /// The extreme points in the directions of the coordinate axes, which bound the rotated
+    /// ellipse.
     std::vector<PlanePoint> hull(double turn) const {
         std::vector<PlanePoint> points;
         const auto [c, s] = cos_sin_turns(turn);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A triangle or a parallelogram, in the plane or in space, uniform by area: what is known of it by
-// coordinates along the two edges that leave its first corner (math/geometry/edge_frame.hpp).
+// A triangle or parallelogram in the plane or in space, uniform by area: everything that follows
+// from coordinates along the two edges at its first corner (math/geometry/edge_frame.hpp).
 #pragma once
 
 #include <array>
@@ -17,8 +17,9 @@ namespace stipple::warps {
 
 class FlatDomain : public NamedDomain {
   public:
-    /// @param corners in their order, 3 or 4, of 2 or 3 coordinates
-    /// @param frame of the edges from the first corner to the second and to the last; not flat
+    /// @param corners 3 or 4 in order, with 2 or 3 coordinates
+    /// @param frame of the edges from the first corner to the second and to the last; not
+    /// degenerate
     FlatDomain(std::string spec, const Table& corners, const EdgeFrame& frame)
         : NamedDomain(std::move(spec), corners[0].size(), 2), corners_(corners), frame_(frame) {
         const auto [e, f, across] = frame_.lengths();
@@ -27,8 +28,8 @@ class FlatDomain : public NamedDomain {
 
     double measure() const final { return is_triangle() ? 0.5 * frame_.area() : frame_.area(); }
 
-    /// Up to 16 epsilon (largest coordinate) (longest edge / smallest height) away from it or its
-    /// plane: the rounding of a point that was made.
+    /// Allows a distance of 16 epsilon (largest coordinate) (longest edge / smallest height) from
+    /// it and its plane, the rounding error of generated points.
     bool contains(std::span<const double> point) const final {
         const auto [s, t] = frame_.coordinates(space_point(point));
         const double slack = frame_.slack();
@@ -46,7 +47,7 @@ class FlatDomain : public NamedDomain {
         return box;
     }
 
-    /// In the plane.
+    /// Only for shapes in the plane.
     std::optional<Estimate> box_mass(const Box& box) const final {
         return area_share(box, *this, [&](const Polygon& window) {
             Polygon shape;
@@ -63,7 +64,8 @@ class FlatDomain : public NamedDomain {
 
     Table corners_;
     EdgeFrame frame_;
-    std::array<double, 3> heights_;  ///< along s, along t, and of the first corner above the rest
+    std::array<double, 3> heights_;  ///< heights along s and t, and of the first corner above the
+                                     ///< opposite diagonal
 };
 
 }  // namespace stipple::warps

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit square onto a parallelogram with a corner c and edges a and b that leave it, in the plane or
-// in space:
+// Unit square onto a parallelogram in the plane or in space, given by a corner c and the edges a
+// and b that start there:
 //
 //     point = c + xi0 a + xi1 b
 //
-// and back: xi are the point's coordinates along the edges (math/geometry/edge_frame.hpp).
+// The inverse gives the point's coordinates along the edges (math/geometry/edge_frame.hpp).
 //
 // Shape   2 unit coordinates; 2 or 3 coordinates, as the edges have.
-// Strata  xi0 and xi1 are taken as they are, not as 1 - xi; strata become parallelograms.
-// Cost    O(1) a point; about 1 ns forward, 15 ns back on one core.
+// Strata  xi0 and xi1 are used directly, not as 1 - xi; strata become parallelograms.
+// Cost    O(1) a point; about 1 ns forward, 15 ns inverse on one core.
 // Promise density 1 / |a x b|. Points lie in the closed parallelogram up to the rounding stated at
-//         contains(). Forward and back again is the same point within 1e-14 of the largest
-//         coordinate, times longest edge / smallest height.
+//         contains(). A round trip returns the same point within 1e-14 of the largest coordinate,
+//         times longest edge / smallest height.
 
 #include <algorithm>
 #include <cmath>
@@ -62,14 +62,14 @@ class ParallelogramDomain final : public FlatDomain {
     }
 };
 
-/// The corner, or the origin where none was given. @throws Error(usage) when dimensions differ.
+/// The corner; the origin by default. @throws Error(usage) if its dimension is not d
 Vector3 corner_of(const Values& options, std::size_t d) {
     if (!options.given(corner)) return {};
     auto at = options[corner];
     if (at.size() != d)
         fail(ErrorKind::usage, "--corner: {} numbers are needed, as the edges have; {} given", d,
              at.size());
-    for (double& x : at) x += 0.0;  // -0 would show in points
+    for (double& x : at) x += 0.0;  // -0 would appear in the points
     return space_point(at);
 }
 
@@ -96,7 +96,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const Vector3 c = corner_of(want.options, d);
     const Vector3 a = space_point(table[0]);
     const Vector3 b = space_point(table[1]);
-    double size = 0;  // largest coordinate there can be
+    double size = 0;  // upper limit for coordinates
     for (std::size_t k = 0; k < 3; ++k)
         size = std::max(size, std::abs(c[k]) + std::abs(a[k]) + std::abs(b[k]));
     if (size > 1e150)

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit square onto an image of W x H pixels, in pixels, or into one of its pixels (i, j):
+// Unit square onto an image of W x H pixels, or onto one of its pixels (i, j); the unit is a pixel:
 //
 //     point = (W xi0, H xi1)     or, with --pixel i,j,     point = (i + xi0, j + xi1)
 //
 // A point (x, y) lies in pixel (floor x, floor y), at the offset (x - floor x, y - floor y) from
-// its corner. In one row of a distributed ray tracer, -d 5 -w disk@4,5 -w pixel@1,2, the first two
-// coordinates are the place on the image, the third is the time and the last two are on the lens.
-// Without options the image is one pixel: the pattern of offsets that is used in each.
+// its corner. In a row of a distributed ray tracer, -d 5 -w disk@4,5 -w pixel@1,2, the first two
+// coordinates are the position on the image, the third is the time, and the last two are on the
+// lens. Without options the image is a single pixel: a pattern of offsets to be used in every
+// pixel.
 //
 // Shape   2 unit coordinates, 2 coordinates: x in [0, W), y in [0, H).
-// Units   pixels. The corners of pixels are whole numbers and their centres are halves; whether row
-//         0 is at the top is up to the user.
-// Strata  xi0 and xi1 are taken as they are, not as 1 - xi: an N W x N H grid of strata is N x N in
+// Units   pixels. Corners of pixels have whole coordinates, their centres halves; whether row 0 is
+//         at the top is up to the user.
+// Strata  xi0 and xi1 are used directly, not as 1 - xi: an N W x N H grid of strata is N x N in
 //         each pixel.
-// Cost    O(1) a point; about 1 ns forward (7 with --pixel), 7 ns back on one core.
-// Promise density 1 / (W H), with --pixel 1. Never x = W, y = H or the next pixel's corner for xi
-//         below 1: sums are rounded towards the corner. Forward and back again is the same point.
+// Cost    O(1) a point; about 1 ns forward (7 with --pixel), 7 ns inverse on one core.
+// Promise density 1 / (W H), with --pixel 1. For xi below 1, never x = W, y = H or the next pixel's
+//         corner: sums are rounded towards the corner. A round trip returns the same point.
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +62,7 @@ struct InPixel {
     }
 };
 
-/// The pixel that --pixel names. @throws Error(usage) when it is not one of the image.
+/// Parses --pixel. @throws Error(usage) if it is not a pixel of the image
 InPixel pixel_at(const std::vector<double>& at, std::int64_t width, std::int64_t height) {
     if (at.size() != 2)
         fail(ErrorKind::usage, "--pixel: 2 numbers are needed, i,j; {} given", at.size());

@@ -6,7 +6,7 @@
 namespace stipple::warps {
 namespace {
 
-/// An angle in degrees as turns in [0, 1).
+/// Converts degrees to turns in [0, 1).
 double turn_of_degrees(double degrees) {
     const double turns = degrees / 360;
     const double rest = turns - std::floor(turns);
@@ -25,7 +25,7 @@ Placement place(const std::vector<double>& center, double size, double degrees, 
                  what, finest);
     const double turn = turn_of_degrees(degrees);
     const auto [c, s] = cos_sin_turns(turn);
-    return {.center = {center[0] + 0.0, center[1] + 0.0},  // -0 would show in points
+    return {.center = {center[0] + 0.0, center[1] + 0.0},  // -0 would appear in the points
             .size = size,
             .turn = turn,
             .cos = c,

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: MIT
 //
-// Shapes of the plane in a frame of their own, at most about 1 from its origin, put at a place:
+// Plane shapes defined in their own frame, within a distance of about 1 from its origin, and their
+// placement in the plane:
 //
 //     point = c + R (cos a  -sin a; sin a  cos a) q,    q = shape.forward(xi0, xi1)
 //
 // A Shape is a value with
 //
-//     PlanePoint forward(double u, double v) const     of equal areas, for u, v in [0, 1]
-//     PlanePoint inverse(double x, double y) const     back; rounding may leave the square
+//     PlanePoint forward(double u, double v) const     area-preserving, for u, v in [0, 1]
+//     PlanePoint inverse(double x, double y) const     rounding may leave the unit square
 //     double area() const                              in its own frame
-//     double area_in(const Polygon& window) const      what it shares with a convex one
-//     double beyond(double x, double y) const          distance from it, at most 0 inside
-//     std::vector<PlanePoint> hull(double turn) const  points whose box is the shape's, once it is
-//                                                      turned by so many turns
-//     PlaneMoments moments() const                     when uniform, in its own frame
-//     std::vector<std::string> axes() const            what its coordinates u and v mean
+//     double area_in(const Polygon& window) const      of the intersection with a convex polygon
+//     double beyond(double x, double y) const          distance from the shape, at most 0 inside
+//     std::vector<PlanePoint> hull(double turn) const  points with the same bounding box as the
+//                                                      shape, after rotation by `turn` turns
+//     PlaneMoments moments() const                     of the uniform distribution, in its own frame
+//     std::vector<std::string> axes() const            meaning of the coordinates u and v
 //
-// Promise points lie in the closed shape up to 16 epsilon (R + |cx| + |cy|): the rounding of a
-//         point that was made.
+// Promise points lie in the closed shape up to 16 epsilon (R + |cx| + |cy|), the rounding error of
+//         generated points.
 #pragma once
 
 #include <algorithm>
@@ -43,16 +44,16 @@ namespace stipple::warps {
 inline constexpr Param<Numbers> shape_center{
     {.name = "center", .fallback = "0,0", .help = "Centre of the shape: x,y"}};
 
-/// The option of those that are turned.
+/// The option of shapes that can be rotated.
 constexpr Param<double> rotation_option(std::string_view help) {
     return {.name = "rotation", .low = -360, .high = 360, .unit = "degrees", .help = help};
 }
 
-/// Lengths below this share of a shape's coordinates cannot be told from rounding.
+/// Lengths below this fraction of a shape's coordinates are lost in rounding.
 inline constexpr double lost_in_rounding = 64 * std::numeric_limits<double>::epsilon();
 
-/// Puts a shape of size R at `center`, turned by `degrees`. `finest` is the smallest length that
-/// must not be lost in rounding, and `what` says which that is: "a radius". @throws Error(usage)
+/// Places a shape of size R at `center`, rotated by `degrees`. `finest` is the smallest length that
+/// must not be lost in rounding, and `what` is its name: "a radius". @throws Error(usage)
 Placement place(const std::vector<double>& center, double size, double degrees, double finest,
                 std::string_view what);
 
@@ -106,7 +107,7 @@ class PlacedDomain final : public NamedDomain {
     double slack_;
 };
 
-/// The unit square onto a shape that is put at a place.
+/// Map of the unit square onto a placed shape.
 template <class Shape>
 struct PlacedMethod {
     Shape shape;
@@ -123,7 +124,7 @@ struct PlacedMethod {
     }
 };
 
-/// The mapping onto a shape whose own coordinates are the domain's.
+/// Mapping onto a placed shape, whose own inverse also defines the domain's cells.
 template <class Shape>
 std::unique_ptr<Mapping> placed(std::string spec, const Shape& shape, const Placement& at) {
     return row_mapping(std::make_shared<PlacedDomain<Shape>>(std::move(spec), shape, at),

@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit square onto a polygon of any shape, with any number of holes and parts: rings of straight
-// edges, inside being what an odd number of them surrounds. xi0 is the share of the area below a
-// row, xi1 the place along what of that row is inside:
+// Unit square onto a polygon of any shape, with any number of holes and parts. Its boundary is a
+// set of rings of straight edges; a point is inside if an odd number of rings surround it. xi0 is
+// the fraction of the area below a row, xi1 the fraction of the row's inner part to the left:
 //
 //     xi0 = A(y) / A,    xi1 = L(x, y) / L(y)
 //
-// with A(y) the area below y, L(y) the length of the row and L(x, y) its length up to x
-// (polygon_domain.hpp): first the marginal of y, then x given y. So the whole polygon is one piece,
-// and strata are not cut as the triangles of a triangulation would cut them.
+// where A(y) is the area below y, L(y) the length of the row and L(x, y) its length up to x
+// (polygon_domain.hpp): first the marginal of y, then x given y. The polygon is treated as one
+// piece, so that strata are not cut as they would be by a triangulation.
 //
 // Shape   2 unit coordinates, 2 coordinates; any number of vertices.
-// Strata  xi0 and xi1 are taken as they are, not as 1 - xi: small xi0 is below, small xi1 left.
-//         Strata become pieces of horizontal bands; where a row has several parts, one may lie in
-//         two of them. The map of a convex polygon is continuous.
-// Cost    O(n log n) time and memory for n vertices; O(1) a point where its row crosses two edges,
-//         at most O(log(n)^3).
+// Strata  xi0 and xi1 are used directly, not as 1 - xi: small xi0 is at the bottom, small xi1 left.
+//         Strata become pieces of horizontal bands; if a row has several parts, a stratum may lie
+//         in two of them. The map of a convex polygon is continuous.
+// Cost    O(n log n) time and memory for n vertices; O(1) a point if its row crosses two edges, at
+//         most O(log(n)^3).
 // Promise density 1 / area. Points lie in the closed polygon up to 16 epsilon (largest coordinate).
-//         Forward and back again is the same xi within 1e-14 of 1, times the area of the bounding
-//         box / area, save where a row is a point, all xi1 of which go back to 0; and the same
-//         point within 1e-14 of the largest coordinate, times A / L(y). The same bits on every
-//         machine.
+//         A round trip returns the same xi within 1e-14 times the area of the bounding box / area,
+//         except that a row of length 0 returns xi1 = 0. It returns the same point within 1e-14 of
+//         the largest coordinate, times A / L(y). The same bits on every machine.
 
 #include <fmt/format.h>
 
@@ -50,7 +49,7 @@ constexpr Param<Path> file{
      .help = "Reads the corners from this file, x,y a line; a blank line or one with # begins "
              "another ring"}};
 
-/// Where rings come from, for messages.
+/// Origin of the rings, for messages.
 struct Source {
     ErrorKind kind;
     std::string name;
@@ -82,8 +81,8 @@ std::vector<Ring> parse_rings(std::string_view text, const Source& source) {
     return rings;
 }
 
-/// The text with `#` in place of the first line of those that end a ring, as between the sets of a
-/// file, and without all other comments.
+/// Replaces the first line after each ring by `#`, which separates the sets of a file, and removes
+/// all other comments.
 std::string with_marks(std::string_view text) {
     std::string marked;
     bool in_ring = false;
@@ -94,7 +93,7 @@ std::string with_marks(std::string_view text) {
         marked += '\n';
         in_ring = !blank;
     }
-    marked.erase(marked.find_last_not_of("#\n") + 1);  // the last ring ends with the file
+    marked.erase(marked.find_last_not_of("#\n") + 1);  // no mark after the last ring
     return marked;
 }
 
@@ -111,7 +110,7 @@ std::vector<Ring> read_rings(const std::string& path, const Source& source, cons
     return rings;
 }
 
-/// Rings with every vertex once: no -0, no repetition of the one before or of the first at the end.
+/// Normalizes rings: no -0, and no vertex equal to the one before (cyclically).
 void tidy(std::vector<Ring>& rings, const Source& source) {
     for (std::size_t r = 0; r < rings.size(); ++r) {
         Ring& ring = rings[r];
@@ -135,7 +134,7 @@ std::string shown(const std::vector<Ring>& rings, const RingEdge& edge) {
                        shown(ring[(edge.edge + 1) % ring.size()]));
 }
 
-/// Whether all vertices of a ring lie on one line, with no rounding that could tell otherwise.
+/// Whether all vertices of a ring are exactly collinear.
 bool is_flat(const Ring& ring) {
     const auto turn = [&](PlanePoint p, PlanePoint q) {
         return (p.x - ring[0].x) * (q.y - ring[0].y) - (p.y - ring[0].y) * (q.x - ring[0].x);
@@ -143,7 +142,7 @@ bool is_flat(const Ring& ring) {
     return std::ranges::all_of(ring, [&](PlanePoint p) { return turn(ring[1], p) == 0; });
 }
 
-/// Edges of the options' rings, which bound a polygon but for its area. @throws Error
+/// Edges of the options' rings, checked to bound a polygon, except for its area. @throws Error
 std::vector<RingSegment> edges_of(const Values& options, const Source& source,
                                   const RunContext& run) {
     auto rings = options.given(file) ? read_rings(options[file], source, run)
