@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A mapping made of a method that takes one point at a time; rows are looped over here, in one
-// function that compilers can widen.
+// Adapts a method that maps one point at a time to a Mapping. The loop over rows is here, in one
+// function that compilers can vectorize.
 //
 //     struct Method {
 //         std::array<double, m> forward(const std::array<double, d>& xi) const;
@@ -12,7 +12,7 @@
 //         double density(std::span<const double> point) const;                  // if its own
 //     };
 //
-// Of several methods for one domain, those that make the domain's own density need no density().
+// If a domain has several methods, those with the domain's own density need no density().
 #pragma once
 
 #include <algorithm>
@@ -53,13 +53,13 @@ std::array<double, d> row_of(std::span<const double> rows, std::size_t i) {
     return row;
 }
 
-/// Points that go through one loop.
+/// Points per pass of the loop.
 inline constexpr std::size_t rows_at_once = 128;
 
-// The method is taken by value: what is written to the image cannot change it, so that its
-// constants stay in registers. All calls are inlined, since one that is not keeps the loop from
-// being widened; and points go through columns, since compilers would else widen each number of a
-// point by itself, and compute thrice what three numbers share.
+// Takes the method by value: writes to the image cannot alias it, so its constants stay in
+// registers. All calls are inlined, since a call would prevent vectorization of the loop. Points go
+// through columns; otherwise compilers would vectorize each coordinate separately, and compute
+// three times what three coordinates share.
 template <class Method>
 STIPPLE_WIDE [[gnu::flatten]] void map_rows(const Method method, std::span<const double> cube,
                                             std::span<double> image) {
@@ -77,7 +77,7 @@ STIPPLE_WIDE [[gnu::flatten]] void map_rows(const Method method, std::span<const
     }
 }
 
-/// The way back of a point of the domain: the method's, or else the domain's.
+/// Inverse of a point of the domain: the method's, or else the domain's.
 template <class Known, class Method, std::size_t m>
 [[gnu::flatten]] auto row_back(const Known& domain, const Method& method,
                                const std::array<double, m>& point) {
@@ -89,7 +89,7 @@ template <class Known, class Method, std::size_t m>
     return xi;
 }
 
-/// Rows back into the cube, as map_rows(); false where one is not in the domain.
+/// Maps rows back into the cube, vectorized like map_rows(); false if one is not in the domain.
 template <class Known, class Method>
 STIPPLE_WIDE [[gnu::flatten]] bool map_rows_back(const Known& domain, const Method& method,
                                                  std::span<const double> image,
@@ -160,7 +160,7 @@ class RowMapping final : public Mapping {
     Method method_;
 };
 
-/// A mapping by `method` onto `domain`.
+/// The mapping onto `domain` by `method`.
 template <class Known, class Method>
 std::unique_ptr<Mapping> row_mapping(const std::shared_ptr<Known>& domain, Method method) {
     return std::make_unique<RowMapping<Known, Method>>(domain, std::move(method));

@@ -66,8 +66,8 @@ class Oriented final : public Mapping {
     std::vector<Place> places_;
 };
 
-/// The mapping of rows in which `order` says what stands in each place: k for xi_k, -k for 1 - xi_k.
-/// @throws Error(usage) unless it names each coordinate once
+/// Reorders and reflects the unit coordinates: `order` gives for each position k for xi_k or -k for
+/// 1 - xi_k. @throws Error(usage) unless it names each coordinate once
 std::unique_ptr<Mapping> oriented(std::unique_ptr<Mapping> mapping, std::span<const double> order) {
     const std::size_t d = mapping->cube_dimension();
     std::vector<double> named(order.size());

@@ -14,7 +14,7 @@
 //     double beyond(double x, double y) const          distance from the shape, at most 0 inside
 //     std::vector<PlanePoint> hull(double turn) const  points with the same bounding box as the
 //                                                      shape, after rotation by `turn` turns
-//     PlaneMoments moments() const                     of the uniform distribution, in its own frame
+//     PlaneMoments moments() const                     if uniform, in its own frame
 //     std::vector<std::string> axes() const            meaning of the coordinates u and v
 //
 // Promise points lie in the closed shape up to 16 epsilon (R + |cx| + |cy|), the rounding error of

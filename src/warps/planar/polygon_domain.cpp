@@ -23,15 +23,16 @@ double x_at(const UpwardEdge& edge, double y) {
            (edge.high.x - edge.low.x) * ((y - edge.low.y) / (edge.high.y - edge.low.y));
 }
 
-/// What is inside between two edges, from one height to another.
+/// The inside between two edges, from one height to another.
 struct Trapezoid {
     UpwardEdge left;
     UpwardEdge right;
-    std::size_t bottom;  ///< places among the heights
+    std::size_t bottom;  ///< index into the heights
     std::size_t top;
 };
 
-/// Edges in a row that rises from height to height, and the trapezoids between them.
+/// Sweep of a row upwards: keeps the edges that the row meets, and collects the trapezoids between
+/// them.
 class TrapezoidSweep {
   public:
     TrapezoidSweep(std::span<const UpwardEdge> edges, std::span<const double> heights)
@@ -64,16 +65,16 @@ class TrapezoidSweep {
         }
     };
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
-    /// An edge that the row meets.
+    /// State of an edge that the row meets.
     struct State {
         std::set<std::size_t, ToRight>::iterator place = {};
         bool met = false;
-        bool left = false;           ///< what is on its right is inside
-        std::size_t partner = none;  ///< on the other side of an open trapezoid
-        std::size_t bottom = 0;      ///< of that trapezoid
+        bool left = false;           ///< the edge's right side is inside
+        std::size_t partner = none;  ///< the other side of an open trapezoid
+        std::size_t bottom = 0;      ///< start of that trapezoid
     };
 
-    /// Ends the trapezoid at the edge.
+    /// Ends the edge's open trapezoid at a height.
     void close(std::size_t edge, std::size_t height) {
         const std::size_t other = states_[edge].partner;
         if (other == none) return;
@@ -114,22 +115,23 @@ class TrapezoidSweep {
     std::span<const UpwardEdge> edges_;
     std::vector<State> states_;
     std::set<std::size_t, ToRight> row_;
-    std::vector<std::vector<std::size_t>> starts_;  ///< edges, by height
+    std::vector<std::vector<std::size_t>> starts_;  ///< edges that start at each height
     std::vector<std::vector<std::size_t>> ends_;
-    std::vector<std::size_t> loose_;  ///< edges that have lost a partner, or have had none yet
+    std::vector<std::size_t> loose_;  ///< edges whose partner ended, and new edges without a
+                                      ///< partner
     std::vector<Trapezoid> found_;
 };
 
-/// The share of a slab's height, from the end where its row is w0 long, that has the share f of its
-/// area; the longer one of w0 and w1 is 1.
+/// Relative height of the row that has the fraction f of a slab's area below it. The slab's row
+/// lengths are w0 at the bottom and w1 at the top, scaled so that the longer is 1.
 double height_share(double f, double w0, double w1) {
     const double root = std::sqrt((1 - f) * w0 * w0 + f * w1 * w1);
-    const double null = f == 0;  // where w0 = 0, too, this is 0 / 0
+    const double null = f == 0;  // avoids 0 / 0 if w0 = 0, too
     return f * (w0 + w1) / (w0 + root + null);
 }
 
-/// A share in [0, 1] next to `share` that forward() finds in the piece [low, high) of the whole, on
-/// whose edge it may be.
+/// The number in [0, 1] nearest to `share` that forward() maps into the piece [low, high) of the
+/// whole; `share` may be on the piece's edge.
 double share_within(double share, double whole, double low, double high) {
     double x = std::clamp(share, 0.0, 1.0);
     while (x < 1 && x * whole < low) x = std::nextafter(x, 1);
@@ -140,7 +142,7 @@ double share_within(double share, double whole, double low, double high) {
 double distance(PlanePoint p, PlanePoint a, PlanePoint b) {
     const double dx = b.x - a.x;
     const double dy = b.y - a.y;
-    const double longest = std::max(std::abs(dx), std::abs(dy));  // so that squares don't overflow
+    const double longest = std::max(std::abs(dx), std::abs(dy));  // avoids overflow of squares
     const double ex = dx / longest;
     const double ey = dy / longest;
     const double along = ((p.x - a.x) * ex + (p.y - a.y) * ey) / (ex * ex + ey * ey);
@@ -172,8 +174,8 @@ void PolygonDomain::measure_rim(const std::vector<RingSegment>& edges) {
     slack_ = 16 * std::numeric_limits<double>::epsilon() * size;
 }
 
-/// One slab between each height of a vertex and the next, under the leaves of a tree whose nodes
-/// have the trapezoids.
+/// Makes one slab between each two consecutive heights of vertices: the leaves of a tree whose
+/// nodes hold the trapezoids.
 void PolygonDomain::cut_bands(const RunContext& run) {
     std::vector<UpwardEdge> edges;
     std::vector<double> heights;
@@ -213,13 +215,13 @@ void PolygonDomain::cut_bands(const RunContext& run) {
         }
     }
     std::ranges::sort(pieces, [](const Piece& a, const Piece& b) {
-        const auto sum = [](const Part& p) {  // grows to the right
+        const auto sum = [](const Part& p) {  // increases from left to right
             return 0.5 * (p.left_bottom + p.left_top) + 0.5 * (p.right_bottom + p.right_top);
         };
         return a.node != b.node ? a.node < b.node : sum(a.part) < sum(b.part);
     });
 
-    std::vector<std::size_t> lowest(2 * leaves, none);  // band at each node, or above it
+    std::vector<std::size_t> lowest(2 * leaves, none);  // lowest band at the node or above it
     auto piece = pieces.begin();
     for (std::size_t node = 1; node < 2 * leaves; ++node) {
         lowest[node] = lowest[node / 2];
@@ -264,7 +266,7 @@ void PolygonDomain::measure_slabs() {
     }
 }
 
-/// What is between two edges from one height to another is a quadrilateral.
+/// The region of a part within a band is a quadrilateral.
 std::optional<Estimate> PolygonDomain::box_mass(const Box& box) const {
     return area_share(box, *this, [&](const Polygon& window) {
         double sum = 0;
@@ -288,7 +290,8 @@ std::optional<Moments> PolygonDomain::moments() const {
             const std::vector<double> low = {part.left_bottom, band.bottom};
             const std::vector<double> high = {part.right_top, band.top};
             const double height = band.top - band.bottom;
-            // Weights are widths at the sides: both triangles are as high.
+            // Weights are the widths of the parallel sides, since both triangles have the same
+            // height.
             all.add((part.right_bottom - part.left_bottom) * height,
                     triangle_moments({low, {part.right_bottom, band.bottom}, high}));
             all.add((part.right_top - part.left_top) * height,
@@ -305,8 +308,8 @@ void PolygonDomain::from_cube(std::span<const double> cube, std::span<double> im
     }
 }
 
-/// From the end of the slab that u is nearer to. Written without branches, since they would be
-/// guessed wrong half of the time.
+/// Computes from the slab's end that is nearer to u. Without branches, which would be mispredicted
+/// half of the time.
 PlanePoint PolygonDomain::forward(double u, double v) const {
     const Slab& slab = slabs_[areas_.at(u * area_)];
     const bool up = u < 0.5;
@@ -377,7 +380,7 @@ double PolygonDomain::along_row(const Row& row, double way) {
         low = middle;
         ++low[longest];
         const double end = part.right(cut.t);
-        if (!(x > left || end > right)) continue;  // it is a point where another part begins
+        if (!(x > left || end > right)) continue;  // a point where another part begins
         left = x;
         right = end;
         passed = before;
@@ -402,7 +405,7 @@ void PolygonDomain::to_cube(std::span<const double> point, std::span<double> cub
     cube[1] = place_in_row(row_at(slab, y), p.x);
 }
 
-/// The part of a row that is nearest to x, the leftmost of them.
+/// The part of a row nearest to x; the leftmost one if several are.
 PolygonDomain::Nearest PolygonDomain::nearest_part(const Row& row, double x) {
     Nearest nearest;
     for (const Cut& cut : row.all()) {
@@ -419,7 +422,7 @@ PolygonDomain::Nearest PolygonDomain::nearest_part(const Row& row, double x) {
     return nearest;
 }
 
-/// The share of the row's length that is on the left of x, or of the part that is nearest to it.
+/// Fraction of the row's length to the left of x, or of the nearest part if x is outside.
 double PolygonDomain::place_in_row(const Row& row, double x) {
     const double width = row.length();
     if (!(width > 0)) return 0;
@@ -432,12 +435,13 @@ double PolygonDomain::place_in_row(const Row& row, double x) {
                         after >= width ? 2 * width : after);
 }
 
-/// How far the point is from the slab's parts, along its row.
+/// Distance of the point from the slab's parts, along its row.
 double PolygonDomain::gap(const Slab& slab, PlanePoint p) const {
     return nearest_part(row_at(slab, std::clamp(p.y, slab.bottom, slab.top)), p.x).gap;
 }
 
-/// The slab of the point. Where two meet, or are thinner than rounding, the one that holds it.
+/// The slab that contains the point; also tests neighbours, if slabs meet or are thinner than
+/// rounding.
 const PolygonDomain::Slab& PolygonDomain::slab_around(PlanePoint p) const {
     const auto above = std::ranges::upper_bound(slabs_, p.y, {}, &Slab::bottom);
     const auto home = above == slabs_.begin() ? above : above - 1;

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
 //
 // Unit square onto a regular polygon with n sides and vertices V_0 ... V_(n-1) on a circle of
-// radius R about a centre c, V_0 at an angle phi. Polygons of the same shape about the centre take
-// the place of the disk's circles, and the way along their sides that of the angle:
+// radius R about a centre c, V_0 at an angle phi. Similar polygons about the centre replace the
+// disk's circles, and the position along their sides replaces the angle:
 //
 //     k = floor(n xi1),  t = n xi1 - k        point = c + sqrt(xi0) ((1 - t) V_k + t V_(k+1))
 //
-// and back: the side k by the angle, xi0 = (distance towards that side / apothem)^2, t by the place
-// along it, xi1 = (k + t) / n. The map is continuous: xi1 is not cut by the choice of the side.
+// The inverse finds the side k by the angle, xi0 = (distance towards that side / apothem)^2, t from
+// the position along the side, and xi1 = (k + t) / n. The map is continuous across sides.
 //
 // Shape   2 unit coordinates, 2 coordinates; n in [3, 10000].
 // Units   phi in degrees, from the x axis towards the y axis.
-// Strata  xi0 and xi1 are taken as they are, not as 1 - xi: small xi0 is near the centre, xi1 goes
+// Strata  xi0 and xi1 are used directly, not as 1 - xi: small xi0 is near the centre, xi1 goes
 //         around from V_0 towards the y axis. Strata become trapezoids between two rays from the
-//         centre, with a bend where they pass a vertex.
-// Cost    O(1) a point; about 4 ns forward, 60 ns back on one core; 16 n bytes.
-// Promise density 1 / (n/2 R^2 sin(2 pi / n)). Points lie in the closed polygon up to
-//         16 epsilon (R + |cx| + |cy|). Forward and back again is the same point within 1e-14 of
-//         |c| + R; for c = 0 also the same xi within 1e-14, save that all xi1 meet in the centre,
-//         which goes back to xi1 = 0. The same bits on every machine.
+//         centre, bent where they contain a vertex.
+// Cost    O(1) a point; about 4 ns forward, 60 ns inverse on one core; 16 n bytes.
+// Promise density 1 / (n/2 R^2 sin(2 pi / n)). Points lie in the closed polygon up to 16 epsilon (R
+//         + |cx| + |cy|). A round trip returns the same point within 1e-14 of |c| + R; for c = 0
+//         also the same xi within 1e-14, except that the centre returns xi1 = 0. The same bits on
+//         every machine.
 
 #include <cmath>
 
@@ -79,7 +79,7 @@ class RegularPolygon {
     double area_in(const Polygon& window) const {
         Polygon corners;
         for (const auto& [x, y] : *vertices_) corners.push_back({x, y});
-        corners.pop_back();  // the first one again
+        corners.pop_back();  // repeats the first one
         return shared_area(corners, window);
     }
 
@@ -88,7 +88,7 @@ class RegularPolygon {
         return x * nx + y * ny - apothem_;
     }
 
-    /// The same in all directions: of the second order always, of the third from 4 sides on.
+    /// Isotropic by symmetry: second moments always, third moments vanish for 4 or more sides.
     PlaneMoments moments() const {
         const double across = (2 + (*vertices_)[1].x) / 12;
         const double third = n_ == 3 ? 0.025 : 0;
@@ -108,8 +108,8 @@ class RegularPolygon {
     double last_;
     double apothem_ = 0;
     double half_side_ = 0;
-    std::shared_ptr<std::vector<PlanePoint>> vertices_;  ///< the first one again at the end
-    std::shared_ptr<std::vector<PlanePoint>> normals_;   ///< of the sides, towards the outside
+    std::shared_ptr<std::vector<PlanePoint>> vertices_;  ///< the first one is repeated at the end
+    std::shared_ptr<std::vector<PlanePoint>> normals_;   ///< outward normals of the sides
 };
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {

@@ -11,7 +11,7 @@
 namespace stipple::warps {
 namespace {
 
-/// Distance of (x, y) from the half-line along the x axis, where y tells the side.
+/// Distance of (x, y) from the positive x axis; the sign of y does not matter.
 double beyond_side(double x, double y) { return x > 0 ? std::abs(y) : std::sqrt(x * x + y * y); }
 
 }  // namespace
@@ -53,7 +53,8 @@ std::vector<PlanePoint> RingSector::hull(double turn) const {
         points.push_back({c, s});
         points.push_back({inner * c, inner * s});
     }
-    for (int quarter = 0; quarter < 8; ++quarter) {  // where the turned rim meets the axes
+    for (int quarter = 0; quarter < 8; ++quarter) {  // where the rotated rim meets the coordinate
+                                                     // axes
         const double angle = 0.25 * quarter - turn;
         if (angle < 0 || angle > width) continue;
         const auto [c, s] = cos_sin_turns(angle);
@@ -62,7 +63,7 @@ std::vector<PlanePoint> RingSector::hull(double turn) const {
     return points;
 }
 
-/// E r^n times the means of cos^i sin^j between the sides, i + j = n.
+/// E r^n times the means of cos^i sin^j over the angle, i + j = n.
 PlaneMoments RingSector::moments() const {
     const double q = inner;
     const double r = 2 / 3.0 * (1 + q + q * q) / (1 + q);

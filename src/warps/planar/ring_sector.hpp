@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The part of a ring around the origin between radii q and 1 and angles 0 and w turns, by
+// Sector of a ring around the origin, between radii q and 1 and angles 0 and w turns:
 //
 //     r = sqrt(q^2 + u (1 - q^2)),    theta = w v turns
 //
-// and back by u = (r - q) (r + q) / (1 - q^2). The unit disk is q = 0, w = 1.
+// The inverse uses u = (r - q) (r + q) / (1 - q^2). The unit disk is q = 0, w = 1.
 //
-// Promise areas are equal; the point (r cos theta, r sin theta) comes back within 4 epsilon of 1.
+// Promise preserves areas; a round trip returns (r cos theta, r sin theta) within 4 epsilon.
 #pragma once
 
 #include <string>
@@ -21,10 +21,11 @@ namespace stipple::warps {
 
 struct RingSector {
     double inner = 0;   ///< q, below 1
-    double spread = 1;  ///< 1 - q^2, told apart for rings that are thin
+    double spread = 1;  ///< 1 - q^2, stored separately to be accurate for thin rings
     double width = 1;   ///< w, in (0, 1] turns
 
-    /// Of the options --inner and --radius, and an angle in turns. @throws Error(usage)
+    /// Makes a sector from the options --inner and --radius, and an angle in turns. @throws
+    /// Error(usage)
     static RingSector between(double inner, double outer, double width);
 
     [[nodiscard]] PlanePoint forward(double u, double v) const {
@@ -37,7 +38,7 @@ struct RingSector {
         const double square = x * x + y * y;
         const double r = std::sqrt(square);
         const double angle = turns_of(x, y);
-        // Rounding may turn a point of the first side backwards, to nearly a whole turn.
+        // Rounding may move a point of the first side backwards, to almost a full turn.
         const double wrapped = 0.5 * (1 + width) < angle;
         const double share = (r - inner) * (r + inner) / spread;
         return {inner > 0 ? share : square, (angle - wrapped) / width};

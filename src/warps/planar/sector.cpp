@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit square onto the sector of a disk, or of an annulus, of radii q < R about a centre c, between
-// two angles alpha < beta:
+// Unit square onto the sector of a disk or annulus with radii q < R about a centre c, between two
+// angles alpha < beta:
 //
 //     r = sqrt(q^2 + xi0 (R^2 - q^2)),  theta = alpha + xi1 (beta - alpha)
 //     point = c + r (cos theta, sin theta)
 //
-// and back: xi0 = (r - q) (r + q) / (R^2 - q^2).
+// The inverse uses xi0 = (r - q) (r + q) / (R^2 - q^2).
 //
 // Shape   2 unit coordinates, 2 coordinates.
 // Units   angles in degrees, from the x axis towards the y axis.
-// Strata  xi0 and xi1 are taken as they are, not as 1 - xi: small xi0 is near the centre, small xi1
-//         near the first angle. Strata become parts of rings between two angles.
-// Cost    O(1) a point; about 9 ns forward, 30 ns back on one core.
-// Promise density 1 / area. Points lie in the closed sector up to 16 epsilon (R + |cx| + |cy|).
-//         Forward and back again is the same point within 1e-14 of |c| + R; for c = 0 also the same
-//         xi within 1e-14 R / (R - q) and 1e-14 / (beta - alpha) turns, save that all xi1 meet in
-//         the centre where q = 0. The same bits on every machine.
+// Strata  xi0 and xi1 are used directly, not as 1 - xi: small xi0 is near the centre, small xi1
+//         near the first angle. Strata become sectors of rings.
+// Cost    O(1) a point; about 9 ns forward, 30 ns inverse on one core.
+// Promise density 1 / area. Points lie in the closed sector up to 16 epsilon (R + |cx| + |cy|). A
+//         round trip returns the same point within 1e-14 of |c| + R; for c = 0 also the same xi
+//         within 1e-14 R / (R - q) and 1e-14 / (beta - alpha) turns, except for xi1 at the centre
+//         if q = 0. The same bits on every machine.
 
 #include <cmath>
 
@@ -47,7 +47,7 @@ struct Span {
     double degrees;
 };
 
-/// What the two angles enclose. @throws Error(usage)
+/// First angle and extent of the sector. @throws Error(usage)
 Span span_of(const std::vector<double>& ends) {
     if (ends.size() != 2)
         fail(ErrorKind::usage, "--angles: 2 numbers are needed, first,last; {} given", ends.size());

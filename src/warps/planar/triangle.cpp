@@ -9,21 +9,21 @@
 //                     lambda1 = xi0 / 2,        lambda2 = xi1 - xi0 / 2    else;
 //                     lambda0 = 1 - max(xi0, xi1)
 //
-// and back: sqrt by xi0 = (lambda1 + lambda2)^2, xi1 = lambda1 / (lambda1 + lambda2);
-// low-distortion by xi0 = lambda1 + lambda2, xi1 = 2 lambda2 where lambda1 > lambda2, else
-// xi1 = lambda1 + lambda2, xi0 = 2 lambda1.
+// The inverse of sqrt is xi0 = (lambda1 + lambda2)^2, xi1 = lambda1 / (lambda1 + lambda2). That of
+// low-distortion is xi0 = lambda1 + lambda2, xi1 = 2 lambda2 if lambda1 > lambda2; otherwise xi1 =
+// lambda1 + lambda2, xi0 = 2 lambda1.
 //
 // Shape   2 unit coordinates; 2 or 3 coordinates, as the vertices have.
-// Strata  xi0 and xi1 are taken as they are, not as 1 - xi; small xi0 (sqrt), or small xi0 and xi1
-//         (low-distortion) are near v0. sqrt makes trapezoids between rays from v0 of strata,
-//         triangles where they touch it; small xi1 is near the edge v0 v2. low-distortion takes the
-//         diagonal xi0 = xi1 to the median from v0 and is linear on either side of it: strata
-//         become parallelograms, and neighbours stay near.
-// Cost    O(1) a point; about 1.5 ns forward, 17 ns back on one core.
+// Strata  xi0 and xi1 are used directly, not as 1 - xi; small xi0 (sqrt), or small xi0 and xi1
+//         (low-distortion), are near v0. With sqrt, strata become trapezoids between rays from v0,
+//         or triangles at v0; small xi1 is near the edge v0 v2. low-distortion maps the diagonal
+//         xi0 = xi1 to the median from v0 and is linear on each side of it: strata become
+//         parallelograms, and neighbours stay close.
+// Cost    O(1) a point; about 1.5 ns forward, 17 ns inverse on one core.
 // Promise density 1 / area. Points lie in the closed triangle up to the rounding stated at
-//         contains(). Forward and back again is the same point within 1e-14 of the largest
-//         coordinate, times longest edge / smallest height; for the default triangle also the same
-//         xi within 1e-14, save that all xi1 of sqrt meet in v0, which goes back to xi1 = 0.
+//         contains(). A round trip returns the same point within 1e-14 of the largest coordinate,
+//         times longest edge / smallest height. For the default triangle it also returns the same
+//         xi within 1e-14, except that with sqrt v0 returns xi1 = 0.
 // Source  G. Turk, "Generating random points in triangles", in: A. S. Glassner (ed.), Graphics Gems
 //         (1990) 24-28 (sqrt). E. Heitz, "A low-distortion map between triangle and square" (2019),
 //         HAL hal-02073696 (low-distortion).
@@ -60,9 +60,9 @@ class TriangleDomain final : public FlatDomain {
   public:
     using FlatDomain::FlatDomain;
 
-    /// Area left between v1 and the line through the point parallel to the edge v0 v2, and the
-    /// place on that line. From v1, where the warp starts from v0, so that equal areas are known
-    /// without it, and cells do not line up with its strata.
+    /// Fraction of the area between v1 and the line through the point parallel to the edge v0 v2,
+    /// and the position on that line. Starts from v1, whereas the warp starts from v0: this checks
+    /// equal areas independently, and the cells are not aligned with the warp's strata.
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         const auto [l1, l2] = frame().coordinates(space_point(point));
         const double from_0 = std::max(1 - l1 - l2, 0.0);
@@ -122,7 +122,7 @@ struct OnTriangle {
     }
 };
 
-/// @throws Error(usage) when the corners are not those of a triangle.
+/// @throws Error(usage) unless there are three corners of dimension 2 or 3
 std::array<Vector3, 3> corners_of(const Table& table) {
     if (table.size() != 3 || table[0].size() < 2 || table[0].size() > 3)
         fail(ErrorKind::usage,

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto numbers x_1 ... x_k > 0 that sum to 1, by Dirichlet's distribution with parameters
-// alpha_i, and by breaking a stick: of what those before leave, r_i = 1 - x_1 - ... - x_i-1,
+// Unit cube onto numbers x_1 ... x_k > 0 that sum to 1, with Dirichlet's distribution for
+// parameters alpha_i, by stick breaking. With r_i = 1 - x_1 - ... - x_i-1, what remains after the
+// preceding numbers,
 //
 //     x_i = r_i y_i,    y_i of the beta distribution with alpha_i and alpha_i+1 + ... + alpha_k,
 //
-// by its quantile of xi_i, and x_k = r_k; which is Rosenblatt's transformation. The density is in
-// proportion to the product of x_i^(alpha_i - 1); it is one of the area of the simplex, which is
-// sqrt(k) / (k - 1)!.
+// computed as the quantile of xi_i, and x_k = r_k. This is Rosenblatt's transformation. The density
+// is proportional to the product of x_i^(alpha_i - 1), with respect to the area of the simplex,
+// which is sqrt(k) / (k - 1)!.
 //
 // Shape   k - 1 unit coordinates, k coordinates; one alpha for all, or k of them.
-// Strata  xi_i is the probability below x_i given those before it, as it is.
+// Strata  xi_i is the probability below x_i given the preceding numbers, used directly.
 // Cost    O(1) a coordinate; about 1.5 us on one core.
-// Promise coordinates above 0 that sum to 1 within k 2^-52, each within 1e-12 of itself and not
-//         below 1e-300. The same bits on every machine.
+// Promise coordinates above 0 that sum to 1 within k 2^-52; each within a relative 1e-12 and at
+//         least 1e-300. The same bits on every machine.
 // Source  M. Rosenblatt, Annals of Mathematical Statistics 23 (1952) 470-472,
 //         doi:10.1214/aoms/1177729394.
 
@@ -43,7 +44,7 @@ constexpr Param<Numbers> alpha{
      .help = "Parameters in [0.1, 1e6]: one for all, or one for each coordinate, one more of them "
              "than there are unit coordinates; 1 is uniform, more is nearer to the middle"}};
 
-/// x_i, ..., x_k summed, for each i.
+/// x_i + ... + x_k for each i.
 std::vector<double> sums_from(std::span<const double> x) {
     std::vector<double> sums(x.begin(), x.end());
     for (std::size_t i = sums.size() - 1; i-- > 0;) sums[i] += sums[i + 1];
@@ -85,7 +86,7 @@ class DirichletDomain final : public NamedDomain {
                 log = log + logarithm_parts(after_[0]);
                 continue;
             }
-            // x^(a-1) / Gamma(a), by (x / mean)^a, where Gamma(a) = a^(a-1) exp(log_excess(a) - a).
+            // x^(a-1) / Gamma(a), from (x / mean)^a and Gamma(a) = a^(a-1) exp(log_excess(a) - a).
             const DoubleDouble mean = quotient({a, 0}, {after_[0], 0});
             const auto [high, low] = logarithm_parts(point[i]);
             log = log + log_share(a, quotient({point[i], 0}, mean)) + DoubleDouble{-high, -low};
@@ -103,7 +104,7 @@ class DirichletDomain final : public NamedDomain {
             cube[i] = std::clamp(cube[i], 0.0, 1.0);
         }
     }
-    /// Each coordinate alone has a beta distribution.
+    /// Each coordinate has a beta distribution.
     std::optional<Moments> moments() const override {
         const std::size_t k = dimension();
         const double all = after_[0];
@@ -143,7 +144,7 @@ class DirichletDomain final : public NamedDomain {
 
   private:
     std::vector<double> alpha_;
-    std::vector<double> after_;  ///< alpha_i and those behind it, summed
+    std::vector<double> after_;  ///< alpha_i + ... + alpha_k
     double area_;
     double log_scale_ = 0;
 };
@@ -157,7 +158,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
         if (!(a >= 0.1 && a <= 1e6)) fail(ErrorKind::usage, "--alpha: {} is outside [0.1, 1e6]", a);
     if (!(std::accumulate(parameters.begin(), parameters.end(), 0.0) <= 1e6))
         fail(ErrorKind::usage, "--alpha: their sum is above 1e6");
-    Values plain = want.options;  // whose domain tells its dimension
+    Values plain = want.options;  // with the full list, the domain's spec determines the dimension
     plain.put(alpha.name, parameters);
     return domain_mapping<DirichletDomain>(std::move(parameters),
                                            format_spec(want.warp.name, plain, want.warp.options));

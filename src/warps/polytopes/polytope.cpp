@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto the polytope of the points of a box that satisfy linear inequalities, uniformly and
-// exactly, with no point dropped:
+// Unit cube onto the polytope of all points in a box that satisfy linear inequalities; exactly
+// uniform, with no point dropped:
 //
 //     { x in box : a_i . x <= b_i for all i }
 //
-// by simplices (math/polytopes/face_tree.hpp): xi_1 chooses one, each as often as its volume says, and
-// the coordinates break the weights of its vertices off one after the other. Coordinates that the
-// inequalities do not join are independent of each other.
+// The polytope is divided into simplices (math/polytopes/face_tree.hpp): xi_1 selects one in
+// proportion to its volume, and the coordinates then determine the weights of its vertices by stick
+// breaking. Coordinates that the inequalities do not join are independent of each other.
 //
-// Shape   as many coordinates as --bounds has ranges, or as there are; up to 12 that inequalities
-//         join, 200000 faces and 10000 vertices.
-// Strata  of a coordinate that no inequality names, as it is. Of d that are joined, the first one's
-//         xi chooses the simplex and what is left of it is the place along its last edge; the others
-//         are the shares of its vertices, 0 at the vertex. So strata of the first xi are pieces of
-//         simplices side by side, and strata of several are cut where simplices meet.
-// Cost    forward some 20 ns a coordinate; back some 500 ns a point of 4 dimensions. Vertices and
-//         faces once: below a millisecond for dozens, a second for the most.
-// Promise density 1 / volume. Points are in the closed polytope up to rounding, and in its bounding
-//         box. The same bits on every machine.
-// Beware  < and <= are the same: points may lie on the rim. Inequalities that differ by more than
-//         rounding, but by less than 1e-9, may be refused.
+// Shape   as many coordinates as --bounds has ranges, or as are given; inequalities may join up to
+//         12, with up to 200000 faces and 10000 vertices.
+// Strata  of a coordinate in no inequality: xi is used directly. Among d joined ones, the first xi
+//         selects the simplex, and its remainder is the position along the simplex's last edge; the
+//         others are the fractions of its vertices, 0 at the vertex. So strata of the first xi are
+//         pieces of adjacent simplices, and strata of several xi are cut where simplices meet.
+// Cost    about 20 ns a coordinate forward; about 500 ns a point in 4 dimensions for the inverse.
+//         Vertices and faces are computed once: below a millisecond for dozens, a second for the
+//         maximum.
+// Promise density 1 / volume. Points are in the closed polytope up to rounding, and always in its
+//         bounding box. The same bits on every machine.
+// Beware  < and <= mean the same: points may lie on the boundary. Inequalities that differ by more
+//         than rounding, but by less than 1e-9, may be rejected.
 // Source  pulling triangulation: C. W. Lee, Handbook of Discrete and Computational Geometry (1997),
 //         section 14.3; vertices: K. Fukuda, A. Prodon, LNCS 1120 (1996) 91-111,
 //         doi:10.1007/3-540-61576-8_77.
@@ -87,7 +88,7 @@ std::vector<std::string_view> parts_of(std::string_view text) {
     return parts;
 }
 
-/// The inequalities, and their text without blanks.
+/// Parses the inequalities. @param plain receives their text without blanks
 std::vector<HalfSpace> half_spaces(std::string_view text, std::size_t d, std::string& plain) {
     std::vector<HalfSpace> all;
     for (const auto part : parts_of(text)) {

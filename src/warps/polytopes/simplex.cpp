@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Unit cube onto the simplex of the points x >= 0 with x_1 + ... + x_d <= s, uniformly, by
-// Rosenblatt's transformation: of what those before leave, r_k = s - x_1 - ... - x_k-1,
+// Unit cube onto the simplex of all points x >= 0 with x_1 + ... + x_d <= s, uniformly, by
+// Rosenblatt's transformation. With r_k = s - x_1 - ... - x_k-1, what remains after the preceding
+// coordinates,
 //
 //     x_k = r_k (1 - (1 - xi_k)^(1 / m)),    xi_k = 1 - (1 - x_k / r_k)^m,    m = d - k + 1.
 //
-// Shape   any number of coordinates whose volume s^d / d! is a number: 165 for s = 1.
-// Strata  xi_k is the probability below x_k given those before it, as it is.
-// Cost    O(1) a coordinate, by one logarithm and one exponential; about 6 ns on one core.
-// Promise x in the simplex, up to d 2^-52 s. Forward and back again is the same xi within 1e-14,
-//         times s / r_k. The same bits on every machine.
+// Shape   any number of coordinates for which s^d / d! is above the smallest double: 165 for s = 1.
+// Strata  xi_k is the probability below x_k given the preceding coordinates, used directly.
+// Cost    O(1) a coordinate, with one logarithm and one exponential; about 6 ns on one core.
+// Promise x in the simplex, up to d 2^-52 s. A round trip returns the same xi within 1e-14 times s
+//         / r_k. The same bits on every machine.
 // Source  M. Rosenblatt, Annals of Mathematical Statistics 23 (1952) 470-472,
 //         doi:10.1214/aoms/1177729394.
 
@@ -36,8 +37,9 @@ constexpr auto bound = length_option("bound", 1, "The most that the coordinates 
 
 constexpr std::size_t some_rows = 256;
 
-/// Takes from what is left of each row the coordinate that is one of `left`. xi = 1 takes all of it
-/// for the last one, and is else taken as the number below 1.
+/// Subtracts a coordinate from the remainder of each row, if `left` coordinates are left. xi = 1
+/// takes all of it for the last coordinate; for others it is replaced by the largest number below
+/// 1.
 STIPPLE_WIDE [[gnu::flatten]] void break_off(double* x, double* rest, double left,
                                              std::size_t rows) {
     const double share = 1 / left;
@@ -81,7 +83,7 @@ class SimplexDomain final : public NamedDomain {
             rest -= point[k];
         }
     }
-    /// Those of Dirichlet's distribution with d + 1 parameters 1.
+    /// Moments of Dirichlet's distribution with d + 1 parameters equal to 1.
     std::optional<Moments> moments() const override {
         const std::size_t d = dimension();
         const auto n = static_cast<double>(d);
