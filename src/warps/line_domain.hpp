@@ -5,13 +5,12 @@
 //
 //     struct Decay final : LineDistribution {
 //         double forward(double u) const;   // the quantile of u in [0, 1]
-//         bool infinite(double u) const;    // whether that is an endless tail's end; optional
-//         ...                               // what LineDistribution asks for
+//         bool infinite(double u) const;    // whether the quantile is infinite; optional
+//         ...                               // members that LineDistribution requires
 //     };
 //
 // or has `void forward_all(std::span<double> numbers) const` instead of forward(), which maps many
 // numbers at a time and avoids copying the distribution.
-// many numbers at a time and does not copy what it is made of.
 #pragma once
 
 #include <fmt/format.h>

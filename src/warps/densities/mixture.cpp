@@ -3,7 +3,7 @@
 // Mixture of other warps with weights w_i that sum to 1:
 //
 //     component i where w_0 + ... + w_i-1 <= xi0 < w_0 + ... + w_i,
-// its first coordinate xi0' = (xi0 - w_0 - ... - w_i-1) / w_i, the others unchanged;
+//     its first coordinate xi0' = (xi0 - w_0 - ... - w_i-1) / w_i, the others unchanged;
 //     density = sum_i w_i density_i.
 //
 // Components are specs separated by |, as in

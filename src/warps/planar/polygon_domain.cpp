@@ -347,8 +347,8 @@ std::size_t PolygonDomain::Cut::left_of(double x, std::size_t low, std::size_t h
     return static_cast<std::size_t>(past - parts);
 }
 
-/// The place in a row, the length `way` from its left end on: the last part is looked for that has
-/// no more of the row on its left. Each step tries the one in the middle of the longest list.
+/// Position in a row at the distance `way` along its parts. Searches the last part with at most
+/// `way` of the row to its left; each step tests the middle of the longest remaining list.
 double PolygonDomain::along_row(const Row& row, double way) {
     std::array<std::size_t, most_bands> low;
     std::array<std::size_t, most_bands> high;

@@ -6,7 +6,7 @@
 //
 //     x_k = r_k (1 - (1 - xi_k)^(1 / m)),    xi_k = 1 - (1 - x_k / r_k)^m,    m = d - k + 1.
 //
-// Shape   any number of coordinates for which s^d / d! is above the smallest double: 165 for s = 1.
+// Shape   any number of coordinates for which s^d / d! is in [1e-300, 1e300]: up to 166 for s = 1.
 // Strata  xi_k is the probability below x_k given the preceding coordinates, used directly.
 // Cost    O(1) a coordinate, with one logarithm and one exponential; about 6 ns on one core.
 // Promise x in the simplex, up to d 2^-52 s. A round trip returns the same xi within 1e-14 times s
