@@ -20,7 +20,7 @@ def _version():
 
 
 def _package():
-    """Builds the package; gives its folder."""
+    """Builds the package; returns its folder."""
     configure = ["cmake", "--preset", "python", f"-DPython3_EXECUTABLE={sys.executable}"]
     subprocess.run(configure, cwd=ROOT, check=True)
     subprocess.run(["cmake", "--build", "--preset", "python"], cwd=ROOT, check=True)

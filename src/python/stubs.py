@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""Writes the types of the package's calls, __init__.pyi, from the records of the units:
-stubs.py FOLDER, FOLDER being that of the package."""
+"""Writes the type stubs of the package's calls, __init__.pyi, from the records of the units. Usage:
+stubs.py FOLDER, where FOLDER is the package."""
 
 import sys
 from pathlib import Path
@@ -101,7 +101,7 @@ def type_of(option):
 
 
 def call_text(kind, unit):
-    """The overload of a unit."""
+    """The overload for a unit's name."""
     function, argument, rest, result = CALLS[kind]
     names = ", ".join(repr(name) for name in [unit["name"], *unit["aliases"]])
     first = f"{argument}: Literal[{names}]"
@@ -121,7 +121,7 @@ def call_text(kind, unit):
 
 
 def any_text(kind):
-    """The overload of specs."""
+    """The overload for any spec."""
     function, argument, rest, result = CALLS[kind]
     first = {"warps": f"x: ArrayLike, {argument}: Unit", "scrambles": f"x: ArrayLike, {argument}: Unit",
              "analyzers": f"{argument}: str, x: ArrayLike"}.get(kind, f"{argument}: str")

@@ -6,17 +6,17 @@
     >>> stipple.analyze("star-discrepancy", x[:, :2]).value  # doctest: +SKIP
     >>> disk = stipple.warp(stipple.generate("halton", n=100), "disk", method="concentric")
 
-Units (generators, scrambles, warps, analyzers) are those of the command line, and so are their options,
-with underscores for dashes; list() names them and describe("halton") tells all of one. Points are arrays
-(n, d) of float64, the same bytes as those of the command line with the same seed, for any number of
-threads. Arguments that most functions take:
+Units (generators, scrambles, warps, analyzers) and their options are those of the command line,
+with underscores instead of dashes; list() names them, and describe("halton") documents one. Points
+are arrays (n, d) of float64: the same bytes as from the command line with the same seed, for any
+number of threads. Most functions accept these arguments:
 
-    threads     so many; 0: all cores. Results do not depend on it.
-    max_memory  bytes that the call may plan to use; 0: any number.
-    progress    True draws a bar on stderr; or a function of the share that is done.
+  threads     number of threads; 0: all cores. Results do not depend on it.
+  max_memory  memory limit in bytes; 0: none.
+  progress    True draws a bar on stderr; or a function that is called with the fraction done.
 
-Calls let other Python threads run, and Ctrl-C ends them. What is wrong raises Error; what a user should
-know is a warning of the category Note.
+Calls let other Python threads run, and Ctrl-C interrupts them. Errors are raised as Error; notes to
+the user are warnings of the category Note.
 """
 
 from ._arrays import Points

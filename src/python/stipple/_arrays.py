@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Arrays and settings as the library takes them."""
+"""Conversion of Python arrays and settings to the form that the library expects."""
 
 import json
 import os
@@ -14,12 +14,12 @@ def _is_whole(key, size):
 
 
 def _picks(key):
-    """Whether a key keeps an axis: a slice, a list of indices, a mask."""
+    """Whether a key keeps its axis: a slice, a list of indices or a mask."""
     return isinstance(key, slice) or np.ndim(key) == 1
 
 
 def _keys_of(index, dimensions):
-    """One key for each axis; None where there are others."""
+    """One key per axis; None if the index has other keys."""
     keys = list(index) if isinstance(index, tuple) else [index]
     dots = [i for i, key in enumerate(keys) if key is Ellipsis]
     place = dots[0] if dots else len(keys)
@@ -28,8 +28,9 @@ def _keys_of(index, dimensions):
 
 
 def _meta_of_part(points, index):
-    """The meta of some of the points: what they live on, the names and levels of their columns; of
-    whole sets everything. None where points lose coordinates or are no points any more."""
+    """The meta of a selection of points. Whole sets keep everything; otherwise the domain and
+    the names and levels of the columns. None if coordinates are dropped, or the result is not
+    points."""
     keys = _keys_of(index, points.ndim)
     if keys is None or not _is_whole(keys[-1], points.shape[-1]) or not _picks(keys[-2]):
         return None
@@ -53,12 +54,12 @@ def _meta_of_part(points, index):
 
 
 class Points(np.ndarray):
-    """An array of points (n, d), or (sets, n, d), with where they come from.
+    """An array of points (n, d), or (sets, n, d), with its provenance.
 
-    meta: a dictionary of the generator, its options, the seed, warps, domain ...; of several sets a
-    list of them. Some of the points (x[:50], x[::2], x[mask], x[[3, 1]]) keep their domain and the
-    names and levels of their columns. Some of the columns, and results of arithmetic, are plain
-    arrays, whose meta is None.
+    meta: a dictionary of the generator, its options, the seed, warps, domain ...; for several sets
+    a list of them. A selection of points (x[:50], x[::2], x[mask], x[[3, 1]]) keeps the domain and
+    the names and levels of the columns. A selection of columns, and results of arithmetic, are
+    plain arrays, whose meta is None.
     """
 
     meta = None
@@ -83,7 +84,7 @@ def with_meta(array, meta):
 
 
 def domain_of(x, domain):
-    """The domain as text: the one that is given, or that of the points' meta."""
+    """The domain as a spec: the given one, or else that of the points' meta."""
     if domain is not None:
         return str(domain)
     meta = getattr(x, "meta", None)
@@ -141,8 +142,7 @@ def _text(value):
 
 
 def settings_of(options):
-    """Keyword arguments as options: names with dashes, values as text; those that are None are left
-    out."""
+    """Keyword arguments as options: names with dashes, values as text; None values are omitted."""
     return [
         (name.rstrip("_").replace("_", "-"), _text(value))
         for name, value in options.items()
@@ -151,7 +151,8 @@ def settings_of(options):
 
 
 def spec_text(value):
-    """A unit: "disk", "disk:method=concentric", or ("disk", {"method": "concentric"})."""
+    """The spec of a unit: "disk", "disk:method=concentric", or ("disk", {"method":
+    "concentric"})."""
     if isinstance(value, str):
         return value
     name, options = value
@@ -160,14 +161,14 @@ def spec_text(value):
 
 
 def listed(value):
-    """A list of units, of which one may stand alone."""
+    """A list of specs; accepts a single unit, too."""
     if value is None:
         return []
     return [spec_text(value)] if isinstance(value, (str, tuple)) else [spec_text(v) for v in value]
 
 
 def bounds_text(bounds):
-    """(low, high) for all coordinates, or a list of them; or "0..1,0..2"."""
+    """Formats bounds: (low, high) for all coordinates, a list of such pairs, or "0..1,0..2"."""
     if bounds is None or isinstance(bounds, str):
         return bounds or ""
     pairs = np.asarray(bounds, dtype=float)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The exception and the warning of the package."""
+"""The package's exception and warning category."""
 
 import re
 
@@ -7,7 +7,7 @@ _NAMES = {"count": "n", "dimension": "d"}
 
 
 def _plain(message):
-    """Options of the command line as names of arguments: "--count: ..." is "n: ..."."""
+    """Replaces options of the command line by argument names: "--count: ..." becomes "n: ..."."""
     return re.sub(
         r"--([a-z][a-z0-9-]*)",
         lambda found: _NAMES.get(found[1], found[1].replace("-", "_")),
@@ -16,10 +16,10 @@ def _plain(message):
 
 
 class Error(Exception):
-    """What went wrong.
+    """An error reported by the library.
 
     kind: "usage" (a wrong call), "input" (bad data), "io" (the file system) or "limit" (memory).
-    hint: one sentence that helps to mend the call, or "".
+    hint: one sentence on how to correct the call, or "".
     """
 
     def __init__(self, message, kind="usage", hint=""):
@@ -31,4 +31,4 @@ class Error(Exception):
 
 
 class Note(UserWarning):
-    """A sentence that a user of the command line would see on the terminal."""
+    """A message that the command line would print for the user."""

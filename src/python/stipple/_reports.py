@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What analyzers find."""
+"""Results of analyzers, pictures and pages."""
 
 import html
 import os
@@ -11,8 +11,9 @@ from ._errors import Error
 class Report(Mapping):
     """Results of an analyzer by name, also as attributes: report["value"] is report.value.
 
-    Numbers, flags and texts are Python's; curves are arrays (k,), grids arrays (rows, columns), and
-    what belongs together is a Report of its own. unmet lists what was expected and does not hold.
+    Numbers, flags and texts are Python objects; curves are arrays (k,), grids are arrays (rows,
+    columns), and groups of results are Reports themselves. unmet lists the expectations that do not
+    hold.
     """
 
     def __init__(self, values, text="", unmet=(), found=None):
@@ -58,7 +59,7 @@ class Report(Mapping):
 
 
 class Picture:
-    """A picture: shown by notebooks, saved by save(path); svg is its text as SVG."""
+    """A picture: displayed by notebooks, written by save(path); svg is its SVG text."""
 
     def __init__(self, drawing):
         self._drawing = drawing
@@ -71,7 +72,7 @@ class Picture:
         return self.svg
 
     def save(self, path):
-        """Writes the picture to a file, as its name says: .svg, .pdf or .png."""
+        """Writes the picture to a file in the format of its extension: .svg, .pdf or .png."""
         extension = os.path.splitext(os.fspath(path))[1].lower()
         if extension not in (".svg", ".pdf", ".png"):
             raise Error(f"{os.fspath(path)} has no extension of a picture; expected .svg, .pdf or .png")
@@ -83,7 +84,7 @@ class Picture:
 
 
 class Page:
-    """An HTML page in a file: shown by notebooks."""
+    """An HTML page in a file; displayed by notebooks."""
 
     def __init__(self, path):
         self.path = path

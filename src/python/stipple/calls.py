@@ -36,13 +36,13 @@ def _how(threads=0, max_memory=0, progress=None):
 
 
 def _take_how(options):
-    """The arguments that all calls have, out of the others."""
+    """Removes the arguments common to all calls from the options and returns them."""
     return _how(*(options.pop(name, default) for name, default in
                   (("threads", 0), ("max_memory", 0), ("progress", None))))
 
 
 def _parameters_spec(parameters):
-    """A parameter file, or what would stand in one, as a warp."""
+    """The warp of a parameter file, given by its path or by its content."""
     if not isinstance(parameters, dict):
         with open(os.fspath(parameters), encoding="utf-8") as file:
             parameters = json.load(file)
@@ -52,21 +52,21 @@ def _parameters_spec(parameters):
 
 def generate(generator, n=None, d=None, *, seed=1, start=0, sets=1, bounds=None, warp=None,
              parameters=None, return_meta=False, **options):
-    """Points of a generator: an array (n, d) of float64, or (sets, n, d) of several sets.
+    """Points of a generator: an array (n, d) of float64, or (sets, n, d) for several sets.
 
     generator   name or spec: "halton", "sobol:scramble=owen"; list("generators") names all
-    n, d        points and coordinates; what is not given, the generator decides
-    seed        of the first set; the others have seed + 1, ...
+    n, d        number of points and of coordinates; by default the generator decides
+    seed        seed of the first set; the others have seed + 1, ...
     start       index of the first point, for sequences
-    bounds      (low, high), or one for each coordinate: the box that the points fill
+    bounds      (low, high), or one pair for each coordinate: the box that the points fill
     warp        a warp or scramble, or a list of them: "disk:method=concentric"
-    parameters  a parameter file, or a dictionary of the same content
-    return_meta gives Points, arrays that have a dictionary .meta of where they come from, by which
-                analyze() knows the domain of a warp
+    parameters  a parameter file, or a dictionary with the same content
+    return_meta returns Points: arrays whose .meta is a dictionary with their provenance, from which
+                analyze() takes the domain
     options     of the generator: scramble="owen"; and threads, max_memory, progress
 
-    The numbers are those of `stipple generate` with the same arguments, bit by bit. Memory of one set
-    is not copied. Sets of different sizes come as a list of arrays.
+    The numbers are bit for bit those of `stipple generate` with the same arguments. A single set is
+    not copied. Sets of different sizes are returned as a list of arrays.
     """
     how = _take_how(options)
     warps = listed(warp)
@@ -84,8 +84,8 @@ def generate(generator, n=None, d=None, *, seed=1, start=0, sets=1, bounds=None,
 
 
 class Sequence:
-    """Points of a sequence by index: s[10] is an array (d,), s[10:20] one of (10, d), and
-    s.blocks(1000) gives blocks of 1000 points without end."""
+    """Points of a sequence by index: s[10] is an array (d,), s[10:20] an array (10, d), and
+    s.blocks(1000) yields blocks of 1000 points endlessly."""
 
     def __init__(self, generator, d=None, *, seed=1, **options):
         self._how = _take_how(options)
@@ -93,7 +93,7 @@ class Sequence:
 
     @property
     def d(self):
-        """Coordinates of a point."""
+        """Number of coordinates."""
         return self._points.dimension
 
     def __getitem__(self, index):
@@ -109,7 +109,7 @@ class Sequence:
         return self._points.part(index, 1, self._how)[0]
 
     def blocks(self, size, start=0):
-        """Blocks of `size` points, one after the other, from point `start` on."""
+        """Consecutive blocks of `size` points, from point `start` on."""
         if size < 1:
             raise Error("size: a block has one point or more")
         while True:
@@ -122,13 +122,13 @@ class Sequence:
 
 
 def sequence(generator, d=None, *, seed=1, **options):
-    """The points of a sequence by index and in blocks; see Sequence. Takes generators whose points do
-    not depend on how many there are."""
+    """Points of a sequence by index and in blocks; see Sequence. Works with generators whose points
+    do not depend on their number."""
     return Sequence(generator, d, seed=seed, **options)
 
 
 def _each_set(x, work):
-    """work(rows) of the rows of a set, or of each of several sets."""
+    """Applies work(rows) to a set, or to each of several sets."""
     rows = as_rows(x, most=3)
     if rows.ndim == 2:
         return work(rows)
@@ -136,12 +136,12 @@ def _each_set(x, work):
 
 
 def warp(x, warp, **options):
-    """The images of points of the unit cube: arrays (n, k), of (sets, n, d) each set by itself.
+    """Images of points of the unit cube: arrays (n, k); arrays (sets, n, d) are warped set by set.
 
     warp     name or spec: "disk", "triangle:method=fold", "disk@1,2"; list("warps") names all
     options  of the warp: method="concentric"; and threads, max_memory, progress
 
-    The result is Points, whose meta has the domain, so that analyze() and inverse() know it.
+    Returns Points, whose meta has the domain for use by analyze() and inverse().
     """
     how = _take_how(options)
     settings = settings_of(options)
@@ -158,7 +158,7 @@ def warp(x, warp, **options):
 
 
 def inverse(x, warp, **options):
-    """The points of the unit cube that a warp takes to these; arguments as those of warp()."""
+    """The points of the unit cube that a warp maps to x; arguments as for warp()."""
     how = _take_how(options)
     settings = settings_of(options)
     text = spec_text(warp)
@@ -170,19 +170,21 @@ def inverse(x, warp, **options):
 
 
 def pdf(x, warp, **options):
-    """The density of each image of a warp with respect to length, area, volume ... of its domain: an
-    array (n,), or (sets, n); 0 outside the domain. Arguments as those of warp()."""
+    """Density of a warp's image at each point, with respect to length, area, volume ... of its
+    domain: an array (n,), or (sets, n); 0 outside the domain. Arguments as for warp()."""
     settings = settings_of(options)
     text = spec_text(warp)
     return _each_set(x, lambda rows: _stipple.warp_density(text, settings, rows))
 
 
 def scramble(x, scramble, *, seed=1, start=0, **options):
-    """Points of the unit cube, moved at random so that each is uniform and together they stay as even.
+    """Moves points of the unit cube at random, so that each becomes uniform and the set stays as
+    evenly distributed.
 
     scramble  name or spec: "owen", "cranley-patterson"; list("scrambles") names all
     start     index of the first point, for parts of a sequence
-    Of several sets (sets, n, d), set k has the seed seed + k.
+
+    For several sets (sets, n, d), set k has the seed seed + k.
     """
     how = _take_how(options)
     settings = settings_of(options)
@@ -195,13 +197,13 @@ def scramble(x, scramble, *, seed=1, start=0, **options):
 
 
 def analyze(analyzer, x, *, domain=None, integrand=None, **options):
-    """What an analyzer finds of a set of points: a Report, a mapping with attributes.
+    """Results of an analyzer for a set of points: a Report, which is a mapping with attributes.
 
     analyzer   name or spec: "star-discrepancy", "l2-discrepancy:kind=centered"
     x          points (n, d)
-    domain     what they live on, as `stipple analyze --domain` has it; default: that of their meta, or
+    domain     the points' domain, as for `stipple analyze --domain`; default: that of their meta, or
                the unit cube
-    integrand  of the analyzer integration: a name, or a function of an array (n, d) that gives (n,)
+    integrand  of the analyzer integration: a name, or a function from an array (n, d) to (n,)
     options    of the analyzer; and threads, max_memory, progress
     """
     how = _take_how(options)
@@ -243,17 +245,17 @@ def _integral_of(function, rows, domain, options):
 
 
 Integral = collections.namedtuple("Integral", "estimate standard_error low high estimates")
-Integral.__doc__ = """An integral by replications: the mean of their estimates, its standard error, and
-the interval of Student's t that has the integral in it with the confidence asked for."""
+Integral.__doc__ = """Result of integrate(): the mean of the replications' estimates, its standard
+error, the Student t confidence interval [low, high], and the estimates."""
 
 
 def integrate(function, generator, n, d, *, replications=16, seed=1, confidence=0.95, warp=None,
               **options):
-    """The integral of a function over the unit cube, or over the domain of a warp: an Integral.
+    """Integral of a function over the unit cube, or over the domain of a warp: an Integral.
 
-    function      of an array (m, d) of points; gives an array (m,) of values
-    generator     name or spec of one whose seeds give independent sets: "sobol:scramble=owen"
-    replications  sets of n points each, with seeds seed, seed + 1, ...; 2 or more
+    function      takes an array (m, d) of points; returns an array (m,) of values
+    generator     name or spec; its seeds must give independent sets: "sobol:scramble=owen"
+    replications  number of sets of n points, with seeds seed, seed + 1, ...; at least 2
     warp          one warp; values are divided by the density of its images
     options       of the generator; and threads, max_memory, progress
     """
@@ -275,8 +277,8 @@ def integrate(function, generator, n, d, *, replications=16, seed=1, confidence=
 
 
 def read(path, *, format="", d=0, single=False, **options):
-    """The points of a file: Points (n, d) with the meta that the file has; a list of them where the file
-    holds several sets. d and single (float32) are what raw binary files do not say."""
+    """Points of a file: Points (n, d) with the file's meta; a list of them if the file has several
+    sets. d and single (float32) are required for raw binary files."""
     sets = _stipple.read(os.fspath(path), format, d, single, _take_how(options))
     points = [with_meta(rows, meta) for rows, meta in sets]
     return points[0] if len(points) == 1 else points
@@ -288,7 +290,7 @@ def _given(x, domain=None):
 
 def write(path, x, *, domain=None, format="", header=True, meta=False, single=False,
           precision=None, **options):
-    """Writes points (n, d), or several sets, to a file whose format follows from its name: csv, txt,
+    """Writes points (n, d), or several sets, to a file in the format of its extension: csv, txt,
     json, jsonl, npy, bin, utk, psa, ply, svg; .gz and .zst compress it."""
     several = x if isinstance(x, list) and np.ndim(x[0]) == 2 else None
     if several is None:
@@ -306,10 +308,10 @@ StudyMean = collections.namedtuple(
 
 
 class Study(list):
-    """The numbers of a study, each a StudyValue; means() takes them over seeds."""
+    """The numbers of a study, each a StudyValue; means() averages them over seeds."""
 
     def means(self, confidence=0.95):
-        """Means over the seeds, with the interval of Student's t: a list of StudyMean."""
+        """Means over the seeds with Student's t confidence intervals: a list of StudyMean."""
         return [StudyMean(*row) for row in _stipple.means([tuple(row) for row in self], confidence)]
 
     def _repr_html_(self):
@@ -321,8 +323,9 @@ class Study(list):
 
 
 def study(generators, analyzers, *, n=(1024,), d=(2,), seeds=1, seed=1, warp=None, **options):
-    """Every generator at every count and dimension, with several seeds, measured by every analyzer: a
-    Study, a list of StudyValue in the order of generators, dimensions, counts, seeds and analyzers."""
+    """Measures every generator at every count and dimension, with several seeds, by every analyzer.
+    Returns a Study: a list of StudyValue, ordered by generator, dimension, count, seed and
+    analyzer."""
     counts = [n] if np.isscalar(n) else [int(k) for k in n]
     dimensions = [d] if np.isscalar(d) else [int(k) for k in d]
     rows = _stipple.study(listed(generators), listed(analyzers), listed(warp), counts, dimensions,
@@ -337,17 +340,17 @@ def _named(x):
 
 def report(path, x, **options):
     """Writes a self-contained HTML page that compares up to 12 sets of one dimension: points, or a
-    dictionary of them by name. Notebooks show the Page that it gives."""
+    dictionary of points by name. Returns a Page, which notebooks display."""
     _stipple.report(os.fspath(path), _named(x), _take_how(options))
     return Page(os.fspath(path))
 
 
 def plot(x, ax=None, *, key="", width=0, height=0, **options):
-    """A picture of points, or of a dictionary of points by name: in 1-D a histogram, in 2-D and 3-D the
-    points with the outline of their domain, else pairs of coordinates. Of reports of one analyzer, their
-    curves (of several without any, one number over the number of points; key names the result). Notebooks
-    show it; save(path) writes it as .svg, .pdf or .png. With matplotlib axes as ax, draws points (n, 2)
-    there and gives ax."""
+    """A picture of points, or of a dictionary of points by name. 1-D points give a histogram; 2-D
+    and 3-D points are shown with the outline of their domain; others as pairs of coordinates.
+    Reports of one analyzer are shown by their curves; if they have none, by one number (chosen by
+    key) against the number of points. Notebooks display the picture; save(path) writes it as .svg,
+    .pdf or .png. With matplotlib axes as ax, draws points (n, 2) there and returns ax."""
     how = _take_how(options)
     reports = x if isinstance(x, dict) else {"report": x}
     if ax is None and reports and all(isinstance(one, Report) for one in reports.values()):

@@ -14,8 +14,8 @@ from .units import find
 class Engine(_scipy.QMCEngine):
     """Any generator as a scipy.stats.qmc.QMCEngine.
 
-    Of a sequence, random(n) gives its next n points, and fast_forward() leaves some out; of another
-    generator, each call gives a new set of n points, with the next seed. reset() begins anew.
+    For a sequence, random(n) returns the next n points, and fast_forward() skips some. For another
+    generator, each call returns a new set of n points, with the next seed. reset() starts again.
 
     generator  name or spec
     seed       a whole number, or a numpy.random.Generator that draws one
@@ -34,7 +34,7 @@ class Engine(_scipy.QMCEngine):
         self._options = options
         unit = find(name.split(":")[0], ["generators"])
         if unit is None:
-            generate(name, 1, d)  # refuses it
+            generate(name, 1, d)  # raises the error for an unknown name
         self._prefix = unit["traits"]["sequence"] and unit["traits"]["prefix"]
         self._sets = 0
         self._points = None
@@ -84,7 +84,7 @@ class Halton(Engine):
 
 
 class LatinHypercube(Engine):
-    """Latin hypercubes; with scramble=False points are in the middles of their strata."""
+    """Latin hypercubes; with scramble=False points are the centres of their strata."""
 
     generator = "latin-hypercube"
 

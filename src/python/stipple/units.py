@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What units there are, from the records that the command line's help is made of."""
+"""Descriptions of the units, from the same records as the command line's help."""
 
 import functools
 import textwrap
@@ -18,7 +18,7 @@ def records():
 
 
 def list(kind=None):
-    """Names and summaries of units: of a kind ("generators", "scrambles", "warps", "analyzers",
+    """Names and summaries of units: of one kind ("generators", "scrambles", "warps", "analyzers",
     "formats"), or of all kinds in a dictionary."""
     if kind is None:
         return {kind: list(kind) for kind in _KINDS}
@@ -28,7 +28,7 @@ def list(kind=None):
 
 
 def find(name, kinds=_KINDS):
-    """The record of a unit, by name or alias; None where there is none."""
+    """The record of a unit by name or alias; None if there is none."""
     for kind in kinds:
         for unit in records()[kind].values():
             if name == unit["name"] or name in unit["aliases"]:
@@ -37,7 +37,7 @@ def find(name, kinds=_KINDS):
 
 
 def option_text(option):
-    """An option as an argument of a call, with what it does."""
+    """Describes an option as an argument of a call."""
     name = option["name"].replace("-", "_")
     allowed = "|".join(option.get("choices", ())) or option.get("range", "")
     default = option["default"]
@@ -47,7 +47,7 @@ def option_text(option):
 
 
 def describe(name):
-    """All that is known of a unit: what it is, where it comes from, its options and results."""
+    """Documents a unit: summary, source, options and results."""
     unit = find(name)
     if unit is None:
         raise Error(f"there is no unit {name!r}; stipple.list() names all")
