@@ -13,7 +13,7 @@ namespace {
 using Curve = Report::Curve;
 using Item = Report::Item;
 
-/// An item as the numbers that it holds; nothing for words, flags and groups.
+/// The numbers of an item; nullopt for texts, flags and groups.
 std::optional<Curve> numbers(const Item& item) {
     if (const auto* whole = std::get_if<std::int64_t>(&item))
         return Curve{static_cast<double>(*whole)};
@@ -25,7 +25,7 @@ std::optional<Curve> numbers(const Item& item) {
     return std::nullopt;
 }
 
-/// Numbers in the shape of `like`: a number, a curve or a grid.
+/// Numbers in the form of `like`: a number, a curve or a grid.
 Item shaped(Curve values, const Item& like) {
     if (const auto* grid = std::get_if<Grid>(&like))
         return Grid{grid->rows, grid->columns, std::move(values)};
@@ -34,7 +34,7 @@ Item shaped(Curve values, const Item& like) {
     return values.front();
 }
 
-/// Merges one report's entry into the running means; false: the entry has to go.
+/// Merges one report's entry into the running means. Returns false if the entry must be dropped.
 bool merge(Item& mean, Item& squares, const Item& item, double k);
 
 void merge_groups(Report& mean, Report& squares, const Report& report, double k) {
@@ -71,17 +71,17 @@ bool merge(Item& mean, Item& squares, const Item& item, double k) {
             (*sums)[i] += step * ((*values)[i] - (*means)[i]);
         }
     squares = shaped(std::move(*sums), item);
-    // Labels, such as the counts of prefixes: their mean is what they are.
+    // Labels, such as the counts of prefixes, are not averaged.
     const bool label = std::holds_alternative<Report::Integers>(mean) && mean == item;
     if (!label) mean = shaped(std::move(*means), item);
     return true;
 }
 
-/// What is not a measured value of each set (the value it should have, and what stands for the
-/// spread or the chance of several), and what an analyzer works out anew from the mean and what
-/// scatters otherwise than a mean does: decibels as much for many sets as for one, the place where
-/// a threshold is met as the curve's slope has it, and what deviations from 1 add up to less the
-/// more sets there are.
+/// Whether a result has no meaningful standard error. This holds for values that are not measured
+/// per set: exact values, errors and p-values. It also holds for results that an analyzer
+/// recomputes from the mean and that do not scatter like a mean. Decibels scatter as much for many
+/// sets as for one; the position of a threshold depends on the curve's slope; sums of deviations
+/// from 1 decrease with the number of sets.
 bool is_no_mean(std::string_view name) {
     constexpr std::array names = {"exact",
                                   "standard_error",
@@ -100,7 +100,7 @@ bool is_no_mean(std::string_view name) {
     return std::ranges::find(names, name) != names.end();
 }
 
-/// The errors of what `mean` has, by the sums of squares.
+/// Standard errors of the entries of `mean`, from the sums of squares.
 Report errors_of(const Report& mean, const Report& squares, double divisor) {
     Report out;
     for (const auto& [name, value, unit] : squares.entries()) {

@@ -24,13 +24,13 @@ bool compare(double a, std::string_view op, double b) {
     return (op[0] == '<' && a < b) || (op[0] == '>' && a > b) || (op.ends_with('=') && a == b);
 }
 
-/// What is wrong with a condition.
+/// Reports an error in a condition.
 template <class... Args>
 [[noreturn]] void refuse(const Check& check, fmt::format_string<Args...> what, Args&&... args) {
     fail(ErrorKind::usage, "{}: {}", check.option, fmt::format(what, std::forward<Args>(args)...));
 }
 
-/// The number that a key means: "value" or, of several, "mean[0]".
+/// The number under a key: "value" or, in a list, "mean[0]".
 double number_of(const Check& check, const Report& report, std::string_view key) {
     const auto open = key.find('[');
     const std::string_view name = key.substr(0, open);
@@ -53,7 +53,7 @@ struct Range {
     double upper;
 };
 
-/// The bounds beside a `value`, where it stands beside a `lower` and an `upper` one.
+/// The bounds "lower" and "upper" next to a "value"; nullopt if there are none.
 std::optional<Range> bounds_of(const Check& check, const Report& report) {
     const std::string path = check.key.substr(0, check.key.find('['));
     const std::string index = check.key.substr(path.size());
@@ -64,7 +64,8 @@ std::optional<Range> bounds_of(const Check& check, const Report& report) {
                  number_of(check, report, group + "upper" + index)};
 }
 
-/// What a condition is about: of a `value` between bounds, it must hold for both.
+/// The number to compare. For a `value` with bounds, the bound for which the condition is harder to
+/// meet.
 double bounded(const Check& check, const Report& report) {
     const bool known = report.find(check.key.substr(0, check.key.find('['))) != nullptr;
     const double found = known ? number_of(check, report, check.key) : 0;
@@ -78,7 +79,7 @@ double bounded(const Check& check, const Report& report) {
            format_number(range->lower), format_number(range->upper));
 }
 
-/// The word or flag under a key; empty if it is none.
+/// The text or flag under a key; empty if there is none.
 std::string word_of(const Report& report, const std::string& key) {
     const Report::Item* item = report.find(key);
     if (const auto* text = std::get_if<std::string>(item)) return *text;
@@ -86,7 +87,7 @@ std::string word_of(const Report& report, const std::string& key) {
     return {};
 }
 
-/// An operator as other languages write it; nothing for what is none there, either.
+/// The operator meant by one from another language; empty if unknown.
 std::string_view meant_by(std::string_view op) {
     constexpr std::array<std::pair<std::string_view, std::string_view>, 5> known = {
         {{"=", "=="}, {"===", "=="}, {"=<", "<="}, {"=>", ">="}, {"<>", "!="}}};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Conditions on results, as --check takes them: KEY<VALUE, with <, <=, >, >=, == or !=.
+// Conditions on results, the values of --check: KEY<VALUE, with <, <=, >, >=, == or !=.
 #pragma once
 
 #include <string>
@@ -15,20 +15,22 @@ struct Check {
     std::string key = {};            ///< dotted
     std::string op = {};             ///< < <= > >= == !=
     std::string value = {};          ///< a number, true, false, or a word
-    std::string option = "--check";  ///< by which it was given, for messages
+    std::string option = "--check";  ///< option that gave it, for messages
 
-    /// Whether it holds. @throws Error(usage): no such key, or no number where one is compared.
+    /// Whether it holds. @throws Error(usage) if the key does not exist, or is not a number but
+    /// compared with one
     [[nodiscard]] bool holds(const Report& report) const;
 
-    /// What there is under the key, in words: "0.25", "false", "between 0.1 and 0.2".
+    /// The value under the key, in words: "0.25", "false", "between 0.1 and 0.2".
     [[nodiscard]] std::string found(const Report& report) const;
 };
 
-/// @throws Error(usage)
+/// Parses a condition. @throws Error(usage)
 Check parse_check(std::string_view text, const std::string& option = "--check");
 
-/// Refuses what is certain before anything is measured: a word that the result never is, or none
-/// where it is one. @throws Error(usage) naming what there is
+/// Rejects conditions that cannot make sense before anything is measured: for a result that is a
+/// word, operators other than == and !=, and words that it never is.
+/// @throws Error(usage) naming the possible words
 void require_sense(const Check& check, const ResultKey& result);
 
 }  // namespace stipple

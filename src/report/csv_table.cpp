@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Two or more lists of equal length in one group of a report are curves, columns of a table with a
-// row for each entry, if they are longer than the points have coordinates, or if one of them holds
-// whole numbers. All other lists (a corner, a grid's extents, a mean for each axis) are numbers of
-// their own: columns KEY.0, KEY.1... Tables of different groups or lengths follow each other and
-// are empty where another's rows are, as after pandas.concat; what is no curve is repeated on every
-// row.
+// Measurements as a CSV table. Two or more lists of equal length in one group of a report are
+// curves, if they are longer than the number of coordinates, or if one of them holds integers.
+// Curves are columns with a row for each entry. All other lists (a corner, a grid's extents, a mean
+// for each axis) become separate columns KEY.0, KEY.1... Tables of different groups or lengths
+// follow each other, with empty cells in the rows of other tables, as after pandas.concat. Single
+// values are repeated on every row.
 #include <fmt/format.h>
 
 #include <map>
@@ -20,7 +20,7 @@
 namespace stipple {
 namespace {
 
-/// Cells of a list; nothing for what is no list.
+/// Cells of a list; nullopt for other items.
 std::optional<std::vector<std::string>> list_cells(const Report::Item& item) {
     std::vector<std::string> cells;
     if (const auto* curve = std::get_if<Report::Curve>(&item))
@@ -42,11 +42,11 @@ std::string single_cell(const Report::Item& item) {
 
 using Cells = std::vector<std::pair<std::string, std::string>>;  // column, cell
 
-/// Lists of one length in one group of the results.
+/// Lists of equal length in one group of the results.
 struct Lists {
     std::size_t count = 0;
-    bool whole = false;            ///< one of them holds whole numbers
-    std::vector<Cells> rows = {};  ///< where they are curves: of each entry
+    bool whole = false;            ///< one of them holds integers
+    std::vector<Cells> rows = {};  ///< if they are curves: cells of each entry
 };
 
 /// The cells of one measurement.
@@ -110,9 +110,9 @@ class MeasurementCells {
     }
 
     std::size_t dimension_;
-    Cells single_;  ///< the same on each row
+    Cells single_;  ///< repeated on each row
     std::map<std::pair<std::string, std::size_t>, Lists> lists_;
-    std::vector<const Lists*> tables_;  ///< in the order in which they come
+    std::vector<const Lists*> tables_;  ///< in order of appearance
 };
 
 }  // namespace

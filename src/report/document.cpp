@@ -16,7 +16,7 @@
 namespace stipple {
 namespace {
 
-/// Option values as JSON numbers and booleans where they are such.
+/// Converts an option's value to a JSON number or boolean if it is one.
 Json option_json(const std::string& text) {
     if (text == "true" || text == "false") return text == "true";
     if (const auto whole = parse_integer(text); whole && std::to_string(*whole) == text)
@@ -42,7 +42,7 @@ Json measurement_json(const Measurement& m) {
     return object;
 }
 
-constexpr std::size_t most_shown = 9;  ///< numbers of a list on a line
+constexpr std::size_t most_shown = 9;  ///< limit for numbers of a list on a line
 
 std::string shortened(const Report::Curve& curve) {
     const std::size_t some = std::min(curve.size(), most_shown);
@@ -51,7 +51,7 @@ std::string shortened(const Report::Curve& curve) {
     return text;
 }
 
-/// The unit of an item that is there.
+/// Unit of an item of the report.
 std::string unit_of(const Report& report, const Report::Item* item) {
     for (const auto& [name, value, unit] : report.entries()) {
         if (&value == item) return unit;
@@ -69,7 +69,7 @@ std::string source_of(const Measurement& m) {
     return source;
 }
 
-/// Lists that are too long for a line as tables, with their names above.
+/// Lists too long for a line, as tables with their names above.
 std::string tables_of(const Report& report) {
     std::vector<std::pair<std::string, std::vector<std::string>>> tables;  // group and length, keys
     for (const auto& key : report.keys()) {
@@ -100,7 +100,7 @@ std::string tables_of(const Report& report) {
     return text;
 }
 
-/// What was measured, and of which points.
+/// The analyzer, and the points that it measured.
 std::string head_of(const Measurement& m) {
     const std::string most = m.largest_count > 0 ? fmt::format(" to {}", m.largest_count) : "";
     const std::string of = m.columns.empty() ? "" : ": " + join(m.columns, ", ");
@@ -141,7 +141,7 @@ double number_of(const Json& value) {
 
 Report report_of(const Json& object);
 
-/// Adds what a report can hold; the rest (lists of words, of lists) is passed over.
+/// Adds a value to a report; ignores what it cannot hold (lists of texts or of lists).
 void add(Report& report, const std::string& name, const Json& value) {
     if (value.is_boolean())
         report.add(name, value.get<bool>());

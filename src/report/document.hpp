@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Measurements as people and programs read them: text, JSON (format stipple.report, version 1),
-// CSV.
+// Measurements formatted as text, JSON (format stipple.report, version 1) and CSV, and parsed from
+// JSON.
 #pragma once
 
 #include <functional>
@@ -17,65 +17,66 @@
 
 namespace stipple {
 
-/// One analyzer's results on one set, or the mean over several.
+/// Results of one analyzer on one set, or their mean over several sets.
 struct Measurement {
     std::string analyzer;
     std::string source;
     std::optional<std::size_t> set =
-        {};                           ///< number of the set in its file, where there are several
-    std::size_t sets = 1;             ///< sets that the results are the mean of
-    std::uint64_t count = 0;          ///< of a mean over sets of different sizes, the smallest
-    std::uint64_t largest_count = 0;  ///< of such a mean; else 0
+        {};                   ///< number of the set in its file, where there are several
+    std::size_t sets = 1;     ///< number of sets that the results are the mean of
+    std::uint64_t count = 0;  ///< points; for a mean over sets of different sizes, the smallest
+                              ///< size
+    std::uint64_t largest_count = 0;  ///< largest size, for such a mean; else 0
     std::size_t dimension = 0;
     std::string domain;
-    std::vector<std::string> columns = {};  ///< names of the coordinates, where they have any
+    std::vector<std::string> columns = {};  ///< names of the coordinates; may be empty
     std::vector<std::pair<std::string, std::string>> options = {};
     Report results = {};
-    std::optional<Report> standard_error = {};  ///< of a mean
+    std::optional<Report> standard_error = {};  ///< set for a mean
     double seconds = 0;
 };
 
-/// The number under a key of a report; nothing where there is none.
+/// The number under a key of a report; nullopt if there is none.
 std::optional<double> number_at(const Report& report, std::string_view key);
 
-/// The list of numbers under a key; nothing where there is none.
+/// The list of numbers under a key; nullopt if there is none.
 std::optional<Report::Curve> list_at(const Report& report, std::string_view key);
 
-/// An item for people: long lists are cut short and say so; nothing for grids and groups.
+/// An item as readable text: long lists are truncated with a note; empty for grids and groups.
 std::string text_of(const Report::Item& item);
 
-/// An object; numbers that JSON cannot hold (infinities) become null in its text.
+/// A report as a JSON object; infinities and NaN become null in its text.
 Json json_of(const Report& report);
 
-/// An object of options, numbers and flags as such.
+/// Options as a JSON object; numbers and flags keep their types.
 Json json_of(const std::vector<std::pair<std::string, std::string>>& options);
 
 /// One object for one measurement, an array for several; ends with a newline.
 std::string to_json(std::span<const Measurement> measurements);
 
 struct TextStyle {
-    /// Long lists stand in tables below, those of one group and length side by side; else they are cut
-    /// short, and say so.
+    /// Shows long lists as tables below; lists of equal length in one group are side by side.
+    /// Otherwise lists are truncated with a note.
     bool full = false;
-    /// What stands below the line of a result, with its ends of lines; empty: nothing.
+    /// Text to insert below the line of a result, with its line ends; may be empty.
     std::function<std::string(const Measurement&, const std::string& key)> below = {};
 };
 
 /// Names, values and units in aligned columns.
 std::string to_text(std::span<const Measurement> measurements, const TextStyle& style = {});
 
-/// Whether the bytes are JSON of reports as far as their front tells: an object, or an array of
-/// objects, that names the format.
+/// Whether the bytes look like JSON of reports: they begin with an object, or an array of objects,
+/// that names the format.
 bool looks_like_reports(std::string_view bytes);
 
-/// The way back from to_json: the measurements of one report, of an array of them, or of several
-/// texts one after the other. null is NaN. `source` is for messages.
-/// @throws Error(input) for what is no such JSON, and for none at all.
+/// Parses the output of to_json(): one report, an array of reports, or several such texts in
+/// sequence. null becomes NaN. `source` is for messages.
+/// @throws Error(input) if the text is not of this form or has no reports
 std::vector<Measurement> read_reports(std::string_view bytes, const std::string& source);
 
-/// A tidy table: a row for each measurement, or for each entry of its curves; nested keys are
-/// dotted, and numbers of other lists have columns KEY.0, KEY.1... (csv_table.cpp). The standard
-/// errors of a mean are columns, too: standard_error.KEY.
+/// A tidy table with one row per measurement, or per entry of its curves. Nested keys are dotted;
+/// other lists have columns KEY.0, KEY.1... (csv_table.cpp). The standard errors of a mean are
+/// columns standard_error.KEY.
 std::string to_csv(std::span<const Measurement> measurements);
 
 }  // namespace stipple

@@ -31,7 +31,7 @@ std::string formula(const std::string& scale) {
     return "grey = P / (1 + P)";
 }
 
-/// The first row of the plane that is drawn.
+/// First row of the plane to be drawn.
 std::size_t first_row(const Grid& power, const PowerPicture& picture) {
     const auto last = static_cast<std::int64_t>(power.columns / 2);
     if (power.rows <= power.columns) return 0;
@@ -40,7 +40,7 @@ std::size_t first_row(const Grid& power, const PowerPicture& picture) {
     return static_cast<std::size_t>(picture.slice + last) * power.columns;
 }
 
-/// What the pixels are, for the file's text.
+/// Describes the pixels, for the file's text chunk.
 std::string description(const Grid& power, const PowerPicture& picture, double white) {
     const auto last = static_cast<std::int64_t>(power.columns / 2);
     const bool plane = power.rows > power.columns;

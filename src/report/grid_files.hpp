@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Grids as the bytes of files.
+// Grids as NPY and PNG files.
 #pragma once
 
 #include <cstdint>
@@ -10,33 +10,32 @@
 
 namespace stipple {
 
-/// The grid as NumPy 1.0 bytes: float64, shape (rows, columns), row after row; of one row
-/// (columns), and of columns^2 rows (columns, columns, columns).
+/// The grid as NumPy 1.0 bytes: float64, shape (rows, columns), row-major. A grid with one row has
+/// shape (columns), one with columns^2 rows (columns, columns, columns).
 std::string npy_bytes(const Grid& power);
 
-/// How a power spectrum is drawn, or an image of pair differences.
+/// Style of a picture of a power spectrum or of pair differences.
 struct PowerPicture {
     std::string scale = "ratio";  ///< or "linear", "log"
     int bits = 8;                 ///< or 16
-    std::int64_t slice = 0;       ///< of a cube: the frequency f_2 of the plane
-    double differences = 0;       ///< up to so many mean distances; 0: it is a spectrum
+    std::int64_t slice = 0;       ///< plane of a cube to draw: its frequency f_2
+    double differences = 0;       ///< range in mean distances; 0: the picture is a spectrum
 };
 
-/// A picture of a power spectrum as PNG in grey, one pixel a frequency; the last row of the grid is
-/// on top, so that frequencies rise to the right and upwards. Grey is, from 0 to 1,
+/// A power spectrum as a grey PNG picture, one pixel per frequency. The last row of the grid is at
+/// the top, so frequencies increase to the right and upwards. The grey, from 0 to 1, is
 ///
 ///     ratio   P / (1 + P)
 ///     linear  P / 2, no more than 1
 ///     log     (10 log10 P + 20) / 40, from -20 dB to 20 dB
 ///
-/// White noise (P = 1) is middle grey in every picture, what a set lacks is darker, what it repeats
-/// lighter; the peaks of a lattice are white. The centre, frequency zero, is left out: black. The
-/// file's text tells the scale.
-/// @throws Error(limit) for a picture too large for PNG; Error(usage) for a slice that is not
-/// there.
+/// White noise (P = 1) is medium grey on every scale; frequencies that a set lacks are darker,
+/// those that it repeats lighter, and the peaks of a lattice white. The centre, frequency zero, is
+/// black. A text chunk in the file names the scale.
+/// @throws Error(limit) if the picture is too large for PNG; Error(usage) for a slice out of range
 std::string png_bytes(const Grid& power, const PowerPicture& picture = {});
 
-/// P / (1 + P), the shade of a power on the scale "ratio"; 1 where it is infinite.
+/// P / (1 + P), the shade of a power on the scale "ratio"; 1 if P is infinite.
 double shade_of_power(double power);
 
 }  // namespace stipple

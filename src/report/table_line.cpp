@@ -16,7 +16,7 @@ std::string json_value(const TableCell& cell) {
     return json_text(Json(text));
 }
 
-/// The fields of a line of CSV; nothing where a quote is not closed.
+/// Fields of a line of CSV; nullopt if a quote is not closed.
 std::optional<std::vector<std::string>> csv_fields(std::string_view line) {
     std::vector<std::string> fields(1);
     bool quoted = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What numbers mean: which of two is better, and what is typical (data/typical.csv).
+// Explanations of results: which of two numbers is better, and typical values (data/typical.csv).
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,8 @@
 
 namespace stipple {
 
-/// Sentences on a result: what its record says, and "lower is better; 1024 points in the plane: random
-/// 0.0392, jittered 0.0133, best 0.00386 (pmj02)"; as far as anything is known of that dimension.
+/// Sentences on a result: its description, and for the plane "lower is better; 1024 points in the
+/// plane: random 0.0392, jittered 0.0133, best 0.00386 (pmj02)", as far as known.
 std::vector<std::string> meaning_of(const Analyzer& analyzer, std::string_view key,
                                     std::size_t dimension);
 
