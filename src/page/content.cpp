@@ -49,15 +49,15 @@ constexpr std::array keys = {
     Key{"kolmogorov-smirnov.combined_p_value", "Kolmogorov–Smirnov p‑value", "Uniformity",
         Better::neither, true}};
 
-constexpr double least_probability = 1e-16;  ///< below, p-values say no more
+constexpr double least_probability = 1e-16;  ///< smaller p-values are shown as "<"
 
-/// Whether a key is that of a p-value: p_value, combined_p_upper[1]; not p_method.
+/// Whether a key names a p-value: p_value, combined_p_upper[1]; but not p_method.
 bool is_probability(std::string_view key) {
     key = key.substr(0, key.find('['));
     return key.ends_with("p_value") || key.ends_with("p_upper") || key.ends_with("p_lower");
 }
 
-/// The p-value of the tail that decided.
+/// A p-value in words.
 std::string probability(double p) {
     return p < least_probability ? "p < 1e-16" : fmt::format("p = {}", rounded(p, 2));
 }
@@ -135,7 +135,7 @@ std::span<const Key> compared_keys() { return keys; }
 
 namespace {
 
-/// The number under a path of a measure's results, if there are any.
+/// The number under a path of a measure's results, with its bounds; nullopt if there is none.
 std::optional<Known> known_in(const Report* found, std::string_view path, bool magnitude) {
     if (found == nullptr) return std::nullopt;
     const auto lower = path == "value" ? number_at(*found, "lower") : std::nullopt;
@@ -147,10 +147,10 @@ std::optional<Known> known_in(const Report* found, std::string_view path, bool m
     return Known{*known, *lower, number_at(*found, "upper").value_or(*known)};
 }
 
-/// The mean of all, with its error; of magnitudes the root of the mean square.
+/// Mean with its standard error; for magnitudes the root mean square.
 Known mean_of(const std::vector<Known>& all, bool magnitude) {
     const auto n = static_cast<double>(all.size());
-    // Sums of differences from the first: what is the same for all has no error.
+    // Sums differences from the first number, so that equal numbers give an error of exactly 0.
     const auto mean = [&](const auto& number) {
         double sum = 0;
         for (const Known& one : all) sum += number(one) - number(all[0]);
@@ -168,7 +168,7 @@ Known mean_of(const std::vector<Known>& all, bool magnitude) {
                 mean([](const Known& one) { return one.upper; }), error(value)};
     const auto square = [](const Known& one) { return one.value * one.value; };
     const double root = std::sqrt(mean(square));
-    // By the delta method: the error of the mean square over twice its root.
+    // Delta method: the error of the mean square divided by twice its root.
     return {root, root, root, root > 0 ? error(square) / (2 * root) : 0};
 }
 

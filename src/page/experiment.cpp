@@ -18,7 +18,7 @@ using plot::html_text;
 
 namespace {
 
-constexpr std::size_t most_values = 12;  ///< of a list that are written out
+constexpr std::size_t most_values = 12;  ///< limit for values of a list that are written out
 
 /// "2", "x > 1", "a, b, c"
 std::string words_of(const Json& value) {
@@ -70,7 +70,7 @@ std::string row_of(const Json& parameter) {
                        html_text(name), html_text(unit), html_text(law_of(parameter)));
 }
 
-/// Constraints and correlations, one in a line.
+/// Constraints and correlations as a list, one per item.
 std::string joined_by(const Json& file) {
     std::string items;
     const auto add = [&items](const std::string& text) {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// Named parameters as a page shows them.
+// Named parameters on a page.
 #pragma once
 
 #include <string>
 
 namespace stipple::page {
 
-/// Whether a domain, as a spec, is of named parameters, each of which may have a unit of its own.
+/// Whether a domain's spec is that of named parameters.
 bool is_experiment(const std::string& domain);
 
-/// A table of them: names, units, and which numbers or words each takes; and what holds of all of them
-/// together. Empty for other domains.
+/// Table of the parameters: names, units and possible values; followed by their constraints and
+/// correlations. Empty for other domains.
 std::string parameter_table(const std::string& domain);
 
 }  // namespace stipple::page

@@ -38,7 +38,7 @@ constexpr Theme with_sets(Theme theme, std::span<const Colour> colours) {
 constexpr Theme light_page = with_sets(light_theme, light_sets);
 constexpr Theme dark_page = with_sets(dark_theme, dark_sets);
 
-/// Labels that explain the boxes, each with a switch; projections of them are hidden at first.
+/// Legend of the boxes, with a checkbox for each; projected boxes are hidden initially.
 std::string box_legend(const std::vector<MarkedBox>& boxes, bool projections) {
     if (boxes.empty()) return {};
     std::string out = "<ul class=\"boxes\">\n";
@@ -51,13 +51,13 @@ std::string box_legend(const std::vector<MarkedBox>& boxes, bool projections) {
     return out + "</ul>\n";
 }
 
-/// What is drawn in the colours of a light page and of a dark one; the label describes it.
+/// Draws once in light and once in dark colours. @param label description of the picture
 template <class Draw>
 std::string themed(const Draw& draw, const std::string& label) {
     return svg_element(draw(light_page), draw(dark_page), label);
 }
 
-/// What a drawing function draws of the points.
+/// The drawing of a set's points, with its boxes. @param number selects the colour
 template <class Draw>
 std::string figure_of(const Set& set, const PointSet& points, std::size_t number, const char* where,
                       const Draw& draw) {
@@ -82,7 +82,7 @@ std::string figure(const std::string& kind, const std::string& body, const std::
                        body, caption);
 }
 
-/// A drawing of the points with the worst boxes and their legend.
+/// The drawing of the points with the legend of the worst boxes.
 std::string boxes_figure(const char* kind, const std::string& drawing, const Set& set,
                          std::string caption, bool projections) {
     const auto boxes = worst_boxes(set);
@@ -94,7 +94,7 @@ std::string boxes_figure(const char* kind, const std::string& drawing, const Set
     return figure(kind, drawing + box_legend(boxes, projections), caption + ".");
 }
 
-/// Side of the blocks, odd, of which no more than `most` stand side by side.
+/// Odd side of the blocks, so that at most `most` blocks are next to each other.
 std::size_t block_side(std::size_t rows, std::size_t most) {
     std::size_t block = 1;
     while ((rows + block - 1) / block > most) block += 2;
@@ -106,17 +106,17 @@ std::size_t block_side(std::size_t rows, std::size_t most) {
 constexpr double chart_width = 640;
 constexpr double chart_height = 300;
 
-/// Numbers as short as eyes need them.
+/// Numbers rounded to the precision that a chart shows.
 Json short_numbers(const std::vector<double>& values) {
     Json list = Json::array();
     for (const double v : values) {
-        const auto number = parse_number(fmt::format("{:.4g}", v));  // none: it is not finite
+        const auto number = parse_number(fmt::format("{:.4g}", v));  // unset if not finite
         list.push_back(number ? Json(*number) : Json());
     }
     return list;
 }
 
-/// What the page's script needs to show values under the pointer.
+/// Data for the page's script, which shows values under the pointer.
 std::string numbers_of(std::span<const Set> sets, const Chart& chart, const Area& frame) {
     const ChartPanel& panel = chart.panels.front();
     const Axis x = chart_axes(chart, 0, {}).first;
@@ -141,7 +141,7 @@ std::string numbers_of(std::span<const Set> sets, const Chart& chart, const Area
     return text;
 }
 
-/// The first panel of the chart of a measure of these sets, as far as they have the curve.
+/// Chart of a measure of the given sets, omitting sets without the curve; only its first panel.
 std::string chart_figure(std::span<const Set> sets, std::span<const std::size_t> which,
                          const char* measure, const char* curve, const std::string& what,
                          const std::string& caption) {
@@ -244,7 +244,7 @@ std::vector<std::string> point_figures(const PointSet& points, const Set& set, s
 Grid in_blocks(const Grid& grid, std::size_t most) {
     const std::size_t block = block_side(grid.rows, most);
     if (block == 1) return grid;
-    // The centre stays the centre of its block; incomplete blocks at the edge are left out.
+    // The centre remains the centre of its block; incomplete blocks at the edge are omitted.
     const std::size_t half = (grid.rows / 2 - block / 2) / block;
     const std::size_t first = grid.rows / 2 - block / 2 - half * block;
     const std::size_t side = 2 * half + 1;
@@ -264,7 +264,8 @@ std::string spectrum_figure(const Set& set) {
     const auto* grid = std::get_if<Grid>(found->find("grid"));
     if (grid == nullptr || grid->rows != grid->columns || grid->rows % 2 == 0) return {};
     Grid centred = *grid;
-    centred.values[centred.values.size() / 2] = 0;  // frequency zero, n, would outshine its block
+    centred.values[centred.values.size() / 2] = 0;  // frequency zero has the power n, which would
+                                                    // dominate its block
     const Grid small = in_blocks(centred, most_pixels);
     const std::size_t block = block_side(grid->rows, most_pixels);
     const TableNames names{

@@ -22,7 +22,7 @@ using plot::html_text;
 
 namespace {
 
-/// A name, which may be parted behind its signs, but within no word.
+/// A name that may be wrapped after punctuation, but not within a word.
 std::string name_of(const std::string& name) {
     std::string out;
     std::string part;
@@ -35,7 +35,7 @@ std::string name_of(const std::string& name) {
     return out + html_text(part);
 }
 
-/// The mark of a set's colour.
+/// A mark in the set's colour.
 std::string swatch(std::size_t set) {
     return fmt::format("<span class=\"swatch\" style=\"--c:var(--c{})\"></span>", set);
 }
@@ -72,7 +72,7 @@ std::string facts_of(const Set& set) {
 
 // -------------------------------------------------------------------- comparison
 
-/// What the page's script compares domains by.
+/// Identifies a domain for the page's script, which compares them.
 std::string mark_of_domain(const std::string& spec) {
     return is_experiment(spec) ? "parameters " + format_fingerprint(fingerprint(spec)) : spec;
 }
@@ -88,13 +88,13 @@ std::string comparison_head(std::span<const Set> sets) {
     return out + "</tr></thead>\n";
 }
 
-/// The cell of a set in a row; `more` are words of its class and other attributes.
+/// The cell of a set in a row. @param kind further classes @param more further attributes
 std::string cell(std::size_t set, std::string_view text, const char* kind = "",
                  const std::string& more = {}) {
     return fmt::format("<td class=\"number{}\" data-set=\"{}\"{}>{}</td>", kind, set, more, text);
 }
 
-/// A number as JavaScript reads it.
+/// A number in JavaScript syntax.
 std::string script_number(double value) {
     if (std::isinf(value)) return value > 0 ? "Infinity" : "-Infinity";
     return format_number(value);
@@ -132,14 +132,14 @@ std::string arrow_of(Better better) {
     return {};
 }
 
-/// What the page's script marks a row's best by.
+/// Attributes from which the page's script marks the best of a row.
 std::string rule_of(const Key& key) {
     if (key.better == Better::neither) return {};
     return fmt::format(" data-better=\"{}\"{}", key.better == Better::lower ? "lower" : "higher",
                        key.any_count ? " data-any-count" : "");
 }
 
-/// A title that says what a result means; nothing where nobody knows.
+/// A title attribute that explains a result; empty if there is no explanation.
 std::string explained(std::string_view analyzer, std::string_view key, std::size_t dimension) {
     const auto sentences = meaning_of(find_analyzer(analyzer), key, dimension);
     if (sentences.empty()) return {};
@@ -160,7 +160,7 @@ std::string comparison_of(std::span<const Set> sets) {
     out +=
         "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"comparison\"><table>\n" +
         comparison_head(sets) + "<tbody>\n" + size_row(sets);
-    // A mean of p-values is none.
+    // p-values cannot be averaged.
     const bool several =
         std::ranges::any_of(sets, [](const Set& set) { return !set.replications.empty(); });
     const std::string of_first = several ? " (first seed)" : "";
@@ -199,7 +199,7 @@ std::string comparison_of(std::span<const Set> sets) {
 
 // -------------------------------------------------------------------- one set
 
-constexpr std::size_t most_listed = 8;  ///< numbers of a list that a table shows
+constexpr std::size_t most_listed = 8;  ///< limit for numbers of a list in a table
 
 std::string row_of(const std::string& analyzer, const std::string& key, const Report& results,
                    std::size_t dimension) {
@@ -311,7 +311,7 @@ std::string navigation(std::span<const Set> sets) {
     return out + "</nav>\n";
 }
 
-/// The colours of the sets, and what the boxes of the navigation hide.
+/// CSS for the colours of the sets, and for hiding sets with the navigation's checkboxes.
 std::string rules_of_sets(std::size_t sets) {
     std::string out;
     for (std::size_t i = 0; i < sets; ++i) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// A report as one page of HTML that needs nothing else: no network, no fonts, no scripts but its
-// own. And the same content as JSON.
+// A report as one self-contained HTML page: no network access, no fonts, no external scripts. Also
+// the same content as JSON.
 //
-// Promise  the same content gives the same bytes; nothing of it depends on the time or the place.
+// Promise  the same content gives the same bytes, regardless of time and machine.
 #pragma once
 
 #include <string>
@@ -14,11 +14,11 @@ namespace stipple::page {
 
 std::string to_html(const Page& page);
 
-/// {"format": "stipple.comparison", "version": 1, "sets": [...], "comparison": [...]}; numbers that
-/// JSON cannot hold become null.
+/// {"format": "stipple.comparison", "version": 1, "sets": [...], "comparison": [...]}; infinities
+/// and NaN become null.
 std::string to_json(const Page& page);
 
-/// page.css and page.js.
+/// The text of page.css and page.js.
 const char* style_sheet();
 const char* script();
 

@@ -9,7 +9,7 @@
 namespace stipple::page {
 namespace {
 
-/// Results and options as `stipple analyze` prints them.
+/// Options and results in the format of `stipple analyze`.
 Json json_of(const Measure& measure) {
     Json object = {{"name", measure.name},
                    {"analyzer", measure.analyzer},

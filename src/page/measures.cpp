@@ -22,11 +22,11 @@ struct Planned {
     const char* name;
     const char* title;
     const char* analyzer;
-    const char* kind = "";  ///< of star-discrepancy
-    bool searches = false;  ///< takes a limit of work
-    bool prefixes = false;  ///< measures prefixes
+    const char* kind = "";  ///< option kind of star-discrepancy
+    bool searches = false;  ///< takes a work limit
+    bool prefixes = false;  ///< measures prefixes of the set
     const char* integrands = "";
-    bool distances = false;  ///< between points
+    bool distances = false;  ///< uses distances between points
 };
 
 constexpr std::array plans = {
@@ -46,8 +46,9 @@ constexpr std::array plans = {
     Planned{"chi-square", "χ² test", "chi-square"},
     Planned{"kolmogorov-smirnov", "Kolmogorov–Smirnov test", "kolmogorov-smirnov"}};
 
-/// Sums over all pairs take n² d steps, but for the plane, where there are faster ways; so do
-/// neighbours where trees do not help any more. A comparison of the limit may stand for some steps.
+/// Limits sums over all pairs, which take n² d steps except in the plane, where faster methods
+/// exist; likewise neighbour searches in dimensions where trees do not help. One comparison of the
+/// limit counts for several steps.
 /// @throws Error(limit)
 void need_few_pairs(const Planned& plan, const PointSet& points, std::int64_t work) {
     const std::string_view analyzer = plan.analyzer;
@@ -63,21 +64,21 @@ void need_few_pairs(const Planned& plan, const PointSet& points, std::int64_t wo
          points.count(), points.dimension(), plan.analyzer);
 }
 
-/// Comparisons of a search for a worst box. Beyond some points one for extreme and periodic boxes
-/// ends in the bounds of its beginning, however long it takes.
+/// Work limit of a search for a worst box, in comparisons. For many points the search for extreme
+/// and periodic boxes ends with its initial bounds anyway, so it gets less.
 std::int64_t work_for(const Planned& plan, std::size_t count, std::int64_t work) {
     constexpr std::size_t many = 50'000;
     return *plan.kind != '\0' && count > many ? std::max<std::int64_t>(1, work / 8) : work;
 }
 
-/// 16, 32, 64, ..., and all.
+/// 16, 32, 64, ..., count.
 std::string prefixes_of(std::size_t count) {
     std::string text;
     for (std::size_t n = 16; n < count; n *= 2) text += fmt::format("{},", n);
     return text + std::to_string(count);
 }
 
-/// Curves of prefixes are for sequences, and where every point is found at once.
+/// Prefixes are measured only for sequences, and only for sizes where the search is exact and fast.
 /// @throws Error(limit), Error(input)
 void need_prefixes(const PointSet& points) {
     constexpr std::size_t fewest = 32;
@@ -105,7 +106,7 @@ Measure described(const Planned& plan, const PointSet& points, const Input& inpu
     return measure;
 }
 
-/// A set mapped to the unit cube, where its domain is a box.
+/// A set mapped to the unit cube; empty unless its domain is a box.
 struct Cubed {
     std::optional<PointSet> points;
     std::string bounds;
@@ -163,7 +164,7 @@ Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube,
 std::vector<Measure> measure_set(const PointSet& points, const Input& input, std::int64_t work,
                                  const RunContext& run) {
     RunContext mute = run;
-    mute.warn = {};  // bounds say so in the page
+    mute.warn = {};  // the page shows bounds itself
     const Cubed cube = cubed(points, input);
     std::vector<Measure> all;
     for (std::size_t i = 0; i < plans.size(); ++i) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// What a report page measures of every set: by which analyzers, with how much work.
+// Measures of a report page: which analyzers it applies to every set, and with how much work.
 //
-// Promise  results depend on the points and on the work alone: searches that could take long end
-//          after so many comparisons, not by the clock.
+// Promise  results depend only on the points and the work limit: long searches end after a number
+//          of comparisons, not by time.
 #pragma once
 
 #include <cstdint>
@@ -17,33 +17,33 @@
 
 namespace stipple::page {
 
-/// Comparisons of each search for a worst box, where nobody says how many.
+/// Default limit of comparisons in each search for a worst box.
 inline constexpr std::int64_t usual_work = 1'000'000'000;
 
-/// How the points of a set are named to `stipple analyze`: what stands behind the analyzer.
+/// Arguments by which `stipple analyze` reads the points of a set.
 struct Input {
-    /// "points.csv --domain disk", "--generate halton -n 64"; empty: no command has them
+    /// "points.csv --domain disk", "--generate halton -n 64"; empty: no command can read them
     std::string words;
-    bool bounds = false;      ///< takes --bounds behind them
-    std::string remark = {};  ///< " # the third of its results"; else empty
+    bool bounds = false;      ///< --bounds can be appended
+    std::string remark = {};  ///< " # the third of its results"; usually empty
 };
 
-/// All measures, in the order of the page. What an analyzer does not take is left out with its
-/// reason; so is what would compare more pairs of points than `work` allows.
+/// Results of all measures, in the order of the page. Measures that do not accept the points, or
+/// would compare more pairs than `work` allows, have a reason instead of results.
 /// @throws Error(cancelled), Error(io)
 std::vector<Measure> measure_set(const PointSet& points, const Input& input, std::int64_t work,
                                  const RunContext& run);
 
-/// The set with its size, all measures and, for a page, its pictures; its grids are in these, and
-/// left out. `number` picks its colour.
+/// Completes a set with its size, all measures and, if requested, pictures. Grids are removed from
+/// the results, since the pictures show them. `number` selects the colour.
 /// @throws Error(cancelled), Error(io)
 Set finished_set(Set set, const PointSet& points, const Input& input, std::int64_t work,
                  std::size_t number, bool with_pictures, const RunContext& run);
 
-/// Names of all measures, as their keys begin.
+/// Names of all measures, the first parts of their keys.
 std::vector<std::string> measure_names();
 
-/// The analyzer of the measure of that name; nullptr if there is none.
+/// The analyzer of a measure; nullptr if there is no such measure.
 const Analyzer* analyzer_of(std::string_view measure);
 
 }  // namespace stipple::page
