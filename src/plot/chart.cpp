@@ -17,10 +17,10 @@ constexpr double panel_gap = 12;
 constexpr double legend_row = 19;
 constexpr double legend_size = 12;
 constexpr double swatch = 22;
-constexpr std::size_t most_entries = 12;  ///< of a legend
-constexpr double least_panels = 60;       ///< units that panels share
+constexpr std::size_t most_entries = 12;  ///< limit for a legend
+constexpr double least_panels = 60;       ///< smallest total height of the panels, in units
 
-/// Smallest and largest of what an axis has to show.
+/// Range of the values that an axis has to show.
 struct Span {
     bool log = false;
     double low = std::numeric_limits<double>::infinity();
@@ -42,7 +42,7 @@ bool marked(std::span<const ChartPanel> panels) {
     });
 }
 
-/// Room for what would lie on the ends, a share of the axis at each.
+/// Extends an axis at each end by a fraction of its length, so that nothing lies on the ends.
 void widen(Axis& axis, double share, bool keep_low = false) {
     if (axis.log) {
         const double more = std::exp(share * (std::log(axis.high) - std::log(axis.low)));
@@ -55,7 +55,7 @@ void widen(Axis& axis, double share, bool keep_low = false) {
     axis.high += more;
 }
 
-/// Whether all curves have values at powers of two alone, two or more.
+/// Whether all curves have values only at powers of two, and at two or more of them.
 bool only_powers_of_two(std::span<const ChartPanel> panels) {
     double low = HUGE_VAL;
     double high = 0;
@@ -90,16 +90,16 @@ Axis x_axis(std::span<const ChartPanel> panels, const PictureStyle& style) {
               .binary = span.log && only_powers_of_two(panels),
               .whole = last.whole_x,
               .name = last.x_name};
-    // What begins next to zero begins there.
+    // An axis that would begin close to zero begins at zero.
     const bool near_zero = !span.log && span.low > 0 && span.low < 0.04 * span.high;
     if (near_zero) axis.low = 0;
-    constexpr double share = 0.02;  // more than a mark takes
+    constexpr double share = 0.02;  // more than the size of a mark
     if (!style.tight && marked(panels) && span.low < span.high)
         widen(axis, share, near_zero && span.low > share * span.high);
     return axis;
 }
 
-/// Whether the y axis is logarithmic: as asked, but where there are numbers below 0, as of
+/// Whether the y axis is logarithmic: as requested, unless there are negative numbers, such as
 /// decibels.
 bool log_upward(const ChartPanel& panel, const PictureStyle& style) {
     const bool below = std::ranges::any_of(panel.series, [](const Series& series) {
@@ -127,7 +127,7 @@ Axis y_axis(const ChartPanel& panel, const PictureStyle& style) {
         }
     if (panel.from_zero && !span.log) span.take(0);
     if (!span.log) span.take(panel.reach_y);
-    constexpr int digits = 7;  // results that differ less do so by rounding
+    constexpr int digits = 7;  // smaller differences are due to rounding
     Axis axis{.low = span.low, .high = span.high, .log = span.log, .name = panel.y_name};
     axis.make_valid(digits);
     if (axis.log) axis.low = std::max(axis.low, panel.least_y > 0 ? panel.least_y : 0);
@@ -144,7 +144,7 @@ Dash dash_of(std::size_t series, const Theme& theme) {
     return turn == 0 ? Dash::none : turn == 1 ? Dash::dashed : Dash::dotted;
 }
 
-/// Which of the theme's colours a curve has.
+/// Index of a curve's colour in the theme.
 std::size_t colour_of(const ChartPanel& panel, std::size_t series) {
     return panel.series[series].set.value_or(series);
 }
@@ -186,8 +186,8 @@ std::vector<LegendEntry> legend_of(const Chart& chart, std::size_t number, const
     return entries;
 }
 
-/// Positions too close to be distinguished are left out: of each column of half a
-/// unit the first, the lowest, the highest and the last remain.
+/// Drops positions too close to be distinguished: in each column of half a unit, keeps the first,
+/// lowest, highest and last.
 std::vector<Position> thinned(const std::vector<Position>& vertices) {
     if (vertices.size() < 4000) return vertices;
     std::vector<Position> out;
@@ -207,7 +207,7 @@ std::vector<Position> thinned(const std::vector<Position>& vertices) {
     return out;
 }
 
-/// Pieces of a curve between its gaps.
+/// Splits a curve at its gaps.
 std::vector<std::vector<Position>> pieces(const Panel& panel, const std::vector<double>& x,
                                           const std::vector<double>& y) {
     std::vector<std::vector<Position>> found(1);
@@ -248,7 +248,7 @@ void draw_guide(Drawing& drawing, const Panel& panel, const Guide& guide, Colour
     drawing.add(std::move(line));
 }
 
-/// The bars' outline, where several histograms lie over each other.
+/// Draws only the outline of the bars, if several histograms overlap.
 void draw_steps(Drawing& drawing, const Panel& panel, const Bars& bars, Colour colour) {
     const double base = panel.frame().bottom();
     Line outline{.vertices = {{panel.x(bars.edges[0]), base}}, .colour = colour, .width = 1.6};
@@ -266,7 +266,7 @@ void draw_bars(Drawing& drawing, const Panel& panel, const Bars& bars, Colour co
     for (std::size_t i = 0; i < bars.heights.size(); ++i) {
         const double left = panel.x(bars.edges[i]);
         const double right = panel.x(bars.edges[i + 1]);
-        // A thin gap between bars that are wide enough for it.
+        // A thin gap between bars that are wide enough.
         const double space = right - left > 4 ? 0.5 : 0;
         const double top = panel.y(bars.heights[i]);
         if (!(top < base)) continue;
@@ -287,7 +287,7 @@ void draw_series(Drawing& drawing, const Panel& panel, const Series& series, Col
     }
 }
 
-/// The bars of one series of several in each category, and its intervals over them.
+/// Draws one of several series as bars, side by side in each category, with intervals over them.
 void draw_columns(Drawing& drawing, const Panel& panel, const ChartPanel& content, std::size_t i,
                   const Theme& theme) {
     const Series& series = content.series[i];
@@ -321,7 +321,7 @@ void draw_rug(Drawing& drawing, const Panel& panel, const std::vector<double>& v
     }
 }
 
-/// Draws all curves, each in the group of its set.
+/// Draws all curves, each in the SVG group of its set.
 template <class Draw>
 void for_each_series(Drawing& drawing, const ChartPanel& content, const Draw& draw) {
     for (std::size_t i = 0; i < content.series.size(); ++i) {
@@ -364,7 +364,7 @@ void draw_panel(Drawing& drawing, const ChartPanel& content, const Panel& panel,
     panel.draw_axes(drawing, theme, false);
 }
 
-/// An entry of a legend: where it is, left to right in rows, and its name in lines.
+/// Position of a legend's entry, left to right in rows, and its name divided into lines.
 struct LegendPlace {
     Position at;
     std::vector<std::string> lines;
@@ -373,7 +373,7 @@ struct LegendPlace {
 };
 
 std::vector<LegendPlace> legend_places(const std::vector<LegendEntry>& entries, double width) {
-    constexpr double wider = 1.12;  // letters of the fonts that stand in for Helvetica
+    constexpr double wider = 1.12;  // for fonts that replace Helvetica
     std::vector<LegendPlace> places;
     double x = 0;
     double y = 0;
@@ -420,7 +420,7 @@ std::vector<Guide> falling_guides(const Series& series) {
     if (first == series.y.end() || series.x.size() < 3) return {};
     const double n = series.x[static_cast<std::size_t>(first - series.y.begin())];
     if (!(n > 0)) return {};
-    constexpr double aside = 1.5;  // so that they do not lie on the curve
+    constexpr double aside = 1.5;  // so that they do not overlap the curve
     std::vector<Guide> guides;
     for (const double power : {0.5, 1.0}) {
         Guide guide{.name = guides.empty() ? "falling as 1/√n and as 1/n" : ""};
@@ -470,7 +470,7 @@ void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Posi
 SquareDrawing square_drawing(TitledDrawing titled, const std::vector<LegendEntry>& legend,
                              const Axis& x, const Axis& y, bool bar, const PictureStyle& style) {
     constexpr double least = 60;
-    constexpr double above = 14;  // with the name of the bar
+    constexpr double above = 14;  // height for the bar's name
     Drawing& drawing = titled.drawing;
     double top = titled.top;
     const double whole_width = drawing.width - 2 * picture_margin;
@@ -503,7 +503,7 @@ TitledDrawing titled_drawing(const std::string& title, const std::string& subtit
     double y = picture_margin;
     const double width = drawing.width - 2 * picture_margin;
     const auto put = [&](const std::string& text, double size, bool bold, Colour colour) {
-        // Bold letters are a little wider.
+        // Bold letters are slightly wider.
         for (const std::string& line : wrapped(text, bold ? 1.08 * size : size, width)) {
             drawing.add(Label{.text = line,
                               .at = {picture_margin, y + 0.8 * size},
@@ -538,19 +538,19 @@ void require_height(const PictureStyle& style, double needed) {
 
 namespace {
 
-/// Where the panels of a chart are.
+/// Positions and sizes of a chart's panels.
 struct Layout {
     double left = 0;
     double width = 0;
-    double unit = 0;  ///< height of a panel whose share is 1
+    double unit = 0;  ///< height of a panel with share 1
     double gap = 0;   ///< between panels
     double below = 0;
-    double needed = 0;  ///< height without the panels
+    double needed = 0;  ///< height of everything except the panels
     double height = 0;
 };
 
-/// The layout of a drawing of that width, of whose height `used` is taken. Names take rows beside and
-/// below panels by how long these are, which leaves less for them.
+/// Layout for a drawing of this width, if `used` is the height already taken. Iterates, since long
+/// names are wrapped into rows beside and below the panels, which leaves less space for these.
 Layout layout_of(const Chart& chart, const PictureStyle& style, double width, double used) {
     constexpr double least = 40;  // width of a panel
     constexpr double first_panel = 305;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Charts of curves: panels one above the other, mostly over the same x axis, with a legend above each.
+// Charts of curves: panels one above the other, usually with a common x axis, each with its legend
+// above.
 #pragma once
 
 #include <limits>
@@ -13,44 +14,45 @@
 
 namespace stipple::plot {
 
-/// Space between a picture's edge and what is drawn, in units of a drawing.
+/// Space between a picture's edge and its content, in drawing units.
 constexpr double picture_margin = 14;
 
-/// How a picture looks. Sizes in units of a drawing; 0: automatic. What has lengths along both axes
-/// alike may need less height.
+/// Style of a picture. Sizes are in drawing units; 0: automatic. Pictures with equal scales on both
+/// axes may use less height.
 struct PictureStyle {
     const Theme* theme = &light_theme;
     double width = 0;
     double height = 0;
-    double scale = 1;                       ///< pixels in a unit
-    double rows = 1;                        ///< of such pictures in the height that was asked for
+    double scale = 1;  ///< pixels per unit
+    double rows = 1;   ///< pictures of this kind that share the requested height
     std::optional<std::string> title = {};  ///< instead of the picture's own
     std::optional<bool> log_x = {};
     std::optional<bool> log_y = {};
-    bool tight = false;  ///< charts' axes end with what they show
+    bool tight = false;  ///< axes of charts end exactly at the data
 };
 
-/// One curve, or the bars of a histogram. Not finite values are gaps.
+/// A curve, or the bars of one category chart. Values that are not finite are gaps.
 struct Series {
     std::string name;
     std::vector<double> x = {};
     std::vector<double> y = {};
-    std::vector<double> low = {};  ///< a band around it; empty: none
+    std::vector<double> low = {};  ///< lower limit of a band around the curve; empty: no band
     std::vector<double> high = {};
-    bool marks = false;                   ///< a disk at each value
-    std::size_t measurement = 0;          ///< that it is of, where it is of one
-    std::optional<std::size_t> set = {};  ///< gives its colour, and its group in a page
+    bool marks = false;                   ///< draws a disk at each value
+    std::size_t measurement = 0;          ///< index of the measurement that it shows, if any
+    std::optional<std::size_t> set = {};  ///< index of the set, which selects the colour and the
+                                          ///< group in a page
 };
 
-/// A line to compare with.
+/// A reference line.
 struct Guide {
     std::string name = {};
-    std::vector<double> x = {};  ///< empty: across the panel, at y[0]
+    std::vector<double> x = {};  ///< empty: a horizontal line at y[0]
     std::vector<double> y = {};
-    bool reached = false;  ///< the axis goes as far, whatever the curves do
+    bool reached = false;  ///< the axis always includes it
 };
 
-/// Bars of a histogram: edges are one more than heights.
+/// Bars of a histogram; there is one more edge than heights.
 struct Bars {
     std::string name = {};
     std::vector<double> edges = {};
@@ -61,21 +63,22 @@ struct ChartPanel {
     std::string x_name;
     std::string y_name;
     std::vector<Series> series = {};
-    std::vector<Series> bands = {};  ///< behind the curves: what chance allows, low and high alone
+    std::vector<Series> bands = {};  ///< behind the curves: range of random variation; only low and
+                                     ///< high
     std::vector<Guide> guides = {};
     std::vector<Bars> bars = {};
-    /// Names along the x axis, at 1, 2, ...: the series are bars side by side there, from 0 on, each
-    /// with an interval from low to high.
+    /// Names along the x axis, at 1, 2, ...; if set, the series are drawn there as bars from 0,
+    /// side by side, each with an interval from low to high.
     std::vector<std::string> categories = {};
-    std::vector<double> rug = {};  ///< marks below, one for each value
+    std::vector<double> rug = {};  ///< marks at the bottom, one per value
     bool log_x = false;
     bool log_y = false;
     bool whole_x = false;
-    bool from_zero = false;  ///< the y axis starts there
+    bool from_zero = false;  ///< the y axis starts at 0
     double reach_y =
-        -std::numeric_limits<double>::infinity();  ///< a linear y axis goes up to it at least
-    double least_y = -std::numeric_limits<double>::infinity();  ///< the axis shows no less
-    double share = 1;  ///< of the height, relative to the other panels'
+        -std::numeric_limits<double>::infinity();  ///< a linear y axis includes at least this value
+    double least_y = -std::numeric_limits<double>::infinity();  ///< lower limit of the axis
+    double share = 1;  ///< fraction of the height, relative to other panels
 };
 
 struct Chart {
@@ -85,32 +88,32 @@ struct Chart {
     bool own_x = false;  ///< each panel has its own x axis
 };
 
-/// Whether the names of a panel's curves are not those of the panel above.
+/// Whether a panel's curves have other names than those of the panel above.
 bool needs_legend(const Chart& chart, std::size_t panel);
 
-/// Where the bar of a series begins and ends along x, in the category at x.
+/// Left and right end of a series' bar along x, in the category at x.
 std::pair<double, double> bar_edges(const ChartPanel& panel, std::size_t series, double x);
 
-/// @throws Error(usage) where the height asked for is less than what a picture needs
+/// @throws Error(usage) if the requested height is less than the picture needs
 void require_height(const PictureStyle& style, double needed);
 
-/// @param frames if not null, gets where the panels are
-/// @throws Error(usage) where the height asked for leaves no room.
+/// @param frames if not null, receives the positions of the panels
+/// @throws Error(usage) if the requested height is too small
 Drawing draw_chart(const Chart& chart, const PictureStyle& style,
                    std::vector<Area>* frames = nullptr);
 
-/// The axes of a panel, as they are drawn.
+/// The axes of a panel as drawn.
 std::pair<Axis, Axis> chart_axes(const Chart& chart, std::size_t panel, const PictureStyle& style);
 
-/// A drawing with its title lines at the top left.
+/// A drawing with title lines at the top left.
 struct TitledDrawing {
     Drawing drawing;
-    double top = 0;  ///< height that they take
+    double top = 0;  ///< height of the title lines
 };
 TitledDrawing titled_drawing(const std::string& title, const std::string& subtitle,
                              const PictureStyle& style, double usual_width);
 
-/// What a legend explains.
+/// An entry of a legend.
 struct LegendEntry {
     enum class Kind { line, box, disk };
     Kind kind = Kind::line;
@@ -120,8 +123,8 @@ struct LegendEntry {
     double width = 2;  ///< of a line
 };
 
-/// A drawing with titles and a legend, row by row, above a square, which has room for its axes and,
-/// beside it, a bar of colours.
+/// A drawing with titles and a legend above a square, with space for axes and, optionally, a colour
+/// bar.
 struct SquareDrawing {
     Drawing drawing;
     Area frame;  ///< the square
@@ -129,23 +132,24 @@ struct SquareDrawing {
 SquareDrawing square_drawing(TitledDrawing titled, const std::vector<LegendEntry>& legend,
                              const Axis& x, const Axis& y, bool bar, const PictureStyle& style);
 
-/// Where the bar of colours stands beside the square.
+/// Position of the colour bar beside the square.
 inline Area bar_beside(const Area& frame) {
     return {frame.right() + 14, frame.top, 14, frame.height};
 }
 
-/// A result's name as an axis has it: "radial power" of "radial.power".
+/// A result's name on an axis: "radial power" for "radial.power".
 std::string words_of(std::string name);
 
-/// Lines through the first value of a curve above 0 that fall as n^(-1/2) and n^(-1).
+/// Guides through the curve's first positive value that decrease as n^(-1/2) and n^(-1).
 std::vector<Guide> falling_guides(const Series& series);
 
-/// Height of a legend in rows as wide as `width`.
+/// Height of a legend wrapped to `width`.
 double legend_height(const std::vector<LegendEntry>& entries, double width);
 void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Position top_left,
                  double width, const Theme& theme);
 
-/// A histogram in so many bins of one width, over [low, high]; heights are shares over the width.
+/// Histogram with `bins` equal bins over [low, high]; heights are fractions divided by the bin
+/// width.
 Bars histogram_of(const std::vector<double>& values, double low, double high, std::size_t bins);
 
 }  // namespace stipple::plot

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Histogram of the distances from each point to its nearest other one, with the density that
-// independent uniform points have:
+// Histogram of the distances from each point to its nearest neighbour, with the density for
+// independent uniform points:
 //
 //     p(r) = d v_d rho r^(d-1) exp(-rho v_d r^d)
 //
@@ -31,8 +31,8 @@ std::vector<double> nearest_distances(const PointSet& set, bool& torus, const Ru
     return found;
 }
 
-/// The density of independent uniform points' distances; none where most of them reach across the
-/// domain's box.
+/// Density of the distances for independent uniform points. Empty if typical distances exceed half
+/// the side of the domain's box.
 Guide random_distances(const PointSet& set, double largest) {
     const double volume = set.domain->measure();
     if (without_domain(set) || !std::isfinite(volume) || !(volume > 0)) return {};

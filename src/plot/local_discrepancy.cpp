@@ -19,11 +19,11 @@ double middle_of_cell(std::size_t cell, std::size_t cells) {
     return (static_cast<double>(cell) + 0.5) / static_cast<double>(cells);
 }
 
-/// The first cell whose middle is above x; `cells` where there is none.
+/// The first cell whose middle is above x; `cells` if there is none.
 std::size_t first_cell_above(double x, std::size_t cells) {
     const auto all = static_cast<double>(cells);
     auto cell = static_cast<std::size_t>(std::min(std::floor(x * all + 0.5), all));
-    // The product is rounded, and so are the middles.
+    // Corrects for rounding of the product and of the middles.
     while (cell > 0 && x < middle_of_cell(cell - 1, cells)) --cell;
     while (cell < cells && !(x < middle_of_cell(cell, cells))) ++cell;
     return cell;
@@ -35,13 +35,14 @@ std::optional<AnchoredBox> box_of(const discrepancy::WorstBox& worst, double sig
     return AnchoredBox{.corner = {corner[0], corner[1]}, .value = sign * worst.value()};
 }
 
-/// Blue for too few points, orange for too many: hues that colour-blind readers tell apart.
+/// Blue for too few points, orange for too many, which colour-blind readers can distinguish.
 Colour colour_of_discrepancy(double share, const Theme& theme) {
     const double size = std::min(std::abs(share), 1.0);
     return mixed(theme.background, theme.series_colour(share < 0 ? 0 : 1), size);
 }
 
-/// Pixels from one place to another in a picture of so many a unit, as png_bytes_of() rounds them.
+/// Number of pixels between two positions, rounded as in png_bytes_of(). @param resolution pixels
+/// per unit
 std::size_t pixels_between(double from, double to, double resolution) {
     constexpr double most = 2048;
     const double pixels = std::round(to * resolution) - std::round(from * resolution);
@@ -59,9 +60,9 @@ PixelImage image_of_discrepancy(const Grid& grid, const Area& area, double large
     return image;
 }
 
-/// Small disks; none where they would cover much of the image.
+/// Draws points as small disks, unless they would cover much of the image.
 void draw_dots(Drawing& drawing, const PointSet& points, const Panel& panel, const Theme& theme) {
-    constexpr double least = 4;  // between neighbours on a grid
+    constexpr double least = 4;  // minimum distance, as if points were on a grid
     const double apart = panel.frame().width / std::sqrt(static_cast<double>(points.count()));
     if (apart < least) return;
     Disks dots{.radius = std::clamp(0.05 * apart, 0.6, 2.0), .colour = theme.ink};
@@ -88,7 +89,7 @@ void draw_box(Drawing& drawing, const std::optional<AnchoredBox>& box, const Pan
                      .dash = dash});
 }
 
-/// The bar of colours, with words at its ends that say what they mean.
+/// Draws the colour bar, with the meaning of its ends.
 void draw_bar_of_discrepancy(Drawing& drawing, const Area& frame, double largest,
                              const Theme& theme) {
     const Area bar = bar_beside(frame);
@@ -102,7 +103,7 @@ void draw_bar_of_discrepancy(Drawing& drawing, const Area& frame, double largest
     const auto put_below = [&](const std::string& text, double down) {
         drawing.add(
             Label{.text = text,
-                  .at = {bar.left + 4, bar.bottom() + down},  // beside the axis's last number
+                  .at = {bar.left + 4, bar.bottom() + down},  // beside the last number of the axis
                   .size = number_size,
                   .colour = theme.ink});
     };

@@ -19,7 +19,7 @@
 namespace stipple::plot {
 namespace {
 
-/// The words that the numbers 0, 1, ... of a coordinate stand for; nullptr if for none.
+/// Level names of a coordinate; nullptr if it is numeric.
 const std::vector<std::string>* words_in(const PointSet& set, std::size_t k) {
     const std::string name = coordinate_names(set.dimension(), set.provenance)[k];
     for (const auto& [column, words] : set.provenance.levels)
@@ -33,13 +33,13 @@ std::size_t points_of(const PointsPicture& picture) {
     return sum;
 }
 
-/// A point of the box where each coordinate is its low (0) or high (1) end, or between.
+/// The point of the box at relative coordinates a, b, c in [0, 1].
 std::array<double, 3> corner(const Box& box, double a, double b, double c) {
     return {box.low[0] + a * box.extent(0), box.low[1] + b * box.extent(1),
             box.low[2] + c * box.extent(2)};
 }
 
-/// Whether the frame of the picture is the domain's outline.
+/// Whether the domain's outline is just the picture's frame.
 bool is_box(const PointSet& set) {
     const std::string spec = set.domain->spec();
     return spec.starts_with("unit-cube") || spec.starts_with("box");
@@ -51,7 +51,7 @@ bool all_inside(const PointSet& set) {
     return true;
 }
 
-/// The same directions a little longer on both sides.
+/// Enlarges the box by a fraction of its extent on every side.
 void widen(Box& box, double share) {
     for (std::size_t k = 0; k < box.dimension(); ++k) {
         const double more = share * box.extent(k);
@@ -60,7 +60,7 @@ void widen(Box& box, double share) {
     }
 }
 
-/// The box of domain and points.
+/// The box around the domain and all points.
 Box whole_box(std::span<const PointSet* const> sets) {
     const PointSet& first = *sets[0];
     const std::vector<double> point(first[0].begin(), first[0].end());
@@ -76,23 +76,23 @@ bool frame_is_outline(const PointsPicture& picture) {
         picture.sets, [](const PointSet* set) { return is_box(*set) && !without_domain(*set); });
 }
 
-/// How much of its box a domain of the plane takes.
+/// Fraction of its bounding box that a plane domain fills.
 double share_of_box(const PointSet& set) {
     if (set.dimension() != 2 || without_domain(set)) return 1;
     const double share = set.domain->measure() / volume_of(set.domain->bounding_box());
     return share > 0.02 && share < 1 ? share : 1;
 }
 
-/// Puts a point of a set at its place in the drawing.
+/// Maps a point of a set to its position in the drawing.
 using Place = std::function<Position(std::span<const double>)>;
 
-/// A part of a drawing, and where points stand there.
+/// An area of a drawing, and the mapping of points into it.
 struct View {
     Area area;
     Place place;
 };
 
-/// Points as marks in an area of a drawing.
+/// Draws points as marks in areas of a drawing.
 class PointMarks {
   public:
     PointMarks(const PointsPicture& picture, const PictureStyle& style, const RunContext& run)
@@ -103,7 +103,7 @@ class PointMarks {
                                                       points_of(picture_) <= picture_.most_disks);
     }
 
-    /// Whether a frame of a size shows counts: where single points would fill most of it.
+    /// Whether a frame of this size shows counts, because single points would fill most of it.
     [[nodiscard]] bool as_density(double width, double height) const {
         if (as_disks() || picture_.sets.size() > 1) return false;
         return picture_.marking == Marking::density ||
@@ -115,7 +115,7 @@ class PointMarks {
         const double side = std::max(area.width, area.height);
         const double unit = side / 1000;
         const auto n = static_cast<double>(points_of(picture_));
-        // Small pictures get somewhat larger disks than their share.
+        // Small pictures have relatively larger disks.
         const double radius = std::max(
             0.6,
             1.25 * unit * io::disk_radius(share_ * area.width * area.height / (unit * unit), n));
@@ -132,9 +132,9 @@ class PointMarks {
         }
     }
 
-    /// Many points in each of the views: as pixels half a unit wide or, dense, as their counts in
-    /// squares that hold some of them on average, in shades up to the largest count of all views.
-    /// Returns that; 0 where there is none.
+    /// Draws many points in each view as pixels half a unit wide. If `dense`, draws counts in
+    /// squares instead, which hold a few points on average; shades are relative to the largest
+    /// count of all views. Returns that count, else 0.
     double raster(Drawing& drawing, const std::vector<View>& views, bool dense) const {
         if (as_disks()) return 0;
         std::vector<PixelImage> images;
@@ -162,7 +162,7 @@ class PointMarks {
         return dense ? most : 0;
     }
 
-    /// Of counts from 0 to the largest.
+    /// Draws the colour bar for counts from 0 to the largest.
     void draw_bar(Drawing& drawing, const Area& frame, double largest) const {
         Ticks ticks = linear_ticks(0, largest, 6, true);
         for (Tick& tick : ticks.numbers) tick.value /= largest;
@@ -174,7 +174,7 @@ class PointMarks {
             ticks.numbers);
     }
 
-    /// From the background through the first colour to the ink.
+    /// Colours from the background through the first series' colour to the ink.
     [[nodiscard]] Colour shade(double share) const {
         const Colour middle = theme_.series[0];
         return share < 0.6 ? mixed(theme_.background, middle, share / 0.6)
@@ -182,7 +182,7 @@ class PointMarks {
     }
 
   private:
-    static constexpr std::size_t patience = 65536;  ///< points between two looks at a stop
+    static constexpr std::size_t patience = 65536;  ///< points between checks for a stop
 
     [[nodiscard]] PixelImage empty_raster(const Area& area, double side) const {
         PixelImage raster{.area = area,
@@ -212,7 +212,8 @@ class PointMarks {
     const PointsPicture& picture_;
     const Theme& theme_;
     const RunContext& run_;
-    double share_ = share_of_box(*picture_.sets[0]);  ///< of the frame, where there are points
+    double share_ = share_of_box(*picture_.sets[0]);  ///< fraction of the frame that contains
+                                                      ///< points
 };
 
 std::vector<LegendEntry> legend_of(const PointsPicture& picture, const Theme& theme) {
@@ -224,7 +225,7 @@ std::vector<LegendEntry> legend_of(const PointsPicture& picture, const Theme& th
     return entries;
 }
 
-/// A drawing that has its title and its legend; `top` is what they take.
+/// A drawing with its title and legend; `top` is the height that they take.
 struct Page {
     Drawing drawing;
     double top = 0;
@@ -254,13 +255,13 @@ void draw_outline(Drawing& drawing, const PointsPicture& picture, const Panel& p
     }
 }
 
-/// The parts of [low, high] on an axis of the torus: one, or two for what goes on from 1 to 0.
+/// The parts of [low, high] on an axis of the torus; low > high wraps around and gives two parts.
 std::vector<std::pair<double, double>> parts_of_range(double low, double high) {
     if (low <= high) return {{low, high}};
     return {{0, high}, {low, 1}};
 }
 
-/// The edges of the Voronoi cells, each once.
+/// Draws the edges of the Voronoi cells, each once.
 void draw_cells(Drawing& drawing, const PointSet& set, const Panel& panel, const Theme& theme,
                 const RunContext& run) {
     const Box box = shown_box(std::array{&set});
@@ -283,7 +284,7 @@ void draw_cells(Drawing& drawing, const PointSet& set, const Panel& panel, const
     }
 }
 
-/// The circles, clipped to the frame; on the torus with their copies.
+/// Draws the circles, clipped to the frame; on the torus with periodic copies.
 void draw_circles(Drawing& drawing, const PointsPicture& picture, const Panel& panel,
                   const Theme& theme) {
     if (picture.circles.empty()) return;
@@ -308,7 +309,7 @@ void draw_circles(Drawing& drawing, const PointsPicture& picture, const Panel& p
     drawing.add(ClipWindow{.open = true});
 }
 
-/// The boxes as they lie in the plane of two coordinates.
+/// Draws the boxes projected onto the plane of two coordinates.
 void draw_boxes(Drawing& drawing, const PointsPicture& picture, const Panel& panel, std::size_t i,
                 std::size_t j) {
     const Box cube = picture.sets[0]->domain->bounding_box();
@@ -330,7 +331,7 @@ void draw_boxes(Drawing& drawing, const PointsPicture& picture, const Panel& pan
     }
 }
 
-/// How large the frame of a box is, so that lengths along x and y are alike unless it is very thin.
+/// Size of a box's frame; x and y have equal scales, unless the box is very thin.
 std::pair<double, double> frame_size(const Box& box, double width, double height) {
     double ratio = std::clamp(picture_ratio(box, 0, 1), 0.12, 3.0);
     if (!(ratio > 0)) ratio = 1;
@@ -343,7 +344,7 @@ std::pair<double, double> frame_size(const Box& box, double width, double height
 
 // ---------------------------------------------------------------- three coordinates
 
-/// The projected box: scale and shift to a drawing.
+/// The projected box: scale and offset in the drawing.
 struct Scene {
     const Box& box;
     double scale = 1;
@@ -359,9 +360,10 @@ struct Scene {
     }
 };
 
-/// The edges of the box that are behind all points, or before them.
+/// Draws the box's edges that are behind all points (`front` false) or in front of them.
 void draw_edges(Drawing& drawing, const Scene& scene, const Theme& theme, bool front) {
-    constexpr std::array hidden = {0, 1, 0};  // the corner behind all from high x, low y, high z
+    constexpr std::array hidden = {0, 1, 0};  // the corner hidden behind the box: high x, low y,
+                                              // high z
     for (int bits = 0; bits < 8; ++bits)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::array<int, 3> a = {bits & 1, bits >> 1 & 1, bits >> 2 & 1};
@@ -376,10 +378,10 @@ void draw_edges(Drawing& drawing, const Scene& scene, const Theme& theme, bool f
         }
 }
 
-/// The numbers at the ends and the names of the three edges that are free to the outside.
+/// Numbers at the ends, and names, of the three free outer edges.
 struct EdgeTexts {
     std::array<std::pair<std::string, std::string>, 3> ends;
-    std::array<std::vector<std::string>, 3> names;  ///< in lines
+    std::array<std::vector<std::string>, 3> names;  ///< wrapped lines
 
     EdgeTexts(const PointsPicture& picture, const Box& box) {
         const auto all = shown_names(picture);
@@ -389,25 +391,25 @@ struct EdgeTexts {
         }
     }
 
-    /// Width of the longer one of the ends' numbers.
+    /// Width of the wider number at the ends.
     [[nodiscard]] double wide(std::size_t k) const {
         return std::max(text_width(ends[k].first, number_size),
                         text_width(ends[k].second, number_size));
     }
-    /// What the rows of a name take after the first one.
+    /// Height of the name's lines after the first.
     [[nodiscard]] double more_rows(std::size_t k) const {
         return name_row * (static_cast<double>(names[k].size()) - 1);
     }
-    /// From the upright edge to its name, beside the numbers.
+    /// Distance from the vertical edge to its name, which allows for the numbers.
     [[nodiscard]] double aside() const { return std::max(36.0, 22 + wide(2)); }
 
-    /// What is needed on both sides of the box, and below it.
+    /// Space needed on both sides of the box, and below it.
     [[nodiscard]] double beside() const {
         return std::max({aside() + more_rows(2) + 10, wide(0), wide(1) + 10});
     }
     [[nodiscard]] double below() const { return 30 + std::max(more_rows(0), more_rows(1)); }
 
-    /// Breaks the names where there is no more room for them.
+    /// Wraps the names to the available space.
     void wrap(const Scene& scene, double width) {
         constexpr double least = 40;
         const double before = scene.at(0.5, 0, 0).x - 8 - picture_margin;
@@ -451,7 +453,7 @@ struct EdgeTexts {
     static constexpr double name_row = name_size + 2;
 };
 
-/// Disks in layers from far to near: paler and smaller behind.
+/// Draws disks in layers from far to near; distant ones are paler and smaller.
 void draw_layers(Drawing& drawing, const PointsPicture& picture, const Scene& scene,
                  const Theme& theme, double side) {
     constexpr std::size_t layers = 10;
@@ -521,8 +523,8 @@ Drawing draw_space(const PointsPicture& picture, const PictureStyle& style, cons
 
 // ---------------------------------------------------------------- pairs of coordinates
 
-/// The panels of every pair: x_i to the right and x_j > x_i upward in column i, row j - 1. In the
-/// plane there is one, in which lengths along x and y are alike.
+/// Panels of all pairs: column i, row j - 1 shows x_i to the right and x_j > x_i upwards. For plane
+/// points a single panel with equal scales.
 class PairSheet {
   public:
     PairSheet(const PointsPicture& picture, const PictureStyle& style, const RunContext& run)
@@ -547,7 +549,7 @@ class PairSheet {
         for (std::size_t j = 1; j < shown_; ++j)
             for (std::size_t i = 0; i < j; ++i) views.push_back(view(i, j));
         const double largest = marks_.raster(page_.drawing, views, dense_);
-        // All pairs have the same shades, whose bar stands in the sheet's free corner.
+        // All pairs share one colour scale; its bar is in the free corner of the sheet.
         if (dense_) marks_.draw_bar(page_.drawing, panel(0, 1).frame(), largest);
         for (std::size_t j = 1; j < shown_; ++j)
             for (std::size_t i = 0; i < j; ++i) {
@@ -565,9 +567,10 @@ class PairSheet {
 
   private:
     static constexpr double gap = 10;
-    static constexpr double least = 30;  ///< side of a panel
+    static constexpr double least = 30;  ///< minimum side of a panel
 
-    /// Names take rows beside and below panels by how long these are, which leaves less for them.
+    /// Iterates, since long names are wrapped into rows beside and below the panels, which leaves
+    /// less space for these.
     void place_panels(const PictureStyle& style) {
         const auto columns = static_cast<double>(shown_ - 1);
         const double gaps = (columns - 1) * gap;
@@ -591,7 +594,7 @@ class PairSheet {
             if (plane_) {
                 std::tie(width_, height_) = frame_size(box_, wide, std::max(high, 0.0));
                 aside = std::max(std::floor((wide - width_) / 2), 0.0);
-            } else {  // coordinates of pairs may measure different things
+            } else {  // coordinates may have different units
                 width_ = std::max(std::floor(wide), least);
                 height_ = high > 0 ? high : width_;
             }
@@ -603,7 +606,7 @@ class PairSheet {
             std::max(page_.drawing.width, left_ + columns * width_ + gaps + right);
     }
 
-    /// Of a coordinate; numbers and names stand at the sheet's edge only.
+    /// Axis of a coordinate; only at the sheet's edge with numbers and name.
     [[nodiscard]] Axis axis(std::size_t k, bool edge) const {
         Axis axis{.low = box_.low[k],
                   .high = box_.high[k],
@@ -652,13 +655,13 @@ std::vector<double> coordinate(const PointSet& set, std::size_t k) {
     return values;
 }
 
-/// Bins of a histogram of n values: their cube root has the least error for smooth densities.
+/// Number of histogram bins for n values: the cube root minimizes the error for smooth densities.
 std::size_t bins_of(std::size_t n) {
     return std::clamp<std::size_t>(
         static_cast<std::size_t>(std::ceil(2 * std::cbrt(static_cast<double>(n)))), 5, 200);
 }
 
-/// Shares of words, as bars about 1, 2, ...
+/// Frequencies of levels as bars at 1, 2, ...
 ChartPanel words_panel(const PointsPicture& picture, const std::vector<std::string>& words,
                        std::size_t k) {
     ChartPanel panel{.x_name = shown_names(picture)[k],
@@ -732,7 +735,7 @@ double picture_ratio(const Box& box, std::size_t i, std::size_t j) {
 }
 
 Projected project(const Box& box, std::span<const double> point) {
-    // From 30 degrees beside the y axis, 25 degrees above the ground.
+    // Seen from 30 degrees beside the y axis, and 25 degrees above the ground.
     constexpr double side_cosine = 0.8660254037844386;
     constexpr double side_sine = 0.5;
     constexpr double rise_cosine = 0.9063077870366499;

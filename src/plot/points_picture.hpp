@@ -3,12 +3,13 @@
 // Pictures of points.
 //
 //     d = 1   histogram, with a mark for each point below
-//     d = 2   a disk for each point, lengths along x and y alike, and the outline of their domain
-//     d = 3   the same from a fixed place, in a box; distant points are paler and smaller
-//     d > 3   every pair of the first 8 coordinates in a panel of its own, as of three if asked
+//     d = 2   a disk for each point and the outline of the domain; x and y have equal scales
+//     d = 3   a parallel projection from a fixed direction, in a box; distant points are paler and
+//             smaller
+//     d > 3   each pair of the first 8 coordinates in its own panel; on request for d = 3, too
 //
-// Too many disks to tell apart become pixels: one for each point, until (at some 300 000 in one
-// frame) they would fill it; then a density. Several sets are drawn over each other, in colours.
+// Too many disks to distinguish become pixels, one per point. If pixels would fill the frame (at
+// about 300 000 points), a density is drawn. Several sets are drawn over each other, in colours.
 #pragma once
 
 #include <span>
@@ -22,69 +23,71 @@
 namespace stipple::plot {
 
 inline constexpr std::size_t most_pair_coordinates = 8;
-inline constexpr double density_share = 0.75;  ///< of points to a frame's area, for their density
+inline constexpr double density_share = 0.75;  ///< pixels per frame area above which a density is
+                                               ///< drawn
 
-/// Sides of a box that differ by more measure different things; their lengths are not compared.
+/// Limit for the ratio of a box's sides. Beyond it, coordinates have different units, and are
+/// scaled separately.
 inline constexpr double most_unlike = 20;
 
-/// How points are marked.
+/// Marks for points.
 enum class Marking { automatic, disks, density };
 
-/// A box that is drawn over the points, in shares of the bounding box of the first set's domain: a
-/// lower corner above the upper one means that it goes on from 1 to 0.
+/// A box drawn over the points, in relative coordinates of the first set's domain. If low > high,
+/// it wraps around from 1 to 0.
 struct MarkedBox {
-    std::string kind;        ///< class of a page's style sheet
-    std::string label = {};  ///< what it is, in words
+    std::string kind;        ///< class in a page's style sheet
+    std::string label = {};  ///< description
     std::vector<double> low = {};
     std::vector<double> high = {};
-    bool closed = true;  ///< drawn with a solid line; else dashed
+    bool closed = true;  ///< solid line; false: dashed
 };
 
-/// A circle that is drawn over points of the plane.
+/// A circle drawn over plane points.
 struct MarkedCircle {
     Position centre;
     double radius = 0;
-    bool torus = false;  ///< goes on across opposite sides of the first set's domain
+    bool torus = false;  ///< continues across opposite sides of the first set's domain
 };
 
 struct PointsPicture {
-    std::vector<const PointSet*> sets;  ///< of one dimension, none empty
+    std::vector<const PointSet*> sets;  ///< of the same dimension, not empty
     std::vector<std::string> names;     ///< of the sets, for the legend
     std::string title = {};
     std::string subtitle = {};
     Marking marking = Marking::automatic;
     std::vector<MarkedBox> boxes = {};
     std::vector<MarkedCircle> circles = {};
-    bool cells = false;  ///< those of Voronoi, of a single set of the plane, in its domain's box
-    bool pairs = false;  ///< of three coordinates as of more
-    std::size_t most_disks = 20'000;                       ///< above, points are pixels
-    std::size_t most_coordinates = most_pair_coordinates;  ///< of which pairs are drawn
+    bool cells = false;  ///< draws the Voronoi cells of a single plane set, in its domain's box
+    bool pairs = false;  ///< draws three coordinates as pairs
+    std::size_t most_disks = 20'000;  ///< with more points, pixels instead of disks
+    std::size_t most_coordinates = most_pair_coordinates;  ///< limit for coordinates whose pairs
+                                                           ///< are drawn
 };
 
-/// Lines along the boundary, in the domain's coordinates; none where the domain has no inside (a circle)
-/// or no end.
+/// Polylines along the boundary, in the domain's coordinates; empty if the domain has no interior
+/// (a circle) or is unbounded.
 std::vector<std::vector<Position>> outline_of(const Domain& domain);
 
-/// The box that a picture of the sets shows: their domain's and all points. Where points are outside
-/// the unit cube that is their default domain, the box is that of the points.
-/// A coordinate of words has as much room for each; one that is not visible is widened.
-/// @throws Error(input) where it is too wide for an axis
+/// The box that a picture of the sets shows: around their domain and all points. If the domain is
+/// the default unit cube and points are outside, only around the points. Each level of a
+/// categorical coordinate gets the same space; an invisible range is widened.
+/// @throws Error(input) if the range is too wide for an axis
 Box shown_box(std::span<const PointSet* const> sets);
 
-/// The coordinates' names, with what no picture can show of them.
+/// Names of the coordinates, with notes on ranges that no picture can show.
 std::vector<std::string> shown_names(const PointsPicture& picture);
 
-/// Both ends of a coordinate, of words the first and the last.
+/// Texts for both ends of a coordinate; for a categorical one, the first and last level.
 std::pair<std::string, std::string> shown_ends(const PointsPicture& picture, const Box& box,
                                                std::size_t k);
 
-/// The height of a picture of two coordinates over its width: that of the box, unless its sides are so
-/// different that they measure different things.
+/// Height over width of a picture of two coordinates: that of the box, or 1 if its sides differ so
+/// much that their units must differ.
 double picture_ratio(const Box& box, std::size_t i, std::size_t j);
 
-/// A point of three coordinates in the parallel projection of a picture, in units of the box's longest
-/// side or, where sides are as different as above, each in units of its own; `depth` is larger for
-/// nearer points.
+/// A three-dimensional point in a picture's parallel projection. The unit is the box's longest
+/// side, or each side's own length if they differ as above. `depth` is larger for nearer points.
 struct Projected {
     double right = 0;
     double up = 0;
@@ -92,23 +95,24 @@ struct Projected {
 };
 Projected project(const Box& box, std::span<const double> point);
 
-/// The least and the largest of these over the box.
+/// Minimum and maximum of the projected box.
 std::pair<Projected, Projected> projected_range(const Box& box);
 
 Drawing draw_points(const PointsPicture& picture, const PictureStyle& style, const RunContext& run);
 
-/// Whether the unit cube is only the default domain of points that lie outside it.
+/// Whether points lie outside the unit cube, which is then only their default domain.
 bool without_domain(const PointSet& set);
 
-/// Every pair of the first coordinates in a panel of its own, of two or more.
+/// Draws each pair of the first coordinates in its own panel, for two or more coordinates.
 Drawing draw_pairs(const PointsPicture& picture, const PictureStyle& style, const RunContext& run);
 
-/// The histogram of each coordinate in a panel of its own, at most 6 of them; they have one x axis
-/// where their ranges are the same.
+/// Histograms of each coordinate in separate panels, at most 6. They share an x axis if their
+/// ranges are equal.
 Chart histogram_chart(const PointsPicture& picture);
 
-/// Histogram of the distances to the nearest other point, straight ones where points have no domain;
-/// beside it that of independent points, unless a side is too short for it to hold. @throws Error(input) for a set of one point.
+/// Histogram of the distances to the nearest neighbour; not periodic if the points have no domain.
+/// Also shows the density for independent points, unless a side of the domain is too short for it.
+/// @throws Error(input) for a set with one point
 Chart distance_chart(std::span<const PointSet* const> sets, const std::vector<std::string>& names,
                      const RunContext& run);
 

@@ -23,8 +23,8 @@ namespace {
 using Curve = Report::Curve;
 using Measurements = std::span<const Measurement>;
 
-constexpr double log_above = 12;    ///< radial power: a higher peak gets a logarithmic axis
-constexpr double log_floor = 1e-4;  ///< of that axis: what is lower is rounding
+constexpr double log_above = 12;    ///< radial power: higher peaks use a logarithmic axis
+constexpr double log_floor = 1e-4;  ///< lower end of that axis: smaller values are rounding errors
 
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
@@ -36,7 +36,7 @@ std::string name_of_input(const Measurement& m, bool whole_path = false) {
     return name;
 }
 
-/// Names that tell inputs apart: file names without their folders, where these do.
+/// Distinct names for the inputs: file names without folders if these are distinct.
 std::vector<std::string> names_of_inputs(Measurements ms) {
     std::vector<std::string> names;
     for (const Measurement& m : ms) names.push_back(name_of_input(m));
@@ -48,7 +48,7 @@ std::vector<std::string> names_of_inputs(Measurements ms) {
     return names;
 }
 
-/// Whether all measurements are alike in a property of theirs.
+/// Whether all measurements have the same property.
 template <class Property>
 bool alike(Measurements ms, const Property& property) {
     return std::ranges::all_of(ms, [&](const Measurement& m) {
@@ -62,7 +62,7 @@ Curve plus(const Curve& a, const Curve& b, double sign) {
     return sum;
 }
 
-/// Gives the series the band that its report knows: its standard error, or bounds beside it.
+/// Sets the band of a series: its standard error, or the bounds from the report.
 void add_band(Series& series, const Measurement& m, const std::string& group,
               const std::string& key) {
     if (m.standard_error) {
@@ -81,7 +81,7 @@ void add_band(Series& series, const Measurement& m, const std::string& group,
     series.high = *high;
 }
 
-/// One curve for each measurement that has it.
+/// One curve per measurement that has it.
 std::vector<Series> series_of(Measurements ms, const std::string& group, const std::string& x,
                               const std::string& y) {
     const auto names = names_of_inputs(ms);
@@ -98,7 +98,7 @@ std::vector<Series> series_of(Measurements ms, const std::string& group, const s
     return found;
 }
 
-/// "n = 1024, d = 2", as far as all have the same.
+/// "n = 1024, d = 2", as far as common to all.
 std::string size_of(Measurements ms) {
     const Measurement& first = ms[0];
     std::string text;
@@ -108,7 +108,7 @@ std::string size_of(Measurements ms) {
     return text;
 }
 
-/// "Radial power of halton.csv", and of how many points.
+/// A chart titled "Radial power of halton.csv", with the number of points.
 Chart titled(const std::string& what, Measurements ms) {
     const std::string name = name_of_input(ms[0]);
     return {.title = ms.size() > 1 || name.empty() ? what : fmt::format("{} of {}", what, name),
@@ -119,7 +119,7 @@ std::string noted(const std::string& subtitle, const std::string& more) {
     return subtitle.empty() ? more : more.empty() ? subtitle : subtitle + " · " + more;
 }
 
-/// The finite numbers of all curves: least and largest; infinite where there are none.
+/// Minimum and maximum of the finite numbers of all curves; infinite if there are none.
 std::pair<double, double> range_of(const std::vector<Series>& all) {
     std::pair range{HUGE_VAL, -HUGE_VAL};
     for (const Series& series : all)
@@ -128,7 +128,7 @@ std::pair<double, double> range_of(const std::vector<Series>& all) {
     return range;
 }
 
-/// The band of white noise, where one holds for all measurements.
+/// The band of white noise, if it is the same for all measurements.
 std::vector<Series> noise_band(Measurements ms) {
     const auto cells = list_at(ms[0].results, "radial.cells");
     const bool same = alike(ms, &Measurement::sets) && alike(ms, [](const Measurement& m) {
@@ -144,8 +144,8 @@ std::vector<Series> noise_band(Measurements ms) {
     return {band};
 }
 
-/// The anisotropy of independent points, where it is the same for all: in dB, -10 log10 of the sets
-/// that were averaged; of a table of pairs' differences, of the pairs that a pixel has of them.
+/// The anisotropy of independent points, if it is the same for all: -10 log10 of the number of
+/// averaged sets, in dB. For pair differences, the number of pairs per pixel counts, too.
 std::vector<Guide> noise_anisotropy(Measurements ms) {
     const auto expected_of = [](const Measurement& m) {
         const double pairs = number_at(m.results, "expected_differences").value_or(1);
@@ -156,8 +156,8 @@ std::vector<Guide> noise_anisotropy(Measurements ms) {
     return {{.name = fmt::format("white noise: {} dB", rounded(expected, 3)), .y = {expected}}};
 }
 
-/// Where there is no power (or no pair), there is no anisotropy: what analyzers put there as the
-/// least of numbers is no value of a curve.
+/// Turns very small values into gaps: analyzers report them for an undefined anisotropy, if there
+/// is no power or no pair.
 void make_gaps(std::vector<Series>& all) {
     constexpr double least = -100;
     for (Series& series : all) {
@@ -173,8 +173,8 @@ bool holds(const Report& report, std::string_view key) {
     return flag != nullptr && *flag;
 }
 
-/// Effective Nyquist frequency and, where the frequencies go far enough for one that compares,
-/// oscillation, of a single measurement.
+/// Effective Nyquist frequency of a single measurement; also its oscillation, if enough frequencies
+/// were measured for it to be comparable.
 std::string summary_of_spectrum(Measurements ms) {
     if (ms.size() > 1) return {};
     std::string text;
@@ -187,13 +187,13 @@ std::string summary_of_spectrum(Measurements ms) {
     return text;
 }
 
-/// An option of the analyzer; empty where the report does not have it.
+/// Value of an analyzer's option; empty if the report does not have it.
 std::string option_of(const Measurement& m, std::string_view name) {
     const auto at = std::ranges::find(m.options, name, &std::pair<std::string, std::string>::first);
     return at == m.options.end() ? "" : at->second;
 }
 
-/// What a spectrum was made with, and numbers of it.
+/// Parameters of a spectrum, and its key numbers.
 std::string notes_of_spectrum(Measurements ms) {
     std::string notes = summary_of_spectrum(ms);
     if (const std::string window = option_of(ms[0], "window"); !window.empty() && window != "none")
@@ -210,14 +210,14 @@ bool rises(const Curve& curve) {
            curve.end();
 }
 
-/// Lists that others are drawn over, by their names.
+/// Whether a list with this name is an x axis for others.
 bool names_abscissa(const std::string& name) {
     static const std::set<std::string> known = {"count", "distance", "frequency", "lag",
                                                 "n",     "radius",   "neighbors", "window"};
     return known.contains(name);
 }
 
-/// Lists that say how sure others are, and are no curves of their own.
+/// Whether a list with this name describes the certainty of others, and is not a curve itself.
 bool names_weight(const std::string& name) {
     return name == "cells" || name == "pairs" || name == "deviation" || name == "exact";
 }
@@ -228,7 +228,7 @@ struct CurveGroup {
     std::vector<std::string> ys = {};
 };
 
-/// Lists of one group as long as its rising first one.
+/// Lists of one group that are as long as its first ascending list.
 std::optional<CurveGroup> curves_in(const Report& group, const std::string& prefix) {
     constexpr std::size_t plainly_curves = 16;
     CurveGroup found{.prefix = prefix};
@@ -248,7 +248,7 @@ std::optional<CurveGroup> curves_in(const Report& group, const std::string& pref
     return found.ys.empty() ? std::nullopt : std::optional(found);
 }
 
-/// The curves of the report and of the groups in it.
+/// The curves of the report and of its groups.
 std::vector<CurveGroup> groups_of(const Report& report, const std::string& prefix = {}) {
     std::vector<CurveGroup> found;
     if (auto group = curves_in(report, prefix)) found.push_back(*std::move(group));
@@ -263,14 +263,14 @@ bool has(const CurveGroup& group, const char* y) {
     return std::ranges::find(group.ys, y) != group.ys.end();
 }
 
-/// Bounds, and what a variance is compared with, belong to another curve.
+/// Whether a list belongs to another curve: bounds, or the reference for a variance.
 bool accompanies(const CurveGroup& group, const std::string& y) {
     if (names_weight(y)) return true;
     if (y == "lower" || y == "upper") return has(group, "value");
     return y == "mean" && has(group, "variance");
 }
 
-/// What independent points have, where it is the same for all.
+/// Values of independent points, if they are the same for all measurements.
 std::vector<Guide> references(Measurements ms, const CurveGroup& group, const std::string& y) {
     if (y == "density" || y == "power" || y == "dispersion")
         return {{.name = "independent points", .y = {1}}};
@@ -281,7 +281,7 @@ std::vector<Guide> references(Measurements ms, const CurveGroup& group, const st
     return {{.name = "independent points: the mean", .x = *x, .y = *mean, .reached = true}};
 }
 
-/// Shares of small whole numbers are bars about them.
+/// Turns frequencies of small integers into bars centred on them.
 void make_bars(ChartPanel& panel) {
     for (Series& series : panel.series) {
         const auto filled = [](double y) { return y > 0; };
@@ -300,7 +300,7 @@ void make_bars(ChartPanel& panel) {
     panel.log_x = panel.log_y = false;
 }
 
-/// "radius", and in what where that is no length of the points.
+/// "radius", with its unit if that is not the points' unit.
 std::string abscissa_of(const Measurement& m, const std::string& x) {
     if (x == "count" || x == "n") return "points n";
     if (x == "frequency" && option_of(m, "normalize-frequency") == "true")
@@ -311,7 +311,7 @@ std::string abscissa_of(const Measurement& m, const std::string& x) {
     return words_of(x) + (by_mean ? " / mean distance" : "");
 }
 
-/// Radial power, with what white noise has in rings of so many cells.
+/// Sets up the panel of radial power, with the band of white noise.
 void make_power(ChartPanel& panel, Measurements ms) {
     panel.y_name = "radial power";
     panel.bands = noise_band(ms);
@@ -324,8 +324,8 @@ void make_power(ChartPanel& panel, Measurements ms) {
     panel.log_y = top > log_above;
 }
 
-/// Pair correlation, for one measurement with the band of two standard deviations of a mean of
-/// independent sets.
+/// Sets up the panel of pair correlation; for a single measurement with a band of two standard
+/// deviations of a mean of independent sets.
 void make_pair_correlation(ChartPanel& panel, Measurements ms) {
     panel.y_name = "pair correlation g";
     panel.guides = {{.name = ms.size() > 1 ? "uniform points" : "", .y = {1}}};
@@ -360,7 +360,7 @@ ChartPanel curve_panel(Measurements ms, const CurveGroup& group, const std::stri
     if (power || pairs) return panel;
     const bool counts = group.x == "count" || group.x == "n";
     panel.log_x = counts || y == "variance" || y == "dispersion";
-    // What ranges over more than a decade is seen on a logarithmic axis only.
+    // A range of more than a decade is only legible on a logarithmic axis.
     const auto [low, high] = range_of(panel.series);
     const bool steep = counts || y == "variance" || high > 10 * low;
     panel.log_y = panel.log_x && steep && low > 0;
@@ -373,7 +373,7 @@ ChartPanel curve_panel(Measurements ms, const CurveGroup& group, const std::stri
 
 bool wanted(Measurements ms, const CurveGroup& group, const std::string& y,
             const std::string& key) {
-    // A ring of one dimension is two opposite frequencies, which have one power.
+    // In one dimension a ring is two opposite frequencies, which have the same power.
     const bool line = std::ranges::all_of(ms, [](const auto& m) { return m.dimension == 1; });
     if (key.empty()) return !accompanies(group, y) && !(line && y == "anisotropy_db");
     return key == group.prefix + y || key + "." == group.prefix;
@@ -395,14 +395,14 @@ std::optional<Chart> curves_chart(Measurements ms, const std::string& key) {
             chart.panels.push_back(std::move(panel));
         }
     if (chart.panels.empty()) return std::nullopt;
-    // Panels above each other share one x axis.
+    // Stacked panels share one x axis.
     for (ChartPanel& panel : chart.panels) panel.log_x = chart.panels.back().log_x;
     return chart;
 }
 
 // ---------------------------------------------------------------- indices with intervals
 
-/// Puts the numbers of a group, but the ends of their intervals, into the panel that has such bars.
+/// Adds the numbers of a group, except interval ends, to the panel with bars of the same kind.
 void add_bars(std::vector<ChartPanel>& panels, const std::string& output, const std::string& label,
               const Report& group, const std::string& kind) {
     ChartPanel* panel = nullptr;
@@ -430,7 +430,7 @@ void add_bars(std::vector<ChartPanel>& panels, const std::string& output, const 
     }
 }
 
-/// Leaves the categories in which the last series is largest, in their order, and says so.
+/// Keeps the categories in which the last series is largest, in their order, and mentions it.
 void keep_largest(ChartPanel& panel) {
     constexpr std::size_t most = 16;
     const std::size_t all = panel.categories.size();
@@ -456,7 +456,7 @@ void keep_largest(ChartPanel& panel) {
     panel.x_name = fmt::format("the largest {} of {}", most, all);
 }
 
-/// The indices of inputs, and of pairs of them, output by output. The key picks an output, a kind of
+/// Indices of inputs and of pairs of inputs, for each output. The key selects an output, a kind of
 /// index, or both: "y", "total", "y.total".
 Chart indices_chart(Measurements ms, const std::string& key) {
     constexpr std::size_t most_panels = 4;
@@ -487,7 +487,7 @@ Chart indices_chart(Measurements ms, const std::string& key) {
 
 // ---------------------------------------------------------------- one number of many reports
 
-/// The number that stands for a report: "value", or its first number.
+/// Key of the number that represents a report: "value", or its first number.
 std::string main_number(const Report& report) {
     if (number_at(report, "value")) return "value";
     for (const std::string& key : report.keys())
@@ -495,7 +495,7 @@ std::string main_number(const Report& report) {
     return {};
 }
 
-/// Whether a word of a name tells a count or a seed: 64, n64, seed3.
+/// Whether a word in a name is a count or a seed: 64, n64, seed3.
 bool is_counter(std::string_view word) {
     constexpr std::array<std::string_view, 8> known = {"",  "n",    "m",   "s",
                                                        "r", "seed", "set", "run"};
@@ -504,8 +504,9 @@ bool is_counter(std::string_view word) {
            word.find_first_not_of("0123456789", letters.size()) == std::string_view::npos;
 }
 
-/// What files of one kind have in common: "pmj02_64.csv" of 64 points, "pmj02_256_s3.csv" and
-/// "pmj02-16.csv" are of "pmj02", and "random64.csv" of 64 points is of "random".
+/// Common name of a family of files, without counts and seeds: "pmj02_64.csv" with 64 points,
+/// "pmj02_256_s3.csv" and "pmj02-16.csv" give "pmj02"; "random64.csv" with 64 points gives
+/// "random".
 std::string family_of(const Measurement& m) {
     std::string name = file_name(m.source);
     name.resize(std::min(name.find('.'), name.size()));
@@ -525,7 +526,7 @@ std::string family_of(const Measurement& m) {
     return family;
 }
 
-/// Means, with their standard errors, of what sets of one size have; of errors, their root mean square.
+/// Means with standard errors of sets of equal size; for errors, the root mean square.
 Series series_over_count(const std::string& name, bool errors,
                          const std::map<std::uint64_t, std::vector<double>>& at) {
     Series series{.name = name, .marks = true};
@@ -576,7 +577,7 @@ Chart number_histogram(Measurements ms, const std::string& key) {
     const auto [low, high] = std::ranges::minmax(values);
     require_shown(low, high);
     const auto shown = visible_range(low, high);
-    // Bins as wide as Sturges has them, for some ten to some thousand values.
+    // Sturges' rule for the bin width, suitable for about ten to some thousand values.
     const auto bins =
         static_cast<std::size_t>(std::ceil(std::log2(static_cast<double>(values.size())))) + 3;
     Bars bars = histogram_of(values, shown.first, shown.second, bins);
@@ -593,7 +594,7 @@ Chart number_histogram(Measurements ms, const std::string& key) {
     return chart;
 }
 
-/// Keys under which there is something to draw.
+/// Keys that can be drawn.
 std::vector<std::string> drawable(Measurements ms) {
     std::vector<std::string> keys;
     for (const CurveGroup& group : groups_of(ms[0].results))

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// Charts of what analyzers report: one curve for each measurement, in one legend.
+// Charts of analyzers' reports: one curve per measurement, with a common legend.
 //
-//     periodogram        radial power, with what white noise has, and anisotropy
+//     periodogram        radial power with the band of white noise, and anisotropy
 //     pair-correlation   density over distance
 //     sensitivity        bars of the indices of inputs and of pairs, with their intervals
-//     others             each list over the rising one before it (prefixes: logarithmic), or, for
-//                        several reports without lists, one number over the number of points: a
-//                        curve for the files of one name but for its digits, means where several
-//                        sets have as many points; or, all of one size, its histogram
+//     others             each list over the ascending one before it (prefixes: logarithmic).
+//                        Several reports without lists: one number over the number of points, a curve for
+//                        each family of files whose names differ only in digits, means for sets of
+//                        equal size; if all have the same size, a histogram
 //
-// Bands about a curve are standard errors of a mean, or a lower and an upper bound.
+// Bands around a curve are standard errors of a mean, or lower and upper bounds.
 //
 // Source  band of white noise: E. B. Wilson, M. M. Hilferty, PNAS 17 (1931) 684-688,
-//         doi:10.1073/pnas.17.12.684: half of a ring's frequencies are free (P(-f) = P(f)).
+//         doi:10.1073/pnas.17.12.684; half of a ring's frequencies are independent (P(-f) = P(f)).
 #pragma once
 
 #include <span>
@@ -24,13 +24,13 @@
 
 namespace stipple::plot {
 
-/// key: of the results, what to draw where there is a choice; empty: what is drawn as a rule.
-/// @throws Error(input) for reports of different analyzers, or with nothing to draw: says what
-/// there is; Error(usage) for a key that is none.
+/// @param key result to draw; empty: the default for the analyzer
+/// @throws Error(input) for reports of different analyzers, or if nothing can be drawn: names the
+/// possible keys; Error(usage) for an unknown key
 Chart chart_of(std::span<const Measurement> measurements, const std::string& key = {});
 
-/// 2.5 and 97.5 % points of the mean power of a ring of so many frequencies, over so many sets of
-/// white noise.
+/// 2.5 % and 97.5 % quantiles of a ring's mean power, for white noise. @param cells frequencies in
+/// the ring @param sets number of sets averaged
 std::pair<double, double> white_noise_band(double cells, double sets);
 
 }  // namespace stipple::plot

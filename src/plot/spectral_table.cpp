@@ -13,10 +13,10 @@
 namespace stipple::plot {
 namespace {
 
-constexpr std::size_t least_side = 9;  ///< smaller tables may be points
+constexpr std::size_t least_side = 9;  ///< smaller tables are more likely points
 
-/// Whether the middle number can be the power at frequency zero, (sum of w)^2 / (sum of w^2), which
-/// is at least 1 and no less than any other power; a set of one point has the power 1 everywhere.
+/// Whether the middle number can be the power at frequency zero, (sum of w)^2 / (sum of w^2): it is
+/// at least 1 and the largest power. A set of one point has power 1 everywhere.
 bool is_power(std::span<const double> v) {
     constexpr double rounding = 1e-6;
     const double centre = v[v.size() / 2];
@@ -27,7 +27,7 @@ bool is_power(std::span<const double> v) {
 
 bool is_side(std::size_t side) { return side % 2 == 1 && side >= least_side; }
 
-/// Whether the numbers are those of a table about its middle.
+/// Whether the numbers are symmetric about the middle, and not negative.
 bool is_symmetric(std::span<const double> v) {
     for (std::size_t i = 0; i < v.size() / 2; ++i) {
         const double other = v[v.size() - 1 - i];
@@ -38,7 +38,7 @@ bool is_symmetric(std::span<const double> v) {
 
 bool is_spectrum(std::span<const double> v) { return is_symmetric(v) && is_power(v); }
 
-/// The numbers of planes that are as many as their sides, one after the other; else none.
+/// The numbers of a cube, if there are as many square planes as each has rows; else empty.
 std::vector<double> cube_of(std::span<const PointSet* const> sets) {
     std::vector<double> values;
     for (const PointSet* plane : sets) {
@@ -90,7 +90,7 @@ std::optional<SpectralTable> spectral_table(std::span<const PointSet* const> set
         !is_symmetric(first.flat()))
         return std::nullopt;
     Grid grid = grid_of(first, first.count());
-    // The density of pair differences is none at zero.
+    // The density of pair differences is 0 at zero.
     const bool differences =
         grid.values[grid.values.size() / 2] == 0 && std::ranges::max(grid.values) > 0;
     if (!differences && !is_power(grid.values)) return std::nullopt;

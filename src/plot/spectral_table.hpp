@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// The tables that `periodogram --grid` and `differential --grid` save, found among what was read as
-// points: nowhere negative, of an odd side of 9 or more, and alike at f and -f. Their NPY files say
-// no more than that.
+// Recognizes tables saved by `periodogram --grid` and `differential --grid` among sets read as
+// points, since their NPY files are not marked: not negative, an odd side of at least 9, and
+// symmetric in f and -f.
 //
 //     (m)        power of a set on the line
-//     (m, m)     power in the plane; differences of pairs where the middle is 0, as no point
-//                differs from itself, while the power at frequency 0 is n
+//     (m, m)     power in the plane; differences of pairs if the middle is 0, since distinct points
+//                do not differ by 0, whereas the power at frequency 0 is n
 //     (m, m, m)  power in space
 //
-// In the plane they are pictures, frequency zero in the middle:
+// In the plane they are drawn as pictures with frequency zero in the middle:
 //
-//     grey = P / (1 + P),
+//     grey = P / (1 + P)
 //
-// so that white noise (P = 1) is middle grey in every picture, what a set lacks is darker, what it
-// repeats lighter, and no peak is cut off. Frequency zero is left out: black.
+// White noise (P = 1) is medium grey in every picture. Frequencies that a set lacks are darker,
+// those that it repeats lighter, and no peak is clipped. Frequency zero is black.
 #pragma once
 
 #include <optional>
@@ -30,26 +30,26 @@ namespace stipple::plot {
 struct SpectralTable {
     std::size_t dimension = 2;
     bool differences = false;
-    Grid values;  ///< of one row on the line; in space the plane fz = 0
+    Grid values;  ///< one row on the line; in space the plane fz = 0
 };
 
-/// What the sets of one file hold; nothing if they are points.
+/// The table in the sets of one file; nullopt if they are points.
 std::optional<SpectralTable> spectral_table(std::span<const PointSet* const> sets);
 
-/// What the axes and the colours of a table mean.
+/// Names of a table's axes and values.
 struct TableNames {
     std::string x = "frequency fx";
     std::string y = "frequency fy";
     std::string shade = "power";
-    double cell = 1;  ///< side of a cell of the table, as the axes have it
-    bool bar = true;  ///< says beside the table what its shades mean
+    double cell = 1;  ///< side of a cell in units of the axes
+    bool bar = true;  ///< draws a bar that explains the shades
 };
 
-/// @throws Error(input) for what is not square, of an odd side, and without negative numbers.
+/// @throws Error(input) unless the table is square with an odd side and has no negative numbers
 Drawing draw_spectrum(const Grid& power, const std::string& title, const std::string& subtitle,
                       const PictureStyle& style, const TableNames& names = {});
 
-/// The power at the frequencies 1 to F of a table of one row.
+/// Chart of the power at the frequencies 1 to F, from a table with one row.
 Chart power_chart(const Grid& power, const std::string& title);
 
 }  // namespace stipple::plot

@@ -16,7 +16,7 @@
 namespace stipple::plot {
 namespace {
 
-/// What one panel shows.
+/// The result that a panel shows.
 struct Topic {
     std::string measure;
     std::string key;
@@ -28,14 +28,14 @@ Topic topic_of(const MeanRow& row) { return {row.measure, row.key, row.dimension
 
 std::string_view last_part(std::string_view key) { return key.substr(key.rfind('.') + 1); }
 
-/// Whether what counts is how far results are from 0.
+/// Whether a result is an error, whose distance from 0 matters.
 bool is_error(const Topic& topic, std::span<const MeanRow> means) {
     if (is_error_key(topic.key)) return true;
     return std::ranges::any_of(
         means, [&](const MeanRow& row) { return topic_of(row) == topic && row.mean < 0; });
 }
 
-/// The exponent of n by which a curve falls; nothing where that says nothing.
+/// Exponent of n with which a curve decreases; nullopt if that is not meaningful.
 std::optional<double> slope_of(const Series& series) {
     if (series.x.size() < 3) return std::nullopt;
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
@@ -72,7 +72,7 @@ Series series_of(const std::string& generator, const Topic& topic, bool errors,
     return series;
 }
 
-/// Different texts in the order in which they come.
+/// Distinct texts in order of appearance.
 template <class Text>
 std::vector<std::string> distinct(std::span<const MeanRow> means, const Text& text) {
     std::vector<std::string> found;
@@ -84,14 +84,14 @@ std::vector<std::string> distinct(std::span<const MeanRow> means, const Text& te
 
 std::string unit_of(const Topic& topic) { return topic.measure.substr(0, topic.measure.find(':')); }
 
-/// "cube error" or, where the key is "value", the measure's name.
+/// "cube error"; if the key is "value", the measure's name.
 std::string key_of(const Topic& topic) {
     std::string_view key = topic.key;
     if (last_part(key) == "value") key.remove_suffix(std::min<std::size_t>(6, key.size()));
     return words_of(key.empty() ? unit_of(topic) : std::string(key));
 }
 
-/// "centered (l2 discrepancy), d = 2": the key with what else tells the topics apart.
+/// "centered (l2 discrepancy), d = 2": the key and whatever else distinguishes the topic.
 std::string name_of(const Topic& topic, std::span<const Topic> all) {
     const auto differ = [&](const auto& property) {
         return std::ranges::any_of(
@@ -109,7 +109,7 @@ std::string name_of(const Topic& topic, std::span<const Topic> all) {
     return name;
 }
 
-/// What is drawn: topics under the key.
+/// The topics to draw: those that match the key.
 std::vector<Topic> topics_of(std::span<const MeanRow> means, const std::string& key) {
     const bool values = std::ranges::any_of(
         means, [](const MeanRow& row) { return last_part(row.key) == "value"; });
@@ -124,7 +124,7 @@ std::vector<Topic> topics_of(std::span<const MeanRow> means, const std::string& 
     return topics;
 }
 
-/// Generators have the same colours in all panels.
+/// Generators have the same colour in all panels.
 ChartPanel panel_of(const Topic& topic, const std::string& name, std::span<const MeanRow> means) {
     const bool errors = is_error(topic, means);
     ChartPanel panel{
@@ -146,7 +146,7 @@ ChartPanel panel_of(const Topic& topic, const std::string& name, std::span<const
     return panel;
 }
 
-/// How many sets a mean is of, and what bands are.
+/// How many sets each mean has, and what the bands are.
 std::string notes_of(std::span<const MeanRow> means) {
     const auto [least, most] =
         std::ranges::minmax(means, {}, [](const MeanRow& row) { return row.sets; });

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Charts of studies: a panel for each result, in it a curve for each generator over the number of
-// points: the mean of the sets, with its interval as a band, or the root mean square of results that
-// are errors. Legends have the slopes of straight lines fitted to the logarithms of both by least
-// squares, where there are three counts or more and all values are above 0.
+// Charts of studies: a panel for each result with a curve for each generator over the number of
+// points. Curves show means of the sets with their intervals as bands, or root mean squares of
+// results that are errors. Legends have the slopes of straight lines fitted to the logarithms of
+// both by least squares, if there are at least three counts and all values are positive.
 #pragma once
 
 #include <span>
@@ -17,11 +17,12 @@ namespace stipple::plot {
 
 struct StudyChart {
     Chart chart;
-    std::vector<std::string> left_out;  ///< results for which there is no room
+    std::vector<std::string> left_out;  ///< results that did not fit
 };
 
-/// key: a result's name, or a part of it between dots; empty: those called "value", or else all.
-/// @throws Error(usage) for a key that there is not; Error(input) where there are no numbers
+/// @param key a result's name, or a part of it between dots; empty: results called "value", or else
+/// all
+/// @throws Error(usage) for an unknown key; Error(input) if there are no numbers
 StudyChart study_chart(std::span<const MeanRow> means, const std::string& key = {});
 
 }  // namespace stipple::plot

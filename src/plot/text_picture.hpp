@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Pictures as text for terminals: points, the curves of a chart, a spectrum, a local discrepancy.
+// Pictures as text for terminals: points, charts, spectra, local discrepancies.
 #pragma once
 
 #include <string>
@@ -13,34 +13,34 @@
 
 namespace stipple::plot {
 
-/// Characters that there is room for. Both at least 1; what is too small is made as large as needed.
+/// Available characters, at least 1 each; a picture that needs more is larger.
 struct TextRoom {
     std::size_t columns = 80;
     std::size_t rows = 24;
-    bool coloured = false;  ///< by a terminal's codes
+    bool coloured = false;  ///< with terminal colour codes
 };
 
-/// Points of one coordinate: their histogram; of two: where they are; of three: seen from a fixed
-/// place; of more: as many of the first pairs as the columns have room for.
+/// One coordinate: a histogram. Two: the plane. Three: a view from a fixed direction. More: as many
+/// of the first pairs as fit into the columns.
 std::string points_as_text(const PointsPicture& picture, const TextRoom& room);
 
-/// All curves and bars, panel below panel. Where there are several, each has a letter, which stands
-/// where it ends, on the right.
+/// All curves and bars, one panel below the other. If there are several curves, each has a letter
+/// on the right, where it ends.
 std::string chart_as_text(const Chart& chart, PictureStyle style, const TextRoom& room);
 
-/// A spectrum in five shades.
+/// A spectrum in five shades of grey.
 std::string spectrum_as_text(const Grid& power, const std::string& title, const TextRoom& room);
 
-/// The local discrepancy in shades up to `largest`: blocks where there are too many points, letters
-/// where there are too few.
+/// The local discrepancy in shades up to `largest`: blocks for too many points, letters for too
+/// few.
 std::string local_discrepancy_as_text(const PointSet& points, const WorstBoxes& worst,
                                       const std::string& title, double largest,
                                       const TextRoom& room, const RunContext& run);
 
-/// Room for each of several pictures.
+/// Room for each of several pictures that share a room.
 TextRoom shared_room(const TextRoom& room, std::size_t pictures);
 
-/// Pictures that were made for such a room, side by side.
+/// Joins pictures made for such a room side by side.
 std::string side_by_side(const std::vector<std::string>& pictures, const TextRoom& room);
 
 }  // namespace stipple::plot

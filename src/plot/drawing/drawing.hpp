@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A picture as a list of shapes, in units of which one is a pixel on a plain screen; x to the
-// right, y downward. It is written as SVG (svg_bytes, svg_element), as PDF, or as pixels
-// (png_bytes_of).
+// A picture as a list of shapes. A unit is one pixel on an ordinary screen; x to the right, y
+// downwards. Output as SVG (svg_bytes, svg_element), PDF, or pixels (png_bytes_of).
 //
 // Promise the same drawing gives the same bytes.
 #pragma once
@@ -38,7 +37,7 @@ struct Position {
     bool operator==(const Position&) const = default;
 };
 
-/// An upright rectangle.
+/// An axis-parallel rectangle.
 struct Area {
     double left = 0;
     double top = 0;
@@ -51,7 +50,7 @@ struct Area {
 
 enum class Dash { none, dashed, dotted };
 
-/// A polyline; crisp: of whole pixels, for lines along the axes.
+/// A polyline. If crisp, it is aligned to whole pixels, for lines along the axes.
 struct Line {
     std::vector<Position> vertices = {};
     Colour colour = {};
@@ -60,14 +59,14 @@ struct Line {
     bool crisp = false;
 };
 
-/// The inside of a closed line.
+/// The interior of a closed line.
 struct Patch {
     std::vector<Position> vertices = {};
     Colour colour = {};
     double opacity = 1;
 };
 
-/// Disks of one size.
+/// Disks of equal size.
 struct Disks {
     std::vector<Position> centres = {};
     double radius = 1;
@@ -77,7 +76,8 @@ struct Disks {
 
 enum class Anchor { start, middle, end };
 
-/// A line of text; `at` is on its base line. Upward: read from below, for the axis on the left.
+/// A line of text; `at` is on its baseline. If `upward`, it reads from bottom to top, for the left
+/// axis.
 struct Label {
     std::string text;
     Position at;
@@ -88,7 +88,7 @@ struct Label {
     bool bold = false;
 };
 
-/// Pixels, row after row from the top, stretched to an area; each stays a sharp square.
+/// Pixels in row-major order from the top, scaled to an area without smoothing.
 struct PixelImage {
     Area area;
     std::size_t columns = 0;
@@ -96,15 +96,16 @@ struct PixelImage {
     std::vector<Colour> pixels = {};
 };
 
-/// Clips the shapes that follow, up to the next one, to an area.
+/// Clips the following shapes to an area, up to the next ClipWindow.
 struct ClipWindow {
     Area area = {};
     bool open = false;  ///< no clipping
 };
 
-/// What follows is one group of a page's SVG, up to the next one; of files it changes nothing.
+/// Puts the following shapes into a group of a page's SVG, up to the next SvgGroup; ignored in
+/// files.
 struct SvgGroup {
-    std::string attributes;  ///< of its element: class="box star"; empty: no group
+    std::string attributes;  ///< of the group element: class="box star"; empty: no group
 };
 
 using Shape = std::variant<Line, Patch, Disks, Label, PixelImage, ClipWindow, SvgGroup>;
@@ -113,10 +114,10 @@ struct Drawing {
     double width = 0;
     double height = 0;
     Colour background = {255, 255, 255};
-    std::string title;  ///< for readers of screens, and the file's text chunk
+    std::string title;  ///< for screen readers, and the file's text chunk
     std::vector<Shape> shapes = {};
 
-    /// Made in its place: GCC 12 takes a moved variant for one that was not initialized.
+    /// Constructed in place: GCC 12 warns that a moved variant is uninitialized.
     template <class S>
     void add(S shape) {
         shapes.emplace_back(std::in_place_type<S>, std::move(shape));
@@ -133,30 +134,30 @@ struct Drawing {
     }
 };
 
-/// What a picture's file says about itself, besides its title: keyword and text.
+/// Metadata in a picture's file besides its title: keyword and text.
 using PictureNotes = std::vector<std::pair<std::string, std::string>>;
 
-/// As SVG 1.1; text is text. One unit is `scale` pixels.
+/// SVG 1.1; text remains text. One unit is `scale` pixels.
 std::string svg_bytes(const Drawing& drawing, double scale, const PictureNotes& notes = {});
 
-/// As an element of a page, in the colours of the first where the page is light, of the second
-/// where it is dark; the label describes it to screen readers. Both have the same shapes.
+/// An SVG element for a page: the first drawing's colours on light pages, the second one's on dark
+/// pages. Both must have the same shapes. `label` describes it to screen readers.
 std::string svg_element(const Drawing& light, const Drawing& dark, const std::string& label);
 
-/// A number to hundredths of a unit, which are more than eyes see.
+/// A number rounded to hundredths of a unit, which is finer than visible.
 std::string short_number(double x);
 
-/// As one page of PDF 1.4, which carries its fonts; one unit is `scale` times 3/4 of a point.
+/// One page of PDF 1.4 with embedded fonts; one unit is `scale` times 3/4 of a point.
 std::string pdf_bytes(const Drawing& drawing, double scale, const PictureNotes& notes = {});
 
-/// Pixels as PNG; grey: of one part, where all three are the same.
+/// PNG of pixels; if `grey`, with one channel, for equal red, green and blue.
 std::string png_bytes_of(const PixelImage& image, bool grey, const PictureNotes& notes = {});
 
-/// As PNG, one unit `scale` pixels. @throws Error(limit) for one that is too large.
+/// PNG; one unit is `scale` pixels. @throws Error(limit) if it is too large
 std::string png_bytes_of(const Drawing& drawing, double scale, const PictureNotes& notes = {});
 
-// Colours of pictures. Series take M. Okabe and K. Ito's colours, which colour-blind readers can
-// tell apart, in an order that differs in lightness as well, for print in grey.
+// Colours. Series use the palette of M. Okabe and K. Ito, which colour-blind readers can
+// distinguish. Its order also alternates lightness, for greyscale print.
 
 struct Theme {
     Colour background;
@@ -164,8 +165,8 @@ struct Theme {
     Colour text;   ///< numbers and names on axes
     Colour frame;  ///< axes
     Colour grid;   ///< lines behind the data
-    Colour band;   ///< what chance allows
-    Colour guide;  ///< lines to compare with
+    Colour band;   ///< range of random variation
+    Colour guide;  ///< reference lines
     std::span<const Colour> series;
 
     [[nodiscard]] Colour series_colour(std::size_t i) const { return series[i % series.size()]; }

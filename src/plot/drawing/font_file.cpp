@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The outline of a stroke is one closed line: along its left side, round its end, back along the other
-// side, round its beginning. Where it turns left, it goes through the middle of the pen; where it turns
-// right, round the pen. It may cross itself, which filling by winding numbers allows.
+// Letters as TrueType outlines. The outline of a stroke is one closed line: along its left side,
+// around its end, back along the other side, and around its beginning. At left turns it passes
+// through the centre of the pen, at right turns around the pen. It may cross itself, which the
+// nonzero winding rule allows.
 //
 // Source  Apple, TrueType Reference Manual, chapter 6 (glyf, head, hhea, hmtx, loca, maxp).
 #include "plot/drawing/font_file.hpp"
@@ -19,9 +20,9 @@
 namespace stipple::plot {
 namespace {
 
-constexpr double font_units = font_em / em_units;  ///< in one of a letter's grid
+constexpr double font_units = font_em / em_units;  ///< font units per unit of the glyph grid
 
-/// Numbers of so many bytes, the highest first.
+/// Appends a number in big-endian order.
 void put_number(std::string& out, std::int64_t value, int bytes) {
     for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8)
         out += static_cast<char>(static_cast<std::uint64_t>(value) >> shift & 0xFF);
@@ -42,7 +43,8 @@ Position unit_vector(Position from, Position to) {
     return {(to.x - from.x) / length, (to.y - from.y) / length};
 }
 
-/// Goes round the pen at a corner, from the left side of one direction to that of the other.
+/// Adds the corner's outline: an arc around the pen from the left side of one direction to that of
+/// the next.
 void add_corner(Outline& outline, Position corner, Position before, Position after, double radius) {
     constexpr double step = std::numbers::pi / 6;
     const auto add = [&](double dx, double dy) {
@@ -68,7 +70,7 @@ Outline outline_of(std::vector<Position> stroke, double radius) {
     stroke.erase(std::unique(stroke.begin(), stroke.end()), stroke.end());
     const std::size_t n = stroke.size();
     if (n < 2) return {};
-    std::vector<Position> way = stroke;  // there and back
+    std::vector<Position> way = stroke;  // forwards and backwards
     for (std::size_t i = n - 1; i-- > 1;) way.push_back(stroke[i]);
     Outline outline;
     for (std::size_t i = 0; i < way.size(); ++i) {
@@ -81,7 +83,7 @@ Outline outline_of(std::vector<Position> stroke, double radius) {
     return outline;
 }
 
-/// Left, lower, right and upper end.
+/// Bounding box.
 struct Extent {
     int left = 0, low = 0, right = 0, high = 0;
 };
@@ -144,12 +146,12 @@ struct Table {
     std::string bytes;
 };
 
-/// The tables behind their directory, in the order of their names.
+/// A directory of the tables followed by their bytes; tables must be sorted by name.
 std::string file_of(const std::vector<Table>& tables) {
     const int count = static_cast<int>(tables.size());
     std::string out;
     put_number(out, 0x00010000, 4);
-    put_words(out, {count, 64, 2, 16 * count - 64});  // 4 to 7 tables
+    put_words(out, {count, 64, 2, 16 * count - 64});  // correct for 4 to 7 tables
     auto offset = static_cast<std::int64_t>(12 + 16 * tables.size());
     for (const auto& [name, bytes] : tables) {
         out += name;
@@ -168,9 +170,9 @@ std::string file_of(const std::vector<Table>& tables) {
 std::string head_table(const Extent& all) {
     std::string head;
     for (const std::int64_t word : {0x00010000LL, 0x00010000LL, 0LL, 0x5F0F3CF5LL})
-        put_number(head, word, 4);  // versions, a sum that readers do not need, the magic number
+        put_number(head, word, 4);  // versions, an unused checksum, the magic number
     put_words(head, {0x0003, font_em});
-    put_number(head, 0, 8);  // no dates: the same letters make the same bytes
+    put_number(head, 0, 8);  // no dates: equal letters give equal bytes
     put_number(head, 0, 8);
     put_words(head, {all.left, all.low, all.right, all.high, 0, 8, 2, 1, 0});
     return head;

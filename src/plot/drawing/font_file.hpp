@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A font that files can carry: outlines of the strokes that letters have (letters.hpp), as TrueType.
+// Embeddable TrueType fonts, made from the strokes of letters (letters.hpp).
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace stipple::plot {
 
-inline constexpr int font_em = 1000;  ///< units of a font's grid
+inline constexpr int font_em = 1000;  ///< units per em
 
-/// The advance of a letter in such units.
+/// Advance width of a letter in font units.
 int font_advance(char32_t letter);
 
-/// A font without a table of characters: glyph 0 is a box, glyph i is letter i - 1. Bold ones have a
+/// A font without a character map: glyph 0 is a box, glyph i is letter i - 1. Bold fonts have a
 /// broader pen.
 std::string font_file(std::u32string_view letters, bool bold);
 

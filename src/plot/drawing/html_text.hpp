@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Text and bytes as they stand in HTML and SVG.
+// Encoding of text and bytes for HTML and SVG.
 #pragma once
 
 #include <string>
@@ -8,13 +8,13 @@
 
 namespace stipple::plot {
 
-/// Text between tags: UTF-8 without control characters.
+/// Escapes text between tags; UTF-8 without control characters.
 std::string xml_text(std::string_view text);
 
-/// The same, also for an attribute in double quotes.
+/// Escapes text for attributes in double quotes, too.
 std::string html_text(std::string_view text);
 
-/// RFC 4648.
+/// Base64 encoding (RFC 4648).
 std::string base64(std::string_view bytes);
 
 }  // namespace stipple::plot

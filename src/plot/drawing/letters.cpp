@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A glyph is a line of glyphs.txt: its letter, its advance in thousandths of an em, and a path. M begins
-// a stroke, L goes straight on, Q goes through a quarter of an ellipse whose tangents meet at its
-// first point.
+// Parser of glyphs.txt. Each line is a glyph: its letter, its advance in thousandths of an em, and
+// a path. M begins a stroke, L draws a straight line, Q a quarter of an ellipse; the first point of
+// Q is where its tangents meet.
 #include "plot/drawing/letters.hpp"
 
 #include <algorithm>
@@ -28,14 +28,15 @@ const Glyph unknown{U'\uFFFD', 556, "M2 1L13.6 1L13.6 19L2 19L2 1"};
 constexpr std::u32string_view raised_letters = U"⁰¹²³⁴⁵⁶⁷⁸⁹⁻";
 constexpr std::u32string_view plain_letters = U"0123456789−";
 
-/// Letters of Latin-1 from U+00C0 on, without their accents, and these.
+/// Base letters of U+00C0 and the following letters of Latin-1; `accents` has their accents.
 constexpr std::u32string_view bare_letters =
     U"AAAAAAACEEEEIIIIDNOOOOO×OUUUUYPßaaaaaaaceeeeiiiidnooooo/ouuuuypy";
 constexpr std::string_view accents =
     "`'^~:o ,`'^:`'^: ~`'^~: /`'^:'  `'^~:o ,`'^:`'^: ~`'^~: /`'^:' :";
 static_assert(accents.size() == bare_letters.size());
 
-/// Over the middle of a letter that ends at 0, or from its baseline down and through it.
+/// Path of an accent: above, centred at 0; or for ',' and '/' from the baseline, below and through
+/// the letter.
 const char* path_of(char accent) {
     switch (accent) {
         case '`':
@@ -57,7 +58,7 @@ const char* path_of(char accent) {
     }
 }
 
-/// All glyphs by their letters, from lines such as "L 556 M3 19L3 1L14.2 1".
+/// All glyphs, sorted by letter; parsed from lines such as "L 556 M3 19L3 1L14.2 1".
 const std::vector<Glyph>& glyphs() {
     static const auto all = [] {
         std::vector<Glyph> found;
@@ -65,7 +66,8 @@ const std::vector<Glyph>& glyphs() {
             if (line.empty()) continue;
             const Letter letter = first_letter(line);
             std::istringstream rest{std::string(line.substr(letter.size))};
-            rest.exceptions(std::ios::badbit);  // memory that is out is no end of the text
+            rest.exceptions(std::ios::badbit);  // out of memory must not look like the end of the
+                                                // text
             Glyph glyph{.letter = letter.point};
             rest >> glyph.advance >> std::ws;
             std::getline(rest, glyph.path);
@@ -82,8 +84,8 @@ const Glyph& plain_glyph(char32_t letter) {
     return it != glyphs().end() && it->letter == letter ? *it : unknown;
 }
 
-/// A rational curve of weight sqrt(1/2): a quarter of a circle or an ellipse where the tangents are
-/// at right angles.
+/// Adds a rational quadratic curve with weight sqrt(1/2): a quarter of an ellipse if the tangents
+/// are perpendicular.
 void add_curve(std::vector<Position>& stroke, Position corner, Position end) {
     constexpr int steps = 8;
     const Position start = stroke.back();
@@ -114,7 +116,7 @@ std::vector<std::vector<Position>> strokes_in(const std::string& path) {
     return strokes;
 }
 
-/// Adds the accent of a letter of Latin-1.
+/// Adds the accent of a Latin-1 letter.
 void add_accent(std::vector<std::vector<Position>>& strokes, char32_t letter) {
     if (letter < 0xC0 || letter >= 0xC0 + accents.size()) return;
     const char accent = accents[letter - 0xC0];
@@ -122,7 +124,7 @@ void add_accent(std::vector<std::vector<Position>>& strokes, char32_t letter) {
     const bool above = accent != ',' && accent != '/';
     const bool small = letter >= 0xE0;
     if (above && small && bare_letters[letter - 0xC0] == U'i')
-        strokes.resize(1);  // without its dot
+        strokes.resize(1);  // removes the dot of i
     const double middle = em_units * plain_glyph(letter).advance / 2000;
     const double base = !above ? 0 : small ? 16 : 21.5;
     for (auto& stroke : strokes_in(path_of(accent))) {
@@ -171,7 +173,7 @@ std::vector<std::string> wrapped(std::string_view text, double size, double widt
     for (std::size_t first = 0; first < letters.size();) {
         double used = 0;
         std::size_t end = first;
-        std::size_t good = first;  // behind the last sign where the line can break
+        std::size_t good = first;  // after the last possible break
         for (; end < letters.size(); ++end) {
             used += advance_of(letters[end]);
             if (used > room && letters[end] != U' ' && end > first) break;

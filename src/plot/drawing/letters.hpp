@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Letters of pictures: every letter as strokes of a pen, for pictures that are drawn without a font.
+// Letters as pen strokes, for pictures drawn without a font.
 //
-// Units   an em is 28 units of the glyph's grid; y upward from the base line, capitals 20 high.
+// Units   an em is 28 units of the glyph grid; y upwards from the baseline; capitals are 20 high.
 #pragma once
 
 #include <optional>
@@ -16,28 +16,28 @@ namespace stipple::plot {
 
 inline constexpr double em_units = 28;
 
-/// Raised letters are small ones, higher up.
+/// Superscript letters are smaller and raised.
 inline constexpr double raised_size = 0.6;
 inline constexpr double raised_by = 8.5;
 
-/// The plain letter of a raised one: 2 of ².
+/// The plain letter of a superscript: 2 for ²; nullopt for other letters.
 std::optional<char32_t> lowered(char32_t letter);
 
-/// Units from a letter's origin to the next one's: those of Helvetica.
+/// Advance of a letter in grid units, as in Helvetica.
 double advance_of(char32_t letter);
 
-/// The letter's strokes; a box for one that is not known.
+/// Strokes of a letter; a box for unknown letters.
 std::vector<std::vector<Position>> strokes_of(char32_t letter);
 
-/// Width of a line of text of that size.
+/// Width of a line of text at this font size.
 double text_width(std::string_view text, double size);
 
-/// The text in lines that are no wider: broken at blanks and behind other signs or, within longer
-/// words, anywhere.
+/// Wraps text to lines of at most this width, at blanks and after other signs; long words are
+/// broken anywhere.
 std::vector<std::string> wrapped(std::string_view text, double size, double width);
 
-/// A label's text as its lines, the last of which is where the label is; upward ones to the left of each
-/// other.
+/// Adds a label with several lines, the last of them at the label's position; lines of upward
+/// labels are to the left of each other.
 void add_lines(Drawing& drawing, const Label& label, const std::vector<std::string>& lines,
                double leading);
 

@@ -13,14 +13,14 @@
 namespace stipple::plot {
 namespace {
 
-constexpr double mark = 4;        ///< length of the marks at numbers
-constexpr double small_mark = 2;  ///< between them
-constexpr double gap = 10;        ///< at least, between numbers side by side
+constexpr double mark = 4;        ///< length of tick marks at numbers
+constexpr double small_mark = 2;  ///< of tick marks between numbers
+constexpr double gap = 10;        ///< minimum between neighbouring numbers
 constexpr double capital = 0.714 * number_size;
 
 constexpr double number_row = number_size + 2;
 constexpr double name_row = name_size + 2;
-constexpr double farthest = 1e5;  ///< units of a drawing; what is further out is never seen
+constexpr double farthest = 1e5;  ///< limit for coordinates, in units; anything beyond is invisible
 
 /// The width of a text's widest line.
 double block_width(const std::string& text) {
@@ -34,23 +34,23 @@ double rows_of(const std::string& text) {
     return static_cast<double>(std::ranges::count(text, '\n') + 1);
 }
 
-/// A number's text, of words several lines, the last of which is where the label is.
+/// Adds a tick's text. Words may have several lines, the last of them at the label's position.
 void add_text(Drawing& drawing, const Label& label) {
     std::vector<std::string> lines;
     for (const auto line : split(label.text, '\n')) lines.emplace_back(line);
     add_lines(drawing, label, lines, number_row);
 }
 
-/// The middle of a number's text, that many units from the axis's start: not far beyond its ends or,
-/// where another frame is beside it, within them.
+/// Position of the middle of a number's text, in units from the axis's start. The text may extend
+/// slightly beyond the ends, unless another frame is next to it.
 double middle_of(const Axis& axis, const Tick& tick, double length) {
-    constexpr double beyond = 20;  // less than pictures' margins
+    constexpr double beyond = 20;  // less than the margins of pictures
     const double at = axis.share(tick.value) * length;
     const double inside = block_width(tick.text) / 2 - (axis.tight ? 0 : beyond);
     return length > 2 * inside ? std::clamp(at, inside, length - inside) : at;
 }
 
-/// Whether numbers side by side keep their distance.
+/// Whether neighbouring numbers do not touch.
 bool fit(const Axis& axis, const Ticks& ticks, double length) {
     double end = -1e9;
     for (const Tick& tick : ticks.numbers) {
@@ -75,21 +75,21 @@ double room_of_numbers(const Ticks& ticks) {
     return rows * number_row;
 }
 
-/// Rows of an axis's name that are no longer than it; a little longer beside short ones.
+/// The axis's name wrapped to the axis's length, with a small tolerance.
 std::vector<std::string> rows_of_name(const Axis& axis, const Ticks& ticks, double length) {
     return wrapped(full_name(axis, ticks), name_size, length + 6);
 }
 
-/// What these rows take, with some space before them.
+/// Space for the rows of the name, plus some space before them.
 double room_of_name(const Axis& axis, const Ticks& ticks, double length, double space) {
     const auto rows = static_cast<double>(rows_of_name(axis, ticks, length).size());
     return axis.numbers && rows > 0 ? name_row * rows + space : 0;
 }
 
-/// Words as numbers, or every second, third, ... of them.
+/// Words as tick labels; only every second, third, ... if there is not enough space.
 Ticks ticks_of_words(const Axis& axis, double length, bool upright) {
     constexpr double widest = 110;
-    const double pitch = length / (axis.high - axis.low);  // from one word to the next
+    const double pitch = length / (axis.high - axis.low);  // distance between words
     const double least = upright ? number_row : 24;
     const double stride = std::max(1.0, std::ceil(least / pitch));
     const double room = upright ? widest : std::max(least, stride * pitch) - gap / 2;
@@ -104,11 +104,11 @@ Ticks ticks_of_words(const Axis& axis, double length, bool upright) {
     return found;
 }
 
-/// The left side and the lower one; closed: all four.
+/// Draws the left and lower side; if `closed`, all four.
 void draw_sides(Drawing& drawing, const Area& area, Colour colour, bool closed) {
     const double right = area.right();
     const double bottom = area.bottom();
-    // One unit further, so that the corners are whole.
+    // One unit longer, to fill the corners.
     drawing.line({area.left, area.top}, {area.left, bottom + 1}, colour);
     drawing.line({area.left, bottom}, {right + 1, bottom}, colour);
     if (!closed) return;
@@ -132,7 +132,7 @@ Ticks Axis::ticks(double length, bool upright) const {
 
 double Axis::share(double value) const {
     if (!log) return (value - low) / (high - low);
-    const auto up_from_low = [this](double x) {  // a quotient tells near numbers apart
+    const auto up_from_low = [this](double x) {  // the quotient distinguishes nearby numbers
         const double ratio = x / low;
         return std::isfinite(ratio) ? std::log(ratio) : std::log(x) - std::log(low);
     };

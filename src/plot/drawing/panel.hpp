@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A frame with two axes, and the way from data to its place in a drawing; a bar beside a picture
-// that says what its colours mean.
+// A frame with two axes that maps data to positions in a drawing; and a colour bar that explains
+// the colours of a picture.
 #pragma once
 
 #include <functional>
@@ -13,29 +13,30 @@
 
 namespace stipple::plot {
 
-inline constexpr double number_size = 12;  ///< of the numbers on axes
-inline constexpr double name_size = 13;    ///< of the axes' names
+inline constexpr double number_size = 12;  ///< font size of numbers on axes
+inline constexpr double name_size = 13;    ///< font size of axis names
 
 struct Axis {
     double low = 0;
     double high = 1;
     bool log = false;
     bool binary = false;                  ///< logarithmic, with numbers at powers of two
-    bool whole = false;                   ///< numbers are whole
-    std::vector<std::string> words = {};  ///< in place of the numbers from first_word on
+    bool whole = false;                   ///< only integers as numbers
+    std::vector<std::string> words = {};  ///< replace the numbers from first_word on
     double first_word = 1;
-    std::string name = {};  ///< empty: none
-    bool numbers = true;    ///< false: marks only, where the panel below has them
-    bool tight = false;     ///< numbers stay within the frame, where another one is beside it
+    std::string name = {};  ///< empty: no name
+    bool numbers = true;    ///< false: tick marks only; the panel below has the numbers
+    bool tight = false;     ///< keeps numbers within the frame, since another one is next to it
 
-    /// Numbers that fit along so many units: side by side, or one above the other.
+    /// Ticks that fit into this length; `upright` for numbers one above the other.
     [[nodiscard]] Ticks ticks(double length, bool upright) const;
 
-    /// The place of a value between low (0) and high (1).
+    /// Relative position of a value between low (0) and high (1).
     [[nodiscard]] double share(double value) const;
 
-    /// Makes [low, high] a range whose ends differ to so many digits, and what is logarithmic positive; a
-    /// range that was narrower is named so. @throws Error(input) beyond what axes reach
+    /// Ensures that the ends of [low, high] differ in `digits` digits, and are positive if
+    /// logarithmic. The name mentions a range that had to be widened. @throws Error(input) beyond
+    /// the limits of axes
     void make_valid(int digits = shown_digits);
 };
 
@@ -50,13 +51,13 @@ class Panel {
         return {x(x_value), y(y_value)};
     }
 
-    /// Faint lines behind the data.
+    /// Draws faint lines behind the data.
     void draw_grid(Drawing& drawing, const Theme& theme) const;
 
-    /// The frame with its numbers and names; closed: on all four sides.
+    /// Draws the frame with numbers and names; if `closed`, on all four sides.
     void draw_axes(Drawing& drawing, const Theme& theme, bool closed) const;
 
-    /// Room that numbers and name take beside a frame of that height, and below one of that width.
+    /// Space for numbers and name beside a frame of this height, and below one of this width.
     static double room_left(const Axis& y, double height);
     static double room_below(const Axis& x, double width);
 
@@ -71,9 +72,10 @@ class Panel {
     Ticks y_ticks_;
 };
 
-inline constexpr double colour_bar_room = 62;  ///< to the right of the picture, with its numbers
+inline constexpr double colour_bar_room = 62;  ///< to the right of the picture, with the bar's
+                                               ///< numbers
 
-/// Colours from the bottom (0) to the top (1); values of the ticks are such shares.
+/// Draws colours from the bottom (0) to the top (1); the ticks have values in this range.
 void draw_colour_bar(Drawing& drawing, const Area& area, const std::string& name,
                      const Theme& theme, const std::function<Colour(double)>& colour,
                      const std::vector<Tick>& ticks);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A drawing as a page of PDF. Text is text, in a font that the file carries: glyphs of the letters that
-// are in it, and a table of what they are, for readers that search and copy.
+// A drawing as a PDF page. Text remains text, in an embedded font that contains only the used
+// glyphs, and has a table of their characters for searching and copying.
 //
 // Source  ISO 32000-1:2008, Document management, Portable document format 1.7 (as far as 1.4 goes).
 #include <fmt/format.h>
@@ -21,7 +21,7 @@
 namespace stipple::plot {
 namespace {
 
-/// Bytes as zlib makes them smaller.
+/// Compresses bytes with zlib.
 std::string deflated(const std::string& bytes) {
     uLongf size = compressBound(static_cast<uLong>(bytes.size()));
     std::string out(size, '\0');
@@ -46,17 +46,17 @@ std::string utf16_of(char32_t letter) {
                        0xDC00 + ((letter - 0x10000) & 0x3FF));
 }
 
-/// A text for readers.
+/// A text for the document's information.
 std::string text_string(const std::string& text) {
     std::string out = "<FEFF";
     for (const char32_t letter : code_points(text)) out += utf16_of(letter);
     return out + ">";
 }
 
-/// Letters that a page has, regular (0) or bold (1): glyph i is letter i - 1.
+/// Letters used on a page, regular (0) or bold (1); glyph i is letter i - 1.
 using Fonts = std::array<std::u32string, 2>;
 
-/// What makes text of the glyphs.
+/// The table that maps glyphs to Unicode.
 std::string unicode_map(const std::u32string& letters) {
     constexpr std::size_t most = 100;  // entries in a block
     std::string map =
@@ -74,11 +74,11 @@ std::string unicode_map(const std::u32string& letters) {
     return map + "endcmap CMapName currentdict/CMap defineresource pop end end";
 }
 
-/// Adds the objects of a font; gives the number of the first one, which stands for it.
+/// Appends the objects of a font; returns the number of the first one, which represents it.
 std::size_t add_font(std::vector<std::string>& objects, const std::u32string& letters, bool bold) {
     const std::size_t number = objects.size() + 1;
     std::string bytes = font_file(letters, bold);
-    std::uint64_t tag = fingerprint(bytes);  // a subset's name has six letters of its own
+    std::uint64_t tag = fingerprint(bytes);  // subset names begin with six letters
     std::string name;
     for (int k = 0; k < 6; ++k, tag /= 26) name += static_cast<char>('A' + tag % 26);
     name += bold ? "+Stipple-Bold" : "+Stipple";
@@ -102,7 +102,7 @@ std::size_t add_font(std::vector<std::string>& objects, const std::u32string& le
     return number;
 }
 
-/// Writes shapes as operators of a page's content, y downward.
+/// Writes shapes as content operators; y points downwards.
 class Content {
   public:
     void operator()(const Line& line) {
@@ -123,7 +123,7 @@ class Content {
         opacity(1);
     }
 
-    /// Strokes without length, whose ends are round.
+    /// Draws disks as strokes of length 0 with round ends.
     void operator()(const Disks& disks) {
         opacity(disks.opacity);
         stroke(disks.colour, 2 * disks.radius);
@@ -190,7 +190,7 @@ class Content {
     }
     [[nodiscard]] const std::vector<std::string>& images() const { return images_; }
     [[nodiscard]] const Fonts& fonts() const { return fonts_; }
-    /// Opacities by their names.
+    /// Opacities by name.
     [[nodiscard]] const std::map<std::string, std::string>& opacities() const { return opacities_; }
 
   private:
@@ -226,7 +226,7 @@ class Content {
     std::map<std::string, std::string> opacities_ = {{"G100", "1"}};
 };
 
-/// A file of objects, the first of which is the catalogue and the last the information.
+/// A PDF file of objects; the first must be the catalogue and the last the information.
 std::string file_of(const std::vector<std::string>& objects) {
     std::string out = "%PDF-1.4\n%\xE2\xE3\xCF\xD3\n";
     std::string places = "0000000000 65535 f \n";

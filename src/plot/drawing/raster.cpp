@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// A drawing as pixels. What a shape covers of a pixel is
+// Rasterizer of drawings. The fraction of a pixel that a shape covers is
 //
-//     lines and disks   w / 2 + 1/2 - distance of the pixel's middle, cut to [0, 1],
-//     patches           the share of four rows in it, each exact along x,
+//     lines and disks   w / 2 + 1/2 - distance of the pixel's centre, clamped to [0, 1],
+//     patches           the mean over four rows in the pixel, each exact along x,
 //
-// and colours are mixed by that share.
+// and colours are blended by that fraction.
 #include <algorithm>
 #include <cmath>
 
@@ -18,7 +18,7 @@
 namespace stipple::plot {
 namespace {
 
-/// Whole pixels from (left, top) up to, not including, (right, bottom).
+/// Pixels from (left, top) up to, but not including, (right, bottom).
 struct Pixels {
     int left = 0;
     int top = 0;
@@ -28,7 +28,7 @@ struct Pixels {
 
 constexpr double most_pixels = 2.5e8;
 
-/// A number of a pixel, far outside of every picture at most.
+/// Index of a pixel, clamped to a range far beyond any picture.
 int pixel(double x) { return static_cast<int>(std::clamp(x, -1e6, 1e6)); }
 
 double squared_distance(Position p, Position a, Position b) {
@@ -42,7 +42,7 @@ double squared_distance(Position p, Position a, Position b) {
     return x * x + y * y;
 }
 
-/// The strokes of a dashed line; the pattern in units of its drawing.
+/// The strokes of a dashed line; `on` and `off` are in units of the drawing.
 std::vector<std::vector<Position>> dashes_of(const std::vector<Position>& vertices, double on,
                                              double off) {
     std::vector<std::vector<Position>> dashes;
@@ -88,7 +88,7 @@ class Rasterizer {
             stroke(line.vertices, line.width * scale_);
         } else {
             const bool dashed = line.dash == Dash::dashed;
-            // Round ends make dashes longer and gaps shorter by a width.
+            // Round ends lengthen dashes and shorten gaps by the line's width.
             const double on = dashed ? std::max(6 - line.width, 1.0) : 0.5;
             for (const auto& dash : dashes_of(line.vertices, on, (dashed ? 10.0 : 4.5) - on))
                 stroke(dash, line.width * scale_);
@@ -170,13 +170,13 @@ class Rasterizer {
                static_cast<std::size_t>(x);
     }
 
-    /// The part of an area that is not clipped.
+    /// The part of an area inside the clip window.
     [[nodiscard]] Pixels visible(const Pixels& area) const {
         return {std::max(area.left, window_.left), std::max(area.top, window_.top),
                 std::min(area.right, window_.right), std::min(area.bottom, window_.bottom)};
     }
 
-    /// A line along an axis, of whole pixels.
+    /// A line along an axis, aligned to whole pixels.
     void crisp(const Line& line) {
         const double wide = std::max(1.0, std::round(line.width * scale_));
         const Position a{line.vertices[0].x * scale_, line.vertices[0].y * scale_};
@@ -192,7 +192,7 @@ class Rasterizer {
         mix(line.colour, 1);
     }
 
-    /// Marks the coverage of a polyline of the drawing, `wide` pixels wide.
+    /// Adds the coverage of a polyline, `wide` pixels wide.
     void stroke(const std::vector<Position>& vertices, double wide) {
         if (vertices.size() == 1) stroke_piece(vertices[0], vertices[0], wide);
         for (std::size_t i = 1; i < vertices.size(); ++i)
@@ -203,7 +203,7 @@ class Rasterizer {
         const Position a{from.x * scale_, from.y * scale_};
         const Position b{to.x * scale_, to.y * scale_};
         const double reach = wide / 2 + 0.5;
-        // A line thinner than a pixel covers that share of it.
+        // A line thinner than a pixel covers only that fraction of it.
         const double most = std::min(1.0, wide);
         const Pixels area = visible({pixel(std::floor(std::min(a.x, b.x) - reach)),
                                      pixel(std::floor(std::min(a.y, b.y) - reach)),
@@ -220,7 +220,7 @@ class Rasterizer {
         marked(area);
     }
 
-    /// Marks the coverage of a polygon in pixels, by the even-odd rule.
+    /// Adds the coverage of a polygon given in pixels, by the even-odd rule.
     void fill(const std::vector<Position>& vertices) {
         constexpr int rows_in_pixel = 4;
         if (vertices.empty()) return;
@@ -264,7 +264,7 @@ class Rasterizer {
                     std::max(touched_.right, area.right), std::max(touched_.bottom, area.bottom)};
     }
 
-    /// Blends a colour into the pixels by their coverage, and clears it.
+    /// Blends a colour into the covered pixels, and clears the coverage.
     void mix(Colour colour, double opacity) {
         for (int y = touched_.top; y < touched_.bottom; ++y)
             for (int x = touched_.left; x < touched_.right; ++x) {
@@ -278,10 +278,10 @@ class Rasterizer {
         touched_ = {};
     }
 
-    /// The mean over pixels of the raster from (x, y) on, at least the one that it is in.
+    /// Mean colour of the image's pixels from (x, y) on; at least the one that contains (x, y).
     static Colour mean_colour(const PixelImage& raster, double x, double y, double step_x,
                               double step_y) {
-        // The middle of what is shown decides where a pixel of the raster is larger.
+        // If an image pixel is larger than the step, the middle of the step selects it.
         const auto range = [](double from, double step, std::size_t size) {
             const double first = step <= 1 ? from + step / 2 : from;
             const double last = step <= 1 ? first : from + step - 1e-9;
@@ -313,8 +313,8 @@ class Rasterizer {
     int height_;
     Pixels window_;
     std::vector<Colour> colours_;
-    std::vector<float> shares_;  ///< how much of each pixel is marked
-    Pixels touched_;             ///< where pixels are marked
+    std::vector<float> shares_;  ///< coverage of each pixel, 0 to 1
+    Pixels touched_;             ///< bounds of the covered pixels
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace stipple::plot {
 namespace {
 
-/// Moves shapes of every kind.
+/// Translates shapes of every kind.
 struct Mover {
     double right;
     double down;

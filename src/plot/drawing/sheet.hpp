@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Several drawings on one, in rows.
+// Arrangement of several drawings in rows of one drawing.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,15 @@
 
 namespace stipple::plot {
 
-/// Columns in which so many drawings stand that are about as wide as high: those that make them
-/// largest on a sheet of that width over height. Without one (0): one row up to three, then two of
-/// two, three, or four.
+/// Number of columns for `parts` drawings that are about square. With `ratio`, the sheet's width
+/// over height, the columns that make the drawings largest. Without (0): one row for up to three,
+/// then rows of two, three or four.
 std::size_t sheet_columns(std::size_t parts, double ratio = 0);
 
-/// Puts parts in rows below `top`, from the left, and makes the drawing as large as they need.
+/// Adds parts in rows below `top`, from the left, and enlarges the drawing as needed.
 void add_rows(Drawing& drawing, std::vector<Drawing> parts, std::size_t columns, double top);
 
-/// Makes a drawing as high as that, what it has in the middle; one that is as high stays.
+/// Increases a drawing's height to `height`, centring its content; higher drawings are unchanged.
 void fill_height(Drawing& drawing, double height);
 
 }  // namespace stipple::plot

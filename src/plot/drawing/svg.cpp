@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A drawing as SVG. Text stays text, in whatever plain sans serif the reader has; pixels are a PNG
-// picture inside.
+// A drawing as SVG. Text remains text, in a sans serif font of the viewer; pixels are embedded as a
+// PNG picture.
 //
 // Source  W3C, Scalable Vector Graphics 1.1; colours of pages: CSS Color 5, light-dark().
 #include <fmt/format.h>
@@ -21,7 +21,7 @@ constexpr const char* font = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans'
 
 std::string hex(Colour c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
 
-/// fill="#0072b2", with the colour of dark pages where that is another one.
+/// fill="#0072b2", plus the colour on dark pages if that differs.
 std::string paint(const char* property, Colour light, Colour dark) {
     std::string text = fmt::format(" {}=\"{}\"", property, hex(light));
     if (light != dark)
@@ -29,14 +29,14 @@ std::string paint(const char* property, Colour light, Colour dark) {
     return text;
 }
 
-/// Writes shapes one after the other.
+/// Writes shapes in order.
 class Writer {
   public:
     explicit Writer(bool page) : page_(page) {}
 
     void operator()(const Line& line, const Line& dark) {
         if (line.vertices.size() < 2) return;
-        // Lines one unit wide are sharp where they run along the middle of pixels.
+        // Lines of odd width are sharp if they run along the middle of pixels.
         const bool half = line.crisp && std::lround(line.width) % 2 == 1;
         add_path(line.vertices, half);
         out_ += fmt::format("\" fill=\"none\"{} stroke-width=\"{}\"",
@@ -87,7 +87,7 @@ class Writer {
         out_ += fmt::format(">{}</text>\n", xml_text(label.text));
     }
 
-    /// Pixels have one set of colours; where a dark page has others, its style sheet inverts them.
+    /// Embeds the light pixels only; if dark ones differ, the page's style sheet inverts them.
     void operator()(const PixelImage& raster, const PixelImage& dark) {
         const Area& a = raster.area;
         const bool grey = std::ranges::all_of(
@@ -104,7 +104,7 @@ class Writer {
         close(in_group_);
         close(in_window_);
         if (window.open) return;
-        // Named by what it shows, so that drawings can stand in one page.
+        // Named by its area, so that equal names in several drawings on a page have the same meaning.
         const Area& a = window.area;
         const std::string name =
             fmt::format("w{}-{}-{}-{}", short_number(a.left), short_number(a.top),
@@ -136,7 +136,7 @@ class Writer {
         open = false;
     }
 
-    /// The beginning of a path; half: along the middle of pixels.
+    /// Begins a path. If `half`, coordinates are aligned to the middle of pixels.
     void add_path(const std::vector<Position>& vertices, bool half) {
         out_ += "<path d=\"";
         for (const auto& [x, y] : vertices)
@@ -145,7 +145,7 @@ class Writer {
                                 short_number(half ? std::floor(y) + 0.5 : y));
     }
 
-    /// Strokes without length, whose ends are round: a third of the bytes of circles.
+    /// Draws disks as strokes of length 0 with round ends: a third of the bytes of circles.
     void dots(const Disks& disks, const Disks& dark) {
         out_ +=
             fmt::format("<path fill=\"none\" stroke-linecap=\"round\" stroke-width=\"{}\"{}",
@@ -169,7 +169,7 @@ class Writer {
     bool in_group_ = false;
 };
 
-/// The background and all shapes, in the colours of both.
+/// The background and all shapes, in light and dark colours.
 std::string body_of(const Drawing& light, const Drawing& dark, bool page) {
     assert(light.shapes.size() == dark.shapes.size());
     Writer writer(page);

@@ -29,12 +29,12 @@ std::string raised(int exponent) {
     return text;
 }
 
-/// 10 to a whole power, the double nearest to it.
+/// 10^exponent, rounded to the nearest double.
 double ten_to(int exponent) {
     return exponent >= 0 ? std::pow(10.0, exponent) : 1 / std::pow(10.0, -exponent);
 }
 
-/// 1, 2 or 5 times a power of ten, numbered upward from 1.
+/// A step of 1, 2 or 5 times a power of ten; `number` counts such steps in ascending order.
 struct Step {
     int number;
     [[nodiscard]] int exponent() const { return static_cast<int>(std::floor(number / 3.0)); }
@@ -50,27 +50,28 @@ Step step_at_least(double least) {
     return step;
 }
 
-/// Multiples of the step in [low, high], counted in steps.
+/// Range of multiples of the step in [low, high], in units of the step.
 std::pair<double, double> multiples(double low, double high, double step) {
     constexpr double slack = 1e-9;
     return {std::ceil(low / step - slack), std::floor(high / step + slack)};
 }
 
-/// Which of some whole numbers are labelled.
+/// Selects the integers that get labels.
 struct Numbered {
     double from;
     double stride;
     [[nodiscard]] bool operator()(double k) const { return std::fmod(k - from, stride) == 0; }
 };
 
-/// At most `most` of first..last, but two where there are: multiples of a stride, if they do.
+/// Labels at most `most` of the integers first..last, but at least two if possible; multiples of
+/// the stride if two of these exist.
 Numbered spread(double first, double last, std::size_t most) {
     const double stride = std::floor((last - first) / static_cast<double>(most)) + 1;
     const double from = std::ceil(first / stride) * stride;
     return {from + stride <= last ? from : first, stride};
 }
 
-/// Decades, or every second, third, ... of them, so that at most `most` have numbers.
+/// Ticks at powers of ten; every second, third, ... only, so that at most `most` have numbers.
 void add_decades(double low, double high, std::size_t most, Ticks& ticks) {
     const int first = static_cast<int>(std::ceil(std::log10(low) - 1e-9));
     const int last = static_cast<int>(std::floor(std::log10(high) + 1e-9));
@@ -92,7 +93,7 @@ void add_decades(double low, double high, std::size_t most, Ticks& ticks) {
         }
 }
 
-/// Numbers between powers of ten, where less than two of these are in sight.
+/// Ticks between powers of ten, if fewer than two of these are visible.
 void add_digits(double low, double high, std::size_t most, Ticks& ticks) {
     ticks.minor.clear();
     const auto digits =
@@ -169,7 +170,7 @@ Ticks linear_ticks(double low, double high, std::size_t most, bool whole) {
         ++step.number;
         std::tie(first, last) = multiples(low, high, step.value());
     }
-    // A single number shows no scale: take some of the finer step.
+    // A single number shows no scale: use the next finer step.
     if (first >= last && !(whole && step.value() <= 1)) {
         --step.number;
         std::tie(first, last) = multiples(low, high, step.value());
