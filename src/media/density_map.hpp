@@ -5,11 +5,11 @@
 //
 //     cell (i, j) = [i/W, (i+1)/W) x [j/H, (j+1)/H),    mean over the square = 1.
 //
-// PNG     value = luminance x alpha (media/png_picture.hpp), samples taken as linear; the picture's
-// top row is at y near 1. Inverted, for ink on paper: (1 - luminance) x alpha. Transparent areas
-// get no points either way.
-// PFM     value = the grey of media/pfm_picture.hpp; the top row is the top of the square. Inverted:
-//         largest value - value.
+// PNG     value = luminance x alpha (media/png_picture.hpp), samples taken as linear; the top row
+//         is at y near 1. Inverted, for ink on paper: (1 - luminance) x alpha. Transparent areas get
+//         no points either way.
+// PFM     value = the grey of media/pfm_picture.hpp; the top row is at y near 1. Inverted: largest
+//         value - value.
 // NPY     shape (H, W), row 0 at y = 0; any real type. Inverted: largest value - value.
 //
 // A uniform point (u, v) is mapped by inversion: y where the cumulative sum of the rows reaches the

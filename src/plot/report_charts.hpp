@@ -6,9 +6,9 @@
 //     pair-correlation   density over distance
 //     sensitivity        bars of the indices of inputs and of pairs, with their intervals
 //     others             each list over the ascending one before it (prefixes: logarithmic).
-//                        Several reports without lists: one number over the number of points, a curve for
-//                        each family of files whose names differ only in digits, means for sets of
-//                        equal size; if all have the same size, a histogram
+//                        Several reports without lists: one number over the number of points,
+//                        a curve for each family of files whose names differ only in digits,
+//                        means for sets of equal size; if all have one size, a histogram
 //
 // Bands around a curve are standard errors of a mean, or lower and upper bounds.
 //

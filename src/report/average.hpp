@@ -25,8 +25,8 @@ class ReportAverage {
     [[nodiscard]] std::size_t count() const { return count_; }
     [[nodiscard]] const Report& mean() const { return mean_; }
 
-    /// Standard errors of the entries of `mean`, under the same names; `mean` is this mean after the
-    /// analyzer removed entries. Omits entries without a meaningful error: exact values,
+    /// Standard errors of the entries of `mean`, under the same names; `mean` is this mean after
+    /// the analyzer removed entries. Omits entries without a meaningful error: exact values,
     /// probabilities, errors, and results derived from the mean, such as an anisotropy. Empty for
     /// fewer than two reports.
     [[nodiscard]] Report standard_error(const Report& mean) const;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Measuring point sets. An analyzer is named by a spec, NAME or NAME:OPTION=VALUE,...:
-// "star-discrepancy", "l2-discrepancy:kind=centered". `stipple list analyzers` shows all of them, and
-// `stipple analyze NAME --help` the keys of their results.
+// "star-discrepancy", "l2-discrepancy:kind=centered". `stipple list analyzers` shows all of them,
+// and `stipple analyze NAME --help` the keys of their results.
 #pragma once
 
 #include <string>

@@ -147,8 +147,8 @@ class PointSet {
 
     DomainPtr domain;  ///< the space that the points live on; null: the unit cube
 
-    /// Density of each point with respect to the domain's measure, set only if it may differ from the
-    /// domain's own density; empty: the domain's.
+    /// Density of each point with respect to the domain's measure, set only if it may differ from
+    /// the domain's own density; empty: the domain's.
     std::vector<double> densities;
     Provenance provenance;  ///< empty unless known
 

@@ -64,8 +64,8 @@ struct NamedSet {
     PointSet points;
 };
 
-/// Writes a self-contained HTML page that compares up to 12 sets of one dimension: pictures, spectra
-/// and all measures. @throws Error(usage), Error(io), Error(cancelled)
+/// Writes a self-contained HTML page that compares up to 12 sets of one dimension: pictures,
+/// spectra and all measures. @throws Error(usage), Error(io), Error(cancelled)
 void write_report(const std::string& path, std::span<const NamedSet> sets,
                   const RunContext& run = {});
 

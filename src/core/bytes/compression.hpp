@@ -3,7 +3,7 @@
 // Streams of gzip (RFC 1952) and Zstandard (RFC 8878), by zlib and libzstd.
 //
 // Promise  the same content gives the same bytes on every machine with the same releases of the
-//         libraries: no time and no name is stored.
+//          libraries: no time and no name is stored.
 #pragma once
 
 #include <cstddef>

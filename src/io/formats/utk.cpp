@@ -4,9 +4,9 @@
 //
 //     UTK! <u8 type> 0 0 0 <u32 sets> <u32 n> <u32 d>
 //
-// Shape   d columns, extras among them. Types are int32, int64, uint32, uint64, float32 and float64,
+// Shape   d columns, including extras. Types are int32, int64, uint32, uint64, float32 and float64,
+//         coded 0 to 5; only the last two are written. Little-endian.
 // Beware  UTK calls these files .bin; they are detected by their first four bytes.
-// Beware  UTK calls these files .bin: they are known by their first four bytes.
 // Source  UTK, the Uni{corn|form} tool kit, include/utk/utils/PointsetIO.hpp.
 #include <array>
 

@@ -104,7 +104,7 @@ class Writer {
         close(in_group_);
         close(in_window_);
         if (window.open) return;
-        // Named by its area, so that equal names in several drawings on a page have the same meaning.
+        // Named by its area, so that equal names in different drawings mean the same.
         const Area& a = window.area;
         const std::string name =
             fmt::format("w{}-{}-{}-{}", short_number(a.left), short_number(a.top),

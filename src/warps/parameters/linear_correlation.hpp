@@ -17,9 +17,9 @@
 // Promise correlations within 1e-9 for steps, 1e-6 for other distributions that are smooth where
 //         continuous, 1e-5 for all others. The same bits on every machine.
 // Source  R. L. Plackett, Biometrika 41 (1954) 351-360, doi:10.1093/biomet/41.3-4.351; M. C. Cario,
-//         B. L. Nelson, "Modeling and generating random vectors with arbitrary marginal distributions
-//         and correlation matrix", Northwestern University, 1997 (NORTA); W. Whitt, Ann. Statist. 4
-//         (1976) 1280-1289, doi:10.1214/aos/1176343660 (the ends).
+//         B. L. Nelson, "Modeling and generating random vectors with arbitrary marginal
+//         distributions and correlation matrix", Northwestern University, 1997 (NORTA); W. Whitt,
+//         Ann. Statist. 4 (1976) 1280-1289, doi:10.1214/aos/1176343660 (the ends).
 #pragma once
 
 #include <vector>
