@@ -12,7 +12,7 @@
 
 namespace stipple {
 
-/// Throws an Error: what is wrong, the value, what is allowed.
+/// Throws an Error. The message should name the fault, the value and what is allowed.
 template <class... Args>
 [[noreturn]] void fail(ErrorKind kind, fmt::format_string<Args...> what, Args&&... args) {
     throw Error(kind, fmt::format(what, std::forward<Args>(args)...));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Point sets with the domains that they are on.
+// Includes point sets, domains and options.
 #pragma once
 
 #include "core/domain.hpp"     // IWYU pragma: export

@@ -49,7 +49,7 @@ std::size_t find_column(const std::string& wanted, const std::vector<std::string
 
 /// Assigns roles to columns. Unnamed columns are called x, y, ... (see coordinate_names). Columns
 /// pdf and weight are coordinates only if picked, in tables (gaps), or if options.all_columns. A
-/// first column with an empty name holds row names, and is a coordinate only if
+/// first column with an empty name holds row names; it is a coordinate only if picked, or if
 /// options.all_columns. A first column `set` is the set number. `place` begins the messages
 /// ("p.csv:3").
 /// @throws Error(usage) for a missing column; Error(input) for a wrong dimension

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Doubles as decimal text and back, fast and exact.
+// Fast and exact conversion of doubles to and from decimal text.
 #pragma once
 
 #include <optional>

@@ -44,7 +44,7 @@ class Feed {
     /// seek.
     std::optional<std::uint64_t> skip(std::uint64_t count);
 
-    /// Takes all bytes. @throws Error(limit)
+    /// Reads all remaining bytes. @throws Error(limit)
     std::string read_all();
 
   private:

@@ -46,7 +46,7 @@ class PointStream {
 
     [[nodiscard]] virtual const Provenance& provenance() const = 0;
 
-    /// Whether all points are in memory anyway.
+    /// Whether all points are already in memory.
     [[nodiscard]] virtual bool held() const { return false; }
 
     /// Reads all sets; call it before next_set().

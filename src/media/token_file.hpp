@@ -57,7 +57,7 @@ class TokenFile {
     /// Returns the next token without consuming it; its text is empty at the end of the file.
     [[nodiscard]] Token peek() const;
 
-    /// Consumes the next token. @throws Error(input) "`what` is missing" at the end of the file
+    /// Consumes the next token. @throws Error(input) naming `what` at the end of the file
     Token next(std::string_view what);
 
     /// As next(), but the token must be on the line of the previous one.

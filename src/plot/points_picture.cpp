@@ -241,7 +241,7 @@ struct Page {
     }
 };
 
-// ---------------------------------------------------------------- what lies in a plane
+// ---------------------------------------------------------------- points in the plane
 
 void draw_outline(Drawing& drawing, const PointsPicture& picture, const Panel& panel,
                   const Theme& theme) {

@@ -203,7 +203,7 @@ std::string notes_of_spectrum(Measurements ms) {
     return notes;
 }
 
-// ---------------------------------------------------------------- any analyzer's lists
+// ---------------------------------------------------------------- curves of any analyzer
 
 bool rises(const Curve& curve) {
     return std::ranges::adjacent_find(curve, [](double a, double b) { return !(a < b); }) ==

@@ -119,7 +119,7 @@ class MeasurementCells {
 
 std::string to_csv(std::span<const Measurement> measurements) {
     std::vector<Cells> rows;
-    std::vector<std::string> columns;  // of all rows, in the order in which they first come
+    std::vector<std::string> columns;  // in order of first appearance
     std::map<std::string, std::size_t> places;
     for (const Measurement& m : measurements)
         for (Cells& row : MeasurementCells(m).rows()) {

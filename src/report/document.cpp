@@ -128,7 +128,7 @@ std::string results_of(const Measurement& m, const TextStyle& style = {}) {
     return style.full ? text + tables_of(m.results) : text;
 }
 
-// ---------------------------------------------------------------- the way back
+// ---------------------------------------------------------------- parsing
 
 constexpr const char* wanted = "expected the JSON of 'stipple analyze'";
 

@@ -21,9 +21,8 @@ namespace stipple {
 struct Measurement {
     std::string analyzer;
     std::string source;
-    std::optional<std::size_t> set =
-        {};                   ///< number of the set in its file, where there are several
-    std::size_t sets = 1;     ///< number of sets that the results are the mean of
+    std::optional<std::size_t> set = {};  ///< number of the set, if its file has several
+    std::size_t sets = 1;                 ///< number of sets that the results are the mean of
     std::uint64_t count = 0;  ///< points; for a mean over sets of different sizes, the smallest
                               ///< size
     std::uint64_t largest_count = 0;  ///< largest size, for such a mean; else 0

@@ -26,7 +26,7 @@ struct WriteOptions {
 /// Writes one set, or several of the same dimension. The file is written under a temporary name and
 /// renamed when complete; a failure leaves nothing behind. The parent folder must exist; "-" is
 /// standard output.
-/// @throws Error(usage) for unknown formats and for sets that do not fit into one file; Error(io)
+/// @throws Error(usage) for unknown formats and for sets that one file cannot hold; Error(io)
 void write(const std::string& path, const PointSet& points, const WriteOptions& options = {},
            const RunContext& run = {});
 void write(const std::string& path, std::span<const PointSet> sets,

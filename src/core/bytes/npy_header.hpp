@@ -25,7 +25,7 @@ inline constexpr std::string_view npy_magic = "\x93NUMPY";
 struct NpyHeader {
     RawType type = {};
     bool columns_first = false;           ///< the first index runs fastest
-    std::vector<std::size_t> shape = {};  ///< any number of extents, any of them 0
+    std::vector<std::size_t> shape = {};  ///< extents; may be empty, and extents may be 0
     std::string shown_shape = {};         ///< as written in the file: "(1024, 2)"
     std::size_t start = 0;                ///< position of the dictionary, in bytes
     std::size_t size = 0;                 ///< bytes before the numbers

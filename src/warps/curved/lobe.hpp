@@ -4,12 +4,12 @@
 // is the probability of the cone about the axis whose rim contains the direction.
 //
 //     struct Lobe {
-//         static constexpr bool hemisphere;          // no direction is beyond a right angle
+//         static constexpr bool hemisphere;          // all directions are within 90 degrees
 //         double fraction(const Vector3& w) const;   // u of a direction in the frame of the axis
-//         double density(const Vector3& w) const;    // by solid angle
+//         double density(const Vector3& w) const;    // with respect to solid angle
 //         AxialMoments moments() const;
 //         CosSin forward(double u) const;  // cosine and sine of theta; for lobe_mapping()
-//         bool level() const;             // of a hemisphere: whether it is uniform
+//         bool level() const;             // hemispheres only: whether uniform
 //     };
 #pragma once
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Unit square onto the surface of a triangle mesh, uniform by area. With the areas A_i of the
-// triangles in the order of the file and their sums S_i = (A_0 + ... + A_{i-1}) / A, xi0 picks the
-// triangle i with S_i <= xi0 < S_{i+1} and is stretched to be used again:
+// triangles in the order of the file and their sums S_i = (A_0 + ... + A_{i-1}) / A, xi0 selects
+// the triangle i with S_i <= xi0 < S_{i+1} and is rescaled for reuse:
 //
 //     t = (xi0 - S_i) / (S_{i+1} - S_i)
 //     lambda0 = 1 - sqrt(t),  lambda1 = xi1 sqrt(t),  lambda2 = (1 - xi1) sqrt(t)

@@ -5,9 +5,9 @@
 //     z               z = 1 - 2 xi0,  theta = 2 pi xi1,
 //                     point = c + R (sqrt(1 - z^2) cos theta, sqrt(1 - z^2) sin theta, z)
 //     rejection       v = 2 xi - 1 in [-1, 1]^3, kept if inner <= |v| <= 1; point = c + R v / |v|.
-//                     The share kept is (pi / 6) (1 - inner^3): 0.5230752 for inner = 0.1
+//                     The fraction kept is (pi / 6) (1 - inner^3): 0.5230752 for inner = 0.1
 //     naive-lat-long  z = cos(pi xi0),  theta = 2 pi xi1: BIASED towards the poles (E z^2 = 1/2
-//                     in place of 1/3 on the unit sphere); kept to show the bias
+//                     instead of 1/3 on the unit sphere); kept to show the bias
 //
 // and the inverses of z and naive-lat-long. sqrt(1 - z^2) is computed as 2 sqrt(xi0 (1 - xi0)).
 //

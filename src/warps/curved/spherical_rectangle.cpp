@@ -197,7 +197,7 @@ class Urena {
         double above;
     };
 
-    /// At x = z tan(phi).
+    /// Gaps of a point with the given y at x = z tan(phi).
     Gaps gaps(double y, double cos_phi) const {
         const double up = y * cos_phi;
         const double size = std::sqrt(up * up + seen_.z * seen_.z);

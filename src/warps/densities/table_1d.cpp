@@ -3,8 +3,8 @@
 // Unit cube onto an interval, each coordinate independently, with a density given by a table of
 // rows x_i, f_i, by exact inversion (math/densities/line_table.hpp):
 //
-//     linear    the density is straight between rows
-//     constant  the density is f_i from x_i on up to x_i+1; the last f is not used
+//     linear    the density is linear between rows
+//     constant  the density is f_i from x_i up to x_i+1; the last f is not used
 //
 // Densities may have any scale: they are divided by their integral.
 //

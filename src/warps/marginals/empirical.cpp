@@ -3,8 +3,8 @@
 // Unit cube onto the distribution of measured numbers, each coordinate independently: for n numbers
 // x_0 <= ... <= x_n-1,
 //
-//     steps   x_i for xi in [i / n, (i + 1) / n): each number as often as it stands there
-//     linear  x_i + (h - i) (x_i+1 - x_i),  h = xi (n - 1),  i = floor(h): straight between them
+//     steps   x_i for xi in [i / n, (i + 1) / n): each number as often as it occurs
+//     linear  x_i + (h - i) (x_i+1 - x_i),  h = xi (n - 1),  i = floor(h): linear interpolation
 //
 // Shape   any number of coordinates; one column for all or one for each; linear requires at least 2
 //         numbers, all distinct.

@@ -4,7 +4,7 @@
 //
 //     x = low + sqrt(xi (high - low) (mode - low))             up to the mode, and beyond
 //     x = high - sqrt((1 - xi) (high - low) (high - mode)),
-//     density 2 / (high - low) at the mode, and straight from there to 0 at both ends.
+//     density 2 / (high - low) at the mode, decreasing linearly to 0 at both ends.
 //
 // Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
 // Strata  xi is used directly, not as 1 - xi: strata become intervals of equal probability in the

@@ -175,7 +175,7 @@ class Part {
     std::array<double, order> series_{};
 };
 
-/// The angle with this cosine in (0, 1], in the first quarter.
+/// The angle with this cosine in (0, 1], in the first quadrant.
 double angle_of(double cosine) {
     return 2 * std::numbers::pi * turns_of(cosine, std::sqrt((1 - cosine) * (1 + cosine)));
 }

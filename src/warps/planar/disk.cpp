@@ -5,7 +5,7 @@
 //     polar       r = R sqrt(xi0),  theta = 2 pi xi1
 //     concentric  a = 2 xi0 - 1, b = 2 xi1 - 1;  r = R a, theta = (pi / 4) b / a where |a| > |b|,
 //                 else r = R b, theta = pi / 2 - (pi / 4) a / b: concentric squares become circles
-//     rejection   c + R (a, b), kept if a^2 + b^2 < 1: the share kept is pi / 4 = 0.785...
+//     rejection   c + R (a, b), kept if a^2 + b^2 < 1: the fraction kept is pi / 4 = 0.785...
 //     naive       r = R xi0,  theta = 2 pi xi1: BIASED towards the centre; kept to show the bias
 //
 // and the inverses. The point is c + r (cos theta, sin theta).

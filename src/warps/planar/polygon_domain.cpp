@@ -122,8 +122,8 @@ class TrapezoidSweep {
     std::vector<Trapezoid> found_;
 };
 
-/// Relative height of the row that has the fraction f of a slab's area below it. The slab's row
-/// lengths are w0 at the bottom and w1 at the top, scaled so that the longer is 1.
+/// Relative height, measured from the end whose row has length w0, of the row that cuts off the
+/// fraction f of a slab's area at that end. The longer one of w0 and w1 must be 1.
 double height_share(double f, double w0, double w1) {
     const double root = std::sqrt((1 - f) * w0 * w0 + f * w1 * w1);
     const double null = f == 0;  // avoids 0 / 0 if w0 = 0, too
