@@ -19,10 +19,8 @@ std::string json_text(const Json& value, int indent = -1);
 
 /// Extent of the JSON value at the front of a text, found by its quotes and brackets.
 struct JsonExtent {
-    std::size_t size = std::string_view::npos;      ///< bytes; npos: the text ends before the value
-                                                    ///< does
-    std::size_t too_deep = std::string_view::npos;  ///< position of the bracket that opens level
-                                                    ///< 21; npos: none
+    std::size_t size = std::string_view::npos;      ///< bytes; npos: the text ends too early
+    std::size_t too_deep = std::string_view::npos;  ///< a bracket of level 21; npos: none
 };
 
 /// Scans only up to the end of the value, or up to a bracket nested too deep.

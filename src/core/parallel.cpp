@@ -12,8 +12,7 @@
 namespace stipple {
 
 RunContext worth_threads(const RunContext& run, double seconds) {
-    constexpr double waking = 1e-3;  // seconds to wake a thread on a busy machine; a quarter of
-                                     // that on an idle one
+    constexpr double waking = 1e-3;  // seconds on a busy machine; a quarter on an idle one
     RunContext fit = run;
     if (seconds < 2 * waking) fit.threads = 1;
     return fit;

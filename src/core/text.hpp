@@ -83,8 +83,7 @@ void append_utf8(std::string& out, char32_t letter);
 std::string utf8_of(std::u32string_view letters);
 
 /// Makes text safe for a terminal, on one line: escapes control characters, marks that change the
-/// direction of writing, and invalid UTF-8 as
-/// , \x1b, \u202e, \xff.
+/// direction of writing, and invalid UTF-8 as \n, \x1b, \u202e, \xff.
 std::string printable(std::string_view text);
 
 /// Truncates words of more than 1000 bytes and text beyond 8000 bytes, since messages repeat user

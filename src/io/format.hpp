@@ -56,8 +56,7 @@ struct Layout {
     bool single = false;                   ///< float32 in binary formats
     std::optional<int> precision = {};     ///< digits after the point
     Provenance provenance = {};
-    std::optional<Box> extent = {};  ///< area that a picture shows; unset: the bounds, else the
-                                     ///< unit cube
+    std::optional<Box> extent = {};  ///< shown area; unset: the bounds, else the unit cube
 
     [[nodiscard]] std::size_t width() const { return dimension + extras.size(); }
     [[nodiscard]] bool many_sets() const { return counts.size() > 1; }
@@ -90,8 +89,7 @@ struct ReadOptions {
     bool densities = false;      ///< reads column pdf or weight as a number after the coordinates
     bool single = false;         ///< bin holds float32
     bool gaps = false;           ///< text: reads empty fields and nan as coordinate NaN
-    std::string strengths = {};  ///< name of the weight column, read as a number after the
-                                 ///< coordinates
+    std::string strengths = {};  ///< weight column, read after the coordinates
 };
 
 struct FormatTraits {

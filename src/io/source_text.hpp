@@ -29,9 +29,7 @@ class SourceText {
     [[nodiscard]] const char* end() const { return bytes_.data() + bytes_.size(); }
     [[nodiscard]] const std::string& source() const { return source_; }
 
-    /// The line separator:
-    /// , or \r if the text has no
-    /// .
+    /// The line separator: \n, or \r if the text has no \n.
     [[nodiscard]] char newline() const { return newline_; }
 
     /// Line number of a position, from 1.

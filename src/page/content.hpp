@@ -77,8 +77,7 @@ struct Key {
     const char* group;
     Better better = Better::lower;
     bool any_count = false;  ///< comparable between sets of different n
-    bool magnitude = false;  ///< the sign does not matter; over several sets, the root mean square
-                             ///< is used
+    bool magnitude = false;  ///< ignores the sign; over several sets, the root mean square
 };
 
 /// All compared numbers, in the order of the table.

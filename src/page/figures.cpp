@@ -264,8 +264,7 @@ std::string spectrum_figure(const Set& set) {
     const auto* grid = std::get_if<Grid>(found->find("grid"));
     if (grid == nullptr || grid->rows != grid->columns || grid->rows % 2 == 0) return {};
     Grid centred = *grid;
-    centred.values[centred.values.size() / 2] = 0;  // frequency zero has the power n, which would
-                                                    // dominate its block
+    centred.values[centred.values.size() / 2] = 0;  // frequency zero would dominate its block
     const Grid small = in_blocks(centred, most_pixels);
     const std::size_t block = block_side(grid->rows, most_pixels);
     const TableNames names{

@@ -40,8 +40,7 @@ struct Series {
     std::vector<double> high = {};
     bool marks = false;                   ///< draws a disk at each value
     std::size_t measurement = 0;          ///< index of the measurement that it shows, if any
-    std::optional<std::size_t> set = {};  ///< index of the set, which selects the colour and the
-                                          ///< group in a page
+    std::optional<std::size_t> set = {};  ///< index of the set: its colour, and group in a page
 };
 
 /// A reference line.
@@ -63,8 +62,7 @@ struct ChartPanel {
     std::string x_name;
     std::string y_name;
     std::vector<Series> series = {};
-    std::vector<Series> bands = {};  ///< behind the curves: range of random variation; only low and
-                                     ///< high
+    std::vector<Series> bands = {};  ///< range of random variation; only low and high
     std::vector<Guide> guides = {};
     std::vector<Bars> bars = {};
     /// Names along the x axis, at 1, 2, ...; if set, the series are drawn there as bars from 0,

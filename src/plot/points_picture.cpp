@@ -212,8 +212,7 @@ class PointMarks {
     const PointsPicture& picture_;
     const Theme& theme_;
     const RunContext& run_;
-    double share_ = share_of_box(*picture_.sets[0]);  ///< fraction of the frame that contains
-                                                      ///< points
+    double share_ = share_of_box(*picture_.sets[0]);  ///< fraction of the frame with points
 };
 
 std::vector<LegendEntry> legend_of(const PointsPicture& picture, const Theme& theme) {
@@ -362,8 +361,7 @@ struct Scene {
 
 /// Draws the box's edges that are behind all points (`front` false) or in front of them.
 void draw_edges(Drawing& drawing, const Scene& scene, const Theme& theme, bool front) {
-    constexpr std::array hidden = {0, 1, 0};  // the corner hidden behind the box: high x, low y,
-                                              // high z
+    constexpr std::array hidden = {0, 1, 0};  // the far corner: high x, low y, high z
     for (int bits = 0; bits < 8; ++bits)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::array<int, 3> a = {bits & 1, bits >> 1 & 1, bits >> 2 & 1};

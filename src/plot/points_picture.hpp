@@ -23,8 +23,7 @@
 namespace stipple::plot {
 
 inline constexpr std::size_t most_pair_coordinates = 8;
-inline constexpr double density_share = 0.75;  ///< pixels per frame area above which a density is
-                                               ///< drawn
+inline constexpr double density_share = 0.75;  ///< more points per pixel: a density
 
 /// Limit for the ratio of a box's sides. Beyond it, coordinates have different units, and are
 /// scaled separately.
@@ -61,8 +60,7 @@ struct PointsPicture {
     bool cells = false;  ///< draws the Voronoi cells of a single plane set, in its domain's box
     bool pairs = false;  ///< draws three coordinates as pairs
     std::size_t most_disks = 20'000;  ///< with more points, pixels instead of disks
-    std::size_t most_coordinates = most_pair_coordinates;  ///< limit for coordinates whose pairs
-                                                           ///< are drawn
+    std::size_t most_coordinates = most_pair_coordinates;  ///< drawn in pairs
 };
 
 /// Polylines along the boundary, in the domain's coordinates; empty if the domain has no interior

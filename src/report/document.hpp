@@ -23,9 +23,8 @@ struct Measurement {
     std::string source;
     std::optional<std::size_t> set = {};  ///< number of the set, if its file has several
     std::size_t sets = 1;                 ///< number of sets that the results are the mean of
-    std::uint64_t count = 0;  ///< points; for a mean over sets of different sizes, the smallest
-                              ///< size
-    std::uint64_t largest_count = 0;  ///< largest size, for such a mean; else 0
+    std::uint64_t count = 0;              ///< points; for a mean over different sizes, the smallest
+    std::uint64_t largest_count = 0;      ///< largest size, for such a mean; else 0
     std::size_t dimension = 0;
     std::string domain;
     std::vector<std::string> columns = {};  ///< names of the coordinates; may be empty

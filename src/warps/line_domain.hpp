@@ -41,8 +41,7 @@ class LineDistribution {
     /// Inverse of the quantile: the number in [0, 1] that maps to x; rounding may leave [0, 1].
     [[nodiscard]] virtual double inverse(double x) const = 0;
     [[nodiscard]] virtual double density(double x) const = 0;           ///< for pictures
-    [[nodiscard]] virtual std::pair<double, double> range() const = 0;  ///< range shown in a
-                                                                        ///< picture
+    [[nodiscard]] virtual std::pair<double, double> range() const = 0;  ///< for pictures
     [[nodiscard]] virtual bool contains(double x) const {
         return x >= range().first && x <= range().second;
     }
@@ -243,8 +242,7 @@ class LineMapping final : public Mapping {
         }
     }
 
-    std::vector<std::shared_ptr<const Law>> laws_;  ///< one for all coordinates, or one per
-                                                    ///< coordinate
+    std::vector<std::shared_ptr<const Law>> laws_;  ///< one for all, or one for each
     const LineDomain& line_;
 };
 

@@ -122,8 +122,7 @@ struct Warp {
     std::string family = {};  ///< "blue noise"; set by the registry from the folder
     /// Search words that lead to this unit but are not names of it: its kind, parts or uses.
     std::vector<std::string> related = {};
-    std::string strata;  ///< image of each unit coordinate's strata, and whether xi or 1 - xi is
-                         ///< used
+    std::string strata;  ///< images of the strata, and whether xi or 1 - xi is used
     WarpTraits traits = {};
     Schema options;
     std::vector<std::string> aliases = {};  ///< other names, as users of the field may type

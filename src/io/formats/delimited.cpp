@@ -483,8 +483,7 @@ struct TableHead {
     Columns columns;
     bool names = false;          ///< the first line is a header
     bool row_names = false;      ///< the first column has no name and holds row names
-    std::string counter = {};    ///< name of the first column if it is a coordinate that counts the
-                                 ///< rows
+    std::string counter = {};    ///< the first column if it counts the rows, as a coordinate
     std::string measure = {};    ///< name of the column pdf or weight next to named columns
     const char* body = nullptr;  ///< start of the rows
     bool words_to_find = false;  ///< the first row has words that are not known levels

@@ -28,8 +28,7 @@ struct JsonHead {
     Provenance provenance = {};
     std::vector<std::string> columns = {};  ///< empty: none given
     std::optional<std::uint64_t> dimension = {};
-    std::vector<std::uint64_t> counts = {};  ///< per set; empty: not given; one number: the same
-                                             ///< for all sets
+    std::vector<std::uint64_t> counts = {};  ///< per set, or one for all sets; empty: not given
     const char* dimension_at = nullptr;      ///< position in the text, for messages
     const char* counts_at = nullptr;
 };

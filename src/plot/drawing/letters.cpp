@@ -66,8 +66,7 @@ const std::vector<Glyph>& glyphs() {
             if (line.empty()) continue;
             const Letter letter = first_letter(line);
             std::istringstream rest{std::string(line.substr(letter.size))};
-            rest.exceptions(std::ios::badbit);  // out of memory must not look like the end of the
-                                                // text
+            rest.exceptions(std::ios::badbit);  // out of memory is not the end of the text
             Glyph glyph{.letter = letter.point};
             rest >> glyph.advance >> std::ws;
             std::getline(rest, glyph.path);

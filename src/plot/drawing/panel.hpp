@@ -72,8 +72,7 @@ class Panel {
     Ticks y_ticks_;
 };
 
-inline constexpr double colour_bar_room = 62;  ///< to the right of the picture, with the bar's
-                                               ///< numbers
+inline constexpr double colour_bar_room = 62;  ///< width to the right of the picture
 
 /// Draws colours from the bottom (0) to the top (1); the ticks have values in this range.
 void draw_colour_bar(Drawing& drawing, const Area& area, const std::string& name,

@@ -12,8 +12,7 @@ namespace stipple::plot {
 
 inline constexpr double least_shown = 1e-300;  ///< smaller numbers are shown as 0
 inline constexpr double most_shown = 1e307;    ///< limit of axes
-inline constexpr int shown_digits = 13;  ///< numbers that differ only beyond these digits count as
-                                         ///< equal
+inline constexpr int shown_digits = 13;        ///< values equal to 13 digits count as equal
 
 /// @throws Error(input) if finite numbers are beyond the limits of axes
 void require_shown(double low, double high);

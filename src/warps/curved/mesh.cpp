@@ -184,8 +184,7 @@ class MeshDomain final : public NamedDomain {
         std::optional<Pair> best;
         double least = std::numeric_limits<double>::infinity();
         std::uint32_t first = 0;
-        std::vector<std::pair<std::uint32_t, Pair>> around;  // triangles that contain the point in
-                                                             // their interior
+        std::vector<std::pair<std::uint32_t, Pair>> around;  // triangles around the point
         // Of adjacent triangles, takes the one whose forward map comes nearest to the point.
         tree_.visit(at, reach, [&](std::uint32_t i, const Foot& foot) {
             if (dimension() == with_normal &&

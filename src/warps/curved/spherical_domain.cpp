@@ -66,8 +66,7 @@ double SphericalDomain::edge_top(std::size_t i, const Vector3& up) const {
     const Vector3& from = corners_[i];
     const Vector3& to = corners_[(i + 1) % corners_.size()];
     const Vector3& normal = inward_[i];
-    const Vector3 highest = minus(up, times(normal, dot(normal, up)));  // of the edge's great
-                                                                        // circle
+    const Vector3 highest = minus(up, times(normal, dot(normal, up)));  // of the great circle
     // Checks whether the edge passes this point between its ends.
     const bool passes = turn_ * dot(cross(from, highest), normal) > 0 &&
                         turn_ * dot(cross(highest, to), normal) > 0;
@@ -75,8 +74,7 @@ double SphericalDomain::edge_top(std::size_t i, const Vector3& up) const {
 }
 
 std::array<double, 3> SphericalDomain::axial(const Vector3& w) const {
-    std::array<double, 3> along{};  // sums over edges of (w . n) times the integral of (w . v)^0,
-                                    // ^1, ^2
+    std::array<double, 3> along{};  // sums of (w . n) times the integrals of (w . v)^0, ^1, ^2
     for (std::size_t i = 0; i < corners_.size(); ++i) {
         const Vector3& from = corners_[i];
         const Vector3& to = corners_[(i + 1) % corners_.size()];

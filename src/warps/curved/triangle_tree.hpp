@@ -7,8 +7,7 @@
 // Promise finds all triangles within the distance, and only these; in unspecified order.
 #pragma once
 
-#define BOOST_ALLOW_DEPRECATED_HEADERS  // Boost.Geometry includes one, which prints a note at each \
-                                        // compilation
+#define BOOST_ALLOW_DEPRECATED_HEADERS  // Boost.Geometry includes some, which print notes
 
 #include <array>
 #include <boost/geometry/geometries/box.hpp>

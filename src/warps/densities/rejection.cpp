@@ -84,8 +84,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
         fail(ErrorKind::usage, "--density: give a formula, such as 'exp(-x*x - y*y)'");
     const Box box = formula_bounds(want.options[bounds], 3);
     Expression f(density.name, want.options[density], box.dimension());
-    Values law = want.warp.options.defaults();  // the bound belongs to the method, not to the
-                                                // density
+    Values law = want.warp.options.defaults();  // the density's options, without the method's bound
     law.put(density.name, f.text());
     law.put(bounds.name, want.options[bounds]);
     return std::make_unique<Rejection>(

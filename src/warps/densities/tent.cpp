@@ -46,9 +46,7 @@ struct Tent final : LineDistribution {
 
     double r;
     double c;
-    double most =
-        1 - 2 * epsilon * (1 + std::abs(c) / r);  ///< largest offset that stays inside when rounded
-                                                  ///< to the spacing of doubles near c
+    double most = 1 - 2 * epsilon * (1 + std::abs(c) / r);  ///< stays inside when rounded near c
 
     /// Only u = 0 and 1 map to the rim, where the density is 0.
     double forward(double u) const {

@@ -252,8 +252,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
              "an example");
     const std::string source = by_file ? std::string(want.options[file]) : "parameters";
     const std::string text = by_file ? read_file(source) : std::string(want.options[json]);
-    Values known = want.warp.options.defaults();  // the domain's spec has the text, not the file's
-                                                  // name
+    Values known = want.warp.options.defaults();  // with the text instead of the file
     known.put(json.name, stipple::parameters::one_line(text, source));
     auto domain = std::make_shared<const ParameterDomain>(
         format_spec(want.warp.name, known, want.warp.options),

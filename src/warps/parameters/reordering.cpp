@@ -165,8 +165,7 @@ class ScoredSet {
     std::vector<double> scores_;                   ///< scores of the ranks 0, 1, ...
     std::vector<Ranks> ranks_;                     ///< ranks of the points, by coordinate
     std::vector<std::vector<double>> numbers_;     ///< sorted numbers, by coordinate
-    std::vector<std::vector<double>> mean_ranks_;  ///< mean rank of each sorted number, relative to
-                                                   ///< the middle
+    std::vector<std::vector<double>> mean_ranks_;  ///< mean ranks of these, from the middle
     std::vector<std::uint8_t> tied_;
 };
 

@@ -64,8 +64,7 @@ class FlatDomain : public NamedDomain {
 
     Table corners_;
     EdgeFrame frame_;
-    std::array<double, 3> heights_;  ///< heights along s and t, and of the first corner above the
-                                     ///< opposite diagonal
+    std::array<double, 3> heights_;  ///< along s, along t, and of corner 0 above the diagonal
 };
 
 }  // namespace stipple::warps

@@ -117,8 +117,7 @@ class TrapezoidSweep {
     std::set<std::size_t, ToRight> row_;
     std::vector<std::vector<std::size_t>> starts_;  ///< edges that start at each height
     std::vector<std::vector<std::size_t>> ends_;
-    std::vector<std::size_t> loose_;  ///< edges whose partner ended, and new edges without a
-                                      ///< partner
+    std::vector<std::size_t> loose_;  ///< edges without a partner
     std::vector<Trapezoid> found_;
 };
 
