@@ -485,7 +485,7 @@ Chart indices_chart(Measurements ms, const std::string& key) {
     return chart;
 }
 
-// ---------------------------------------------------------------- one number of many reports
+// ---------------------------------------------------------------- one number over many reports
 
 /// Key of the number that represents a report: "value", or its first number.
 std::string main_number(const Report& report) {

@@ -5,8 +5,8 @@
 //     x = low + floor(xi (high - low + 1))
 //
 // Shape   any number of coordinates; each parameter is one number for all of them, or one for each.
-// Strata  xi is used directly, and outcomes are in order: n strata give an outcome of probability p
-//         n p times, rounded up or down.
+// Strata  xi is used directly, and outcomes are in order: among n strata, an outcome of probability
+//         p occurs n p times, rounded up or down.
 // Cost    O(1) a coordinate; about 3 ns on one core.
 // Promise each number occurs for the same fraction of xi. The inverse is the middle of its
 //         interval. The same bits on every machine.

@@ -67,7 +67,7 @@ class Scored {
     bool ranks_;
     bool stepped_ = false;               ///< the increments are exactly the distribution's steps
     std::vector<Increment> increments_;  ///< ascending by score
-    std::vector<double> levels_;         ///< between steps
+    std::vector<double> levels_;         ///< values between steps
     std::vector<double> cuts_;           ///< limits of smooth pieces
     double mean_ = 0;
     double deviation_ = 1;
