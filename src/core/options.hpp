@@ -34,9 +34,9 @@ struct Points {};
 /// Whole numbers separated by x; "40x25".
 struct Extents {};
 
-/// A type of its own, not a plain vector: libstdc++ 12 never makes a variant of these types
-/// valueless. With a plain vector, a copy that runs out of memory leaves one that is then destroyed
-/// wrongly.
+/// A type of its own, not a plain vector: libstdc++ 12 assumes that a variant of only vectors and
+/// strings is never valueless, and destroys a value that is not there if copying one runs out of
+/// memory.
 struct Table : std::vector<std::vector<double>> {
     using vector::vector;
 };

@@ -62,9 +62,9 @@ class PointStream {
     virtual std::uint64_t skip(std::uint64_t count);
 };
 
-/// Opens a file as a stream. Small files, and those that must be read as a whole (JSON,
-/// column-major matrices, CSV with a set column), are read at once; others in blocks. Errors are
-/// those of read_points, but may occur after valid points were already returned.
+/// Opens a file as a stream. Small files, and those that must be read as a whole (JSON, column-major
+/// matrices, text with unknown level names), are read at once; others in blocks. Errors are those of
+/// read_points, but may occur after valid points were already returned.
 std::unique_ptr<PointStream> open_points(const std::string& path, const ReadOptions& options,
                                          const RunContext& run, const Format* format = nullptr);
 

@@ -52,7 +52,7 @@ struct StudyMean {
     double mean = 0;
     double low = 0;
     double high = 0;
-    double rms = 0;  ///< root mean square, for results that are errors
+    double rms = 0;  ///< root mean square, the usual mean of errors
 };
 
 /// @param confidence in (0, 1)

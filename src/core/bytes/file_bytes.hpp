@@ -29,7 +29,7 @@ std::string read_file(const std::string& path);
 /// @throws Error(io) as read_file(); Error(cancelled)
 std::uint64_t file_fingerprint(const std::string& path, const RunContext& run);
 
-/// Lowers the size limit of read_file(), which is 1 GiB at most.
+/// Sets the size limit of read_file(), at most 1 GiB.
 void limit_whole_files(std::uint64_t bytes);
 
 // Access control for files named in untrusted text. All readers and writers of files check here, so

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // STIPPLE_WIDE before a function compiles it once per vector width, including what it inlines; an
-// ELF indirect function selects a version at load time. Results do not change, since operations are
+// ELF indirect function selects a version at run time. Results do not change, since operations are
 // neither fused nor reordered. Sanitizers run before the selection can, so they get the plain
 // function.
 #pragma once
