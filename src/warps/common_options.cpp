@@ -10,15 +10,16 @@ namespace stipple::warps {
 
 void refuse_far(double x, double reach) {
     if (x + reach == x || x - reach == x)
-        fail(ErrorKind::usage, "--center: {} is so far that a radius of {} is lost in rounding", x,
-             reach);
+        fail(ErrorKind::usage,
+             "--center: {} is so far from 0 that a radius of {} is lost in rounding", x, reach);
 }
 
 std::vector<double> one_for_each(const Param<Numbers>& option, std::vector<double> numbers,
                                  std::size_t d) {
     if (numbers.size() == 1) return std::vector<double>(d, numbers[0]);
     if (numbers.size() != d)
-        fail(ErrorKind::usage, "--{}: {} numbers for {} coordinates; one for all, or one for each",
+        fail(ErrorKind::usage,
+             "--{}: {} numbers for {} coordinates; expected one for all, or one for each",
              option.name, numbers.size(), d);
     return numbers;
 }
@@ -31,9 +32,10 @@ std::vector<double> checked_weights(const Param<Numbers>& option, std::vector<do
     const double sum = running_sums(weights).back();
     if (!normalize && !(std::abs(sum - 1) <= 1e-12))
         fail_with_hint(ErrorKind::usage, "--normalize divides them by their sum",
-                       "--{}: their sum is {:.15g}; 1 is needed", option.name, sum);
+                       "--{}: the sum is {:.15g}; expected 1", option.name, sum);
     if (!(sum > 0 && std::isfinite(sum)))
-        fail(ErrorKind::usage, "--{}: their sum is {}; it cannot be divided by", option.name, sum);
+        fail(ErrorKind::usage, "--{}: the sum is {}; expected a finite number above 0", option.name,
+             sum);
     for (double& w : weights) w /= sum;
     return weights;
 }

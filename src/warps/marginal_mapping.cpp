@@ -164,7 +164,7 @@ std::vector<MarginalPtr> family_members(std::string_view family, const Parameter
         if (numbers.size() <= 1) continue;
         if (members > 1 && numbers.size() != members)
             fail(ErrorKind::usage,
-                 "--{}: {} numbers for {} coordinates; one for all, or one for each", name,
+                 "--{}: {} numbers for {} coordinates; expected one for all, or one for each", name,
                  numbers.size(), members);
         members = numbers.size();
     }

@@ -77,7 +77,7 @@ std::unique_ptr<Mapping> oriented(std::unique_ptr<Mapping> mapping, std::span<co
     std::iota(all.begin(), all.end(), 1.0);
     if (named != all)
         fail(ErrorKind::usage,
-             "--orientation: it names each of the unit coordinates 1 to {} once, such as {}", d,
+             "--orientation: expected each of the unit coordinates 1 to {} once, such as {}", d,
              d == 2 ? "2,1 or -1,2" : "3,1,2");
     return std::make_unique<Oriented>(std::move(mapping), order);
 }

@@ -145,8 +145,8 @@ namespace warps {
 /// For warps that other programs define with the angle first, or starting from another corner.
 inline constexpr Param<Numbers> orientation{
     {.name = "orientation",
-     .help = "Unit coordinates in the order in which they are taken, with a minus sign where "
-             "1 - xi is: 2,1 takes the angle first where it is last; default: 1,2"}};
+     .help = "Order in which the unit coordinates are used, with a minus sign for 1 - xi: 2,1 "
+             "swaps the two; default: 1,2"}};
 
 /// All warps, in alphabetical order.
 const std::vector<Warp>& all();

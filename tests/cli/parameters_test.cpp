@@ -351,7 +351,7 @@ TEST_F(Parameters, AreReorderedAsAWholeSet) {
                 HasSubstr("\"value\":" + star.substr(0, star.size() - 1)));
     text("rm r.json; stipple reproduce a.json");
     expect_refusal(box.run({"analyze", "chi-square", "a.json"}), 3,
-                   "a.json: the density of parameters that are reordered is not known");
+                   "a.json: the density of reordered parameters is not known");
 }
 
 TEST_F(Parameters, ReorderedAreRefusedInOneLine) {
@@ -362,10 +362,10 @@ TEST_F(Parameters, ReorderedAreRefusedInOneLine) {
         box.run({"generate", "random", "-n", "8", "--parameters", "r.json", "--shard", "0/2"}), 2,
         "--shard: the parameters of a whole set are reordered; make all points at once");
     expect_refusal(box.run({"generate", "random", "-n", "2", "--parameters", "r.json"}), 3,
-                   "iman-conover takes 3 points or more for 2 parameters; there are 2");
+                   "iman-conover: expected at least 3 points for 2 parameters; there are 2");
     box.write("p.csv", "x,y\n0.5,0.5\n0.5,0.25\n0.5,0.75\n");
     expect_refusal(box.run({"warp", "parameters", "--parameters", "r.json", "p.csv"}), 3,
-                   "all points have the same number for a");
+                   "all points have the same value of a");
     const Outcome held = box.shell(
         "stipple generate sobol -n 100 --parameters r.json | tail -n +2 | awk -F, '$1+$2 < 1.5' | "
         "wc -l");
@@ -381,14 +381,15 @@ TEST_F(Parameters, FollowColumnsOfFiles) {
     EXPECT_EQ(text("stipple convert a.json -f csv"), "wind\n3.5\n4.5\n3.5\n8\n");
     expect_refusal(box.run({"generate", "halton", "-d", "1", "-w", "parameters:file=w.json"}), 3,
                    "w.json: $.parameters[0].file: only --parameters FILE reads columns of other "
-                   "files; give their numbers, \"values\": [...]");
+                   "files; put their numbers here, \"values\": [...]");
     text("rm wind.csv; stipple reproduce a.json");
     expect_refusal(box.run({"generate", "halton", "--parameters", "w.json"}), 4,
                    "wind.csv: no such file");
     box.write("wind.csv", "day,speed\n1,3.5\n");
     box.write("w.json", R"({"parameters": [{"name": "wind", "file": "wind.csv"}]})");
-    expect_refusal(box.run({"generate", "halton", "--parameters", "w.json"}), 3,
-                   "w.json: $.parameters[0].file: wind.csv has 2 columns; \"column\" names one");
+    expect_refusal(
+        box.run({"generate", "halton", "--parameters", "w.json"}), 3,
+        "w.json: $.parameters[0].file: wind.csv has 2 columns; expected 1; \"column\" selects one");
 }
 
 // No point is dropped, so that a sequence keeps its structure and is cut as without constraints.
@@ -441,7 +442,8 @@ TEST_F(Parameters, AreRefusedInOneLine) {
     expect_refusal(box.run({"generate", "sobol", "-d", "4", "--parameters", "beam.json"}), 2,
                    "warp parameters takes 3 coordinates; the points have 4");
     box.write("p.csv", "x,y\n0.5,0.5\n");
-    expect_refusal(box.run({"warp", "parameters", "p.csv"}), 2, "--file: name a parameter file");
+    expect_refusal(box.run({"warp", "parameters", "p.csv"}), 2,
+                   "--file: no file given; expected a parameter file");
     expect_refusal(box.run({"warp", "disk", "p.csv", "--parameters", "beam.json"}), 2,
                    "--parameters: is of the warp parameters");
     box.write("bad.json", R"({"parameters": [{"name": "a", "range": [2, 1]}]})");

@@ -40,7 +40,7 @@ TEST(Orientation, HoldsForPointsThatAreDropped) {
 
 TEST(Orientation, NamesEachCoordinateOnce) {
     const char* wanted =
-        "usage: --orientation: it names each of the unit coordinates 1 to 2 once, such as 2,1 or "
+        "usage: --orientation: expected each of the unit coordinates 1 to 2 once, such as 2,1 or "
         "-1,2";
     for (const char* wrong : {"1", "1,1", "1,3", "0,1", "1.5,2", "1,-1", "1,2,3", "1e300,1"})
         EXPECT_EQ(error_of([&] { mapping("disk:orientation=[" + std::string(wrong) + "]"); }),

@@ -96,7 +96,7 @@ class BallDomain final : public NamedDomain {
         return axial_moments(unit, {}, sphere_.center, sphere_.radius);
     }
     std::vector<std::string> cube_axes() const override {
-        return {"volume fraction r^3/R^3", "share of the shell (1 - z/r) / 2",
+        return {"volume fraction r^3/R^3", "fraction of the shell (1 - z/r) / 2",
                 "longitude in turns"};
     }
 
@@ -129,8 +129,8 @@ Warp unit() {
             .source = "Devroye 1986, doi:10.1007/978-1-4613-8643-8, chapter V.4",
             .related = {"unit-ball"},
             .strata =
-                "xi1 is the share of the volume within the radius, xi2 falls from the north "
-                "to the south pole, xi3 is the longitude; all as they are",
+                "xi1 is the fraction of the volume within the radius, xi2 decreases from the north "
+                "to the south pole, xi3 is the longitude; all are used directly",
             .options = Schema(ball_radius, center),
             .mapping = make};
 }

@@ -38,8 +38,8 @@ constexpr Param<Choice> method{
     .fallback = "angle",
     .choices = "angle|square-normalize",
     .help =
-        "angle: one coordinate; square-normalize: the direction of a point of the square, takes "
-        "2 coordinates, BIASED towards the diagonals, kept to show the bias"};
+        "angle: uses one coordinate; square-normalize: direction of a point of the square, uses 2 "
+        "coordinates, BIASED towards the diagonals, kept to show the bias"};
 
 constexpr Param<Numbers> middle{{.name = "center", .fallback = "0,0", .help = "Centre: x,y"}};
 
@@ -90,7 +90,7 @@ struct ByAngle {
 
 struct BySquare {
     static constexpr const char* no_way_back =
-        "method square-normalize takes 2 coordinates to 1; it has no inverse";
+        "method square-normalize maps 2 coordinates to 1; it has no inverse";
 
     Placement at;
 
@@ -116,7 +116,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const double r = want.options[radius];
     const auto center = want.options[middle];
     if (center.size() != 2)
-        fail(ErrorKind::usage, "--center: 2 numbers are needed, x,y; {} given", center.size());
+        fail(ErrorKind::usage, "--center: expected 2 numbers, x,y; {} given", center.size());
     for (const double x : center) refuse_far(x, r);
     const Placement at{{center[0] + 0.0, center[1] + 0.0}, r};  // -0 would appear in the points
     const auto circle = std::make_shared<CircleDomain>(at, want.spec({radius.name, middle.name}));
@@ -130,7 +130,7 @@ Warp unit() {
     return {.name = "circle",
             .summary = "Circle, directions in the plane (square-normalize is biased, to show it)",
             .source = "Devroye 1986, doi:10.1007/978-1-4613-8643-8, chapter V.4",
-            .strata = "xi1 turns from the x axis towards the y axis, as it is",
+            .strata = "xi1 turns from the x axis towards the y axis; it is used directly",
             .traits = {.drops = true, .biased = true},
             .options = Schema(method, radius, middle),
             .mapping = make};

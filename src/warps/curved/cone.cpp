@@ -107,7 +107,8 @@ class ConeDomain final : public NamedDomain {
         return axial_moments(round, cap_.frame);
     }
     std::vector<std::string> cube_axes() const override {
-        return {"share of the solid angle (1 - cos theta) / (1 - cos alpha)", "longitude in turns"};
+        return {"fraction of the solid angle (1 - cos theta) / (1 - cos alpha)",
+                "longitude in turns"};
     }
 
   private:
@@ -133,9 +134,10 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const bool along = std::ranges::count_if(frame.z, [](double x) { return x != 0; }) == 1;
     // Directions about an oblique axis have rounding errors of about 1e-14 degrees.
     if (!along && degrees < 1e-10)
-        fail(ErrorKind::usage,
-             "--half-angle: {} is below 1e-10, the least about an axis that is no coordinate axis",
-             degrees);
+        fail(
+            ErrorKind::usage,
+            "--half-angle: {} is below 1e-10, the minimum for an axis other than a coordinate axis",
+            degrees);
     const Cap cap{frame, cos_sin_turns(degrees / 360), cos_sin_turns(degrees / 720)};
     const auto cone = std::make_shared<ConeDomain>(cap, want.spec());
     return row_mapping(cone, ByHeight{cap});
@@ -149,8 +151,8 @@ Warp unit() {
             .source = "Devroye 1986, doi:10.1007/978-1-4613-8643-8, chapter V.4",
             .related = {"cap"},
             .strata =
-                "xi1 falls from the axis to the rim, as the share of the solid angle; xi2 is "
-                "the longitude; both as they are",
+                "xi1 is the fraction of the solid angle, from 0 on the axis to 1 at the rim; xi2 "
+                "is the longitude; both are used directly",
             .options = Schema(half_angle, axis),
             .aliases = {"spherical-cap"},
             .mapping = make};

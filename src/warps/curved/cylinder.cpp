@@ -36,7 +36,8 @@ namespace {
 
 constexpr auto height = length_option("height", 1, "Height along the axis, above 0");
 
-constexpr Param<bool> caps{.name = "caps", .help = "The ends, too: the whole surface"};
+constexpr Param<bool> caps{.name = "caps",
+                           .help = "Include the two ends, so that the whole surface is sampled"};
 
 /// Cylindrical coordinates of a point: distance from the axis, height, angle.
 struct Polar {
@@ -113,7 +114,7 @@ class CylinderDomain final : public NamedDomain {
         return axial_moments(round, shape_.frame, shape_.center);
     }
     std::vector<std::string> cube_axes() const override {
-        return {"share of the area below", "angle in turns"};
+        return {"fraction of the area below", "angle in turns"};
     }
 
   private:
@@ -160,8 +161,8 @@ Warp unit() {
             .summary = "Lateral or whole surface of a cylinder, uniform by area",
             .source = "Devroye 1986, doi:10.1007/978-1-4613-8643-8, chapter V.4",
             .strata =
-                "xi1 rises from the lower to the upper end (with --caps from centre to centre "
-                "of the caps), as the share of the area; xi2 is the angle; both as they are",
+                "xi1 is the fraction of the area from the lower to the upper end (with --caps, "
+                "between the centres of the caps); xi2 is the angle; both are used directly",
             .options = Schema(radius, height, center, axis, caps),
             .mapping = make};
 }

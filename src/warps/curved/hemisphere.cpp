@@ -39,20 +39,22 @@ constexpr Param<Choice> method{
     .fallback = "uniform",
     .choices = "uniform|cosine|cosine-power",
     .help =
-        "Density in solid angle: uniform; cosine: of the angle from the axis, as diffuse light; "
-        "cosine-power: its power --exponent, as a glossy lobe"};
+        "Density in solid angle: uniform; cosine: proportional to the cosine of the angle from the "
+        "axis, as diffuse light; cosine-power: to its power --exponent, as a glossy lobe"};
 
-constexpr Param<double> exponent{.name = "exponent",
-                                 .fallback = 10,
-                                 .low = 0,
-                                 .high = 1e6,
-                                 .help = "Of method cosine-power: 0 is uniform, 1 is cosine"};
+constexpr Param<double> exponent{
+    .name = "exponent",
+    .fallback = 10,
+    .low = 0,
+    .high = 1e6,
+    .help = "Exponent of method cosine-power: 0 is uniform, 1 is cosine"};
 
-constexpr Param<Choice> disk_map{
-    .name = "disk",
-    .fallback = "polar",
-    .choices = "polar|concentric",
-    .help = "Of method cosine: the map from the square to the disk below the hemisphere"};
+constexpr Param<Choice> disk_map{.name = "disk",
+                                 .fallback = "polar",
+                                 .choices = "polar|concentric",
+                                 .help =
+                                     "For method cosine: map from the square to the disk that is "
+                                     "projected up to the hemisphere"};
 
 /// Density proportional to cos^k of the angle from the axis, and the fraction of directions nearer
 /// to the axis. Directions are in the axis' frame.
@@ -165,18 +167,18 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
 }  // namespace
 
 Warp unit() {
-    return {.name = "hemisphere",
-            .summary = "Directions of a hemisphere, uniform or by a power of the cosine",
-            .source =
-                "Shirley, Chiu 1997, doi:10.1080/10867651.1997.10487479 (concentric); Malley "
-                "1988 (cosine from a disk)",
-            .related = {"cosine-hemisphere", "lambert", "cosine"},
-            .strata =
-                "xi1 falls from the axis to the horizon, as the share of the density; xi2 is "
-                "the longitude; with --disk concentric squares about the centre become rings; "
-                "all as they are",
-            .options = Schema(method, exponent, axis, disk_map, orientation),
-            .mapping = make};
+    return {
+        .name = "hemisphere",
+        .summary = "Directions of a hemisphere, uniform or weighted by a power of the cosine",
+        .source =
+            "Shirley, Chiu 1997, doi:10.1080/10867651.1997.10487479 (concentric); Malley "
+            "1988 (cosine from a disk)",
+        .related = {"cosine-hemisphere", "lambert", "cosine"},
+        .strata =
+            "xi1 is the probability from 0 on the axis to 1 at the horizon; xi2 is the longitude; "
+            "with --disk concentric, squares about the centre become rings; all are used directly",
+        .options = Schema(method, exponent, axis, disk_map, orientation),
+        .mapping = make};
 }
 
 }  // namespace stipple::warps::hemisphere

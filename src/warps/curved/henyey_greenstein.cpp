@@ -35,7 +35,7 @@ constexpr Param<double> asymmetry{
     .fallback = 0.5,
     .low = -0.999999,
     .high = 0.999999,
-    .help = "Mean cosine of the angle from the axis: above 0 forward, below 0 backward"};
+    .help = "Mean cosine of the angle from the axis: above 0 scatters forward, below 0 backward"};
 
 struct Phase {
     static constexpr bool hemisphere = false;
@@ -86,11 +86,11 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
 
 Warp unit() {
     return {.name = "henyey-greenstein",
-            .summary = "Directions by the phase function of Henyey and Greenstein, about an axis",
+            .summary = "Directions about an axis with the phase function of Henyey and Greenstein",
             .source = "Henyey, Greenstein 1941, doi:10.1086/144246",
             .strata =
-                "xi1 is the probability of the cone about the axis, 0 on it; xi2 turns about it; "
-                "both as they are",
+                "xi1 is the probability of the cone about the axis, 0 on the axis; xi2 turns about "
+                "the axis; both are used directly",
             .options = Schema(asymmetry, axis),
             .mapping = make};
 }

@@ -55,9 +55,9 @@ constexpr Param<Choice> attributes{
     .fallback = "position",
     .choices = "position|normal|barycentric",
     .help =
-        "position: x, y, z; normal: and the unit normal of the triangle, corners "
-        "counter-clockwise; barycentric: and the number of the triangle from 0 and its three "
-        "barycentrics"};
+        "Columns: position: x, y, z; normal: also the unit normal of the triangle, corners "
+        "counter-clockwise; barycentric: also the number of the triangle from 0 and three "
+        "barycentric coordinates"};
 
 using Pair = std::array<double, 2>;
 
@@ -100,8 +100,8 @@ void note_doubled(const TriangleMesh& mesh, const std::string& name, const RunCo
     const auto doubled = std::ranges::unique(digits).size();
     if (doubled > 0)
         run.notify(
-            fmt::format("{}: triangles that have the corners of others: {}; a place of several "
-                        "triangles gets as many times the points",
+            fmt::format("{}: triangles with the same corners as an earlier one: {}; each of them "
+                        "gets points of its own",
                         name, doubled));
 }
 
@@ -158,7 +158,7 @@ class MeshDomain final : public NamedDomain {
         return all.moments();
     }
     std::vector<std::string> cube_axes() const override {
-        return {"share of the area in the order of the file", "place between corners 2 and 1"};
+        return {"fraction of the area in file order", "position between corners 2 and 1"};
     }
 
     /// A point of the surface, as a triangle and the weights of its corners.
@@ -309,7 +309,8 @@ class Mesh final : public Mapping {
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     if (!want.options.given(mesh_file))
-        fail(ErrorKind::usage, "--file: name a PLY or OBJ file with a triangle mesh");
+        fail(ErrorKind::usage,
+             "--file: no file given; expected a PLY or OBJ file with a triangle mesh");
     const std::string how = want.options[attributes];
     const std::size_t numbers = how == "normal"        ? with_normal
                                 : how == "barycentric" ? with_barycentrics
@@ -328,9 +329,8 @@ Warp unit() {
             .summary = "Surface of a triangle mesh from a PLY or OBJ file, uniform by area",
             .source = "Turk 1990, in: Graphics Gems",
             .strata =
-                "xi1 goes through the triangles in the order of the file by their areas, in "
-                "each from its first corner to the opposite edge; xi2 runs along that edge; "
-                "both as they are",
+                "xi1 runs through the triangles in file order by area, within each from its first "
+                "corner to the opposite edge; xi2 runs along that edge; both are used directly",
             .options = Schema(mesh_file, attributes),
             .stream_version = 2,
             .mapping = make};

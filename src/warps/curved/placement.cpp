@@ -11,7 +11,7 @@ namespace stipple::warps {
 
 Vector3 vector_of(const Param<Numbers>& option, const std::vector<double>& numbers) {
     if (numbers.size() != 3)
-        fail(ErrorKind::usage, "--{}: 3 numbers are needed, x,y,z; {} given", option.name,
+        fail(ErrorKind::usage, "--{}: expected 3 numbers, x,y,z; {} given", option.name,
              numbers.size());
     return {numbers[0] + 0.0, numbers[1] + 0.0, numbers[2] + 0.0};  // -0 would appear in the points
 }

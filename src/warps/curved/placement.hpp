@@ -18,7 +18,7 @@ constexpr auto radius = length_option("radius", 1, "Radius, above 0");
 constexpr Param<Numbers> center{{.name = "center", .fallback = "0,0,0", .help = "Centre: x,y,z"}};
 
 constexpr Param<Numbers> axis{
-    {.name = "axis", .fallback = "0,0,1", .help = "Axis: x,y,z, of any length but 0"}};
+    {.name = "axis", .fallback = "0,0,1", .help = "Axis: x,y,z, of any length above 0"}};
 
 /// The centre of a shape of size `reach`. @throws Error(usage) unless it is three numbers, or if it
 /// is so far away that rounding destroys the shape

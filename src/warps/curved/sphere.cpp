@@ -39,16 +39,17 @@ constexpr Param<Choice> method{
     .fallback = "z",
     .choices = "z|rejection|naive-lat-long",
     .help =
-        "z: uniform height and longitude; rejection: takes 3 coordinates, drops the points of "
-        "the cube that are outside the ball, and normalises; naive-lat-long: uniform latitude "
-        "and longitude, BIASED towards the poles, kept to show the bias"};
+        "z: uniform height and longitude; rejection: uses 3 coordinates, drops points outside the "
+        "ball and normalises the others; naive-lat-long: uniform latitude and longitude, BIASED "
+        "towards the poles, kept to show the bias"};
 
-constexpr Param<double> inner{
-    .name = "inner",
-    .fallback = 0.1,
-    .low = 0,
-    .high = 0.99,
-    .help = "Of method rejection: drops points nearer to the centre, whose direction is coarse"};
+constexpr Param<double> inner{.name = "inner",
+                              .fallback = 0.1,
+                              .low = 0,
+                              .high = 0.99,
+                              .help =
+                                  "For method rejection: points nearer to the centre are dropped, "
+                                  "because their direction is coarse"};
 
 class SphereDomain final : public NamedDomain {
   public:
@@ -110,7 +111,7 @@ struct ByLatitude {
 
 struct ByRejection {
     static constexpr const char* no_way_back =
-        "method rejection takes 3 coordinates to 2; it has no inverse";
+        "method rejection maps 3 coordinates to 2; it has no inverse";
 
     Sphere sphere;
     double inner;
@@ -143,12 +144,13 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
 
 Warp unit() {
     return {.name = "sphere",
-            .summary = "Sphere, uniform by area (but naive-lat-long: biased, to show its bias)",
+            .summary =
+                "Sphere, uniform by area (method naive-lat-long is biased, kept to show its bias)",
             .source = "Marsaglia 1972, doi:10.1214/aoms/1177692644 (rejection)",
             .related = {"unit-sphere", "marsaglia"},
             .strata =
-                "xi1 falls from the north pole z = R to the south pole, as the share of the "
-                "area; xi2 is the longitude; both as they are",
+                "xi1 is the fraction of the area from the north pole z = R to the south pole; xi2 "
+                "is the longitude; both are used directly",
             .traits = {.drops = true, .biased = true},
             .options = Schema(method, radius, center, inner, orientation),
             .mapping = make};

@@ -54,10 +54,11 @@ constexpr Param<Numbers> corner{
 constexpr Param<Points> edges{
     {.name = "edges",
      .fallback = "1,0,0 0,1,0",
-     .help = "Edges ex ey from the corner, at a right angle; xi1 runs along ex, xi2 along ey"}};
+     .help = "Two edges ex ey from the corner, at right angles; xi1 runs along ex, xi2 along ey"}};
 
-constexpr Param<Numbers> origin{
-    {.name = "origin", .fallback = "0,0,0", .help = "Point o that looks at the rectangle: x,y,z"}};
+constexpr Param<Numbers> origin{{.name = "origin",
+                                 .fallback = "0,0,0",
+                                 .help = "Point o from which the rectangle is seen: x,y,z"}};
 
 /// A rectangle seen from the origin: corner (x0, y0, z) in a frame along its edges, z > 0.
 struct Rectangle {
@@ -227,7 +228,7 @@ void check_edges(const Table& table, double size_x, double size_y, double cosine
         fail(ErrorKind::usage, "--edges: {} has an edge of length 0", format_value(table));
     if (!(std::abs(cosine) <= 1e-6))
         fail(ErrorKind::usage,
-             "--edges: {} are not at a right angle; the cosine between them is {:.3g}",
+             "--edges: {} are not at right angles; the cosine of their angle is {:.3g}",
              format_value(table), cosine);
 }
 
@@ -235,7 +236,7 @@ void check_edges(const Table& table, double size_x, double size_y, double cosine
 Rectangle rectangle_of(const Values& options) {
     const Table table = options[edges];
     if (table.size() != 2 || table[0].size() != 3)
-        fail(ErrorKind::usage, "--edges: {} vectors of dimension {}; 2 vectors x,y,z are needed",
+        fail(ErrorKind::usage, "--edges: {} vectors of dimension {}; expected 2 vectors x,y,z",
              table.size(), table[0].size());
     const Vector3 ex = {table[0][0], table[0][1], table[0][2]};
     const Vector3 ey = {table[1][0], table[1][1], table[1][2]};
@@ -264,8 +265,8 @@ Rectangle rectangle_of(const Values& options) {
     const bool above = seen.x0 <= 0 && seen.x1 >= 0 && seen.y0 <= 0 && seen.y1 >= 0;
     if (!(seen.z > (above ? 1e-100 : 1e-10) * reach) || !(narrow > 256 * epsilon))
         fail(ErrorKind::usage,
-             "--origin: the rectangle fills no solid angle from {}, or too small a one; it lies in "
-             "its plane or is far away",
+             "--origin: the solid angle of the rectangle from {} is 0 or too small; move the point "
+             "out of its plane, or nearer",
              format_value(options[origin]));
     return seen;
 }
@@ -281,8 +282,8 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const auto domain = std::make_shared<SphericalDomain>(
         want.spec(), rectangle.corners(), rectangle.inward(), cells, turned.solid_angle(),
         16 * epsilon,
-        std::vector<std::string>{"place along ex, as sine of the angle",
-                                 "share of the solid angle along ey"});
+        std::vector<std::string>{"position along ex, as sine of the angle",
+                                 "fraction of the solid angle along ey"});
     return row_mapping(domain, Urena(rectangle));
 }
 
@@ -293,8 +294,8 @@ Warp unit() {
             .summary = "Directions from a point to a rectangle, uniform in solid angle",
             .source = "Urena, Fajardo, King 2013, doi:10.1111/cgf.12151",
             .strata =
-                "xi1 is the share of the solid angle along the first edge, xi2 the place "
-                "along the second, as the sine of the elevation; both as they are",
+                "xi1 is the fraction of the solid angle along the first edge, xi2 the position "
+                "along the second, as sine of the elevation; both are used directly",
             .options = Schema(corner, edges, origin),
             .stream_version = 2,
             .mapping = make};

@@ -38,7 +38,8 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr Param<Points> vertices{
     {.name = "vertices",
      .fallback = "1,0,0 0,1,0 0,0,1",
-     .help = "Three directions a b c, of any length; xi1 = 0 is the edge ab, xi2 = 0 is b"}};
+     .help =
+         "Three directions a b c, of any length above 0; xi1 = 0 is the edge ab, xi2 = 0 is b"}};
 
 /// Arvo's map for corners in this order.
 class Arvo {
@@ -152,9 +153,8 @@ double slack_of(const Corners& v) {
 /// @throws Error(usage) unless these are the corners of a triangle
 Corners corners_of(const Table& table) {
     if (table.size() != 3 || table[0].size() != 3)
-        fail(ErrorKind::usage,
-             "--vertices: {} points of dimension {}; 3 directions x,y,z are needed", table.size(),
-             table[0].size());
+        fail(ErrorKind::usage, "--vertices: {} points of dimension {}; expected 3 directions x,y,z",
+             table.size(), table[0].size());
     Corners corners;
     for (std::size_t k = 0; k < 3; ++k) {
         corners[k] = {table[k][0], table[k][1], table[k][2]};
@@ -167,7 +167,7 @@ Corners corners_of(const Table& table) {
         longest = std::max(longest, length(minus(next, corners[k])));
         if (length(plus(next, corners[k])) < 1e-7)
             fail(ErrorKind::usage,
-                 "--vertices: two of {} are opposite; what joins them is not one arc",
+                 "--vertices: two of {} are opposite, so that no unique arc joins them",
                  format_value(table));
     }
     const auto& [a, b, c] = corners;
@@ -187,7 +187,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const auto domain = std::make_shared<SphericalDomain>(
         want.spec(), std::vector<Vector3>(v.begin(), v.end()), std::vector<Vector3>{}, cells,
         4 * std::numbers::pi * half_area_turns(v[0], v[1], v[2]), slack_of(v),
-        std::vector<std::string>{"share of the area next to bc", "share on the way from c"});
+        std::vector<std::string>{"fraction of the area next to bc", "fraction of the way from c"});
     return row_mapping(domain, Arvo(v[0], v[1], v[2]));
 }
 
@@ -198,8 +198,9 @@ Warp unit() {
             .summary = "Directions in a spherical triangle, uniform in solid angle",
             .source = "Arvo 1995, doi:10.1145/218380.218500",
             .strata =
-                "xi1 is the share of the area from the edge of the first two corners towards "
-                "the third, xi2 the share on the way from the second corner; both as they are",
+                "xi1 is the fraction of the area from the edge of the first two corners towards "
+                "the third, xi2 the fraction of the area along the arc from the second corner; "
+                "both are used directly",
             .options = Schema(vertices),
             .stream_version = 2,
             .mapping = make};

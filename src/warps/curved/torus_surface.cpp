@@ -45,7 +45,7 @@ constexpr double two_pi = 2 * std::numbers::pi;
 constexpr double least = 1e-150;  ///< replaces a zero divisor
 
 constexpr auto major_radius =
-    length_option("major-radius", 1, "Radius R of the circle in the middle of the tube");
+    length_option("major-radius", 1, "Radius R from the centre to the middle of the tube");
 
 constexpr auto minor_radius =
     length_option("minor-radius", 0.4, "Radius r of the tube, at most the major radius");
@@ -199,8 +199,8 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const double minor = want.options[minor_radius];
     if (minor > major)
         fail(ErrorKind::usage,
-             "--minor-radius: {} is above the major radius {}; the tube would cross itself", minor,
-             major);
+             "--minor-radius: {} is above the major radius {}; the surface would intersect itself",
+             minor, major);
     const Torus torus{major, minor, center_of(want.options, minor), frame_of(want.options)};
     const auto surface = std::make_shared<TorusDomain>(torus, want.spec());
     return row_mapping(surface, ByArea{torus});
@@ -213,8 +213,8 @@ Warp unit() {
             .summary = "Surface of a torus, uniform by area (not by angles)",
             .source = "Diaconis, Holmes, Shahshahani 2013, doi:10.1214/12-IMSCOLL1006",
             .strata =
-                "xi1 turns around the tube from its outermost point upwards, as the share of "
-                "the area; xi2 turns around the axis; both as they are",
+                "xi1 is the fraction of the area around the tube, from its outermost point "
+                "upwards; xi2 turns around the axis; both are used directly",
             .options = Schema(major_radius, minor_radius, center, axis),
             .aliases = {"torus"},
             .mapping = make};

@@ -38,8 +38,8 @@ constexpr Param<double> concentration{
     .low = 0,
     .high = 1e8,
     .help =
-        "Concentration: 0 is uniform; large ones are normal about the axis, with a standard "
-        "deviation of 1 / sqrt(kappa) radians along each tangent"};
+        "Concentration: 0 is uniform; large values approach a normal distribution about the axis, "
+        "of standard deviation 1 / sqrt(kappa) radians along each tangent"};
 
 class Fisher {
   public:
@@ -116,12 +116,12 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
 
 Warp unit() {
     return {.name = "von-mises-fisher",
-            .summary = "Directions by the distribution of von Mises and Fisher, about an axis",
+            .summary = "Directions about an axis with the distribution of von Mises and Fisher",
             .source = "Fisher 1953, doi:10.1098/rspa.1953.0064",
             .related = {"fisher"},
             .strata =
-                "xi1 is the probability of the cone about the axis, 0 on it; xi2 turns about it; "
-                "both as they are",
+                "xi1 is the probability of the cone about the axis, 0 on the axis; xi2 turns about "
+                "the axis; both are used directly",
             .options = Schema(concentration, axis),
             .aliases = {"vmf"},
             .mapping = make};

@@ -36,13 +36,13 @@ constexpr Param<Numbers> probabilities{
 constexpr Param<Numbers> outcomes{
     {.name = "values",
      .fallback = {},
-     .help = "A number for each outcome, no two the same; default: 0,1,2,..."}};
+     .help = "Value of each outcome, all different; default: 0,1,2,..."}};
 
 constexpr Param<Choice> method{
     .name = "method",
     .fallback = "inversion",
     .choices = "inversion|alias",
-    .help = "inversion: outcomes in order, keeps strata; alias: Walker's, loses them"};
+    .help = "inversion: outcomes in order, preserves strata; alias: Walker's method, does not"};
 
 constexpr Param<bool> normalize{.name = "normalize",
                                 .help = "Divide the probabilities by their sum"};
@@ -135,7 +135,8 @@ struct ByAlias final : Outcomes {
 std::vector<double> probabilities_of(const Values& options) {
     const std::vector<double> p = options[probabilities];
     if (p.size() > (std::size_t{1} << 24))
-        fail(ErrorKind::usage, "--probabilities: {} outcomes are more than {}", p.size(), 1 << 24);
+        fail(ErrorKind::usage, "--probabilities: {} outcomes; expected at most {}", p.size(),
+             1 << 24);
     return checked_weights(probabilities, p, options[normalize]);
 }
 
@@ -146,8 +147,8 @@ std::vector<double> values_of(const Values& options, std::size_t m) {
         std::iota(values.begin(), values.end(), 0.0);
     }
     if (values.size() != m)
-        fail(ErrorKind::usage, "--values: {} number{} for {} probabilit{}", values.size(),
-             values.size() == 1 ? "" : "s", m, m == 1 ? "y" : "ies");
+        fail(ErrorKind::usage, "--values: {} number{} for {} probabilit{}; expected as many",
+             values.size(), values.size() == 1 ? "" : "s", m, m == 1 ? "y" : "ies");
     for (double& x : values) x += 0.0;  // -0 would appear in the points
     return values;
 }
@@ -158,7 +159,7 @@ Outcomes::Outcomes(const Values& options)
     std::ranges::sort(order, {}, [&](std::size_t i) { return value[i]; });
     for (std::size_t i = 1; i < count(); ++i)
         if (value[order[i]] == value[order[i - 1]])
-            fail(ErrorKind::usage, "--values: {} stands twice", value[order[i]]);
+            fail(ErrorKind::usage, "--values: {} is given twice", value[order[i]]);
     sums = GuideTable(sums_to_1(weight), 2 * count());
 }
 
@@ -214,8 +215,8 @@ Warp unit() {
             .source = "Walker 1977, doi:10.1145/355744.355749; Vose 1991 (alias)",
             .related = {"categorical", "alias-method"},
             .strata =
-                "inversion: outcomes lie side by side in their order, xi as it is; alias: strata "
-                "are kept only within a slot",
+                "inversion: xi is used directly, and outcomes are in order; alias: strata are "
+                "preserved only within a slot",
             .traits = {.discrete = true},
             .options = Schema(probabilities, outcomes, method, normalize),
             .mapping = make};

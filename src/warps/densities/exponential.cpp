@@ -21,7 +21,7 @@ Warp unit() {
     return {.name = "exponential",
             .summary = "Exponential distribution on each coordinate, by inversion",
             .source = "Inverse of the distribution function 1 - exp(-rate x)",
-            .strata = "xi is the probability below x, as it is: small xi is near 0",
+            .strata = "xi is the probability below x, used directly: small xi is near 0",
             .options = Schema(parameter("exponential", "rate")),
             .mapping = family_mapping};
 }

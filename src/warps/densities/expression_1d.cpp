@@ -33,18 +33,18 @@ namespace {
 constexpr Param<Text> density{
     {.name = "density",
      .help = "Formula in x (stipple help formulas), not negative, of any integral: 'exp(-x)', 'x < "
-             "0.5 ? 1 : 3'. It is looked "
-             "at in 65536 places at least: what is narrower and has no --breaks may be missed"}};
+             "0.5 ? 1 : 3'. It is evaluated at 65536 points or more; narrower features may be "
+             "missed, unless --breaks locates them"}};
 constexpr Param<Numbers> range{{.name = "range", .fallback = "0,1", .help = "Range of x: a,b"}};
 constexpr Param<Numbers> breaks{
     {.name = "breaks",
-     .help = "Where the formula jumps or has corners; found, but slower, if not "
-             "named"}};
+     .help =
+         "Where the formula jumps or has corners; those not listed are found, but more slowly"}};
 constexpr Param<double> tolerance{.name = "tolerance",
                                   .fallback = 1e-9,
                                   .low = 1e-12,
                                   .high = 0.1,
-                                  .help = "What any probability may be off by"};
+                                  .help = "Largest error of any probability"};
 
 LineRange range_of(const Values& options) {
     const auto ends = options[range];
@@ -55,7 +55,7 @@ LineRange range_of(const Values& options) {
     out.breaks.erase(std::unique(out.breaks.begin(), out.breaks.end()), out.breaks.end());
     for (const double x : out.breaks)
         if (!(x > out.low && x < out.high))
-            fail(ErrorKind::usage, "--breaks: {} is not between {} and {}", x, out.low, out.high);
+            fail(ErrorKind::usage, "--breaks: {} is outside ({}, {})", x, out.low, out.high);
     return out;
 }
 
@@ -115,7 +115,7 @@ class ByFormula final : public LineDistribution {
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     if (!want.options.given(density))
-        fail(ErrorKind::usage, "--density: give a formula in x, such as 'exp(-x)'");
+        fail(ErrorKind::usage, "--density: no formula given; expected one in x, such as 'exp(-x)'");
     const LineRange ends = range_of(want.options);
     Expression f(density.name, want.options[density], 1);
     Values plain = want.options;  // blanks removed: a spec is one word
@@ -123,19 +123,19 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const auto law =
         std::make_shared<const ByFormula>(std::move(f), ends, want.options[tolerance], want.run);
     return line_mapping(std::vector{law}, 1, format_spec(want.warp.name, plain, want.warp.options),
-                        "share of the mass below x");
+                        "fraction of the mass below x");
 }
 
 }  // namespace
 
 Warp unit() {
     return {.name = "expression-1d",
-            .summary = "Range of numbers with the density that a formula in x gives",
+            .summary = "Range of numbers with a density given by a formula in x",
             .source =
                 "Inversion of a tabulated distribution function: L. Devroye, Non-Uniform "
                 "Random Variate Generation (1986), ch. II and VIII",
             .related = {"density"},
-            .strata = "xi1 is the share of the mass below x, as it is",
+            .strata = "xi1 is the fraction of the mass below x; it is used directly",
             .options = Schema(density, range, breaks, tolerance),
             .aliases = {"formula-1d"},
             .mapping = make};

@@ -34,22 +34,21 @@ namespace {
 
 constexpr Param<Text> density{
     {.name = "density",
-     .help =
-         "Formula in x and y (stipple help formulas), not negative, of any integral: 'x + y', "
-         "'x + y < 1 ? 1 : 0'. It is looked at in 393 216 places at least: what holds a disk as "
-         "wide as 1/256 of the ranges is seen, its mass right to 3 %; smaller ones are if a place "
-         "is on them"}};
+     .help = "Formula in x and y (stipple help formulas), not negative, of any integral: 'x + y', "
+             "'x + y < 1 ? 1 : 0'. It is evaluated at 393 216 points or more: features that "
+             "contain a disk 1/256 as wide as the ranges are found, with a mass right to 3 %; "
+             "smaller ones may be missed"}};
 constexpr Param<Text> bounds{{.name = "bounds",
                               .fallback = "0..1,0..1",
                               .help = "Ranges of x and y: lo..hi,lo..hi, or one for both"}};
-constexpr Param<double> tolerance{.name = "tolerance",
-                                  .fallback = 3e-4,
-                                  .low = 1e-7,
-                                  .high = 0.1,
-                                  .help =
-                                      "What any probability may be off by; the columns pdf and "
-                                      "weight are of the points as they are, so estimates by them "
-                                      "are not off"};
+constexpr Param<double> tolerance{
+    .name = "tolerance",
+    .fallback = 3e-4,
+    .low = 1e-7,
+    .high = 0.1,
+    .help =
+        "Largest error of any probability; the columns pdf and weight are those of the actual "
+        "points, so that estimates from them have no such error"};
 
 struct ByTable {
     std::shared_ptr<const StripTable> table;
@@ -67,7 +66,8 @@ struct ByTable {
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     if (!want.options.given(density))
-        fail(ErrorKind::usage, "--density: give a formula in x and y, such as 'x + y'");
+        fail(ErrorKind::usage,
+             "--density: no formula given; expected one in x and y, such as 'x + y'");
     const Box box = parse_box(want.options[bounds], 2);
     Expression f(density.name, want.options[density], 2);
     Values plain = want.options;  // blanks removed: a spec is one word
@@ -86,14 +86,14 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
 
 Warp unit() {
     return {.name = "expression-2d",
-            .summary = "Box of the plane with the density that a formula in x and y gives",
+            .summary = "Box of the plane with a density given by a formula in x and y",
             .source =
                 "Marginal, then conditional: M. Rosenblatt 1952, "
                 "doi:10.1214/aoms/1177729394",
             .related = {"density"},
             .strata =
-                "xi1 is the share of the mass left of x, xi2 the share below y of what is "
-                "at that x, both as they are",
+                "xi1 is the fraction of the mass left of x, xi2 the fraction of the mass at that x "
+                "below y; both are used directly",
             .traits = {.tabulated = true},
             .options = Schema(density, bounds, tolerance),
             .aliases = {"formula-2d"},

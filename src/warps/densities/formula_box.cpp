@@ -91,13 +91,12 @@ Estimate FormulaBox::integral() const {
             if (std::abs(integral_.value - mean.value) <= room) break;
             if (tries == most_tries)
                 fail(ErrorKind::limit,
-                     "{} has features too narrow to find: its integral over {} is {:.6g} by "
+                     "{} has features too narrow to resolve: its integral over {} is {:.6g} by "
                      "quadrature, and {:.6g} by a mean of values",
                      what, format_box(box_), integral_.value, mean.value);
         }
         if (!(integral_.value > 0))
-            fail(ErrorKind::usage, "{} is 0 wherever it was looked at in {}", what,
-                 format_box(box_));
+            fail(ErrorKind::usage, "{} is 0 at all points evaluated in {}", what, format_box(box_));
     });
     return integral_;
 }
@@ -191,7 +190,7 @@ Support FormulaBox::support() const {
 Box formula_bounds(const std::string& text, std::size_t most) {
     const std::size_t ranges = split(text, ',').size();
     if (ranges > most)
-        fail(ErrorKind::usage, "--bounds: {} ranges; {} are allowed at most", ranges, most);
+        fail(ErrorKind::usage, "--bounds: {} ranges; expected at most {}", ranges, most);
     return parse_box(text, std::max<std::size_t>(ranges, 1));
 }
 

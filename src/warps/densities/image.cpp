@@ -39,15 +39,15 @@ namespace {
 
 constexpr Param<Path> file{
     {.name = "file",
-     .help = "Picture (PNG, PFM; samples as they stand, taken as linear) or array (NPY, row 0 at "
-             "y = 0): points per area go by its values"}};
+     .help = "Picture (PNG, PFM; samples taken as linear) or array (NPY, row 0 at y = 0); the "
+             "number of points per area is proportional to its values"}};
 constexpr Param<bool> invert{.name = "invert",
-                             .help = "Points where the picture is dark, as ink on paper"};
+                             .help = "Put points where the picture is dark, as ink on paper"};
 constexpr Param<Choice> interpolation{
     .name = "interpolation",
     .fallback = "constant",
     .choices = "constant|bilinear",
-    .help = "The density of a pixel is constant, or bilinear between the pixels' middles"};
+    .help = "Density within a pixel: constant, or bilinear between the centres of pixels"};
 
 /// Common part of both domains.
 class SquareDomain : public NamedDomain {
@@ -60,7 +60,7 @@ class SquareDomain : public NamedDomain {
     }
     Box bounding_box() const override { return {{0, 0}, {1, 1}}; }
     std::vector<std::string> cube_axes() const override {
-        return {"share of the row's mass left of x", "share of the mass below y"};
+        return {"fraction of the row's mass left of x", "fraction of the mass below y"};
     }
     bool shows_gaps() const override { return true; }
 };
@@ -303,7 +303,8 @@ class BilinearDomain final : public SquareDomain {
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     if (!want.options.given(file))
-        fail(ErrorKind::usage, "--file: name a picture (PNG, PFM) or an array (NPY)");
+        fail(ErrorKind::usage,
+             "--file: no file given; expected a picture (PNG, PFM) or an array (NPY)");
     return want.options[interpolation] == "bilinear" ? domain_mapping<BilinearDomain>(want)
                                                      : domain_mapping<ImageDomain>(want);
 }
@@ -319,8 +320,8 @@ Warp unit() {
             "conditional)",
         .related = {"environment-map", "envmap"},
         .strata =
-            "xi2 is the share of the mass below y, xi1 the share of that row's mass left "
-            "of x, both as they are",
+            "xi2 is the fraction of the mass below y, xi1 the fraction of that row's mass left of "
+            "x; both are used directly",
         .options = Schema(file, invert, interpolation),
         .aliases = {"picture", "density-map"},
         .mapping = make};

@@ -61,7 +61,7 @@ constexpr Param<Numbers> weights{
 constexpr Param<Text> components{
     {.name = "components",
      .fallback = "henyey-greenstein:g=0.7|henyey-greenstein:g=-0.3",
-     .help = "Warps as specs, with | between them: 'cone:half-angle=10|hemisphere:method=cosine'"}};
+     .help = "Warps as specs, separated by |: 'cone:half-angle=10|hemisphere:method=cosine'"}};
 
 constexpr Param<bool> normalize{.name = "normalize", .help = "Divide the weights by their sum"};
 
@@ -158,8 +158,8 @@ class MixtureDomain final : public NamedDomain {
         return weighted([&](const Domain& part) {
             const auto mass = part.box_mass(box);
             if (!mass)
-                fail(ErrorKind::limit, "{}: the probabilities of boxes of {} are not known", spec(),
-                     part.spec());
+                fail(ErrorKind::limit, "{}: the probabilities of boxes in {} cannot be computed",
+                     spec(), part.spec());
             return *mass;
         });
     }
@@ -354,7 +354,9 @@ std::string space_of(const Component& part, const Warp& warp) {
              part.spec);
     if (warp.traits.discrete || (!full && !gives_directions(*part.mapping)))
         fail(ErrorKind::usage,
-             "--components: {} gives neither directions nor points that fill a space", part.spec);
+             "--components: {} gives neither directions nor points that fill a space; expected one "
+             "of these",
+             part.spec);
     if (full) return fmt::format("points that fill {} dimension{}", m, m == 1 ? "" : "s");
     return m == 2 ? "directions in the plane" : "directions in space";
 }
@@ -363,7 +365,8 @@ Component component_of(const std::string& text, std::size_t given, const RunCont
                        std::string& space) {
     const Spec spec = parse_spec(text);
     if (!spec.coordinates.empty())
-        fail(ErrorKind::usage, "--components: {} names coordinates; all take the same", text);
+        fail(ErrorKind::usage, "--components: {} names coordinates, which components cannot choose",
+             text);
     const Warp& warp = warp_of(spec);
     Component part{.spec = text, .mapping = warp.make(spec.values(warp.options), given, run)};
     space = space_of(part, warp);
@@ -374,7 +377,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const std::vector<double> given_weights = want.options[weights];
     const auto texts = parts_of(want.options[components]);
     if (given_weights.size() != texts.size())
-        fail(ErrorKind::usage, "--weights: {} given for {} component{}; one for each is needed",
+        fail(ErrorKind::usage, "--weights: {} given for {} component{}; expected one for each",
              given_weights.size(), texts.size(), texts.size() == 1 ? "" : "s");
     const auto shares = checked_weights(weights, given_weights, want.options[normalize]);
 
@@ -388,8 +391,8 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
         if (space != first ||
             parts[i].mapping->cube_dimension() != parts[0].mapping->cube_dimension())
             fail(ErrorKind::usage,
-                 "--components: all must be of one kind; {} gives {}, from {} unit coordinates, {} "
-                 "gives {}, from {}",
+                 "--components: all must be of one kind; {} gives {}, from {} unit coordinates, "
+                 "but {} gives {}, from {}",
                  texts[0], first, parts[0].mapping->cube_dimension(), texts[i], space,
                  parts[i].mapping->cube_dimension());
     }
@@ -400,11 +403,11 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
 
 Warp unit() {
     return {.name = "mixture",
-            .summary = "Mixture of other warps with weights",
+            .summary = "Weighted mixture of other warps",
             .source = "Composition: the weighted sum of the components' densities",
             .strata =
-                "xi1 is cut by the weights, in order, and stretched for the component's own use; "
-                "all else is as the components have it",
+                "xi1 selects the component by the weights, in order, and is rescaled for it; all "
+                "else is as in the components",
             .traits = {.invertible = false},
             .options = Schema(weights, components, normalize),
             .mapping = make};

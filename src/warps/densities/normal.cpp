@@ -54,7 +54,7 @@ constexpr Param<Numbers> deviation{
 constexpr Param<Numbers> covariance{
     {.name = "covariance",
      .fallback = {},
-     .help = "Covariance matrix in place of deviations: d x d numbers, row after row: 2,1 1,2"}};
+     .help = "Covariance matrix, instead of deviations: d x d numbers, row after row: 2,1 1,2"}};
 
 /// Mean and lower factor; a diagonal factor is stored as its diagonal.
 struct Shape {
@@ -150,7 +150,7 @@ class NormalDomain final : public NamedDomain {
         for (std::size_t k = 0; k < dimension(); ++k)
             axes.push_back(k == 0
                                ? "probability below x1"
-                               : fmt::format("probability below x{}, given those before", k + 1));
+                               : fmt::format("probability below x{}, given the preceding", k + 1));
         return axes;
     }
 
@@ -220,13 +220,14 @@ std::vector<double> deviations_of(const Values& options, std::size_t d) {
 /// Lower factor of --covariance. @throws Error(usage) naming the defect of the matrix
 std::vector<double> factor_of(const std::vector<double>& matrix, std::size_t d) {
     if (matrix.size() != d * d)
-        fail(ErrorKind::usage, "--covariance: {} x {} numbers are needed, row after row; {} given",
-             d, d, matrix.size());
+        fail(ErrorKind::usage, "--covariance: expected {} x {} numbers, row after row; {} given", d,
+             d, matrix.size());
     for (std::size_t i = 0; i < d; ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (matrix[i * d + j] != matrix[j * d + i])
-                fail(ErrorKind::usage, "--covariance: not symmetric: row {} has {}, row {} has {}",
-                     j + 1, matrix[j * d + i], i + 1, matrix[i * d + j]);
+                fail(ErrorKind::usage,
+                     "--covariance: not symmetric: row {} has {}, but row {} has {}", j + 1,
+                     matrix[j * d + i], i + 1, matrix[i * d + j]);
     for (const double x : matrix)
         if (std::abs(x) > 1e300)
             fail(ErrorKind::usage, "--covariance: {} is outside [-1e300, 1e300]", x);
@@ -247,7 +248,8 @@ std::size_t root_of(std::size_t n) {
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const bool correlated = want.options.given(covariance);
     if (correlated && want.options.given(deviation))
-        fail(ErrorKind::usage, "--deviation: --covariance is given, too; one of them is allowed");
+        fail(ErrorKind::usage,
+             "--deviation: cannot be combined with --covariance; give one of them");
     const std::vector<double> matrix = want.options[covariance];
     std::size_t d = want.given;
     if (want.options[deviation].size() > 1) d = want.options[deviation].size();
@@ -267,8 +269,8 @@ Warp unit() {
             .source = "Rosenblatt 1952, doi:10.1214/aoms/1177729394; quantiles: Wichura 1988",
             .related = {"box-muller", "gauss"},
             .strata =
-                "xi_k is the probability below x_k given those before it, as it is: small xi is "
-                "far below the mean",
+                "xi_k is the probability below x_k given the preceding coordinates, used directly: "
+                "small xi is far below the mean",
             .options = Schema(mean, deviation, covariance),
             .aliases = {"gaussian"},
             .mapping = make};

@@ -47,7 +47,7 @@ constexpr Param<double> exponent{
     .fallback = 2,
     .low = -1000,
     .high = 1000,
-    .help = "k of the density x^k; even where the range has negative numbers"};
+    .help = "Exponent k of the density x^k; must be even if the range has negative numbers"};
 
 constexpr Param<Numbers> range{
     {.name = "range", .fallback = "0,1", .help = "The interval: a,b with a < b"}};
@@ -258,39 +258,43 @@ void require_numbers_near_0(double k, double size) {
     const double depth = logarithm(smallest / size);
     const double least = logarithm(1e-14) / depth - 1;
     if (k >= least) return;
-    fail_with_hint(
-        ErrorKind::usage, fmt::format("or a range that begins above 0, as at {:.0g}", 1e-150),
-        "--exponent: x^{} on a range that ends at 0 has {:.3g} of its mass below {:.2g}, "
-        "where numbers end; at least {:.4f} is needed",
-        k, stipple::exponential((k + 1) * depth), smallest, least + 5e-5);
+    fail_with_hint(ErrorKind::usage,
+                   fmt::format("or a range that starts above 0, such as at {:.0g}", 1e-150),
+                   "--exponent: with x^{} on a range that ends at 0, {:.3g} of the mass is below "
+                   "{:.2g}, the smallest double; expected at least {:.4f}",
+                   k, stipple::exponential((k + 1) * depth), smallest, least + 5e-5);
 }
 
 Interval interval_of(const Values& options) {
     const std::vector<double> ends = options[range];
     const double k = options[exponent];
     if (ends.size() != 2)
-        fail(ErrorKind::usage, "--range: 2 numbers are needed, a,b; {} given", ends.size());
+        fail(ErrorKind::usage, "--range: expected 2 numbers, a,b; {} given", ends.size());
     const double a = ends[0] + 0.0;
     const double b = ends[1] + 0.0;
     if (!(a < b)) fail(ErrorKind::usage, "--range: {} is not below {}", a, b);
     const double size = std::max(std::abs(a), std::abs(b));
     if (size > 1e150 || b - a < 1e-15 * size || size < 1e-150)
         fail(ErrorKind::usage,
-             "--range: {},{} is outside [-1e150, 1e150], or narrower than 1e-15 of itself or "
-             "1e-150",
+             "--range: {},{} is outside [-1e150, 1e150], or shorter than 1e-15 times its larger "
+             "end or 1e-150",
              a, b);
     const double small = std::min(std::abs(a), std::abs(b));
     if ((a > 0 || b < 0) && small < 1e-150)
-        fail(ErrorKind::usage, "--range: {},{} has an end within 1e-150 of 0 that is not 0", a, b);
+        fail(ErrorKind::usage,
+             "--range: {},{} has an end within 1e-150 of 0; expected 0 itself or a number farther "
+             "away",
+             a, b);
     if (a <= 0 && b >= 0 && k <= -1)
         fail(ErrorKind::usage,
-             "--exponent: x^{} has no finite integral over [{}, {}]; above -1 is needed where the "
-             "range contains 0",
+             "--exponent: x^{} has no finite integral over [{}, {}], which contains 0; expected an "
+             "exponent above -1",
              k, a, b);
     if (a < 0 && std::fmod(k, 2) != 0)
         fail(ErrorKind::usage,
-             "--exponent: x^{} is not positive on [{}, {}]; an even exponent is needed below 0", k,
-             a, b);
+             "--exponent: x^{} is not positive on [{}, {}]; expected an even exponent for negative "
+             "x",
+             k, a, b);
     if (a == 0 || b == 0) require_numbers_near_0(k, size);
     return {.a = a, .b = b, .p = k + 1, .size = size};
 }
@@ -310,7 +314,7 @@ Warp unit() {
             .summary = "Density x^k on an interval, on each coordinate, by inversion",
             .source = "Inverse of the distribution function, a power or a logarithm",
             .related = {"power-law"},
-            .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
+            .strata = "xi is the probability below x, used directly: xi = 0 is the lower end",
             .options = Schema(exponent, range),
             .mapping = make};
 }

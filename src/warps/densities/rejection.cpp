@@ -32,14 +32,18 @@ namespace stipple::warps::rejection {
 namespace {
 
 constexpr Param<Text> density{{.name = "density",
-                               .help = "Formula (stipple help formulas) in x, y, z, as many as "
+                               .help = "Formula (stipple help formulas) in as many of x, y, z as "
                                        "--bounds has ranges; not negative, of any integral"}};
 constexpr Param<double> bound{
-    .name = "bound", .fallback = 1, .low = 0, .low_open = true, .help = "No value of it is above"};
-constexpr Param<Text> bounds{{.name = "bounds",
-                              .fallback = "0..1,0..1",
-                              .help = "The box: lo..hi,lo..hi, a range for each coordinate, 1 to "
-                                      "3"}};
+    .name = "bound",
+    .fallback = 1,
+    .low = 0,
+    .low_open = true,
+    .help = "Upper bound of the formula's values; a larger one is an error"};
+constexpr Param<Text> bounds{
+    {.name = "bounds",
+     .fallback = "0..1,0..1",
+     .help = "Box: lo..hi,lo..hi, a range for each of 1 to 3 coordinates"}};
 
 class Rejection final : public Mapping {
   public:
@@ -81,7 +85,8 @@ class Rejection final : public Mapping {
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     if (!want.options.given(density))
-        fail(ErrorKind::usage, "--density: give a formula, such as 'exp(-x*x - y*y)'");
+        fail(ErrorKind::usage,
+             "--density: no formula given; expected one such as 'exp(-x*x - y*y)'");
     const Box box = formula_bounds(want.options[bounds], 3);
     Expression f(density.name, want.options[density], box.dimension());
     Values law = want.warp.options.defaults();  // the density's options, without the method's bound
@@ -97,12 +102,12 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
 
 Warp unit() {
     return {.name = "rejection",
-            .summary = "Box with any density that a formula gives, by dropping points",
+            .summary = "Box with a density given by any formula, by dropping points",
             .source = "von Neumann 1951, NBS Applied Mathematics Series 12, 36-38",
             .related = {"accept-reject"},
             .strata =
-                "coordinates stay as they are, less the points dropped; one more decides "
-                "which",
+                "coordinates keep their strata, except for the points dropped; the last coordinate "
+                "decides which",
             .traits = {.invertible = false, .drops = true},
             .options = Schema(density, bound, bounds),
             .mapping = make};

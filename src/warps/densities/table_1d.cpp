@@ -32,17 +32,17 @@ namespace {
 constexpr Param<Points> rows{
     {.name = "rows",
      .fallback = "0,2 1,0",
-     .help = "The table: x,density x,density ..., x rising; the density may have any scale"}};
+     .help = "Table: x,density x,density ..., x increasing; the density may have any scale"}};
 
-constexpr Param<Path> file{{.name = "file",
-                            .fallback = {},
-                            .help = "The table from a CSV file with a row x,density a line"}};
+constexpr Param<Path> file{
+    {.name = "file", .fallback = {}, .help = "CSV file of the table, with x,density on each line"}};
 
 constexpr Param<Choice> interpolation{
     .name = "interpolation",
     .fallback = "linear",
     .choices = "linear|constant",
-    .help = "linear: straight between rows; constant: each density holds up to the next x"};
+    .help =
+        "linear: density interpolated between rows; constant: each density holds up to the next x"};
 
 struct Tabulated final : LineDistribution {
     explicit Tabulated(LineTable pieces) : table(std::move(pieces)) {}
@@ -77,7 +77,7 @@ Table table_of(const Values& options, const std::string& name, const RunContext&
     Table table = options[rows];
     if (options.given(file)) {
         if (options.given(rows))
-            fail(ErrorKind::usage, "--rows: --file is given, too; one of them is allowed");
+            fail(ErrorKind::usage, "--rows: cannot be combined with --file; give one of them");
         const PointSet read = io::read_given(file.name, options[file], {.all_columns = true}, run);
         table.clear();
         for (std::size_t i = 0; i < read.count(); ++i)
@@ -85,9 +85,9 @@ Table table_of(const Values& options, const std::string& name, const RunContext&
     }
     const auto kind = options.given(file) ? ErrorKind::input : ErrorKind::usage;
     if (table[0].size() != 2)
-        fail(kind, "{}: rows of {} numbers; 2 are needed, x,density", name, table[0].size());
+        fail(kind, "{}: rows of {} numbers; expected 2, x,density", name, table[0].size());
     if (table.size() < 2 || table.size() > (std::size_t{1} << 28))
-        fail(kind, "{}: the table has {} row{}; 2 to 2^28 are needed", name, table.size(),
+        fail(kind, "{}: the table has {} row{}; expected 2 to 2^28", name, table.size(),
              table.size() == 1 ? "" : "s");
     return table;
 }
@@ -97,12 +97,12 @@ void check_rows(const Table& table, bool linear, ErrorKind kind, const std::stri
         if (!(std::abs(table[i][0]) <= 1e150))
             fail(kind, "{}: row {} has x = {}, outside [-1e150, 1e150]", name, i + 1, table[i][0]);
         if (!(table[i][1] >= 0 && table[i][1] <= 1e150))
-            fail(kind, "{}: row {} has the density {}; [0, 1e150] is allowed", name, i + 1,
+            fail(kind, "{}: row {} has the density {}; expected [0, 1e150]", name, i + 1,
                  table[i][1]);
         if (i == 0) continue;
         const double before = table[i - 1][0];
         if (table[i][0] < before || (!linear && table[i][0] == before))
-            fail(kind, "{}: row {} has x = {} after {}; x must rise", name, i + 1, table[i][0],
+            fail(kind, "{}: row {} has x = {} after {}; x must increase", name, i + 1, table[i][0],
                  before);
     }
 }
@@ -126,7 +126,7 @@ LineTable table_from(const Values& options, const RunContext& run) {
         mass += 0.5 * (pieces.back().f_low + pieces.back().f_high) * (next[0] - row[0]);
     }
     if (!(mass > 1e-290 && mass < 1e290))
-        fail(kind, "{}: the density's integral is {}; it must be in [1e-290, 1e290]", name, mass);
+        fail(kind, "{}: the integral of the density is {}; expected [1e-290, 1e290]", name, mass);
     return LineTable(std::move(pieces));
 }
 
@@ -140,9 +140,9 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
 Warp unit() {
     return {.name = "table-1d",
             .summary = "Density from a table, on each coordinate, by exact inversion",
-            .source = "Inverse of a distribution function of straight or parabolic pieces",
+            .source = "Inverse of a distribution function with linear or parabolic pieces",
             .related = {"histogram", "inverse-cdf", "empirical", "piecewise-constant"},
-            .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
+            .strata = "xi is the probability below x, used directly: xi = 0 is the lower end",
             .options = Schema(rows, file, interpolation),
             .stream_version = 2,
             .mapping = make};

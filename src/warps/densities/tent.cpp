@@ -34,12 +34,13 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr Param<Numbers> radius{
     {.name = "radius",
      .fallback = "1",
-     .help = "Half the width of the tent, above 0: one for all coordinates, or one for each"}};
+     .help =
+         "Half the width of the tent, above 0: one number for all coordinates, or one for each"}};
 
 constexpr Param<Numbers> center{
     {.name = "center",
      .fallback = "0",
-     .help = "Where the tent is highest: one number for all coordinates, or one for each"}};
+     .help = "Position of the peak: one number for all coordinates, or one for each"}};
 
 struct Tent final : LineDistribution {
     Tent(double half_width, double middle) : r(half_width), c(middle) {}
@@ -85,25 +86,28 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
         if (!(r >= 1e-150 && r <= 1e150))
             fail(ErrorKind::usage, "--radius: {} is outside [1e-150, 1e+150]", r);
         if (!(r > 64 * epsilon * std::abs(c)))
-            fail(ErrorKind::usage, "--center: {} is so far that a radius of {} is lost in rounding",
-                 c, r);
+            fail(ErrorKind::usage,
+                 "--center: {} is so far from 0 that a radius of {} is lost in rounding", c, r);
         axes.push_back(std::make_shared<Tent>(r, c));
     }
-    return line_mapping(std::move(axes), want.given, want.spec(), "share of the tent left");
+    return line_mapping(std::move(axes), want.given, want.spec(),
+                        "fraction of the tent to the left");
 }
 
 }  // namespace
 
 Warp unit() {
-    return {.name = "tent",
-            .summary = "Box with the tent density, the triangle filter, in any dimension",
-            .source = "the inverse of the distribution function of the triangle density",
-            .related = {"pixel-filter"},
-            .strata = "each xi is the share of the tent on the left, as it is; strata become boxes",
-            .options = Schema(radius, center),
-            .aliases = {"triangle-filter"},
-            .stream_version = 2,
-            .mapping = make};
+    return {
+        .name = "tent",
+        .summary = "Box with the tent density, the triangle filter, in any dimension",
+        .source = "the inverse of the distribution function of the triangle density",
+        .related = {"pixel-filter"},
+        .strata =
+            "each xi is the fraction of the tent to the left, used directly; strata become boxes",
+        .options = Schema(radius, center),
+        .aliases = {"triangle-filter"},
+        .stream_version = 2,
+        .mapping = make};
 }
 
 }  // namespace stipple::warps::tent

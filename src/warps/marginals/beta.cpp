@@ -23,7 +23,7 @@ Warp unit() {
             .summary = "Beta distribution on an interval, on each coordinate, by inversion",
             .source = "Inverse of the regularised incomplete beta function",
             .related = {"arcsine"},
-            .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
+            .strata = "xi is the probability below x, used directly: xi = 0 is the lower end",
             .options = Schema(parameter("beta", "a"), parameter("beta", "b"),
                               parameter("beta", "low"), parameter("beta", "high")),
             .stream_version = 2,

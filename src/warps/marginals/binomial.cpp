@@ -20,9 +20,10 @@ Warp unit() {
     return {
         .name = "binomial",
         .summary = "Binomial distribution on each coordinate, by inversion",
-        .source = "Inverse of the distribution function, summed from the likeliest outcome on",
+        .source =
+            "Inverse of the distribution function, summed from the most probable outcome outwards",
         .related = {"bernoulli"},
-        .strata = "outcomes lie side by side in their order, xi as it is",
+        .strata = "xi is used directly, and outcomes are in order",
         .traits = {.discrete = true},
         .options = Schema(parameter("binomial", "trials"), parameter("binomial", "probability")),
         .mapping = family_mapping};

@@ -24,30 +24,31 @@ namespace stipple::warps::empirical {
 namespace {
 
 constexpr Param<Numbers> numbers{
-    {.name = "values", .fallback = "0,1,2", .help = "The numbers, for all coordinates"}};
+    {.name = "values", .fallback = "0,1,2", .help = "The numbers, the same for all coordinates"}};
 constexpr Param<Path> file{
     {.name = "file",
      .fallback = {},
-     .help = "The numbers from the columns of a file, one for all coordinates or one for each"}};
+     .help =
+         "File whose columns hold the numbers, one column for all coordinates or one for each"}};
 constexpr Param<Text> column{
     {.name = "file-columns",
      .fallback = {},
-     .help = "Which columns of the file: names or numbers from 1, with commas; default: all"}};
-constexpr Param<Choice> interpolation{
-    .name = "interpolation",
-    .fallback = "steps",
-    .choices = "steps|linear",
-    .help = "steps: the numbers alone; linear: straight between them, no two the same"};
+     .help = "Columns of the file, by name or number from 1, separated by commas; default: all"}};
+constexpr Param<Choice> interpolation{.name = "interpolation",
+                                      .fallback = "steps",
+                                      .choices = "steps|linear",
+                                      .help =
+                                          "steps: only the numbers themselves occur; linear: "
+                                          "interpolated between them, which must all differ"};
 
 std::vector<std::vector<double>> columns_of(const Values& options, const RunContext& run) {
     if (!options.given(file)) {
         if (options.given(column))
-            fail(ErrorKind::usage,
-                 "--file-columns: there is no --file, whose columns it would name");
+            fail(ErrorKind::usage, "--file-columns: selects columns of --file, which is not given");
         return {options[numbers]};
     }
     if (options.given(numbers))
-        fail(ErrorKind::usage, "--values: --file is given, too; one of them is allowed");
+        fail(ErrorKind::usage, "--values: cannot be combined with --file; give one of them");
     ReadOptions how{.all_columns = true};
     const std::string names = options[column];
     for (const std::string_view name : split(names, ',')) how.columns.emplace_back(trim(name));
@@ -66,7 +67,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     std::vector<MarginalPtr> laws;
     for (auto& column_values : columns_of(want.options, want.run)) {
         if (column_values.empty() || column_values.size() > (std::size_t{1} << 28))
-            fail(kind, "{}: {} numbers; 1 to 2^28 are needed", name, column_values.size());
+            fail(kind, "{}: {} numbers; expected 1 to 2^28", name, column_values.size());
         laws.push_back(measured_law(std::move(column_values), linear, kind, name));
     }
     return marginal_mapping(laws, want.given, want.spec());
@@ -76,10 +77,10 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
 
 Warp unit() {
     return {.name = "empirical",
-            .summary = "The distribution of given numbers, on each coordinate, by inversion",
+            .summary = "Distribution of given numbers, on each coordinate, by inversion",
             .source = "Hyndman, Fan 1996, doi:10.1080/00031305.1996.10473566",
             .related = {"data", "resampling", "bootstrap", "quantile"},
-            .strata = "numbers lie side by side in their order, xi as it is",
+            .strata = "xi is used directly, and the numbers are in increasing order",
             .traits = {.discrete = true},
             .options = Schema(numbers, file, column, interpolation),
             .mapping = make};

@@ -20,7 +20,7 @@ Warp unit() {
             .summary = "Gamma distribution on each coordinate, by inversion",
             .source = "Inverse of the regularised incomplete gamma function",
             .related = {"erlang", "chi-squared"},
-            .strata = "xi is the probability below x, as it is: small xi is near 0",
+            .strata = "xi is the probability below x, used directly: small xi is near 0",
             .options = Schema(parameter("gamma", "shape"), parameter("gamma", "scale")),
             .stream_version = 2,
             .mapping = family_mapping};

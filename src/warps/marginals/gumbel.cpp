@@ -21,7 +21,7 @@ Warp unit() {
             .summary = "Gumbel distribution of extremes on each coordinate, by inversion",
             .source = "Inverse of the distribution function exp(-exp(-x))",
             .related = {"extreme-value"},
-            .strata = "xi is the probability below x, as it is: small xi is far below",
+            .strata = "xi is the probability below x, used directly: small xi is far below",
             .options = Schema(parameter("gumbel", "location"), parameter("gumbel", "scale")),
             .mapping = family_mapping};
 }

@@ -17,10 +17,10 @@ namespace stipple::warps::integers {
 
 Warp unit() {
     return {.name = "integers",
-            .summary = "Whole numbers of a range, each as likely, on each coordinate",
-            .source = "Inverse of the distribution function, a stair",
+            .summary = "Integers of a range with equal probabilities, on each coordinate",
+            .source = "Inverse of the distribution function, a step function",
             .related = {"uniform-integers", "die"},
-            .strata = "outcomes lie side by side in their order, xi as it is",
+            .strata = "xi is used directly, and outcomes are in order",
             .traits = {.discrete = true},
             .options = Schema(parameter("integers", "low"), parameter("integers", "high")),
             .mapping = family_mapping};

@@ -19,7 +19,7 @@ Warp unit() {
             .summary = "Uniform distribution of the logarithm, on each coordinate",
             .source = "Inverse of the distribution function, a logarithm",
             .related = {"reciprocal"},
-            .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
+            .strata = "xi is the probability below x, used directly: xi = 0 is the lower end",
             .options = Schema(parameter("log-uniform", "low"), parameter("log-uniform", "high")),
             .aliases = {"loguniform"},
             .mapping = family_mapping};

@@ -23,7 +23,7 @@ Warp unit() {
     return {.name = "lognormal",
             .summary = "Lognormal distribution on each coordinate, by inversion",
             .source = "Exponential of the normal distribution's quantile",
-            .strata = "xi is the probability below x, as it is: small xi is near 0",
+            .strata = "xi is the probability below x, used directly: small xi is near 0",
             .options = Schema(parameter("lognormal", "mu"), parameter("lognormal", "sigma"),
                               parameter("lognormal", "mean"), parameter("lognormal", "deviation")),
             .aliases = {"log-normal"},

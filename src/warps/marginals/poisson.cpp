@@ -17,13 +17,15 @@
 namespace stipple::warps::poisson {
 
 Warp unit() {
-    return {.name = "poisson",
-            .summary = "Poisson distribution on each coordinate, by inversion",
-            .source = "Inverse of the distribution function, summed from the likeliest outcome on",
-            .strata = "outcomes lie side by side in their order, xi as it is",
-            .traits = {.discrete = true},
-            .options = Schema(parameter("poisson", "mean")),
-            .mapping = family_mapping};
+    return {
+        .name = "poisson",
+        .summary = "Poisson distribution on each coordinate, by inversion",
+        .source =
+            "Inverse of the distribution function, summed from the most probable outcome outwards",
+        .strata = "xi is used directly, and outcomes are in order",
+        .traits = {.discrete = true},
+        .options = Schema(parameter("poisson", "mean")),
+        .mapping = family_mapping};
 }
 
 }  // namespace stipple::warps::poisson

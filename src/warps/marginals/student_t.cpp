@@ -22,7 +22,7 @@ Warp unit() {
             .summary = "Student's t distribution on each coordinate, by inversion",
             .source = "Inverse of the regularised incomplete beta function",
             .related = {"cauchy"},
-            .strata = "xi is the probability below x, as it is: small xi is far below",
+            .strata = "xi is the probability below x, used directly: small xi is far below",
             .options = Schema(parameter("student-t", "degrees"), parameter("student-t", "location"),
                               parameter("student-t", "scale")),
             .stream_version = 2,

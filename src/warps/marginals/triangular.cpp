@@ -20,7 +20,7 @@ Warp unit() {
     return {.name = "triangular",
             .summary = "Triangular distribution with any mode, on each coordinate",
             .source = "Inverse of the distribution function of two parabolas",
-            .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
+            .strata = "xi is the probability below x, used directly: xi = 0 is the lower end",
             .options = Schema(parameter("triangular", "low"), parameter("triangular", "mode"),
                               parameter("triangular", "high")),
             .stream_version = 2,

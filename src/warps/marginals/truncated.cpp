@@ -32,7 +32,7 @@ namespace {
 constexpr Param<Text> of{
     {.name = "of",
      .fallback = "normal",
-     .help = "The distribution, as a spec: normal:deviation=2, gamma:shape=3"}};
+     .help = "Distribution to truncate, as a spec: normal:deviation=2, gamma:shape=3"}};
 constexpr Param<Numbers> low{
     {.name = "low",
      .help = "Lower end: one number for all coordinates, or one for each; default: none"}};
@@ -44,8 +44,7 @@ constexpr Param<Numbers> high{
 std::vector<MarginalPtr> members_of(const std::string& text) {
     const Spec spec = parse_spec(text);
     if (!spec.coordinates.empty())
-        fail(ErrorKind::usage, "--of: '{}' has coordinates; a name and its options are expected",
-             text);
+        fail(ErrorKind::usage, "--of: '{}' has coordinates; expected a name and its options", text);
     ParameterLists lists;
     for (const auto& [name, numbers] : spec.settings)
         lists.emplace_back(name, parse_numbers(name, numbers));
@@ -56,12 +55,14 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const std::vector<MarginalPtr> laws = members_of(want.options[of]);
     const std::vector<double> lows = want.options[low];
     const std::vector<double> highs = want.options[high];
-    if (lows.empty() && highs.empty()) fail(ErrorKind::usage, "--low: give --low, --high or both");
+    if (lows.empty() && highs.empty())
+        fail(ErrorKind::usage, "--low: neither --low nor --high is given; expected one or both");
     const std::size_t members = std::max({laws.size(), lows.size(), highs.size()});
     const auto at = [&](const auto& list, std::size_t k, auto none) {
         if (list.size() > 1 && list.size() != members)
             fail(ErrorKind::usage,
-                 "--low: {} and {} ends for {} coordinates; one for all, or one for each",
+                 "--low: {} lower and {} upper ends for {} coordinates; expected one for all, or "
+                 "one for each",
                  lows.size(), highs.size(), members);
         return list.empty() ? none : list[list.size() > 1 ? k : 0];
     };
@@ -76,14 +77,16 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
 }  // namespace
 
 Warp unit() {
-    return {.name = "truncated",
-            .summary = "Any other distribution on the line between two ends, on each coordinate",
-            .source = "Inverse of the distribution function, from the nearer tail",
-            .related = {"truncated-normal", "clipped", "bounded"},
-            .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
-            .options = Schema(of, low, high),
-            .stream_version = 2,
-            .mapping = make};
+    return {
+        .name = "truncated",
+        .summary =
+            "Any other one-dimensional distribution, truncated to an interval, on each coordinate",
+        .source = "Inverse of the distribution function, from the nearer tail",
+        .related = {"truncated-normal", "clipped", "bounded"},
+        .strata = "xi is the probability below x, used directly: xi = 0 is the lower end",
+        .options = Schema(of, low, high),
+        .stream_version = 2,
+        .mapping = make};
 }
 
 }  // namespace stipple::warps::truncated

@@ -17,9 +17,9 @@ namespace stipple::warps::uniform {
 Warp unit() {
     return {.name = "uniform",
             .summary = "Uniform distribution between two ends, on each coordinate",
-            .source = "Inverse of the distribution function, a straight line",
+            .source = "Inverse of the distribution function, a linear function",
             .related = {"box", "interval", "bounds"},
-            .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
+            .strata = "xi is the probability below x, used directly: xi = 0 is the lower end",
             .options = Schema(parameter("uniform", "low"), parameter("uniform", "high")),
             .mapping = family_mapping};
 }

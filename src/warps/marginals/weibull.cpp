@@ -19,7 +19,7 @@ Warp unit() {
             .summary = "Weibull distribution on each coordinate, by inversion",
             .source = "Inverse of the distribution function 1 - exp(-(x / scale)^shape)",
             .related = {"rayleigh"},
-            .strata = "xi is the probability below x, as it is: small xi is near 0",
+            .strata = "xi is the probability below x, used directly: small xi is near 0",
             .options = Schema(parameter("weibull", "shape"), parameter("weibull", "scale")),
             .mapping = family_mapping};
 }

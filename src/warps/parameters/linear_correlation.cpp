@@ -186,7 +186,7 @@ Scored::Scored(MarginalPtr law, Of of) : law_(std::move(law)), ranks_(of == Of::
     constexpr double most = 1 << 17;
     const MarginalMoments moments = law_->moments();
     if (ranks_ && law_->outcomes() == 1)
-        fail(ErrorKind::usage, "a parameter with one outcome has no rank correlation");
+        fail(ErrorKind::usage, "a parameter with a single outcome has no rank correlation");
     if (law_->outcomes() == 1 ||
         (!ranks_ && !(std::isfinite(moments.variance) && moments.variance > 0)))
         fail(ErrorKind::usage,
@@ -203,10 +203,9 @@ Scored::Scored(MarginalPtr law, Of of) : law_(std::move(law)), ranks_(of == Of::
         take_panels();
     settle();
     if (!ranks_ && !(std::abs(deviation_ * deviation_ / moments.variance - 1) < 1e-6))
-        fail(
-            ErrorKind::usage,
-            "a parameter with so heavy tails that its variance lies beyond probabilities of 1e-300 "
-            "has no linear correlation that can be told");
+        fail(ErrorKind::usage,
+             "a parameter whose tails are so heavy that much of its variance lies beyond "
+             "probabilities of 1e-300 has no computable linear correlation");
 }
 
 double Scored::number(double z) const {
@@ -354,7 +353,7 @@ double Scored::scores_for(const Scored& other, double r) const {
     const double end = std::abs(extreme(other, sign));
     if (!(std::abs(r) < end))
         fail(ErrorKind::usage,
-             "{} is out of reach: these two have correlations in [{:.6f}, {:.6f}]", r,
+             "{} is not attainable: these two parameters have correlations in [{:.6f}, {:.6f}]", r,
              extreme(other, -1), extreme(other, 1));
     const double size = deviation_ * other.deviation_;
     const double wanted = std::abs(r);

@@ -66,7 +66,7 @@ class Place {
     }
     [[nodiscard]] double number() const {
         const double x = value_.is_number() ? value_.get<double>() : NAN;
-        if (!std::isfinite(x)) refuse(fmt::format("{} is no number", shown(json_text(value_))));
+        if (!std::isfinite(x)) refuse(fmt::format("{} is not a number", shown(json_text(value_))));
         return x;
     }
 
@@ -75,7 +75,7 @@ class Place {
         if (!value_.is_object()) refuse(expected);
         for (const auto& [key, ignored] : value_.items())
             if (std::ranges::find(known, key) == known.end())
-                refuse(fmt::format("the key {} is not known", shown(key)), suggest(key, known));
+                refuse(fmt::format("unknown key {}", shown(key)), suggest(key, known));
     }
 
   private:
@@ -104,8 +104,8 @@ Entry entry_of(const Place& place, const FormulaNames& before) {
 void check_size(const Place& values, std::size_t count) {
     constexpr std::size_t most = 100'000;
     if (count > most)
-        values.refuse(fmt::format("{} numbers; 1 to {} are possible", count, most),
-                      "take some thousand quantiles of them");
+        values.refuse(fmt::format("{} numbers; expected 1 to {}", count, most),
+                      "use some thousand of their quantiles");
 }
 
 /// Reads the keys of one parameter. @param before names of the preceding parameters
@@ -122,7 +122,7 @@ class ParameterReader {
             std::ranges::count_if(kinds, [&](const char* k) { return place_.has(k); });
         if (given != 1)
             place_.refuse(fmt::format("expected one of the keys {}; {}", fmt::join(kinds, ", "),
-                                      given == 0 ? "there is none" : "there are several"));
+                                      given == 0 ? "none is given" : "several are given"));
         Parameter parameter{.name = name(), .unit = unit(), .levels = {}, .law = {}};
         if (place_.has("levels"))
             take_levels(parameter);
@@ -130,7 +130,7 @@ class ParameterReader {
             take_values(parameter);
         else if (place_.has("file"))
             place_.at("file").refuse("only --parameters FILE reads columns of other files",
-                                     "give their numbers, \"values\": [...]");
+                                     "put their numbers here, \"values\": [...]");
         else
             take_law(parameter);
         return parameter;
@@ -141,13 +141,14 @@ class ParameterReader {
         if (!place_.has("name")) place_.refuse("the name is missing");
         const Place at = place_.at("name");
         std::string name = at.text("expected a name, such as \"length\"");
-        if (before_.find(name)) at.refuse(fmt::format("{} stands twice", shown(name)));
+        if (before_.find(name)) at.refuse(fmt::format("{} is given twice", shown(name)));
         check_word(at, name);
         if (name == "set" || name == "pdf" || name == "weight")
-            at.refuse(fmt::format("a column {} of a file means something else", name));
+            at.refuse(fmt::format("the column name {} is reserved", name));
         if (name == "e" || name == "pi")
-            at.refuse(fmt::format("{} is a number in formulas, which would mean that", shown(name)),
-                      "take a longer name");
+            at.refuse(
+                fmt::format("{} is a constant in formulas, which the name would hide", shown(name)),
+                "choose a longer name");
         return name;
     }
 
@@ -155,7 +156,7 @@ class ParameterReader {
         if (!place_.has("unit")) return {};
         const Place at = place_.at("unit");
         std::string unit = at.text("expected a unit, such as \"mm\"");
-        if (unit != printable(unit)) at.refuse("the unit is not printable");
+        if (unit != printable(unit)) at.refuse("the unit has unprintable characters");
         return unit;
     }
 
@@ -165,7 +166,7 @@ class ParameterReader {
             word.find_first_of("\"[]") != std::string::npos || word[0] == '#' || word[0] == '{' ||
             parse_number(word))
             at.refuse(
-                fmt::format("{} cannot be a name; expected printable letters, no number, "
+                fmt::format("{} cannot be a name; expected printable characters, not a number, "
                             "without quotes and brackets",
                             shown(word)));
     }
@@ -253,8 +254,8 @@ class ParameterReader {
                     return given(before);
                 } catch (const Error& e) {
                     throw Error(ErrorKind::input,
-                                fmt::format("the parameter {} behind {}: {}", name,
-                                            fmt::join(before, ", "), e.what()));
+                                fmt::format("the parameter {}, with the preceding values {}: {}",
+                                            name, fmt::join(before, ", "), e.what()));
                 }
             };
         else
@@ -269,13 +270,13 @@ class ParameterReader {
         std::set<std::string> seen;
         for (const Place& level : levels) {
             const std::string text = json_text(level.value());
-            if (!seen.insert(text).second) level.refuse(fmt::format("{} stands twice", text));
+            if (!seen.insert(text).second) level.refuse(fmt::format("{} is given twice", text));
             if (level.value().is_number() && parameter.levels.empty()) {
                 values.push_back(level.number());
                 continue;
             }
-            if (values.size() > parameter.levels.size()) level.refuse("expected numbers alone");
-            parameter.levels.push_back(level.text("expected words alone"));
+            if (values.size() > parameter.levels.size()) level.refuse("expected only numbers");
+            parameter.levels.push_back(level.text("expected only words"));
             check_word(level, parameter.levels.back());
             values.push_back(static_cast<double>(parameter.levels.size() - 1));
         }
@@ -324,7 +325,7 @@ class ParameterReader {
                 at.refuse(fmt::format("{} probabilities for {} levels", list.size(), count));
             for (std::size_t i = 0; i < count; ++i) {
                 p[i] = list[i].number();
-                if (p[i] < 0) list[i].refuse("a probability is not below 0");
+                if (p[i] < 0) list[i].refuse("a probability is below 0");
                 ratios = ratios && p[i] == std::floor(p[i]);
             }
         }
@@ -334,8 +335,8 @@ class ParameterReader {
         if (!(sum > 0)) place_.at("probabilities").refuse("all of them are 0");
         if (std::abs(sum - 1) > 1e-12 && !ratios && !asked)
             place_.at("probabilities")
-                .refuse(fmt::format("they sum to {}, not to 1", sum),
-                        "\"normalize\": true divides them by their sum; whole numbers are ratios");
+                .refuse(fmt::format("the sum is {}; expected 1", sum),
+                        "\"normalize\": true divides by the sum; integers are taken as ratios");
         for (double& x : p) x /= sum;
         return p;
     }
@@ -371,7 +372,7 @@ class CorrelationReader {
         const auto degrees = read_degrees();
         if (degrees && place_.has("spearman"))
             place_.at("spearman")
-                .refuse("Student's copula has no closed form for it", "give \"kendall\"");
+                .refuse("for Student's copula no closed form is known", "give \"kendall\"");
         for (const char* kind : {"spearman", "kendall", "pearson"})
             if (place_.has(kind))
                 for (const Place& pair : place_.at(kind).list("expected a list of pairs"))
@@ -397,10 +398,12 @@ class CorrelationReader {
             at.refuse(fmt::format("{} is not iman-conover", shown(method)));
         for (const char* key : {"copula", "degrees"})
             if (place_.has(key))
-                place_.at(key).refuse("is of copulas, in place of which a reordering is given");
+                place_.at(key).refuse("belongs to copulas, but \"reordering\" is given");
         for (const char* key : {"kendall", "pearson"})
             if (place_.has(key))
-                place_.at(key).refuse("a reordering gives rank correlations", "give \"spearman\"");
+                place_.at(key).refuse(
+                    "not possible with a reordering, which gives rank correlations",
+                    "give \"spearman\"");
         return true;
     }
 
@@ -411,10 +414,12 @@ class CorrelationReader {
         if (kind != "gaussian" && kind != "student")
             place_.at("copula").refuse(fmt::format("{} is not gaussian or student", shown(kind)));
         if (kind == "gaussian") {
-            if (place_.has("degrees")) place_.at("degrees").refuse("is of the student copula");
+            if (place_.has("degrees"))
+                place_.at("degrees").refuse("applies to \"copula\": \"student\" only");
             return std::nullopt;
         }
-        if (!place_.has("degrees")) place_.refuse("the degrees of freedom are missing");
+        if (!place_.has("degrees"))
+            place_.refuse("the key degrees is missing; \"copula\": \"student\" needs it");
         const double degrees = place_.at("degrees").number();
         if (!(degrees >= 1 && degrees <= 1e6))
             place_.at("degrees").refuse(fmt::format("{} is outside [1, 1e6]", degrees));
@@ -439,10 +444,10 @@ class CorrelationReader {
         const std::size_t i = index_of(parts[0]);
         const std::size_t j = index_of(parts[1]);
         const double r = parts[2].number();
-        if (i == j) pair.refuse("a parameter with itself");
+        if (i == j) pair.refuse("both names are the same; expected two parameters");
         if (!(r > -1 && r < 1)) parts[2].refuse(fmt::format("{} is outside (-1, 1)", r));
         const std::size_t d = parameters_.size();
-        if (given_[i * d + j]) pair.refuse("the pair stands twice");
+        if (given_[i * d + j]) pair.refuse("the pair is given twice");
         given_[i * d + j] = given_[j * d + i] = true;
         spearman_[i * d + j] = spearman_[j * d + i] = r;  // used only by a reordering
         const double scores = of_scores(pair, i, j, r, kind, student);
@@ -456,13 +461,17 @@ class CorrelationReader {
         const MarginalPtr& b = parameters_[j].law;
         const bool discrete = (a && a->discrete()) || (b && b->discrete());
         if (kind == "kendall" && discrete)
-            pair.refuse("Kendall's tau is not known of integers, levels and others that have ties",
-                        student ? "" : "give \"spearman\"");
+            pair.refuse(
+                "Kendall's tau cannot be prescribed for integers, levels and other parameters with "
+                "ties",
+                student ? "" : "give \"spearman\"");
         if (kind == "kendall") return std::copysign(cos_sin_turns(std::abs(r) / 4).sin, r);
         // If the parameter depends on others: correlation of its conditional probability.
         if (kind == "spearman" && (!a || !b || !discrete)) return score_correlation(r);
-        if (!a || !b) pair.refuse("a parameter that depends on others has no correlation known");
-        if (student) pair.refuse("is known of the Gaussian copula only", "give \"kendall\"");
+        if (!a || !b)
+            pair.refuse("the correlation of a parameter that depends on others cannot be computed");
+        if (student)
+            pair.refuse("can be computed for the Gaussian copula only", "give \"kendall\"");
         ranks_only_ = ranks_only_ && !discrete;
         const auto of = kind == "spearman" ? Scored::Of::ranks : Scored::Of::numbers;
         return pair.naming([&] { return scored(i, of).scores_for(scored(j, of), r); });
@@ -487,9 +496,9 @@ class CorrelationReader {
                 if (std::abs(nearest[i * d + j]) >= 5e-7 || matrix_[i * d + j] != 0)
                     pairs.push_back(fmt::format("{} and {} {:.6f}", parameters_[i].name,
                                                 parameters_[j].name, nearest[i * d + j]));
-        place_.refuse("no parameters have all these correlations",
-                      fmt::format("the nearest that some have, {}: {}",
-                                  ranks ? "as \"spearman\"" : "of the scores of a Gaussian copula",
+        place_.refuse("these correlations are not possible together",
+                      fmt::format("the nearest possible ones, {}: {}",
+                                  ranks ? "as \"spearman\"" : "for the scores of a Gaussian copula",
                                   fmt::join(pairs, ", ")));
     }
 
@@ -555,8 +564,8 @@ Json column_of(const Place& parameter, const RunContext& run) {
     }
     const PointSet read = file.naming([&] { return io::read_given("file", path, how, run); });
     if (read.dimension() != 1)
-        file.refuse(fmt::format("{} has {} columns", path, read.dimension()),
-                    "\"column\" names one of them");
+        file.refuse(fmt::format("{} has {} columns; expected 1", path, read.dimension()),
+                    "\"column\" selects one of them");
     check_size(file, read.count());
     return Json(std::vector<double>(read.flat().begin(), read.flat().end()));
 }

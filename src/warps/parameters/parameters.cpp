@@ -43,10 +43,11 @@ using stipple::parameters::LinearPart;
 using stipple::parameters::ParameterSpace;
 
 constexpr Param<Path> file{{.name = "file", .help = "Parameter file (stipple help parameters)"}};
-constexpr Param<Text> json{{.name = "json", .help = "The text of one, in place of a file"}};
+constexpr Param<Text> json{
+    {.name = "json", .help = "Contents of a parameter file, given directly instead of --file"}};
 constexpr Param<bool> unit_cube{
     .name = "unit-cube",
-    .help = "Leave the numbers in the unit cube, less those that break a constraint"};
+    .help = "Output points of the unit cube; points that violate a constraint are dropped"};
 
 class ParameterDomain final : public NamedDomain {
   public:
@@ -106,8 +107,8 @@ class ParameterDomain final : public NamedDomain {
         if (by_axes()) return axes_->probability(cell);
         if (!even())
             fail(ErrorKind::input,
-                 "of parameters that depend on each other, some of them discrete, "
-                 "probabilities of cells are not known");
+                 "the probabilities of cells are not known for parameters that depend on each "
+                 "other if some of them are discrete");
         return NamedDomain::probability(cell);
     }
     std::optional<Estimate> box_mass(const Box& box) const override {
@@ -140,7 +141,7 @@ class ParameterDomain final : public NamedDomain {
         std::vector<std::string> axes;
         for (const auto& parameter : space_.parameters()) {
             const bool placed = linear() && linear()->holds(axes.size());
-            axes.push_back((placed ? "place in the polytope, " : "probability of ") +
+            axes.push_back((placed ? "position in the polytope, " : "probability of ") +
                            parameter.name);
         }
         return axes;
@@ -153,12 +154,11 @@ class ParameterDomain final : public NamedDomain {
 
     void require_known() const {
         if (space_.reordering())
-            fail(ErrorKind::input, "the density of parameters that are reordered is not known");
+            fail(ErrorKind::input, "the density of reordered parameters is not known");
         if (!space_.density_known())
-            fail(
-                ErrorKind::input,
-                "the density of parameters under constraints is not known, unless these are linear "
-                "in ranges");
+            fail(ErrorKind::input,
+                 "the density of constrained parameters is known only for linear constraints on "
+                 "ranges");
     }
 
     /// Estimated from some images, for dependent distributions; fewer images if there are many
@@ -248,8 +248,8 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const bool by_file = want.options.given(file);
     if (by_file == want.options.given(json))
         fail(ErrorKind::usage,
-             "--file: name a parameter file; 'stipple help parameters' has "
-             "an example");
+             "--file: no file given; expected a parameter file; 'stipple help parameters' has an "
+             "example");
     const std::string source = by_file ? std::string(want.options[file]) : "parameters";
     const std::string text = by_file ? read_file(source) : std::string(want.options[json]);
     Values known = want.warp.options.defaults();  // with the text instead of the file
@@ -270,7 +270,7 @@ Warp unit() {
                 "doi:10.1080/03610918208812265 (reordering)",
             .related = {"copula", "correlation", "reordering", "constraints", "names", "columns",
                         "experiment"},
-            .strata = "without a copula, xi as it is",
+            .strata = "without a copula, xi is used directly",
             .traits = {.drops = true, .reorders = true, .discrete = true},
             .options = Schema(file, json, unit_cube),
             .stream_version = 2,

@@ -224,14 +224,14 @@ std::vector<double> factor_of(const ScoredSet& set, const std::vector<std::strin
     for (std::size_t k = 0; k < d; ++k)
         if (set.same_in_all(k))
             fail(ErrorKind::input,
-                 "iman-conover: all points have the same number for {}; they must differ",
+                 "iman-conover: all points have the same value of {}; expected different values",
                  names[k]);
     const auto [factor, failed, minor] = cholesky(set.correlations(), d);
     for (std::size_t k = 0; k < d; ++k)
         if (k + 1 == failed || factor[k * d + k] < 1e-5)
-            fail_with_hint(ErrorKind::input, "scrambled points, or more of them, may have others",
-                           "iman-conover: the ranks of {} follow from those of the parameters "
-                           "before it, and cannot be reordered apart from them",
+            fail_with_hint(ErrorKind::input, "scrambled points, or more points, may help",
+                           "iman-conover: the ranks of {} are determined by those of the preceding "
+                           "parameters, and cannot be reordered independently",
                            names[k]);
     return factor;
 }
@@ -252,10 +252,10 @@ void Reordering::apply(std::span<double> rows, const RunContext& run) const {
     if (d == 1) return;
     if (n <= d)
         fail(ErrorKind::input,
-             "iman-conover takes {} points or more for {} parameters; there {} {}", d + 1, d,
+             "iman-conover: expected at least {} points for {} parameters; there {} {}", d + 1, d,
              n == 1 ? "is" : "are", n);
     if (n > std::numeric_limits<std::uint32_t>::max())
-        fail(ErrorKind::limit, "iman-conover takes less than 2^32 points");
+        fail(ErrorKind::limit, "iman-conover: expected fewer than 2^32 points");
     run.need_memory(36.0 * static_cast<double>(rows.size()), "the reordering of the points");
     const ScoredSet set(rows, laws_, run);
     const std::vector<double> own = factor_of(set, names_);
@@ -279,10 +279,10 @@ void Reordering::apply(std::span<double> rows, const RunContext& run) const {
         for (std::size_t k = j + 1; k < d; ++k)
             if (const double r = set.rank_correlation(j, k, best);
                 std::abs(r - spearman_[j * d + k]) > told)
-                run.notify(fmt::format(
-                    "iman-conover: the rank correlation of {} and {} in these {} points is {:.4f}; "
-                    "{} was asked for",
-                    names_[j], names_[k], n, r, spearman_[j * d + k]));
+                run.notify(
+                    fmt::format("iman-conover: the rank correlation of {} and {} in these {} "
+                                "points is {:.4f}; {} was requested",
+                                names_[j], names_[k], n, r, spearman_[j * d + k]));
 }
 
 }  // namespace stipple::parameters

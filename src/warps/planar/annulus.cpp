@@ -26,7 +26,7 @@ constexpr Param<double> inner{.name = "inner",
                               .fallback = 0.5,
                               .low = 0,
                               .high = 1e150,
-                              .help = "Inner radius, below the outer one; 0: the disk"};
+                              .help = "Inner radius, below the outer one; 0 gives the disk"};
 
 constexpr auto radius = length_option("radius", 1, "Outer radius, above 0");
 
@@ -44,8 +44,8 @@ Warp unit() {
             .summary = "Annulus between two radii, uniform by area",
             .source = "the polar map r = sqrt(q^2 + xi1 (R^2 - q^2))",
             .strata =
-                "xi1 is the share of the area within the radius, xi2 the angle, both as they "
-                "are",
+                "xi1 is the fraction of the area within the radius, xi2 the angle; both are used "
+                "directly",
             .options = Schema(inner, radius, shape_center),
             .aliases = {"ring"},
             .mapping = make};

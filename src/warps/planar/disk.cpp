@@ -41,7 +41,7 @@ constexpr Param<Choice> method{
     .fallback = "polar",
     .choices = "polar|concentric|rejection|naive",
     .help =
-        "polar: rings and sectors; concentric: squares become circles, keeps neighbours; "
+        "polar: rings and sectors; concentric: maps squares to circles, keeps neighbours close; "
         "rejection: drops the points of the square that are outside; naive: r = R xi1, BIASED "
         "towards the centre, kept to show the bias"};
 
@@ -96,12 +96,12 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
 
 Warp unit() {
     return {.name = "disk",
-            .summary = "Disk, uniform by area (but method naive: biased, kept to show its bias)",
+            .summary = "Disk, uniform by area (method naive is biased, kept to show its bias)",
             .source = "Shirley, Chiu 1997, doi:10.1080/10867651.1997.10487479 (concentric)",
             .related = {"concentric", "shirley", "unit-disk"},
             .strata =
-                "polar: xi1 is the share of the area within the radius, xi2 the angle, both as "
-                "they are; concentric: squares about the centre become rings, left stays left",
+                "polar: xi1 is the fraction of the area within the radius, xi2 the angle, both "
+                "used directly; concentric: squares about the centre become rings, left stays left",
             .traits = {.drops = true, .biased = true},
             .options = Schema(method, radius, shape_center, orientation),
             .aliases = {"disc"},

@@ -27,13 +27,12 @@
 namespace stipple::warps::ellipse {
 namespace {
 
-constexpr Param<Choice> method{
-    .name = "method",
-    .fallback = "polar",
-    .choices = "polar|concentric",
-    .help =
-        "polar: elliptic rings and sectors; concentric: squares become ellipses, keeps "
-        "neighbours"};
+constexpr Param<Choice> method{.name = "method",
+                               .fallback = "polar",
+                               .choices = "polar|concentric",
+                               .help =
+                                   "polar: elliptic rings and sectors; concentric: maps squares to "
+                                   "ellipses, keeps neighbours close"};
 
 constexpr Param<Numbers> axes{
     {.name = "axes", .fallback = "1,0.5", .help = "Lengths of the two semi-axes, above 0: a,b"}};
@@ -90,7 +89,7 @@ struct Ellipse {
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const auto lengths = want.options[axes];
     if (lengths.size() != 2)
-        fail(ErrorKind::usage, "--axes: 2 numbers are needed, a,b; {} given", lengths.size());
+        fail(ErrorKind::usage, "--axes: expected 2 numbers, a,b; {} given", lengths.size());
     const double a = lengths[0];
     const double b = lengths[1];
     for (const double x : lengths)
@@ -118,9 +117,9 @@ Warp unit() {
             .summary = "Ellipse at any angle, uniform by area",
             .source = "Shirley, Chiu 1997, doi:10.1080/10867651.1997.10487479 (concentric)",
             .strata =
-                "polar: xi1 is the share of the area within an ellipse of the same shape, xi2 the "
-                "angle from the first axis, both as they are; concentric: squares about the centre "
-                "become ellipses",
+                "polar: xi1 is the fraction of the area within an ellipse of the same shape, xi2 "
+                "the angle from the first axis, both used directly; concentric: squares about the "
+                "centre become ellipses",
             .options = Schema(method, axes, rotation, shape_center),
             .stream_version = 2,
             .mapping = make};

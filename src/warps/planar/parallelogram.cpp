@@ -26,7 +26,7 @@ namespace {
 
 constexpr Param<Numbers> corner{
     {.name = "corner",
-     .help = "The corner c that the edges leave: x,y or x,y,z; default: the origin"}};
+     .help = "Corner c where the two edges start: x,y or x,y,z; default: the origin"}};
 
 constexpr Param<Points> edges{
     {.name = "edges",
@@ -58,7 +58,7 @@ class ParallelogramDomain final : public FlatDomain {
         return m;
     }
     std::vector<std::string> cube_axes() const override {
-        return {"place along the first edge", "place along the second edge"};
+        return {"position along the first edge", "position along the second edge"};
     }
 };
 
@@ -67,8 +67,8 @@ Vector3 corner_of(const Values& options, std::size_t d) {
     if (!options.given(corner)) return {};
     auto at = options[corner];
     if (at.size() != d)
-        fail(ErrorKind::usage, "--corner: {} numbers are needed, as the edges have; {} given", d,
-             at.size());
+        fail(ErrorKind::usage, "--corner: expected {} numbers, as many as the edges have; {} given",
+             d, at.size());
     for (double& x : at) x += 0.0;  // -0 would appear in the points
     return space_point(at);
 }
@@ -90,7 +90,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const Table table = want.options[edges];
     if (table.size() != 2 || table[0].size() < 2 || table[0].size() > 3)
         fail(ErrorKind::usage,
-             "--edges: {} vectors of dimension {}; 2 vectors of dimension 2 or 3 are needed",
+             "--edges: {} vectors of dimension {}; expected 2 vectors of dimension 2 or 3",
              table.size(), table[0].size());
     const std::size_t d = table[0].size();
     const Vector3 c = corner_of(want.options, d);
@@ -100,13 +100,10 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     for (std::size_t k = 0; k < 3; ++k)
         size = std::max(size, std::abs(c[k]) + std::abs(a[k]) + std::abs(b[k]));
     if (size > 1e150)
-        fail(ErrorKind::usage,
-             "--edges: the parallelogram reaches out of [-1e150, 1e150]; it must stay inside");
+        fail(ErrorKind::usage, "--edges: the parallelogram reaches beyond [-1e150, 1e150]");
     const EdgeFrame frame(c, {a}, {b}, size);
     if (frame.flat())
-        fail(ErrorKind::usage,
-             "--edges: the parallelogram of {} has no area, or less than the rounding of points in "
-             "it",
+        fail(ErrorKind::usage, "--edges: the area of the parallelogram {} is 0 or lost in rounding",
              format_value(table));
     Table corners;
     for (const Vector3& v : {c, plus(c, a), plus(plus(c, a), b), plus(c, b)})
@@ -123,8 +120,8 @@ Warp unit() {
             .summary = "Parallelogram in the plane or in space, uniform by area",
             .source = "the affine map c + xi1 a + xi2 b",
             .strata =
-                "xi1 is the place along the first edge, xi2 along the second, both as they "
-                "are; strata become parallelograms",
+                "xi1 is the position along the first edge, xi2 along the second; both are used "
+                "directly; strata become parallelograms",
             .options = Schema(corner, edges),
             .mapping = make};
 }

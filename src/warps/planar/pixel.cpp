@@ -29,12 +29,11 @@ namespace stipple::warps::pixel {
 namespace {
 
 constexpr Param<Extents> resolution{
-    {.name = "resolution", .fallback = "1x1", .help = "Pixels of the image: WxH"}};
+    {.name = "resolution", .fallback = "1x1", .help = "Size of the image in pixels: WxH"}};
 
-constexpr Param<Numbers> pixel_index{
-    {.name = "pixel",
-     .help = "Puts all points into this pixel of the image: i,j from 0,0; default: all over the "
-             "image"}};
+constexpr Param<Numbers> pixel_index{{.name = "pixel",
+                                      .help = "Put all points into this pixel, counted from 0,0: "
+                                              "i,j; default: spread them over the whole image"}};
 
 constexpr std::int64_t most_pixels = std::int64_t{1} << 31;  // along one side
 
@@ -65,14 +64,14 @@ struct InPixel {
 /// Parses --pixel. @throws Error(usage) if it is not a pixel of the image
 InPixel pixel_at(const std::vector<double>& at, std::int64_t width, std::int64_t height) {
     if (at.size() != 2)
-        fail(ErrorKind::usage, "--pixel: 2 numbers are needed, i,j; {} given", at.size());
+        fail(ErrorKind::usage, "--pixel: expected 2 numbers, i,j; {} given", at.size());
     const auto w = static_cast<double>(width);
     const auto h = static_cast<double>(height);
     for (const double x : at)
         if (x != std::floor(x)) fail(ErrorKind::usage, "--pixel: {} is not a whole number", x);
     if (!(at[0] >= 0 && at[0] < w && at[1] >= 0 && at[1] < h))
-        fail_with_hint(ErrorKind::usage, "--resolution WxH says how large the image is",
-                       "--pixel: {},{} is outside the image of {}x{} pixels, which count from 0,0",
+        fail_with_hint(ErrorKind::usage, "--resolution WxH sets the size of the image",
+                       "--pixel: {},{} is outside the image of {}x{} pixels, which start at 0,0",
                        at[0], at[1], width, height);
     return {at[0] + 0.0, at[1] + 0.0};
 }
@@ -80,7 +79,7 @@ InPixel pixel_at(const std::vector<double>& at, std::int64_t width, std::int64_t
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const auto extents = want.options[resolution];
     if (extents.size() != 2)
-        fail(ErrorKind::usage, "--resolution: 2 numbers are needed, WxH; {} given", extents.size());
+        fail(ErrorKind::usage, "--resolution: expected 2 numbers, WxH; {} given", extents.size());
     for (const std::int64_t side : extents)
         if (side > most_pixels)
             fail(ErrorKind::usage, "--resolution: {} is outside [1, {}]", side, most_pixels);
@@ -97,11 +96,11 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
 Warp unit() {
     return {.name = "pixel",
             .summary = "Image of WxH pixels, or one pixel of it, in pixels: antialiasing patterns",
-            .source = "Cook, Porter, Carpenter 1984, doi:10.1145/800031.808590 (its use)",
+            .source = "Cook, Porter, Carpenter 1984, doi:10.1145/800031.808590 (application)",
             .related = {"antialiasing"},
             .strata =
-                "xi1 is the place along the rows, xi2 along the columns, both as they are; "
-                "an N W x N H grid of strata is N x N in each pixel",
+                "xi1 is the position along the rows, xi2 along the columns; both are used "
+                "directly; an N W x N H grid of strata puts N x N into each pixel",
             .options = Schema(resolution, pixel_index),
             .mapping = make};
 }

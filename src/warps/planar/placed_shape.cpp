@@ -18,11 +18,12 @@ double turn_of_degrees(double degrees) {
 Placement place(const std::vector<double>& center, double size, double degrees, double finest,
                 std::string_view what) {
     if (center.size() != 2)
-        fail(ErrorKind::usage, "--center: 2 numbers are needed, x,y; {} given", center.size());
+        fail(ErrorKind::usage, "--center: expected 2 numbers, x,y; {} given", center.size());
     for (const double x : center)
         if (!(finest > lost_in_rounding * std::abs(x)))
-            fail(ErrorKind::usage, "--center: {} is so far that {} of {} is lost in rounding", x,
-                 what, finest);
+            fail(ErrorKind::usage,
+                 "--center: {} is so far from 0 that {} of {} is lost in rounding", x, what,
+                 finest);
     const double turn = turn_of_degrees(degrees);
     const auto [c, s] = cos_sin_turns(turn);
     return {.center = {center[0] + 0.0, center[1] + 0.0},  // -0 would appear in the points

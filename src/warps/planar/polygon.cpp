@@ -40,14 +40,13 @@ namespace {
 constexpr Param<Text> vertices{
     {.name = "vertices",
      .fallback = "0,0 2,0 2,1 1,1 1,2 0,2",
-     .help = "Corners in order, x,y x,y ...; a / between rings: what an odd number of them "
-             "surrounds is inside, so that rings in rings are holes; two rings may touch in single "
-             "points"}};
+     .help = "Corners in order, x,y x,y ...; a / separates rings. A point is inside if an odd "
+             "number of rings surround it, so that rings in rings are holes; two rings may touch "
+             "in single points"}};
 
 constexpr Param<Path> file{
     {.name = "file",
-     .help = "Reads the corners from this file, x,y a line; a blank line or one with # begins "
-             "another ring"}};
+     .help = "File of corners, x,y on each line; a blank or comment line (#) starts another ring"}};
 
 /// Origin of the rings, for messages.
 struct Source {
@@ -102,7 +101,7 @@ std::vector<Ring> read_rings(const std::string& path, const Source& source, cons
     const ReadOptions options{.source = path, .all_columns = true};
     for (const PointSet& group : io::read_delimited(with_marks(read_file(path)), options, run)) {
         if (group.dimension() != 2)
-            source.refuse("{} coordinates a line; 2 are needed, x,y", group.dimension());
+            source.refuse("{} coordinates on a line; expected 2, x,y", group.dimension());
         Ring ring;
         for (std::size_t i = 0; i < group.count(); ++i) ring.push_back({group[i][0], group[i][1]});
         rings.push_back(std::move(ring));
@@ -122,7 +121,7 @@ void tidy(std::vector<Ring>& rings, const Source& source) {
         ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
         while (ring.size() > 1 && ring.front() == ring.back()) ring.pop_back();
         if (ring.size() < 3)
-            source.refuse("ring {} has {} different vertices; at least 3 are needed", r + 1,
+            source.refuse("ring {} has {} different vertices; expected at least 3", r + 1,
                           ring.size());
     }
 }
@@ -153,7 +152,7 @@ std::vector<RingSegment> edges_of(const Values& options, const Source& source,
             source.refuse("ring {} has no area: its vertices lie on one line", r + 1);
     std::vector<RingSegment> edges;
     if (const auto contact = find_contact(rings, run, &edges))
-        source.refuse("{} and {} {}; edges may meet in a vertex that they share only",
+        source.refuse("{} and {} {}; edges may meet only at a shared vertex",
                       shown(rings, contact->first), shown(rings, contact->second),
                       contact->crossing ? "cross" : "touch");
     return edges;
@@ -162,7 +161,7 @@ std::vector<RingSegment> edges_of(const Values& options, const Source& source,
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const bool from_file = want.options.given(file);
     if (from_file && want.options.given(vertices))
-        fail(ErrorKind::usage, "--file: --vertices is given, too; one of them is allowed");
+        fail(ErrorKind::usage, "--file: cannot be combined with --vertices; give one of them");
     const Source source{from_file ? ErrorKind::input : ErrorKind::usage,
                         from_file ? want.options[file] : "--vertices"};
     const auto domain = std::make_shared<const PolygonDomain>(
@@ -170,7 +169,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const Box box = domain->bounding_box();
     const double extent = std::max(box.extent(0), box.extent(1));
     if (!(extent > 1e-140 && domain->measure() > 4 * domain->slack() * extent))
-        source.refuse("the polygon has no area, or one that is lost in rounding");
+        source.refuse("the area of the polygon is 0 or lost in rounding");
     return std::make_unique<DomainMapping<PolygonDomain>>(domain);
 }
 
@@ -183,8 +182,8 @@ Warp unit() {
                 "the marginal of y, then x given y: Rosenblatt 1952, "
                 "doi:10.1214/aoms/1177729394",
             .strata =
-                "xi1 is the share of the area below, xi2 the place along the row, both as "
-                "they are; strata become pieces of horizontal bands",
+                "xi1 is the fraction of the area below, xi2 the position along the row; both are "
+                "used directly; strata become pieces of horizontal bands",
             .options = Schema(vertices, file),
             .stream_version = 2,
             .mapping = make};

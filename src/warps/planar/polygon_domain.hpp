@@ -61,7 +61,7 @@ class PolygonDomain final : public NamedDomain {
     std::optional<Estimate> box_mass(const Box& box) const override;
     std::optional<Moments> moments() const override;
     std::vector<std::string> cube_axes() const override {
-        return {"area fraction below", "place along the row"};
+        return {"area fraction below", "position along the row"};
     }
     void from_cube(std::span<const double> cube, std::span<double> image) const;
 

@@ -29,7 +29,7 @@ namespace stipple::warps::regular_polygon {
 namespace {
 
 constexpr Param<std::int64_t> sides{
-    .name = "sides", .fallback = 6, .low = 3, .high = 10'000, .help = "Sides of the polygon"};
+    .name = "sides", .fallback = 6, .low = 3, .high = 10'000, .help = "Number of sides"};
 
 constexpr auto radius =
     length_option("radius", 1, "Distance of its vertices from the centre, above 0");
@@ -96,7 +96,7 @@ class RegularPolygon {
     }
     std::vector<PlanePoint> hull(double /*turn*/) const { return *vertices_; }
     std::vector<std::string> axes() const {
-        return {"area fraction within a polygon of the same shape", "way around it"};
+        return {"area fraction within a polygon of the same shape", "position around it"};
     }
 
   private:
@@ -124,10 +124,10 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
 Warp unit() {
     return {.name = "regular-polygon",
             .summary = "Regular polygon of any number of sides, uniform by area",
-            .source = "homothetic polygons in place of the circles of the polar map",
+            .source = "polar map, with similar polygons instead of circles",
             .strata =
-                "xi1 is the share of the area within a polygon of the same shape, xi2 the "
-                "way around it from the first vertex, both as they are",
+                "xi1 is the fraction of the area within a polygon of the same shape, xi2 the "
+                "position around it from the first vertex; both are used directly",
             .options = Schema(sides, radius, rotation, shape_center),
             .mapping = make};
 }

@@ -18,8 +18,8 @@ double beyond_side(double x, double y) { return x > 0 ? std::abs(y) : std::sqrt(
 
 RingSector RingSector::between(double inner, double outer, double width) {
     if (!(outer - inner > lost_in_rounding * outer))
-        fail(ErrorKind::usage,
-             "--inner: {} is not below --radius {}, or lost in rounding beside it", inner, outer);
+        fail(ErrorKind::usage, "--inner: {} is not below --radius {}, or too close to it", inner,
+             outer);
     const double q = inner / outer;
     return {.inner = q, .spread = (outer - inner) / outer * (1 + q), .width = width};
 }

@@ -27,18 +27,17 @@
 namespace stipple::warps::sector {
 namespace {
 
-constexpr Param<Numbers> angles{
-    {.name = "angles",
-     .fallback = "0,90",
-     .unit = "degrees",
-     .help = "First and last angle, from the x axis towards the y axis: the last one is above the "
-             "first, by at most 360"}};
+constexpr Param<Numbers> angles{{.name = "angles",
+                                 .fallback = "0,90",
+                                 .unit = "degrees",
+                                 .help = "First and last angle, from the x axis towards the y "
+                                         "axis; the last is above the first, by at most 360"}};
 
 constexpr Param<double> inner{.name = "inner",
                               .fallback = 0,
                               .low = 0,
                               .high = 1e150,
-                              .help = "Inner radius, below the outer one; 0: whole to the centre"};
+                              .help = "Inner radius, below the outer one; 0 includes the centre"};
 
 constexpr auto radius = length_option("radius", 1, "Outer radius, above 0");
 
@@ -50,13 +49,13 @@ struct Span {
 /// First angle and extent of the sector. @throws Error(usage)
 Span span_of(const std::vector<double>& ends) {
     if (ends.size() != 2)
-        fail(ErrorKind::usage, "--angles: 2 numbers are needed, first,last; {} given", ends.size());
+        fail(ErrorKind::usage, "--angles: expected 2 numbers, first,last; {} given", ends.size());
     for (const double angle : ends)
         if (!(std::abs(angle) <= 720))
             fail(ErrorKind::usage, "--angles: {} is outside [-720, 720]", angle);
     const double degrees = ends[1] - ends[0];
     if (!(degrees >= 1e-9 && degrees <= 360))
-        fail(ErrorKind::usage, "--angles: from {} to {} are {} degrees; [1e-9, 360] are allowed",
+        fail(ErrorKind::usage, "--angles: from {} to {} are {} degrees; expected [1e-9, 360]",
              ends[0], ends[1], degrees);
     return {ends[0], degrees};
 }
@@ -78,8 +77,8 @@ Warp unit() {
             .source = "the polar map r = sqrt(q^2 + xi1 (R^2 - q^2)) between two angles",
             .related = {"wedge", "pie"},
             .strata =
-                "xi1 is the share of the area within the radius, xi2 the place between the "
-                "two angles, both as they are",
+                "xi1 is the fraction of the area within the radius, xi2 the position between the "
+                "two angles; both are used directly",
             .options = Schema(angles, inner, radius, shape_center),
             .stream_version = 2,
             .mapping = make};

@@ -46,8 +46,8 @@ constexpr Param<Choice> method{
     .fallback = "sqrt",
     .choices = "sqrt|low-distortion",
     .help =
-        "sqrt: parallels of the side v1 v2, and rays from v0; low-distortion: linear on either "
-        "half of the square, keeps neighbours"};
+        "sqrt: parallels of the side v1 v2, and rays from v0; low-distortion: linear on each half "
+        "of the square, keeps neighbours close"};
 
 constexpr Param<Points> vertices{
     {.name = "vertices",
@@ -126,7 +126,7 @@ struct OnTriangle {
 std::array<Vector3, 3> corners_of(const Table& table) {
     if (table.size() != 3 || table[0].size() < 2 || table[0].size() > 3)
         fail(ErrorKind::usage,
-             "--vertices: {} points of dimension {}; 3 points of dimension 2 or 3 are needed",
+             "--vertices: {} points of dimension {}; expected 3 points of dimension 2 or 3",
              table.size(), table[0].size());
     return {space_point(table[0]), space_point(table[1]), space_point(table[2])};
 }
@@ -137,8 +137,7 @@ EdgeFrame frame_of(const std::array<Vector3, 3>& v, const Table& table) {
     if (size > 1e150) fail(ErrorKind::usage, "--vertices: a coordinate is outside [-1e150, 1e150]");
     const EdgeFrame frame(v[0], exact_edge(v[0], v[1]), exact_edge(v[0], v[2]), size);
     if (frame.flat())
-        fail(ErrorKind::usage,
-             "--vertices: the triangle {} has no area, or less than the rounding of points in it",
+        fail(ErrorKind::usage, "--vertices: the area of the triangle {} is 0 or lost in rounding",
              format_value(table));
     return frame;
 }
@@ -170,9 +169,9 @@ Warp unit() {
                 "(low-distortion)",
             .related = {"simplex", "barycentric"},
             .strata =
-                "sqrt: xi1 is the share of the area between the first vertex and a parallel of the "
-                "opposite side, xi2 the place along it, both as they are; low-distortion: the "
-                "diagonal becomes the median from the first vertex, linear on either side",
+                "sqrt: xi1 is the fraction of the area between the first vertex and a parallel of "
+                "the opposite side, xi2 the position along it, both used directly; low-distortion: "
+                "the diagonal becomes the median from the first vertex, linear on each side",
             .options = Schema(method, vertices, orientation),
             .mapping = make};
 }

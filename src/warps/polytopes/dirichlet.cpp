@@ -41,8 +41,8 @@ constexpr double rounding = 2 * std::numeric_limits<double>::epsilon();
 constexpr Param<Numbers> alpha{
     {.name = "alpha",
      .fallback = "1",
-     .help = "Parameters in [0.1, 1e6]: one for all, or one for each coordinate, one more of them "
-             "than there are unit coordinates; 1 is uniform, more is nearer to the middle"}};
+     .help = "Parameters in [0.1, 1e6], one for all or one for each coordinate (one more than unit "
+             "coordinates); 1 is uniform, larger values concentrate in the middle"}};
 
 /// x_i + ... + x_k for each i.
 std::vector<double> sums_from(std::span<const double> x) {
@@ -123,7 +123,7 @@ class DirichletDomain final : public NamedDomain {
     std::vector<std::string> cube_axes() const override {
         std::vector<std::string> axes{"probability below x1"};
         for (std::size_t k = 2; k < dimension(); ++k)
-            axes.push_back(fmt::format("probability below x{}, given those before", k));
+            axes.push_back(fmt::format("probability below x{}, given the preceding", k));
         return axes;
     }
 
@@ -153,11 +153,11 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     std::vector<double> parameters = want.options[alpha];
     if (parameters.size() == 1) parameters.resize(want.given + 1, parameters[0]);
     if (parameters.size() < 2 || parameters.size() > 150)
-        fail(ErrorKind::usage, "--alpha: {} coordinates; 2 to 150 are allowed", parameters.size());
+        fail(ErrorKind::usage, "--alpha: {} coordinates; expected 2 to 150", parameters.size());
     for (const double a : parameters)
         if (!(a >= 0.1 && a <= 1e6)) fail(ErrorKind::usage, "--alpha: {} is outside [0.1, 1e6]", a);
     if (!(std::accumulate(parameters.begin(), parameters.end(), 0.0) <= 1e6))
-        fail(ErrorKind::usage, "--alpha: their sum is above 1e6");
+        fail(ErrorKind::usage, "--alpha: the sum is above 1e6");
     Values plain = want.options;  // with the full list, the domain's spec determines the dimension
     plain.put(alpha.name, parameters);
     return domain_mapping<DirichletDomain>(std::move(parameters),
@@ -167,16 +167,18 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
 }  // namespace
 
 Warp unit() {
-    return {.name = "dirichlet",
-            .summary = "Dirichlet's distribution: numbers above 0 that sum to 1",
-            .source =
-                "Rosenblatt 1952, doi:10.1214/aoms/1177729394; inverse of the incomplete beta "
-                "function",
-            .related = {"compositions", "proportions", "stick-breaking"},
-            .strata = "xi_i is the probability below x_i given those before it, as it is",
-            .options = Schema(alpha),
-            .stream_version = 2,
-            .mapping = make};
+    return {
+        .name = "dirichlet",
+        .summary = "Dirichlet distribution: numbers above 0 that sum to 1",
+        .source =
+            "Rosenblatt 1952, doi:10.1214/aoms/1177729394; inverse of the incomplete beta "
+            "function",
+        .related = {"compositions", "proportions", "stick-breaking"},
+        .strata =
+            "xi_i is the probability below x_i given the preceding numbers; it is used directly",
+        .options = Schema(alpha),
+        .stream_version = 2,
+        .mapping = make};
 }
 
 }  // namespace stipple::warps::dirichlet

@@ -44,12 +44,13 @@ namespace {
 
 constexpr Param<Text> constraints{
     {.name = "constraints",
-     .help = "Linear inequalities in x, y, z or x1, x2, ..., with ; or , between them: "
-             "'x + 2*y <= 1; x - y >= -0.5' (stipple help formulas)"}};
-constexpr Param<Text> bounds{{.name = "bounds",
-                              .fallback = "0..1",
-                              .help = "The box in which it is: lo..hi for all coordinates, or "
-                                      "lo..hi,lo..hi,..."}};
+     .help = "Linear inequalities in x, y, z or x1, x2, ..., separated by ; or ,: 'x + 2*y <= 1; x "
+             "- y >= -0.5' (stipple help formulas)"}};
+constexpr Param<Text> bounds{
+    {.name = "bounds",
+     .fallback = "0..1",
+     .help =
+         "Box to which the inequalities apply: lo..hi for all coordinates, or lo..hi,lo..hi,..."}};
 
 class PolytopeDomain final : public NamedDomain {
   public:
@@ -116,7 +117,8 @@ Polytope polytope_of(const Box& box, const std::vector<HalfSpace>& cuts) {
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const std::string text = want.options.given(constraints) ? want.options[constraints] : "";
     if (parts_of(text).empty())
-        fail(ErrorKind::usage, "--constraints: give linear inequalities, such as 'x + y <= 1'");
+        fail(ErrorKind::usage,
+             "--constraints: none given; expected linear inequalities, such as 'x + y <= 1'");
     const Box box = parse_box(want.options[bounds], want.given);
     std::string plain;
     const auto cuts = half_spaces(text, box.dimension(), plain);
@@ -130,15 +132,15 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
 
 Warp unit() {
     return {.name = "polytope",
-            .summary = "Polytope: a box cut by linear inequalities, in up to 12 dimensions",
+            .summary = "Polytope: a box cut by linear inequalities that join up to 12 coordinates",
             .source =
                 "Fukuda and Prodon 1996, doi:10.1007/3-540-61576-8_77 (vertices); Rosenblatt "
                 "1952, doi:10.1214/aoms/1177729394 (simplices)",
             .related = {"constraints", "inequalities", "half-spaces", "mixture-design", "convex"},
             .strata =
-                "the first xi of coordinates that inequalities join chooses a simplex and "
-                "the place along its last edge, the others the shares of its vertices; xi of "
-                "a coordinate that no inequality names, as it is",
+                "among coordinates joined by inequalities, the first xi selects a simplex and the "
+                "position along its last edge, the others the fractions of its vertices; xi of "
+                "other coordinates is used directly",
             .options = Schema(constraints, bounds),
             .mapping = make};
 }

@@ -33,7 +33,7 @@ namespace {
 
 constexpr double rounding = 2 * std::numeric_limits<double>::epsilon();
 
-constexpr auto bound = length_option("bound", 1, "The most that the coordinates sum to, above 0");
+constexpr auto bound = length_option("bound", 1, "Upper bound of the sum of coordinates, above 0");
 
 constexpr std::size_t some_rows = 256;
 
@@ -58,8 +58,8 @@ class SimplexDomain final : public NamedDomain {
         for (std::size_t k = 1; k <= d; ++k) volume_ *= bound_ / static_cast<double>(k);
         if (!(volume_ > 1e-300 && volume_ < 1e300))
             fail(ErrorKind::usage,
-                 "--bound: in {} dimensions the volume is {:.3g}; in [1e-300, 1e+300] it is needed",
-                 d, volume_);
+                 "--bound: in {} dimensions the volume is {:.3g}; expected [1e-300, 1e+300]", d,
+                 volume_);
     }
 
     double measure() const override { return volume_; }
@@ -97,7 +97,7 @@ class SimplexDomain final : public NamedDomain {
     std::vector<std::string> cube_axes() const override {
         std::vector<std::string> axes{"probability below x1"};
         for (std::size_t k = 2; k <= dimension(); ++k)
-            axes.push_back(fmt::format("probability below x{}, given those before", k));
+            axes.push_back(fmt::format("probability below x{}, given the preceding", k));
         return axes;
     }
 
@@ -131,7 +131,9 @@ Warp unit() {
             .summary = "Simplex x >= 0, x1 + ... + xd <= bound, in any dimension",
             .source = "Rosenblatt 1952, doi:10.1214/aoms/1177729394",
             .related = {"mixture-design", "barycentric", "tetrahedron"},
-            .strata = "xi_k is the probability below x_k given those before it, as it is",
+            .strata =
+                "xi_k is the probability below x_k given the preceding coordinates; it is used "
+                "directly",
             .options = Schema(bound),
             .mapping = make};
 }

@@ -94,7 +94,7 @@ TEST(Ball, RefusesOptionsOutOfRange) {
     EXPECT_EQ(error_of([] { mapping("ball:radius=0"); }),
               "usage: --radius: 0 is outside [1e-90, 1e+90]");
     EXPECT_EQ(error_of([] { mapping("ball:center=[0,0]"); }),
-              "usage: --center: 3 numbers are needed, x,y,z; 2 given");
+              "usage: --center: expected 3 numbers, x,y,z; 2 given");
 }
 
 }  // namespace stipple::testing::ball_test

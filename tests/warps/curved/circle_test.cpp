@@ -61,11 +61,11 @@ TEST(Circle, SquareNormalizeDropsTheCentreAlone) {
     square->forward(cube, image, keep);
     EXPECT_EQ(keep, (std::vector<std::uint8_t>{0, 1, 1}));
     for (const double x : image) EXPECT_TRUE(std::isfinite(x));
-    EXPECT_EQ(error_of([&] {
-                  inverse_of(*square, {1, 0});
-              }),
-              "usage: --inverse: method square-normalize takes 2 coordinates to 1; it has no "
-              "inverse");
+    EXPECT_EQ(
+        error_of([&] {
+            inverse_of(*square, {1, 0});
+        }),
+        "usage: --inverse: method square-normalize maps 2 coordinates to 1; it has no inverse");
 }
 
 TEST(Circle, DensityByHandAndByStretch) {
@@ -124,9 +124,9 @@ TEST(Circle, DomainSaysWhatItIsAndParsesBack) {
 
 TEST(Circle, RefusesOptionsOutOfRange) {
     EXPECT_EQ(error_of([] { mapping("circle:center=[1,2,3]"); }),
-              "usage: --center: 2 numbers are needed, x,y; 3 given");
+              "usage: --center: expected 2 numbers, x,y; 3 given");
     EXPECT_EQ(error_of([] { mapping("circle:center=[0,1e30]"); }),
-              "usage: --center: 1e+30 is so far that a radius of 1 is lost in rounding");
+              "usage: --center: 1e+30 is so far from 0 that a radius of 1 is lost in rounding");
     EXPECT_NE(error_of([] { mapping("circle:radius=0"); }), "");
 }
 

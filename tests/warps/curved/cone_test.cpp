@@ -44,7 +44,7 @@ TEST(Cone, ThinConesKeepTheirDigits) {
 
 TEST(Cone, RefusesConesThinnerThanTheRounding) {
     EXPECT_EQ(error_of([] { mapping("cone:half-angle=1e-11,axis=[1,2,3]"); }),
-              "usage: --half-angle: 1e-11 is below 1e-10, the least about an axis that is no "
+              "usage: --half-angle: 1e-11 is below 1e-10, the minimum for an axis other than a "
               "coordinate axis");
     EXPECT_GT(p_of_random(*mapping("cone:half-angle=1e-10,axis=[1,2,3]"), 100'000), 1e-5);
     EXPECT_GT(p_of_random(*mapping("cone:half-angle=1e-100,axis=[0,0,-2]"), 100'000), 1e-5);
@@ -130,7 +130,7 @@ TEST(Cone, RefusesOptionsOutOfRange) {
     EXPECT_EQ(error_of([] { mapping("cone:axis=[0,0,0]"); }),
               "usage: --axis: 0,0,0 has no direction");
     EXPECT_EQ(error_of([] { mapping("cone:axis=[0,1]"); }),
-              "usage: --axis: 3 numbers are needed, x,y,z; 2 given");
+              "usage: --axis: expected 3 numbers, x,y,z; 2 given");
 }
 
 }  // namespace stipple::testing::cone_test

@@ -122,7 +122,7 @@ TEST(Cylinder, RefusesOptionsOutOfRange) {
     EXPECT_EQ(error_of([] { mapping("cylinder:height=0"); }),
               "usage: --height: 0 is outside [1e-150, 1e+150]");
     EXPECT_EQ(error_of([] { mapping("cylinder:center=[0,1e30,0]"); }),
-              "usage: --center: 1e+30 is so far that a radius of 1 is lost in rounding");
+              "usage: --center: 1e+30 is so far from 0 that a radius of 1 is lost in rounding");
 }
 
 }  // namespace stipple::testing::cylinder_test

@@ -188,7 +188,7 @@ TEST(Mesh, DomainKnowsWhatIsOnTheSurface) {
 
 TEST(Mesh, RefusesFilesWithoutASurface) {
     EXPECT_EQ(error_of([] { mapping("mesh"); }),
-              "usage: --file: name a PLY or OBJ file with a triangle mesh");
+              "usage: --file: no file given; expected a PLY or OBJ file with a triangle mesh");
     const MeshFile flat("v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n");
     EXPECT_EQ(error_of([&] { mapping(flat.spec()); }),
               "input: " + flat.path() + ": the mesh has no area");

@@ -97,7 +97,7 @@ TEST(Sphere, RejectionHasNoWayBack) {
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping("sphere:method=rejection"), {0, 0, 1});
               }),
-              "usage: --inverse: method rejection takes 3 coordinates to 2; it has no inverse");
+              "usage: --inverse: method rejection maps 3 coordinates to 2; it has no inverse");
 }
 
 TEST(Sphere, InverseRefusesPointsOffTheSphereAndNamesThem) {
@@ -162,9 +162,9 @@ TEST(Sphere, RefusesOptionsOutOfRange) {
     EXPECT_NE(error_of([] { mapping("sphere:radius=0"); }), "");
     EXPECT_NE(error_of([] { mapping("sphere:inner=1"); }), "");
     EXPECT_EQ(error_of([] { mapping("sphere:center=[1,2]"); }),
-              "usage: --center: 3 numbers are needed, x,y,z; 2 given");
+              "usage: --center: expected 3 numbers, x,y,z; 2 given");
     EXPECT_EQ(error_of([] { mapping("sphere:center=[0,1e30,0]"); }),
-              "usage: --center: 1e+30 is so far that a radius of 1 is lost in rounding");
+              "usage: --center: 1e+30 is so far from 0 that a radius of 1 is lost in rounding");
 }
 
 }  // namespace stipple::testing::sphere_test

@@ -208,17 +208,16 @@ TEST(SphericalRectangle, RefusesWhatIsNoRectangleOrHasNoSolidAngle) {
     const auto error = [](const std::string& options) {
         return error_of([&] { mapping("spherical-rectangle:" + options); });
     };
-    EXPECT_EQ(error("edges=[1,0,0 1,1,0]"),
-              "usage: --edges: 1,0,0 1,1,0 are not at a right angle; the cosine between them is "
-              "0.707");
+    EXPECT_EQ(
+        error("edges=[1,0,0 1,1,0]"),
+        "usage: --edges: 1,0,0 1,1,0 are not at right angles; the cosine of their angle is 0.707");
     EXPECT_EQ(error("edges=[1,0,0 0,0,0]"), "usage: --edges: 1,0,0 0,0,0 has an edge of length 0");
     EXPECT_EQ(error("edges=[1,0 0,1]"),
-              "usage: --edges: 2 vectors of dimension 2; 2 vectors x,y,z are needed");
-    EXPECT_EQ(error("corner=[1,2]"), "usage: --corner: 3 numbers are needed, x,y,z; 2 given");
-    EXPECT_EQ(
-        error("origin=[3,4,1]"),
-        "usage: --origin: the rectangle fills no solid angle from 3,4,1, or too small a one; it "
-        "lies in its plane or is far away");
+              "usage: --edges: 2 vectors of dimension 2; expected 2 vectors x,y,z");
+    EXPECT_EQ(error("corner=[1,2]"), "usage: --corner: expected 3 numbers, x,y,z; 2 given");
+    EXPECT_EQ(error("origin=[3,4,1]"),
+              "usage: --origin: the solid angle of the rectangle from 3,4,1 is 0 or too small; "
+              "move the point out of its plane, or nearer");
     EXPECT_NE(error("origin=[0,0,1e15]"), "");
 }
 

@@ -196,13 +196,12 @@ TEST(SphericalTriangle, RefusesWhatIsNoTriangle) {
         return error_of([&] { mapping("spherical-triangle:vertices=[" + v + "]"); });
     };
     EXPECT_EQ(error("1,0 0,1 1,1"),
-              "usage: --vertices: 3 points of dimension 2; 3 directions x,y,z are needed");
+              "usage: --vertices: 3 points of dimension 2; expected 3 directions x,y,z");
     EXPECT_NE(error("1,0,0 0,1,0"), "");
     EXPECT_EQ(error("1,0,0 0,0,0 0,1,0"), "usage: --vertices: 0,0,0 has no direction");
-    EXPECT_EQ(
-        error("1,0,0 -2,0,0 0,1,0"),
-        "usage: --vertices: two of 1,0,0 -2,0,0 0,1,0 are opposite; what joins them is not one "
-        "arc");
+    EXPECT_EQ(error("1,0,0 -2,0,0 0,1,0"),
+              "usage: --vertices: two of 1,0,0 -2,0,0 0,1,0 are opposite, so that no unique arc "
+              "joins them");
     EXPECT_EQ(
         error("1,0,0 0,1,0 1,1,0"),
         "usage: --vertices: 1,0,0 0,1,0 1,1,0 lie on one great circle; they span no triangle");

@@ -123,9 +123,9 @@ TEST(TorusSurface, DomainSaysWhatItIsAndParsesBack) {
 }
 
 TEST(TorusSurface, RefusesOptionsOutOfRange) {
-    EXPECT_EQ(
-        error_of([] { mapping("torus-surface:minor-radius=1.5"); }),
-        "usage: --minor-radius: 1.5 is above the major radius 1; the tube would cross itself");
+    EXPECT_EQ(error_of([] { mapping("torus-surface:minor-radius=1.5"); }),
+              "usage: --minor-radius: 1.5 is above the major radius 1; the surface would intersect "
+              "itself");
     EXPECT_EQ(error_of([] { mapping("torus-surface:axis=[0,0,0]"); }),
               "usage: --axis: 0,0,0 has no direction");
     EXPECT_NE(error_of([] { mapping("torus-surface:minor-radius=0"); }), "");

@@ -117,16 +117,16 @@ TEST(Discrete, DomainSaysWhatItIsAndRefusesTheRest) {
     EXPECT_EQ(mapping("discrete")->domain()->spec(), "discrete");
     EXPECT_EQ(mapping(four + ",method=alias")->domain()->spec(), four);
     EXPECT_EQ(error_of([] { mapping("discrete:probabilities=[0.2,0.5]"); }),
-              "usage: --probabilities: their sum is 0.7; 1 is needed | --normalize divides them by "
+              "usage: --probabilities: the sum is 0.7; expected 1 | --normalize divides them by "
               "their sum");
     EXPECT_EQ(error_of([] { mapping("discrete:probabilities=[-0.2,1.2]"); }),
               "usage: --probabilities: -0.2 is outside [0, 1]");
     EXPECT_EQ(error_of([] { mapping("discrete:probabilities=[0,0],normalize=true"); }),
-              "usage: --probabilities: their sum is 0; it cannot be divided by");
+              "usage: --probabilities: the sum is 0; expected a finite number above 0");
     EXPECT_EQ(error_of([] { mapping("discrete:values=[1,2,3]"); }),
-              "usage: --values: 3 numbers for 2 probabilities");
+              "usage: --values: 3 numbers for 2 probabilities; expected as many");
     EXPECT_EQ(error_of([] { mapping("discrete:values=[1,1]"); }),
-              "usage: --values: 1 stands twice");
+              "usage: --values: 1 is given twice");
 }
 
 }  // namespace stipple::testing::discrete_test

@@ -103,7 +103,7 @@ TEST(Expression1d, DomainSaysWhatItIsAndParsesBack) {
 
 TEST(Expression1d, RefusesBadOptions) {
     EXPECT_EQ(error_of([] { mapping("expression-1d"); }),
-              "usage: --density: give a formula in x, such as 'exp(-x)'");
+              "usage: --density: no formula given; expected one in x, such as 'exp(-x)'");
     EXPECT_EQ(error_of([] { mapping("expression-1d:density=y"); }),
               "usage: --density: 'y', column 1: 'y': expected a number, an operator, x, pi, e or a "
               "function such as exp");
@@ -116,7 +116,7 @@ TEST(Expression1d, RefusesBadOptions) {
     EXPECT_EQ(error_of([] { mapping("expression-1d:density=x,range=[1,0]"); }),
               "usage: --range: '1,0' is not a,b with a < b");
     EXPECT_EQ(error_of([] { mapping("expression-1d:density=x,breaks=2"); }),
-              "usage: --breaks: 2 is not between 0 and 1");
+              "usage: --breaks: 2 is outside (0, 1)");
     EXPECT_EQ(error_of([] { inverse_of(*mapping("expression-1d:density=x"), {1.5}); }),
               "input: the point (1.5) is outside the domain expression-1d:density=x");
 }

@@ -237,7 +237,7 @@ TEST(Image, DomainSaysWhatItIsAndParsesBack) {
 
 TEST(Image, RefusesWhatIsNoPictureAndPointsOutside) {
     EXPECT_EQ(error_of([] { mapping("image"); }),
-              "usage: --file: name a picture (PNG, PFM) or an array (NPY)");
+              "usage: --file: no file given; expected a picture (PNG, PFM) or an array (NPY)");
     EXPECT_EQ(error_of([] { mapping("image:file=/nowhere.png"); }),
               "io: /nowhere.png: no such file");
     const auto file = array_of(2, 1, {1, 3});

@@ -181,18 +181,18 @@ TEST(Mixture, DomainSpecParsesBackWithItsBrackets) {
 TEST(Mixture, RefusesWhatCannotBeMixed) {
     EXPECT_EQ(error_of([] { mapping("mixture:components=[normal|vmf]"); }),
               "usage: --components: all must be of one kind; normal gives points that fill 2 "
-              "dimensions, from 2 unit coordinates, vmf gives directions in space, from 2");
+              "dimensions, from 2 unit coordinates, but vmf gives directions in space, from 2");
     EXPECT_EQ(error_of([] { mapping("mixture:components=[disk:method=rejection|disk]"); }),
               "usage: --components: disk:method=rejection drops points, which would change the "
               "weights");
+    EXPECT_EQ(error_of([] { mapping("mixture:components=[discrete|discrete]"); }),
+              "usage: --components: discrete gives neither directions nor points that fill a "
+              "space; expected one of these");
     EXPECT_EQ(
-        error_of([] { mapping("mixture:components=[discrete|discrete]"); }),
-        "usage: --components: discrete gives neither directions nor points that fill a space");
-    EXPECT_EQ(error_of([] { mapping("mixture:weights=[0.5,0.4]"); }),
-              "usage: --weights: their sum is 0.9; 1 is needed | --normalize divides them by their "
-              "sum");
+        error_of([] { mapping("mixture:weights=[0.5,0.4]"); }),
+        "usage: --weights: the sum is 0.9; expected 1 | --normalize divides them by their sum");
     EXPECT_EQ(error_of([] { mapping("mixture:weights=1"); }),
-              "usage: --weights: 1 given for 2 components; one for each is needed");
+              "usage: --weights: 1 given for 2 components; expected one for each");
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping("mixture"), {0, 0, 1});
               }),

@@ -148,15 +148,16 @@ TEST(Normal, RefusesWhatIsNoCovariance) {
     EXPECT_EQ(error_of([] { mapping("normal:covariance=[1,2,2,1]"); }),
               "usage: --covariance: not positive definite: its leading 2 x 2 minor is -3");
     EXPECT_EQ(error_of([] { mapping("normal:covariance=[1,2,3,9]"); }),
-              "usage: --covariance: not symmetric: row 1 has 2, row 2 has 3");
+              "usage: --covariance: not symmetric: row 1 has 2, but row 2 has 3");
     EXPECT_EQ(error_of([] { mapping("normal:covariance=[1,2,3]"); }),
-              "usage: --covariance: 2 x 2 numbers are needed, row after row; 3 given");
+              "usage: --covariance: expected 2 x 2 numbers, row after row; 3 given");
     EXPECT_EQ(error_of([] { mapping("normal:deviation=0"); }),
               "usage: --deviation: 0 is outside [1e-150, 1e+150]");
-    EXPECT_EQ(error_of([] { mapping("normal:mean=[1,2,3],deviation=[1,2]"); }),
-              "usage: --deviation: 2 numbers for 3 coordinates; one for all, or one for each");
+    EXPECT_EQ(
+        error_of([] { mapping("normal:mean=[1,2,3],deviation=[1,2]"); }),
+        "usage: --deviation: 2 numbers for 3 coordinates; expected one for all, or one for each");
     EXPECT_EQ(error_of([] { mapping("normal:covariance=[1,0,0,1],deviation=2"); }),
-              "usage: --deviation: --covariance is given, too; one of them is allowed");
+              "usage: --deviation: cannot be combined with --covariance; give one of them");
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping("normal"), {NAN, 0});
               }),

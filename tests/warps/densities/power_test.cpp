@@ -141,21 +141,20 @@ TEST(Power, DomainSaysWhatItIs) {
 
 TEST(Power, RefusesWhatHasNoDensity) {
     EXPECT_EQ(error_of([] { mapping("power:exponent=3,range=[-1,1]"); }),
-              "usage: --exponent: x^3 is not positive on [-1, 1]; an even exponent is needed below "
-              "0");
+              "usage: --exponent: x^3 is not positive on [-1, 1]; expected an even exponent for "
+              "negative x");
     EXPECT_NE(error_of([] { mapping("power:exponent=0.5,range=[-2,-1]"); }), "");
-    EXPECT_EQ(
-        error_of([] { mapping("power:exponent=-1"); }),
-        "usage: --exponent: x^-1 has no finite integral over [0, 1]; above -1 is needed where "
-        "the range contains 0");
+    EXPECT_EQ(error_of([] { mapping("power:exponent=-1"); }),
+              "usage: --exponent: x^-1 has no finite integral over [0, 1], which contains 0; "
+              "expected an exponent above -1");
     EXPECT_NE(error_of([] { mapping("power:exponent=-2,range=[-1,1]"); }), "");
     EXPECT_EQ(error_of([] { mapping("power:exponent=-0.99"); }),
-              "usage: --exponent: x^-0.99 on a range that ends at 0 has 0.000838 of its mass below "
-              "2.2e-308, where numbers end; at least -0.9544 is needed | or a range that begins "
-              "above 0, as at 1e-150");
+              "usage: --exponent: with x^-0.99 on a range that ends at 0, 0.000838 of the mass is "
+              "below 2.2e-308, the smallest double; expected at least -0.9544 | or a range that "
+              "starts above 0, such as at 1e-150");
     EXPECT_EQ(error_of([] { mapping("power:range=[1,1]"); }), "usage: --range: 1 is not below 1");
     EXPECT_EQ(error_of([] { mapping("power:range=[1,2,3]"); }),
-              "usage: --range: 2 numbers are needed, a,b; 3 given");
+              "usage: --range: expected 2 numbers, a,b; 3 given");
     EXPECT_NE(error_of([] { mapping("power:range=[1e-200,1]"); }), "");
     EXPECT_EQ(error_of([] { mapping("power:exponent=1e9"); }),
               "usage: --exponent: 1e9 is outside [-1000, 1000]");

@@ -68,11 +68,11 @@ TEST(Rejection, NamesThePlaceWhereTheBoundIsBroken) {
 
 TEST(Rejection, RefusesBadOptionsAndHasNoWayBack) {
     EXPECT_EQ(error_of([] { mapping("rejection"); }),
-              "usage: --density: give a formula, such as 'exp(-x*x - y*y)'");
+              "usage: --density: no formula given; expected one such as 'exp(-x*x - y*y)'");
     EXPECT_EQ(error_of([] { mapping("rejection:density=x,bound=0"); }),
               "usage: --bound: 0 is outside (0, inf)");
     EXPECT_EQ(error_of([] { mapping("rejection:density=x,bounds=[0..1,0..1,0..1,0..1]"); }),
-              "usage: --bounds: 4 ranges; 3 are allowed at most");
+              "usage: --bounds: 4 ranges; expected at most 3");
     std::vector<double> image(2);
     std::vector<std::uint8_t> keep(1);
     EXPECT_EQ(

@@ -110,7 +110,7 @@ TEST(Table1d, ReadsFiles) {
     EXPECT_EQ(mapping("table-1d:file=" + file.path())->domain()->spec(),
               "table-1d:file=" + file.path());
     EXPECT_EQ(error_of([&] { mapping("table-1d:rows=[0,1 1,1],file=" + file.path()); }),
-              "usage: --rows: --file is given, too; one of them is allowed");
+              "usage: --rows: cannot be combined with --file; give one of them");
     const TemporaryFile named("x,pdf\n0,0\n1,2\n2,0\n");
     EXPECT_DOUBLE_EQ(at("table-1d:file=" + named.path(), 0.125), 0.5);
     const TemporaryFile two("0,1\n1,1\n#\n0,1\n1,1\n");
@@ -120,20 +120,20 @@ TEST(Table1d, ReadsFiles) {
               "usage: --file: standard input cannot be read again; give a file");
     const TemporaryFile bad("0,1\n1,-2\n");
     EXPECT_EQ(error_of([&] { mapping("table-1d:file=" + bad.path()); }),
-              "input: " + bad.path() + ": row 2 has the density -2; [0, 1e150] is allowed");
+              "input: " + bad.path() + ": row 2 has the density -2; expected [0, 1e150]");
 }
 
 TEST(Table1d, RefusesWhatIsNoDensity) {
     EXPECT_EQ(error_of([] { mapping("table-1d:rows=[0,1 1,-1]"); }),
-              "usage: --rows: row 2 has the density -1; [0, 1e150] is allowed");
+              "usage: --rows: row 2 has the density -1; expected [0, 1e150]");
     EXPECT_EQ(error_of([] { mapping("table-1d:rows=[0,1 2,1 1,1]"); }),
-              "usage: --rows: row 3 has x = 1 after 2; x must rise");
+              "usage: --rows: row 3 has x = 1 after 2; x must increase");
     EXPECT_EQ(error_of([] { mapping("table-1d:rows=[0,0 2,0]"); }),
-              "usage: --rows: the density's integral is 0; it must be in [1e-290, 1e290]");
+              "usage: --rows: the integral of the density is 0; expected [1e-290, 1e290]");
     EXPECT_EQ(error_of([] { mapping("table-1d:rows=[0,1]"); }),
-              "usage: --rows: the table has 1 row; 2 to 2^28 are needed");
+              "usage: --rows: the table has 1 row; expected 2 to 2^28");
     EXPECT_EQ(error_of([] { mapping("table-1d:rows=[0,1,2 1,1,1]"); }),
-              "usage: --rows: rows of 3 numbers; 2 are needed, x,density");
+              "usage: --rows: rows of 3 numbers; expected 2, x,density");
     EXPECT_NE(error_of([] { mapping("table-1d:interpolation=constant,rows=[0,1 0,1 1,1]"); }), "");
     EXPECT_EQ(mapping("table-1d")->domain()->spec(), "table-1d");
 }

@@ -98,10 +98,11 @@ TEST(Tent, DomainSaysWhatItIsAndParsesBack) {
 TEST(Tent, RefusesWhatIsNoTent) {
     const auto error = [](std::string_view spec) { return error_of([&] { mapping(spec); }); };
     EXPECT_EQ(error("tent:radius=0"), "usage: --radius: 0 is outside [1e-150, 1e+150]");
-    EXPECT_EQ(error("tent:radius=[1,2,3]"),
-              "usage: --radius: 3 numbers for 2 coordinates; one for all, or one for each");
+    EXPECT_EQ(
+        error("tent:radius=[1,2,3]"),
+        "usage: --radius: 3 numbers for 2 coordinates; expected one for all, or one for each");
     EXPECT_EQ(error("tent:center=1e30"),
-              "usage: --center: 1e+30 is so far that a radius of 1 is lost in rounding");
+              "usage: --center: 1e+30 is so far from 0 that a radius of 1 is lost in rounding");
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping("tent"), {1.5, 0});
               }),

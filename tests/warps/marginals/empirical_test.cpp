@@ -59,11 +59,11 @@ TEST(EmpiricalWarp, BothWaysAndItsMoments) {
 
 TEST(EmpiricalWarp, RefusesWhatIsNoColumn) {
     EXPECT_EQ(refusal("empirical:file-columns=a"),
-              "usage: --file-columns: there is no --file, whose columns it would name");
+              "usage: --file-columns: selects columns of --file, which is not given");
     EXPECT_EQ(refusal("empirical:values=1,interpolation=linear"),
               "usage: --values: 1 number; linear needs 2 or more");
     EXPECT_EQ(refusal("empirical:values=[1,2],file=none.csv"),
-              "usage: --values: --file is given, too; one of them is allowed");
+              "usage: --values: cannot be combined with --file; give one of them");
     EXPECT_EQ(refusal("empirical:values=[1,1e200]"),
               "usage: --values: 1e+200 is outside [-1e150, 1e150]");
 }

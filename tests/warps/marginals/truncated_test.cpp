@@ -48,7 +48,8 @@ TEST(TruncatedWarp, OfDiscreteOnes) {
 }
 
 TEST(TruncatedWarp, RefusesWhatIsNoPartOfADistribution) {
-    EXPECT_EQ(refusal("truncated"), "usage: --low: give --low, --high or both");
+    EXPECT_EQ(refusal("truncated"),
+              "usage: --low: neither --low nor --high is given; expected one or both");
     EXPECT_EQ(refusal("truncated:low=3,high=1"), "usage: --low: 3 is not below --high, 1");
     EXPECT_EQ(refusal("truncated:low=45"),
               "usage: --low: normal has the probability 0 from 45 to inf; above 1e-290 is needed");
@@ -57,9 +58,10 @@ TEST(TruncatedWarp, RefusesWhatIsNoPartOfADistribution) {
     EXPECT_EQ(refusal("truncated:of=[gamma:shape=0],low=0"),
               "usage: --shape: 0 is outside [0.05, 1000000]");
     EXPECT_EQ(refusal("truncated:of=normal@1,low=0"),
-              "usage: --of: 'normal@1' has coordinates; a name and its options are expected");
+              "usage: --of: 'normal@1' has coordinates; expected a name and its options");
     EXPECT_EQ(refusal("truncated:low=[0,1],high=[2,3,4]"),
-              "usage: --low: 2 and 3 ends for 3 coordinates; one for all, or one for each");
+              "usage: --low: 2 lower and 3 upper ends for 3 coordinates; expected one for all, or "
+              "one for each");
 }
 
 }  // namespace stipple::testing::truncated_test

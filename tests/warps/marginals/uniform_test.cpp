@@ -36,7 +36,7 @@ TEST(UniformWarp, BothWaysAndItsDomain) {
 TEST(UniformWarp, RefusesEndsOutOfOrder) {
     EXPECT_EQ(refusal("uniform:low=2"), "usage: --low: 2 is not below --high, 1");
     EXPECT_EQ(refusal("uniform:low=[0,1,2],high=[4,5]"),
-              "usage: --high: 2 numbers for 3 coordinates; one for all, or one for each");
+              "usage: --high: 2 numbers for 3 coordinates; expected one for all, or one for each");
     EXPECT_EQ(refusal("uniform:high=1e200"), "usage: --high: 1e+200 is outside [-1e+150, 1e+150]");
 }
 

@@ -116,7 +116,7 @@ TEST(Parameters, OfferTheNearestCorrelations) {
         FAIL();
     } catch (const Error& e) {
         EXPECT_THAT(e.what(),
-                    HasSubstr("$.correlation: no parameters have all these correlations"));
+                    HasSubstr("$.correlation: these correlations are not possible together"));
         EXPECT_THAT(e.hint(), HasSubstr("a and b 0."));
     }
 }
@@ -231,9 +231,8 @@ TEST(Parameters, ReadColumnsOfFilesOnce) {
             EXPECT_EQ(numbers, &most);
         } catch (const Error& e) {
             EXPECT_EQ(numbers, &over);
-            EXPECT_THAT(
-                std::string(e.what()),
-                HasSubstr("$.parameters[0].file: 100001 numbers; 1 to 100000 are possible"));
+            EXPECT_THAT(std::string(e.what()),
+                        HasSubstr("$.parameters[0].file: 100001 numbers; expected 1 to 100000"));
         }
     }
 }
@@ -395,10 +394,10 @@ TEST(Parameters, SayWhatIsWrongAndWhere) {
         {R"({"parameters":[{"name":"a","name":"b","range":[0,1]}]})",
          "t.json: $.parameters.name: the key stands twice"},
         {"[]", "t.json: $: expected an object"},
-        {R"({"parameter":[]})", "$: the key 'parameter' is not known"},
+        {R"({"parameter":[]})", "$: unknown key 'parameter'"},
         {R"({"parameters":[]})", "$.parameters: expected a list"},
         {R"({"parameters":[{"name":"a"}]})", "$.parameters[0]: expected one of the keys"},
-        {R"({"parameters":[{"name":"a","range":[0,1],"levels":[1]}]})", "there are several"},
+        {R"({"parameters":[{"name":"a","range":[0,1],"levels":[1]}]})", "several are given"},
         {R"({"parameters":[{"range":[0,1]}]})", "$.parameters[0]: the name is missing"},
         {R"({"parameters":[{"name":"a","range":[1,0]}]})",
          "$.parameters[0].range: low: 1 is not below high, 0"},
@@ -409,12 +408,12 @@ TEST(Parameters, SayWhatIsWrongAndWhere) {
         {R"({"parameters":[{"name":"a","range":[-1,1],"scale":"log"}]})",
          "$.parameters[0].range: low: -1 is outside"},
         {R"({"parameters":[{"name":"a","range":[0,1]},{"name":"a","range":[0,1]}]})",
-         "$.parameters[1].name: 'a' stands twice"},
+         "$.parameters[1].name: 'a' is given twice"},
         {R"({"parameters":[{"name":"a\u0007","range":[0,1]}]})", "cannot be a name"},
         {R"({"parameters":[{"name":"12","range":[0,1]}]})", "cannot be a name"},
         {R"({"parameters":[{"name":"e","range":[0,1]}]})",
-         "$.parameters[0].name: 'e' is a number in formulas, which would mean that"},
-        {R"({"parameters":[{"name":"pi","range":[0,1]}]})", "'pi' is a number in formulas"},
+         "$.parameters[0].name: 'e' is a constant in formulas, which the name would hide"},
+        {R"({"parameters":[{"name":"pi","range":[0,1]}]})", "'pi' is a constant in formulas"},
         {R"({"parameters":[{"name":"a","range":[0,1]}],"constraints":["0.2<a<0.5"]})",
          "$.constraints[0]: '0.2<a<0.5', column 6: '<': one comparison is compared with another; "
          "write 0.2<a && a <0.5"},
@@ -426,11 +425,11 @@ TEST(Parameters, SayWhatIsWrongAndWhere) {
         {R"({"parameters":[{"name":"a","distribution":"normal","mean":"b"}]})",
          "$.parameters[0].mean: 'b', column 1: 'b':"},
         {R"({"parameters":[{"name":"a","levels":["x","y"],"probabilities":[0.5,0.4]}]})",
-         "$.parameters[0].probabilities: they sum to 0.9, not to 1"},
+         "$.parameters[0].probabilities: the sum is 0.9; expected 1"},
         {R"({"parameters":[{"name":"a","levels":["x","y"],"probabilities":[1]}]})",
          "1 probabilities for 2 levels"},
         {R"({"parameters":[{"name":"a","levels":["x","x"]}]})",
-         R"($.parameters[0].levels[1]: "x" stands twice)"},
+         R"($.parameters[0].levels[1]: "x" is given twice)"},
         {R"({"parameters":[{"name":"a","integers":[0.5,3]}]})",
          "$.parameters[0].integers: low: 0.5 is not a whole number"},
         {R"({"parameters":[{"name":"a","range":[0,1]}],"constraints":["a<"]})",
@@ -444,13 +443,13 @@ TEST(Parameters, SayWhatIsWrongAndWhere) {
         {R"({"parameters":[{"name":"a","range":[0,1]}],"correlation":{"spearman":[["a","b",1]]}})",
          "$.correlation.spearman[0][1]: there is no parameter 'b'"},
         {R"({"parameters":[{"name":"a","range":[0,1]}],"correlation":{"spearman":[["a","a",0]]}})",
-         "a parameter with itself"},
+         "both names are the same; expected two parameters"},
         {R"({"parameters":[{"name":"a","range":[0,1]},{"name":"b","levels":[0,1]}],)"
          R"("correlation":{"pearson":[["a","b",0.95]]}})",
-         "0.95 is out of reach: these two have correlations in [-0.86"},
+         "0.95 is not attainable: these two parameters have correlations in [-0.86"},
         {R"({"parameters":[{"name":"a","values":[]}]})", "$.parameters[0].values: expected a list"},
         {R"({"parameters":[{"name":"a","values":[1,"2"]}]})",
-         "$.parameters[0].values[1]: '\"2\"' is no number"},
+         "$.parameters[0].values[1]: '\"2\"' is not a number"},
         {R"({"parameters":[{"name":"a","values":[1,1],"interpolation":"linear"}]})",
          "$.parameters[0].values: 1 stands twice; linear needs"},
         {R"({"parameters":[{"name":"a","values":[1],"interpolation":"linear"}]})",
@@ -470,10 +469,10 @@ TEST(Parameters, SayWhatIsWrongAndWhere) {
          "$.correlation.reordering: 'ranks' is not iman-conover"},
         {R"({"parameters":[{"name":"a","range":[0,1]}],)"
          R"("correlation":{"reordering":"iman-conover","copula":"gaussian"}})",
-         "$.correlation.copula: is of copulas, in place of which a reordering is given"},
+         "$.correlation.copula: belongs to copulas, but \"reordering\" is given"},
         {R"({"parameters":[{"name":"a","range":[0,1]},{"name":"b","range":[0,1]}],)"
          R"("correlation":{"reordering":"iman-conover","pearson":[["a","b",0.5]]}})",
-         "$.correlation.pearson: a reordering gives rank correlations"},
+         "$.correlation.pearson: not possible with a reordering, which gives rank correlations"},
     };
     for (const auto& [json, says] : cases) {
         try {

@@ -207,12 +207,12 @@ TEST(Reordering, IsTheSameOnAnyNumberOfThreads) {
 
 TEST(Reordering, SaysWhatItCannotReorder) {
     const std::pair<std::vector<double>, const char*> cases[] = {
-        {{0.1, 0.2, 0.3}, "iman-conover takes 4 points or more for 3 parameters; there is 1"},
+        {{0.1, 0.2, 0.3}, "iman-conover: expected at least 4 points for 3 parameters; there is 1"},
         {{0.1, 0.2, 0.3, 0.2, 0.3, 0.1, 0.3, 0.1, 0.2}, "there are 3"},
         {{0.1, 0.5, 0.3, 0.2, 0.5, 0.1, 0.3, 0.5, 0.2, 0.4, 0.5, 0.4},
-         "iman-conover: all points have the same number for b; they must differ"},
+         "iman-conover: all points have the same value of b; expected different values"},
         {{0.1, 0.2, 0.9, 0.2, 0.4, 0.8, 0.3, 0.1, 0.7, 0.4, 0.3, 0.6, 0.5, 0.5, 0.5},
-         "iman-conover: the ranks of c follow from those of the parameters before it"}};
+         "iman-conover: the ranks of c are determined by those of the preceding parameters"}};
     for (const auto& [rows, says] : cases) try {
             reordered(rows, asked);
             ADD_FAILURE() << says;

@@ -86,12 +86,12 @@ TEST(Annulus, DomainSaysWhatItIsAndParsesBack) {
 TEST(Annulus, RefusesWhatIsNoAnnulus) {
     const auto error = [](std::string_view spec) { return error_of([&] { mapping(spec); }); };
     EXPECT_EQ(error("annulus:inner=2"),
-              "usage: --inner: 2 is not below --radius 1, or lost in rounding beside it");
+              "usage: --inner: 2 is not below --radius 1, or too close to it");
     EXPECT_NE(error("annulus:inner=1"), "");
     EXPECT_EQ(error("annulus:inner=-1"), "usage: --inner: -1 is outside [0, 1e+150]");
-    EXPECT_EQ(error("annulus:center=[1]"), "usage: --center: 2 numbers are needed, x,y; 1 given");
+    EXPECT_EQ(error("annulus:center=[1]"), "usage: --center: expected 2 numbers, x,y; 1 given");
     EXPECT_EQ(error("annulus:center=[0,1e30]"),
-              "usage: --center: 1e+30 is so far that a ring of 0.5 is lost in rounding");
+              "usage: --center: 1e+30 is so far from 0 that a ring of 0.5 is lost in rounding");
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping("annulus"), {0.25, 0});
               }),

@@ -208,9 +208,9 @@ TEST(Disk, RefusesOptionsOutOfRange) {
               "usage: --radius: 0 is outside [1e-150, 1e+150]");
     EXPECT_NE(error_of([] { mapping("disk:radius=-1"); }), "");
     EXPECT_EQ(error_of([] { mapping("disk:center=[1,2,3]"); }),
-              "usage: --center: 2 numbers are needed, x,y; 3 given");
+              "usage: --center: expected 2 numbers, x,y; 3 given");
     EXPECT_EQ(error_of([] { mapping("disk:center=[0,1e30]"); }),
-              "usage: --center: 1e+30 is so far that a radius of 1 is lost in rounding");
+              "usage: --center: 1e+30 is so far from 0 that a radius of 1 is lost in rounding");
     EXPECT_NE(error_of([] { mapping("disk:method=square"); }), "");
 }
 

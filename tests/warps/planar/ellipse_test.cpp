@@ -87,11 +87,12 @@ TEST(Ellipse, DomainSaysWhatItIsAndParsesBack) {
 
 TEST(Ellipse, RefusesWhatIsNoEllipse) {
     const auto error = [](std::string_view spec) { return error_of([&] { mapping(spec); }); };
-    EXPECT_EQ(error("ellipse:axes=[1,2,3]"), "usage: --axes: 2 numbers are needed, a,b; 3 given");
+    EXPECT_EQ(error("ellipse:axes=[1,2,3]"), "usage: --axes: expected 2 numbers, a,b; 3 given");
     EXPECT_EQ(error("ellipse:axes=[1,0]"), "usage: --axes: 0 is outside [1e-150, 1e150]");
     EXPECT_EQ(error("ellipse:axes=[1,1e-20]"), "usage: --axes: 1e-20 is lost in rounding beside 1");
-    EXPECT_EQ(error("ellipse:center=[0,1e30]"),
-              "usage: --center: 1e+30 is so far that a semi-axis of 0.5 is lost in rounding");
+    EXPECT_EQ(
+        error("ellipse:center=[0,1e30]"),
+        "usage: --center: 1e+30 is so far from 0 that a semi-axis of 0.5 is lost in rounding");
     EXPECT_NE(error("ellipse:method=naive"), "");
 }
 

@@ -76,14 +76,13 @@ TEST(Parallelogram, DomainSaysWhatItIsAndParsesBack) {
 TEST(Parallelogram, RefusesWhatIsNoParallelogram) {
     const auto error = [](std::string_view spec) { return error_of([&] { mapping(spec); }); };
     EXPECT_EQ(error("parallelogram:edges=[1,1 2,2]"),
-              "usage: --edges: the parallelogram of 1,1 2,2 has no area, or less than the "
-              "rounding of points in it");
+              "usage: --edges: the area of the parallelogram 1,1 2,2 is 0 or lost in rounding");
     EXPECT_NE(error("parallelogram:edges=[0.1,0.1 0.3,0.3]"), "") << "flat but for rounding";
     EXPECT_NE(error("parallelogram:edges=[0,0 1,0]"), "");
     EXPECT_EQ(error("parallelogram:edges=[1,0]"),
-              "usage: --edges: 1 vectors of dimension 2; 2 vectors of dimension 2 or 3 are needed");
+              "usage: --edges: 1 vectors of dimension 2; expected 2 vectors of dimension 2 or 3");
     EXPECT_EQ(error("parallelogram:corner=[0,0,0]"),
-              "usage: --corner: 2 numbers are needed, as the edges have; 3 given");
+              "usage: --corner: expected 2 numbers, as many as the edges have; 3 given");
     EXPECT_NE(error("parallelogram:corner=[1e30,0]"), "") << "lost in rounding";
     EXPECT_NE(error("parallelogram:edges=[1e200,0 0,1]"), "");
     EXPECT_EQ(error_of([] {

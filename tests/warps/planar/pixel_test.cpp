@@ -86,16 +86,16 @@ TEST(Pixel, DomainParsesBack) {
 TEST(Pixel, RefusesWhatIsNoPixel) {
     const auto error = [](std::string_view spec) { return error_of([&] { mapping(spec); }); };
     EXPECT_EQ(error("pixel:resolution=640"),
-              "usage: --resolution: 2 numbers are needed, WxH; 1 given");
+              "usage: --resolution: expected 2 numbers, WxH; 1 given");
     EXPECT_NE(error("pixel:resolution=0x5"), "");
     EXPECT_EQ(error("pixel:resolution=1x4294967296"),
               "usage: --resolution: 4294967296 is outside [1, 2147483648]");
     EXPECT_EQ(error("pixel:resolution=4x5,pixel=[4,0]"),
-              "usage: --pixel: 4,0 is outside the image of 4x5 pixels, which count from 0,0 | "
-              "--resolution WxH says how large the image is");
+              "usage: --pixel: 4,0 is outside the image of 4x5 pixels, which start at 0,0 | "
+              "--resolution WxH sets the size of the image");
     EXPECT_NE(error("pixel:pixel=[-1,0]"), "");
     EXPECT_EQ(error("pixel:pixel=[0.5,0]"), "usage: --pixel: 0.5 is not a whole number");
-    EXPECT_EQ(error("pixel:pixel=3"), "usage: --pixel: 2 numbers are needed, i,j; 1 given");
+    EXPECT_EQ(error("pixel:pixel=3"), "usage: --pixel: expected 2 numbers, i,j; 1 given");
 }
 
 }  // namespace stipple::testing::pixel_test

@@ -216,17 +216,17 @@ TEST(Polygon, DomainSaysWhatItIsAndParsesBack) {
 TEST(Polygon, RefusesCrossingsAndNamesThem) {
     EXPECT_EQ(error("polygon:vertices=[0,0 1,1 1,0 0,1]"),
               "usage: --vertices: edge 1 (0,0 to 1,1) and edge 3 (1,0 to 0,1) cross; edges may "
-              "meet in a vertex that they share only");
+              "meet only at a shared vertex");
     EXPECT_EQ(error("polygon:vertices=[0,0 4,0 4,4 0,4 / 3,1 5,1 5,2 3,2]"),
               "usage: --vertices: edge 2 of ring 1 (4,0 to 4,4) and edge 1 of ring 2 (3,1 to 5,1) "
-              "cross; edges may meet in a vertex that they share only");
+              "cross; edges may meet only at a shared vertex");
     EXPECT_NE(error("polygon:vertices=[0,0 4,0 4,4 0,4 / 2,0 3,0 2,1]"), "") << "along an edge";
     EXPECT_NE(error("polygon:vertices=[0,0 4,0 4,4 0,4 / 4,4 5,2 3,2]"), "") << "in a corner";
     EXPECT_NE(error("polygon:vertices=[0,0 2,0 2,1 / 0,0 2,0 2,1]"), "") << "twice the same";
     EXPECT_NE(error("polygon:vertices=[0,0 2,0 1,1 2,2 0,2 1,1]"), "") << "touches itself";
     EXPECT_EQ(error("polygon:vertices=[0,0 2,0 2,2 2,3 2,2 0,2]"),
               "usage: --vertices: edge 2 (2,0 to 2,2) and edge 4 (2,3 to 2,2) touch; edges may "
-              "meet in a vertex that they share only")
+              "meet only at a shared vertex")
         << "a spike";
 }
 
@@ -270,12 +270,12 @@ TEST(Polygon, RefusesWhatHasNoArea) {
     EXPECT_NE(error("polygon:vertices=[0,0 1,1 2,2]"), "");
     EXPECT_NE(error("polygon:vertices=[0,0 1,0 2,0]"), "");
     EXPECT_EQ(error("polygon:vertices=[0,0 1,0 0,1e-17]"),
-              "usage: --vertices: the polygon has no area, or one that is lost in rounding");
+              "usage: --vertices: the area of the polygon is 0 or lost in rounding");
     EXPECT_EQ(error("polygon:vertices=[0,0 1,1]"),
-              "usage: --vertices: ring 1 has 2 different vertices; at least 3 are needed");
+              "usage: --vertices: ring 1 has 2 different vertices; expected at least 3");
     EXPECT_NE(error("polygon:vertices=[1,1 1,1 1,1]"), "");
     EXPECT_EQ(error("polygon:vertices=[0,0 1,0 0,1 /]"),
-              "usage: --vertices: ring 2 has 0 different vertices; at least 3 are needed");
+              "usage: --vertices: ring 2 has 0 different vertices; expected at least 3");
     EXPECT_EQ(error("polygon:vertices=[0,0 1,0 0,x]"),
               "usage: --vertices: '0,x' is not a point x,y");
     EXPECT_NE(error("polygon:vertices=[0,0 1,0 0]"), "");
@@ -307,15 +307,15 @@ TEST(PolygonFile, ComplainsByItsName) {
         return what.substr(std::min(what.size(), path.size() + 7));
     };
     EXPECT_EQ(complaint("0,0\n1,1\n1,0\n0,1\n"),
-              ": edge 1 (0,0 to 1,1) and edge 3 (1,0 to 0,1) cross; edges may meet in a vertex "
-              "that they share only");
-    EXPECT_EQ(complaint("0,0,0\n1,0,0\n0,1,0\n"), ": 3 coordinates a line; 2 are needed, x,y");
+              ": edge 1 (0,0 to 1,1) and edge 3 (1,0 to 0,1) cross; edges may meet only at a "
+              "shared vertex");
+    EXPECT_EQ(complaint("0,0,0\n1,0,0\n0,1,0\n"), ": 3 coordinates on a line; expected 2, x,y");
     EXPECT_EQ(complaint("0,0\n1,0\n0,one\n"),
               ":3:3: 'one' is not a number; expected one such as 0.5 or 1e-3");
-    EXPECT_EQ(complaint("0,0\n1,0\n"), ": ring 1 has 2 different vertices; at least 3 are needed");
+    EXPECT_EQ(complaint("0,0\n1,0\n"), ": ring 1 has 2 different vertices; expected at least 3");
     EXPECT_EQ(error("polygon:file=/nowhere/at/all.csv").substr(0, 4), "io: ");
     EXPECT_EQ(error("polygon:vertices=[0,0 1,0 0,1],file=a.csv"),
-              "usage: --file: --vertices is given, too; one of them is allowed");
+              "usage: --file: cannot be combined with --vertices; give one of them");
 }
 
 }  // namespace stipple::testing::polygon_test

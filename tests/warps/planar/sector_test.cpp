@@ -91,11 +91,11 @@ TEST(Sector, DomainSaysWhatItIsAndParsesBack) {
 TEST(Sector, RefusesWhatIsNoSector) {
     const auto error = [](std::string_view spec) { return error_of([&] { mapping(spec); }); };
     EXPECT_EQ(error("sector:angles=[90,45]"),
-              "usage: --angles: from 90 to 45 are -45 degrees; [1e-9, 360] are allowed");
+              "usage: --angles: from 90 to 45 are -45 degrees; expected [1e-9, 360]");
     EXPECT_NE(error("sector:angles=[0,0]"), "");
     EXPECT_NE(error("sector:angles=[0,361]"), "");
     EXPECT_EQ(error("sector:angles=90"),
-              "usage: --angles: 2 numbers are needed, first,last; 1 given");
+              "usage: --angles: expected 2 numbers, first,last; 1 given");
     EXPECT_EQ(error("sector:angles=[700,800]"), "usage: --angles: 800 is outside [-720, 720]");
     EXPECT_NE(error("sector:inner=1"), "");
     EXPECT_EQ(error_of([] {

@@ -198,15 +198,13 @@ TEST(Triangle, CubeOfTheDomainIsAreaFromV1) {
 TEST(Triangle, RefusesWhatIsNoTriangle) {
     const auto error = [](std::string_view spec) { return error_of([&] { mapping(spec); }); };
     EXPECT_EQ(error("triangle:vertices=[0,0 1,1 2,2]"),
-              "usage: --vertices: the triangle 0,0 1,1 2,2 has no area, or less than the "
-              "rounding of points in it");
+              "usage: --vertices: the area of the triangle 0,0 1,1 2,2 is 0 or lost in rounding");
     EXPECT_NE(error("triangle:vertices=[0.1,0.1 0.2,0.2 0.3,0.3]"), "") << "flat but for rounding";
     EXPECT_NE(error("triangle:vertices=[1,1 1,1 1,1]"), "");
     EXPECT_NE(error("triangle:vertices=[0,0 0,0 1,0]"), "");
     EXPECT_NE(error("triangle:vertices=[1e9,1e9 1000000001e0,1e9 1e9,1000000000.00001]"), "");
-    EXPECT_EQ(
-        error("triangle:vertices=[0,0 1,0]"),
-        "usage: --vertices: 2 points of dimension 2; 3 points of dimension 2 or 3 are needed");
+    EXPECT_EQ(error("triangle:vertices=[0,0 1,0]"),
+              "usage: --vertices: 2 points of dimension 2; expected 3 points of dimension 2 or 3");
     EXPECT_NE(error("triangle:vertices=[0,0 1,0 1,1 0,1]"), "");
     EXPECT_NE(error("triangle:vertices=[0 1 2]"), "");
     EXPECT_NE(error("triangle:vertices=[0,0,0,0 1,0,0,0 0,1,0,0]"), "");

@@ -94,9 +94,9 @@ TEST(Dirichlet, DomainIsTheSurfaceWhereCoordinatesSumTo1) {
 TEST(Dirichlet, RefusesParametersOutOfRange) {
     const auto refusal = [](std::string_view spec) { return error_of([&] { mapping(spec); }); };
     EXPECT_EQ(refusal("dirichlet:alpha=[1,0]"), "usage: --alpha: 0 is outside [0.1, 1e6]");
-    EXPECT_EQ(refusal("dirichlet:alpha=[6e5,6e5]"), "usage: --alpha: their sum is above 1e6");
+    EXPECT_EQ(refusal("dirichlet:alpha=[6e5,6e5]"), "usage: --alpha: the sum is above 1e6");
     EXPECT_EQ(error_of([] { dirichlet_of("dirichlet", 200); }),
-              "usage: --alpha: 201 coordinates; 2 to 150 are allowed");
+              "usage: --alpha: 201 coordinates; expected 2 to 150");
 }
 
 }  // namespace stipple::testing::dirichlet_test

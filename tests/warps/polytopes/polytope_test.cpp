@@ -316,8 +316,9 @@ TEST(Polytope, SaysWhatIsWrong) {
     EXPECT_EQ(says(2, "x*y<1"),
               "usage: --constraints: 'x*y<1' is not a linear inequality; expected one such as "
               "x1 + 2*x2 <= 1");
-    EXPECT_EQ(says(2, " ;"),
-              "usage: --constraints: give linear inequalities, such as 'x + y <= 1'");
+    EXPECT_EQ(
+        says(2, " ;"),
+        "usage: --constraints: none given; expected linear inequalities, such as 'x + y <= 1'");
     EXPECT_THAT(says(2, "x+q<1"), ::testing::StartsWith("usage: --constraints: 'x+q<1', column 3"));
     EXPECT_EQ(says(13, sum_of(13) + "<=1"),
               "limit: --constraints: inequalities join 13 coordinates; at most 12 are taken");
