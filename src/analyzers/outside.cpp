@@ -15,11 +15,11 @@ void refuse(const Outside& outside, std::uint64_t total, const Domain& domain, s
 }
 
 std::string outside_hint(const Domain& domain) {
-    std::string hint = "--domain names what the points live on";
+    std::string hint = "--domain names the domain of the points";
     if (domain.spec() == "unit-cube")
-        hint += "; --rescale or --bounds lo..hi moves them into the cube";
+        hint += "; --rescale or --bounds lo..hi maps them into the cube";
     if (domain.cube_dimension() < domain.dimension())
-        hint += "; float32 and few digits take points off a surface: write them as float64";
+        hint += "; float32 or few digits move points off a surface: write them as float64";
     return hint;
 }
 

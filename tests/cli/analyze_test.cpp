@@ -188,7 +188,7 @@ TEST(Analyze, SaysWhatTakesPointsOffASurface) {
         "-d 3 --from bin --dtype f32 --domain sphere");
     EXPECT_EQ(outcome.code, 3);
     EXPECT_THAT(outcome.err, HasSubstr("points are outside the domain sphere"));
-    EXPECT_THAT(outcome.err, HasSubstr("float32 and few digits take points off a surface"));
+    EXPECT_THAT(outcome.err, HasSubstr("float32 or few digits move points off a surface"));
 }
 
 TEST(Analyze, LimitsNameTheFile) {
@@ -506,7 +506,7 @@ TEST(Analyze, WritesDiscrepanciesOfPrefixesAndProjectionsAsTables) {
         "stipple generate halton -n 64 | stipple analyze "
         "star-discrepancy --prefixes 32,128");
     EXPECT_EQ(beyond.code, 3);
-    EXPECT_EQ(beyond.err, "stipple: stdin: --prefixes: 128 is beyond the set's 64 points\n");
+    EXPECT_EQ(beyond.err, "stipple: stdin: --prefixes: 128 is above the number of points, 64\n");
 }
 
 TEST(Analyze, SaysWhatPrefixesAndMixedUnitsTell) {
@@ -796,7 +796,7 @@ TEST(Analyze, SensitivityTakesOutputsBesideADesign) {
     expect_refusal(box.shell(analyze + "y.csv --response stress"), 2,
                    "--response: the table has no column 'stress'");
     expect_refusal(box.shell(analyze + "y.csv --method morris"), 3,
-                   "--method morris: the design has not its rows");
+                   "--method morris: the rows are not such a design");
     // An analyzer of points takes no missing numbers, also beside one of tables.
     expect_refusal(box.shell("printf 'x,y\\n1,\\n' | stipple analyze moments,sensitivity"), 3,
                    "an empty field; expected a number");
@@ -831,9 +831,9 @@ TEST(Analyze, SensitivityKnowsTheInputsFromParametersAndProvenance) {
     EXPECT_NEAR(double(json::parse(bounds.out)["results"]["y"]["b"]["mu_star"]), 3, 1e-4);
     const Outcome plain = box.shell(analyze + "table.csv --response y");
     EXPECT_EQ(json::parse(plain.out)["results"]["y"]["scale"], "range");
-    EXPECT_THAT(plain.err, HasSubstr("each is scaled by its own extremes"));
+    EXPECT_THAT(plain.err, HasSubstr("each input is scaled by its own extremes"));
     expect_refusal(box.shell(analyze + "table.csv --bounds 0..1,0..1,0..1"), 2,
-                   "3 coordinates; there are 2 inputs: a, b");
+                   "3 coordinates, but 2 inputs: a, b");
     expect_refusal(box.shell(analyze + "table.csv --rescale"), 2, "--rescale: these are rows of");
     expect_refusal(box.shell(analyze + "y.csv --parameters p.json"), 3,
                    "the table has no column a, b");

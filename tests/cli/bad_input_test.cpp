@@ -535,7 +535,8 @@ TEST(BadInput, ChartsOfTheWrongDimensionHintAtNothingThatHelps) {
     const Sandbox box;
     box.write("p.csv", "0.1,0.2,0.3\n0.4,0.5,0.6\n");
     const Outcome outcome = box.run({"plot", "p.csv", "--chart", "differential", "-o", "p.svg"});
-    expect_refusal(outcome, 3, "p.csv: differential takes points of dimension 2; these have 3\n");
+    expect_refusal(outcome, 3,
+                   "p.csv: differential requires points of dimension 2; these have 3\n");
 }
 
 }  // namespace stipple::testing::bad_input_test

@@ -59,8 +59,8 @@ TEST_F(Parameters, AreReadBackByEveryFormatAndVerb) {
     EXPECT_THAT(text("stipple analyze kolmogorov-smirnov c.json"),
                 HasSubstr("probability of kind"));
     expect_refusal(box.run({"analyze", "serial", "c.json"}), 3,
-                   "c.json: serial needs coordinates that preserve probability; parameters has "
-                   "none");
+                   "c.json: serial needs coordinates that preserve probability; parameters does "
+                   "not have them");
     EXPECT_THAT(text("stipple plot c.json -f svg"), HasSubstr("length"));
 }
 

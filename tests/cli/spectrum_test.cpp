@@ -203,7 +203,7 @@ TEST(Spectrum, RefusesWhatDoesNotGoTogether) {
     refused("--generate random --max-frequency 0", 2, "--max-frequency: 0 is outside [1, 1000000]");
     refused("--generate random --max-frequency 100000 --max-memory 2G", 5,
             "--max-frequency 100000 needs ");
-    refused("--generate random -d 4", 3, "periodogram takes points of dimension 1 to 3");
+    refused("--generate random -d 4", 3, "periodogram requires points of dimension 1 to 3");
 }
 
 }  // namespace stipple::testing::spectrum_test

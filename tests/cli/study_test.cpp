@@ -751,8 +751,8 @@ TEST(Study, BadInputIsOneLineThatHelps) {
          "stipple: analyze: l2-discrepancy: --kind: 'centred' is no kind of L2 discrepancy; did "
          "you mean 'centered'?\n"},
         {"--generators random --analyze differential:pixels=8 -w disk",
-         "stipple: analyze: differential: --pixels: 8 is even; one pixel is to be in the "
-         "middle\n"},
+         "stipple: analyze: differential: --pixels: 8 is even; expected an odd number, so that one "
+         "pixel is in the middle\n"},
         {"--generators random --analyze moments -d 1..6",
          "stipple: --dimension: '1..6' does not say which numbers between; 1..6*2 goes by a "
          "factor, 1..6+1 by a step, 2^4..2^16 by powers\n"},

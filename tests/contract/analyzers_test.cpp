@@ -129,7 +129,7 @@ TEST_P(EveryAnalyzer, TakesTheDomainsThatItsRecordTells) {
     EXPECT_EQ(error_on("box:bounds=[0..1,-1..2]"), "");
     const std::string on_disk = error_on("disk");
     const std::string refused =
-        "input: " + unit.name + " takes points of the unit cube or a box; these live on disk";
+        "input: " + unit.name + " requires points of the unit cube or a box; their domain is disk";
     // One with a choice of kernels may take other domains by another one.
     const bool taken = !unit.traits.boxed && on_disk.empty();
     EXPECT_TRUE(taken || on_disk.starts_with(refused)) << on_disk;

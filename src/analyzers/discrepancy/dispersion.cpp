@@ -36,8 +36,8 @@ namespace {
 
 using namespace discrepancy;
 
-constexpr Param<bool> torus{.name = "torus",
-                            .help = "Join opposite faces of the cube, so that boxes may wrap"};
+constexpr Param<bool> torus{
+    .name = "torus", .help = "Join opposite faces of the cube, so that boxes may wrap around"};
 
 /// Limit beyond any machine's memory; keys of points stay below 2^31.
 constexpr std::size_t max_count = std::size_t{1} << 29;
@@ -61,7 +61,7 @@ const char* how(std::size_t dimension) {
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
     const std::size_t d = points.dimension();
     if (points.count() > max_count)
-        fail(ErrorKind::limit, "dispersion takes up to {} points; these are {}", max_count,
+        fail(ErrorKind::limit, "dispersion accepts up to {} points; these are {}", max_count,
              points.count());
     const Limits limits(options, run);
     const double lines = extreme::search_memory(points, d > 2 ? run.thread_count() : 0);
@@ -94,16 +94,17 @@ Analyzer unit() {
         .options =
             Schema(torus, limit::method, limit::time_limit, limit::tolerance, limit::max_work),
         .results = {{"value",
-                     "volume of the largest empty box: only where it is exact, or the bounds are "
+                     "volume of the largest empty box; present only if exact, or if the bounds are "
                      "within --tolerance"},
-                    {"lower", "some box is at least so large"},
-                    {"upper", "none is larger"},
-                    {"exact", "whether the two bounds are the same", true, true_or_false},
+                    {"lower", "volume of an empty box that was found, a lower bound"},
+                    {"upper", "upper bound of the volume of all empty boxes"},
+                    {"exact", "whether the two bounds are equal", true, true_or_false},
                     {"method", "sweep-1d, maximal-rectangles or branch-and-bound", true,
                      "sweep-1d|maximal-rectangles|branch-and-bound"},
-                    {"box.lower_corner", "lower corner of that box"},
+                    {"box.lower_corner", "lower corner of the box found"},
                     {"box.upper_corner",
-                     "its upper corner; where that is not above the lower one, the box wraps"}},
+                     "its upper corner; the box wraps around on axes where this is not above the "
+                     "lower corner"}},
         .analyze = analyze,
         .cost = [](double n, double d) { return d <= 2 ? 3e-6 * n : 1e-8 * std::pow(n, d - 1); },
         .refine = refine};

@@ -59,14 +59,15 @@ constexpr Param<Choice> kernel{
     .fallback = "periodic",
     .choices = "periodic|gaussian|matern|stein",
     .help =
-        "periodic: the diaphony's; gaussian, and matern (a product over the axes), of the length "
-        "--bandwidth; stein: rows are d coordinates, then the d scores grad log p of the target"};
+        "periodic: that of the diaphony; gaussian, and matern (a product over the axes), with "
+        "length scale --bandwidth; stein: each row holds d coordinates, then the d scores grad log "
+        "p of the target"};
 
 constexpr Param<Path> target{
     {.name = "target",
      .unit = "file",
-     .help = "Points to compare with; default: the distribution of the points' own domain, if its "
-             "coordinates are independent"}};
+     .help = "File of points to compare with; default: the distribution of the points' own domain, "
+             "if its coordinates are independent"}};
 
 constexpr Param<double> bandwidth{
     .name = "bandwidth",
@@ -82,7 +83,7 @@ constexpr Param<double> bandwidth{
 constexpr Param<Choice> smoothness{.name = "smoothness",
                                    .fallback = "2.5",
                                    .choices = "0.5|1.5|2.5",
-                                   .help = "The parameter nu of matern"};
+                                   .help = "Smoothness parameter nu of the kernel matern"};
 
 /// Limit beyond practical run times; sums over its pairs fit 128 bits.
 constexpr std::size_t max_count = std::size_t{1} << 26;
@@ -101,13 +102,14 @@ void check_options(const Values& options) {
     const std::string name = options[kernel];
     if (options.given(bandwidth) && name == "periodic")
         fail(ErrorKind::usage,
-             "--bandwidth: the kernel periodic has no length scale; gaussian, matern and stein do");
+             "--bandwidth: the kernel periodic has no length scale; expected gaussian, matern or "
+             "stein");
     if (options.given(smoothness) && name != "matern")
-        fail(ErrorKind::usage, "--smoothness is of --kernel matern; this is {}", name);
+        fail(ErrorKind::usage, "--smoothness applies to --kernel matern only; this is {}", name);
     if (options.given(target) && name == "stein")
         fail(ErrorKind::usage,
-             "--target: the kernel stein knows its target by the scores in each row; leave "
-             "--target out, or choose another kernel");
+             "--target: the kernel stein gets its target from the scores in each row; omit "
+             "--target, or choose another kernel");
 }
 
 /// @throws Error(input) if a number is not finite
@@ -129,7 +131,7 @@ void require_inside(const PointSet& points) {
         if (!domain.contains(points[i])) outside.add(i, points[i]);
     if (outside.count > 0)
         refuse(outside, points.count(), domain,
-               outside_hint(domain) + "; --target takes points anywhere");
+               outside_hint(domain) + "; --target accepts points anywhere");
 }
 
 bool is_unit_cube(const Domain& domain) { return domain.spec() == unit_cube(1)->spec(); }
@@ -138,9 +140,9 @@ bool is_unit_cube(const Domain& domain) { return domain.spec() == unit_cube(1)->
 void require_independent_axes(const PointSet& points) {
     const Domain& domain = *points.domain;
     if (!kernels::has_independent_axes(domain, points.flat()))
-        fail_with_hint(ErrorKind::input, "--target takes points to compare with",
-                       "kernel-discrepancy knows no mean of its kernels over {}: it takes domains "
-                       "whose coordinates are independent and continuous",
+        fail_with_hint(ErrorKind::input, "--target accepts points to compare with",
+                       "kernel-discrepancy cannot compute the mean of its kernels over {}; "
+                       "expected a domain whose coordinates are independent and continuous",
                        domain.title());
 }
 
@@ -162,12 +164,12 @@ PointSet on_cube(const PointSet& points) {
         }
     }
     if (!straight)
-        fail_with_hint(
-            ErrorKind::input,
-            "--kernel gaussian and matern take domains of independent coordinates; "
-            "warp --inverse takes points back to the cube",
-            "kernel-discrepancy takes points of the unit cube or a box; these live on {}",
-            domain.title());
+        fail_with_hint(ErrorKind::input,
+                       "--kernel gaussian and matern accept domains of independent coordinates; "
+                       "warp --inverse maps points back to the cube",
+                       "kernel-discrepancy with the kernel periodic requires points of the unit "
+                       "cube or a box; the domain is {}",
+                       domain.title());
     return cube;
 }
 
@@ -264,9 +266,9 @@ void require_cube(const PointSet& points, const std::string& what) {
         for (const double x : points[i])
             if (!(x >= 0 && x <= 1))
                 fail_with_hint(ErrorKind::input,
-                               "--kernel gaussian and matern take points anywhere",
-                               "{}: point {} is outside the unit cube, where the kernel periodic "
-                               "is defined; it has a coordinate {}",
+                               "--kernel gaussian and matern accept points anywhere",
+                               "{}: point {} is outside the unit cube, to which the kernel "
+                               "periodic is limited; it has a coordinate {}",
                                what, i, format_number(x));
 }
 
@@ -275,10 +277,10 @@ Report against_file(const PointSet& points, const Values& options, const RunCont
     const std::size_t d = points.dimension();
     const PointSet others = io::read_given(target.name, file, {}, run);
     if (others.dimension() != d)
-        fail(ErrorKind::input, "{}: points of dimension {}; those to compare with it have {}", file,
+        fail(ErrorKind::input, "{}: points of dimension {}; the points to compare have {}", file,
              others.dimension(), d);
     if (others.count() > max_count)
-        fail(ErrorKind::limit, "kernel-discrepancy takes up to {} points; {} has {}", max_count,
+        fail(ErrorKind::limit, "kernel-discrepancy accepts up to {} points; {} has {}", max_count,
              file, others.count());
     require_finite(points, "");
     if (options[kernel] == "periodic") {
@@ -293,9 +295,9 @@ Report against_file(const PointSet& points, const Values& options, const RunCont
         setting.pairs = median.pairs;
         setting.rule = median.of_all ? "median" : "median-of-sample";
         if (!(*setting.h >= bandwidth.low && *setting.h <= bandwidth.high))
-            fail_with_hint(ErrorKind::input, "--bandwidth says a length scale",
-                           "the median distance of the points and those of {} is {}, which is no "
-                           "length scale",
+            fail_with_hint(ErrorKind::input, "--bandwidth sets the length scale",
+                           "the median distance of the points and those of {} is {}, which cannot "
+                           "be a length scale",
                            file, format_number(*setting.h));
     } else if (options[kernel] != "periodic") {
         set_bandwidth(setting, options, 0, "");
@@ -309,8 +311,8 @@ Report against_scores(const PointSet& points, const Values& options, const RunCo
     const std::size_t width = points.dimension();
     if (width % 2 != 0)
         fail(ErrorKind::input,
-             "--kernel stein takes rows of d coordinates and d scores (grad log p); these have {} "
-             "number{}",
+             "--kernel stein requires rows of d coordinates and d scores (grad log p); these have "
+             "{} number{}",
              width, width == 1 ? "" : "s");
     require_finite(points, "");
     Setting setting{.points = {points.flat(), width}, .dimension = width / 2};
@@ -323,8 +325,8 @@ Report against_scores(const PointSet& points, const Values& options, const RunCo
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
     check_options(options);
     if (points.count() > max_count)
-        fail(ErrorKind::limit, "kernel-discrepancy takes up to {} points; these are {}", max_count,
-             points.count());
+        fail(ErrorKind::limit, "kernel-discrepancy accepts up to {} points; these are {}",
+             max_count, points.count());
     const auto numbers = static_cast<double>(points.count() * points.dimension());
     run.need_memory(16 * numbers, "the columns of kernel-discrepancy");
     if (options[kernel] == "stein") return against_scores(points, options, run);
@@ -338,31 +340,32 @@ Analyzer unit() {
     return {
         .name = "kernel-discrepancy",
         .summary =
-            "Maximum mean discrepancy by a kernel: from uniform, from points, or by scores (Stein)",
+            "Maximum mean discrepancy of a kernel: from uniform, from given points, or from scores "
+            "(Stein)",
         .source = "Gretton et al. 2012, J. Mach. Learn. Res. 13, 723-773",
         .related = {"mmd", "maximum-mean-discrepancy", "ksd", "stein", "discrepancy", "diaphony",
                     "two-sample"},
         .traits = {.max_dimension = 10'000, .unit_cube = false},
         .options = Schema(kernel, target, bandwidth, smoothness),
         .results =
-            {{"value", "the discrepancy, 0 where the points are as the target"},
+            {{"value", "the discrepancy; 0 if the points match the target"},
              {"squared",
-              "its square, the V-statistic: every pair counts, each point with itself, too"},
+              "its square, the V-statistic: all pairs count, including each point with itself"},
              {"expected_squared",
-              "what `squared` is on average for as many independent points of the target (stein: "
-              "if these are such)"},
-             {"error", "the value is off by at most this, by rounding"},
+              "mean of `squared` for as many independent points of the target (stein: if these are "
+              "such points)"},
+             {"error", "bound on the rounding error of the value"},
              {"kernel", "periodic, gaussian, matern or stein", true,
               "periodic|gaussian|matern|stein"},
-             {"bandwidth", "the length scale h, not of the kernel periodic", false},
+             {"bandwidth", "the length scale h; absent for the kernel periodic", false},
              {"bandwidth_rule",
-              "given; or uniform: sqrt(d/6); median: the median distance of all pairs of points, "
-              "median-of-sample: of some drawn at random; unit: 1",
+              "given: by --bandwidth; uniform: sqrt(d/6); median: median distance of all pairs of "
+              "points; median-of-sample: of randomly drawn pairs; unit: 1",
               false, "given|uniform|median|median-of-sample|unit"},
-             {"bandwidth_pairs", "pairs of points whose median distance it is", false},
+             {"bandwidth_pairs", "pairs of points of which the median distance was taken", false},
              {"target",
-              "uniform: on the unit cube; domain: that of the points' own domain; file: the "
-              "points of --target; scores: the density that has them",
+              "distribution compared with: uniform: on the unit cube; domain: of the points' own "
+              "domain; file: the points of --target; scores: the density with these scores",
               true, "uniform|domain|file|scores"},
              {"method",
               "all-pairs, or exact-sums for the periodic kernel and many points in one and two "

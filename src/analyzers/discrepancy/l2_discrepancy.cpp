@@ -57,20 +57,18 @@
 namespace stipple::analyzers::l2_discrepancy {
 namespace {
 
-constexpr Param<Text> kind{
-    {.name = "kind",
-     .fallback = "all",
-     .help = "Which, separated by commas: all, or some of star, extreme, "
-             "periodic, centered, wraparound, mixture, modified, "
-             "diaphony, average, symmetric; stipple help definitions says what they "
-             "are"}};
+constexpr Param<Text> kind{{.name = "kind",
+                            .fallback = "all",
+                            .help = "Kinds, separated by commas: all, or some of star, extreme, "
+                                    "periodic, centered, wraparound, mixture, modified, diaphony, "
+                                    "average, symmetric; defined in stipple help definitions"}};
 
 constexpr Param<Numbers> axis_weights{
     {.name = "weights",
-     .help =
-         "Product weights, one for each coordinate, from 0 to 10^6: K = prod (1 + weight k) for "
-         "every kind, so that projections count by the product of their weights; without it star, "
-         "extreme, periodic and average have K = prod k, which is not that of weights 1"}};
+     .help = "Product weights, one for each coordinate, from 0 to 10^6: K = prod (1 + weight k) "
+             "for every kind, so that each projection counts by the product of its weights. "
+             "Without this option star, extreme, periodic and average have K = prod k, which "
+             "differs from weights 1"}};
 
 /// Limit beyond any machine's memory; indices of points fit 32 bits.
 constexpr std::size_t max_count = std::size_t{1} << 29;
@@ -79,7 +77,8 @@ std::vector<double> checked_weights(const Values& options, std::size_t dimension
     if (!options.given(axis_weights)) return {};
     const std::vector<double> weights = options[axis_weights];
     if (weights.size() != dimension)
-        fail(ErrorKind::usage, "--weights: {} numbers for points of {} coordinates; one for each",
+        fail(ErrorKind::usage,
+             "--weights: {} numbers for points of {} coordinates; expected one for each",
              weights.size(), dimension);
     constexpr double most = 1e6;
     for (const double weight : weights)
@@ -119,7 +118,7 @@ void warn_of_pairs(std::size_t n, std::size_t d, l2::Kind which, const RunContex
     const double seconds = 0.6e-9 * pairs * static_cast<double>(d);
     if (seconds < 600) return;
     run.notify(
-        fmt::format("{} l2-discrepancy takes all pairs of {} points in {} dimensions, some "
+        fmt::format("{} l2-discrepancy computes all pairs of {} points in {} dimensions, about "
                     "{:.0f} minutes on one core",
                     l2::record_of(which).name, n, d, seconds / 60));
 }
@@ -131,7 +130,7 @@ Report off_by(const l2::Square& square, l2::Kind which, const char* method, cons
     const double error = error_of_root(square.squared, square.error + smallest);
     if (error > few_digits * std::sqrt(std::max(square.squared, 0.0)))
         run.notify(fmt::format(
-            "l2-discrepancy: {} of {} {}; its value is off by up to {:.2g}",
+            "l2-discrepancy: {} of {} {}; its value has an error up to {:.2g}",
             square.error < smallest ? "the square" : "nearly all digits", l2::record_of(which).name,
             square.error < smallest ? "is below the smallest double" : "cancel", error));
     return result_of(square.squared, method).add("error", error);
@@ -155,7 +154,7 @@ Report in_space(const PointSet& points, l2::Kind which, const l2::AxisWeights& w
     const std::string why =
         fmt::format("in {} dimensions its square is beyond the largest double", d);
     if (alone)
-        fail_with_hint(ErrorKind::limit, "--kind chooses others", "{} discrepancy: {}",
+        fail_with_hint(ErrorKind::limit, "--kind selects others", "{} discrepancy: {}",
                        l2::record_of(which).name, why);
     return Report().add("missing", why);
 }
@@ -176,7 +175,7 @@ Report in_spaces(const PointSet& points, const std::vector<l2::Kind>& kinds,
 
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
     if (points.count() > max_count)
-        fail(ErrorKind::limit, "l2-discrepancy takes up to {} points; these are {}", max_count,
+        fail(ErrorKind::limit, "l2-discrepancy accepts up to {} points; these are {}", max_count,
              points.count());
     const std::vector<l2::Kind> kinds = l2::parse_kinds(options[kind]);
     const std::vector<double> weights = checked_weights(options, points.dimension());
@@ -187,31 +186,31 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
 }  // namespace
 
 Analyzer unit() {
-    return {
-        .name = "l2-discrepancy",
-        .summary =
-            "L2 discrepancies: star, extreme, periodic, centered, wraparound, mixture, "
-            "modified, diaphony, average and symmetric",
-        .source =
-            "Hickernell 1998, doi:10.1090/S0025-5718-98-00894-1; Heinrich 1996, "
-            "doi:10.1090/S0025-5718-96-00756-4",
-        .related = {"discrepancy", "cd2", "wd2", "md2", "l2", "l2-star", "l2-centered", "warnock",
-                    "diaphony", "centered"},
-        .traits = {.max_dimension = 10'000},
-        .options = Schema(kind, axis_weights),
-        .results = {{"KIND.value", "the discrepancy of that kind"},
-                    {"KIND.squared", "its square"},
-                    {"KIND.method", "exact-sums, divide-and-conquer or all-pairs", true,
-                     "exact-sums|divide-and-conquer|all-pairs"},
-                    {"KIND.error",
-                     "the value is off by at most this (three and more "
-                     "dimensions; fewer are exact)",
-                     false},
-                    {"KIND.missing", "in place of all these, why the kind has no value", false}},
-        .analyze = analyze,
-        .cost = [](double n, double d) {
-            return d <= 2 ? 5e-7 * n : d * std::min(1e-10 * n * n * d, 1e-5 * n);
-        }};
+    return {.name = "l2-discrepancy",
+            .summary =
+                "L2 discrepancies: star, extreme, periodic, centered, wraparound, mixture, "
+                "modified, diaphony, average and symmetric",
+            .source =
+                "Hickernell 1998, doi:10.1090/S0025-5718-98-00894-1; Heinrich 1996, "
+                "doi:10.1090/S0025-5718-96-00756-4",
+            .related = {"discrepancy", "cd2", "wd2", "md2", "l2", "l2-star", "l2-centered",
+                        "warnock", "diaphony", "centered"},
+            .traits = {.max_dimension = 10'000},
+            .options = Schema(kind, axis_weights),
+            .results = {{"KIND.value", "the discrepancy of that kind"},
+                        {"KIND.squared", "its square"},
+                        {"KIND.method", "exact-sums, divide-and-conquer or all-pairs", true,
+                         "exact-sums|divide-and-conquer|all-pairs"},
+                        {"KIND.error",
+                         "bound on the rounding error of the value (in three or more dimensions; "
+                         "exact in fewer)",
+                         false},
+                        {"KIND.missing",
+                         "reason why the kind has no value, instead of its other results", false}},
+            .analyze = analyze,
+            .cost = [](double n, double d) {
+                return d <= 2 ? 5e-7 * n : d * std::min(1e-10 * n * n * d, 1e-5 * n);
+            }};
 }
 
 }  // namespace stipple::analyzers::l2_discrepancy

@@ -58,20 +58,19 @@ namespace {
 
 using namespace discrepancy;
 
-constexpr Param<Choice> kind{
-    .name = "kind",
-    .fallback = "star",
-    .choices = "star|extreme|periodic",
-    .help =
-        "Boxes from the origin, all axis-parallel boxes, or those of the torus, which may wrap"};
+constexpr Param<Choice> kind{.name = "kind",
+                             .fallback = "star",
+                             .choices = "star|extreme|periodic",
+                             .help =
+                                 "star: boxes from the origin; extreme: all axis-parallel boxes; "
+                                 "periodic: boxes of the torus, which may wrap around"};
 
-constexpr Param<Choice> boxes{
-    .name = "boxes",
-    .fallback = "closed",
-    .choices = "closed|half-open",
-    .help =
-        "Whether boxes that end at 1 are closed there, or half-open as all others; they differ "
-        "for points with a coordinate 1"};
+constexpr Param<Choice> boxes{.name = "boxes",
+                              .fallback = "closed",
+                              .choices = "closed|half-open",
+                              .help =
+                                  "Whether boxes that end at 1 are closed there, or half-open like "
+                                  "all others; this matters only for points with a coordinate 1"};
 
 /// Limit beyond any machine's memory; counts of points stay far from 2^31.
 constexpr std::size_t max_count = std::size_t{1} << 29;
@@ -113,7 +112,7 @@ void need_room(const PointSet& points, Family family, const RunContext& run) {
     const double room = static_cast<double>(run.memory_left());
     if (all <= room) return;
     fail_with_hint(ErrorKind::limit,
-                   fmt::format("{} points would do; or raise the limit with --max-memory",
+                   fmt::format("{} points would fit; or raise the limit with --max-memory",
                                static_cast<std::uint64_t>(room / each)),
                    "the star discrepancy of {} points in {} dimensions needs {} of memory; the "
                    "limit is {}",
@@ -145,7 +144,7 @@ Report measure(const star::Member& set, const Values& options, const RunContext&
     const PointSet& points = set.points;
     if (points.count() == 0) fail(ErrorKind::input, "star-discrepancy needs at least one point");
     if (points.count() > max_count)
-        fail(ErrorKind::limit, "star-discrepancy takes up to {} points; these are {}", max_count,
+        fail(ErrorKind::limit, "star-discrepancy accepts up to {} points; these are {}", max_count,
              points.count());
     const Family family = family_of(options);
     need_room(points, family, run);
@@ -171,7 +170,7 @@ Report analyze_together(const PointSet& points, const Values& options, Peers& pe
                         const RunContext& run) {
     if (star::wants_families(options) || options[kind] != "star")
         fail(ErrorKind::usage,
-             "star-discrepancy: ranks share the search of one set for the kind star; start one "
+             "star-discrepancy: ranks share the search of one set for the kind star only; use one "
              "process for tables and other kinds");
     const Limits limits(options, run);
     const bool sweeps = points.dimension() < 2 || (points.dimension() == 2 && !limits.bounded);
@@ -193,48 +192,48 @@ void refine(Report& mean, std::size_t sets, const Values&) {
 std::vector<ResultKey> results() {
     std::vector<ResultKey> keys = {
         {"value",
-         "the star discrepancy: only where it is exact, or the bounds are within --tolerance"},
-        {"lower", "it is at least this"},
-        {"upper", "it is at most this"},
-        {"exact", "whether the two bounds are the same", true, true_or_false},
+         "the star discrepancy; present only if exact, or if the bounds are within --tolerance"},
+        {"lower", "lower bound of the star discrepancy"},
+        {"upper", "upper bound of the star discrepancy"},
+        {"exact", "whether the two bounds are equal", true, true_or_false},
         {"method", "sweep-1d, sweep-2d or branch-and-bound", true,
          "sweep-1d|sweep-2d|branch-and-bound"},
         {"worst_box.corner",
-         "upper corner of the worst box found, where 'lower' is reached (of all boxes from the "
-         "origin, or of all that the kind has)"},
+         "upper corner of the worst box found, whose discrepancy is 'lower' (among boxes from the "
+         "origin, or among all boxes of the kind)"},
         {"worst_box.lower_corner",
          "its lower corner, for the kinds extreme and periodic; on an axis where it is above the "
-         "upper one, the box goes from there across 1 to 0 and on (and all round where an open box "
-         "has both the same)",
+         "upper corner, the box wraps around from 1 to 0 (an open box with both equal covers the "
+         "whole axis)",
          false},
         {"worst_box.closed",
-         "whether points on the box's faces count (upper faces for the kind star)", true,
+         "whether points on the faces of the box count (upper faces for the kind star)", true,
          true_or_false},
-        {"worst_box.points", "points in that box"},
+        {"worst_box.points", "number of points in that box"},
         {"worst_box.volume", "its volume"},
-        {"prefixes.count", "points of each prefix", false}};
+        {"prefixes.count", "number of points of each prefix", false}};
     const auto add_columns = [&](const std::string& table) {
-        keys.push_back(
-            {table + ".value", "its star discrepancy, or nothing where it is not known", false});
-        keys.push_back({table + ".lower", "which is at least this", false});
-        keys.push_back({table + ".upper", "and at most this", false});
-        keys.push_back({table + ".exact", "1 where the two are the same, else 0", false});
+        keys.push_back({table + ".value", "its star discrepancy; empty if not known", false});
+        keys.push_back({table + ".lower", "lower bound of its star discrepancy", false});
+        keys.push_back({table + ".upper", "upper bound of its star discrepancy", false});
+        keys.push_back({table + ".exact", "1 if the two bounds are equal, else 0", false});
     };
     add_columns("prefixes");
     keys.push_back({"projections.axis_1", "first axis of each projection, from 1", false});
-    keys.push_back({"projections.axis_2", "the second, and so on", false});
+    keys.push_back({"projections.axis_2", "second axis, and so on", false});
     add_columns("projections");
     keys.insert(
         keys.end(),
         {{"projections.is_worst",
-          "1 for the first with the largest value; among bounds, with the largest lower one",
+          "1 for the first projection with the largest value; if only bounds are known, with the "
+          "largest lower bound",
           false},
-         {"projections.worst", "the axes of that one", false},
+         {"projections.worst", "axes of that projection", false},
          {"projections.worst_is_certain",
-          "whether the bounds of no other projection reach above its value", false, true_or_false},
-         {"projections.largest.value", "the largest value, where that is certain", false},
-         {"projections.largest.lower", "the largest of all is at least this", false},
-         {"projections.largest.upper", "and at most this", false}});
+          "whether no other projection has an upper bound above its value", false, true_or_false},
+         {"projections.largest.value", "largest value of all projections, if certain", false},
+         {"projections.largest.lower", "lower bound of the largest value", false},
+         {"projections.largest.upper", "upper bound of the largest value", false}});
     return keys;
 }
 
@@ -242,7 +241,7 @@ std::vector<ResultKey> results() {
 
 Analyzer unit() {
     return {.name = "star-discrepancy",
-            .summary = "Star discrepancy, exact or between bounds, with the worst box",
+            .summary = "Star discrepancy, exact or with bounds, and the worst box",
             .source = "Doerr, Gnewuch, Wahlstroem 2014, arXiv:1405.1653",
             .related = {"d-star", "discrepancy", "kuipers-niederreiter"},
             .traits = {.max_dimension = 10'000},

@@ -86,10 +86,11 @@ class Table {
         for (std::size_t row = rows_; row-- > 0;)
             if (std::isnan(columns.value[row])) ++open, first = row;
         if (open == 0 || run_.stop.stop_requested()) return;
-        run_.notify(fmt::format(
-            "{} of {} discrepancies are not known exactly; the first, of {}, is between {} and {}",
-            open, rows_, name(first), format_number(columns.lower[first]),
-            format_number(columns.upper[first])));
+        run_.notify(
+            fmt::format("{} of {} discrepancies are not known exactly; the first, that of {}, is "
+                        "between {} and {}",
+                        open, rows_, name(first), format_number(columns.lower[first]),
+                        format_number(columns.upper[first])));
     }
 
     Columns columns;
@@ -137,9 +138,10 @@ std::vector<std::size_t> given_sizes(const Values& options) {
                  format_number(size));
         const auto count = static_cast<std::size_t>(size);
         if (!sizes.empty() && count == sizes.back())
-            fail(ErrorKind::usage, "--prefixes: {} is there twice; expected rising numbers", count);
+            fail(ErrorKind::usage, "--prefixes: {} is given twice; expected increasing numbers",
+                 count);
         if (!sizes.empty() && count < sizes.back())
-            fail(ErrorKind::usage, "--prefixes: {} stands behind {}; expected rising numbers",
+            fail(ErrorKind::usage, "--prefixes: {} comes after {}; expected increasing numbers",
                  count, sizes.back());
         sizes.push_back(count);
     }
@@ -151,14 +153,15 @@ std::vector<std::size_t> prefix_sizes(std::size_t count, const Values& options) 
     if (options.given(every)) {
         const auto step = static_cast<std::size_t>(options[every]);
         if (step > count)
-            fail(ErrorKind::input, "--every: {} is beyond the set's {} points", step, count);
+            fail(ErrorKind::input, "--every: {} is above the number of points, {}", step, count);
         std::vector<std::size_t> sizes;
         for (std::size_t size = step; size <= count; size += step) sizes.push_back(size);
         return sizes;
     }
     std::vector<std::size_t> sizes = given_sizes(options);
     if (!sizes.empty() && sizes.back() > count)
-        fail(ErrorKind::input, "--prefixes: {} is beyond the set's {} points", sizes.back(), count);
+        fail(ErrorKind::input, "--prefixes: {} is above the number of points, {}", sizes.back(),
+             count);
     return sizes;
 }
 
@@ -250,14 +253,15 @@ std::string axes_of(const Combination& along) {
 Report of_projections(const PointSet& points, std::size_t size, const Limits& limits,
                       const Measure& measure, const RunContext& run) {
     if (size > points.dimension())
-        fail(ErrorKind::input, "--projections: {} is beyond the points' {} coordinates", size,
+        fail(ErrorKind::input, "--projections: {} is above the number of coordinates, {}", size,
              points.dimension());
     constexpr std::uint64_t most_rows = 1'000'000;
     const std::uint64_t count = binomial(points.dimension(), size);
     if (count > most_rows)
-        fail_with_hint(ErrorKind::limit, "fewer axes, or --column for fewer coordinates",
-                       "--projections: {} of {} coordinates are {} projections; a table takes {}",
-                       size, points.dimension(), count, most_rows);
+        fail_with_hint(
+            ErrorKind::limit, "use fewer axes, or fewer coordinates with --column",
+            "--projections: {} of {} coordinates give {} projections; expected at most {}", size,
+            points.dimension(), count, most_rows);
     const double row_bytes = static_cast<double>(8 * (size + 4));
     run.need_memory(static_cast<double>(count) * row_bytes +
                         static_cast<double>(8 * points.count() * size) * run.thread_count(),
@@ -298,7 +302,7 @@ void mark_worst(Report& table) {
 
 bool wants_families(const Values& options) {
     if (options.given(prefixes) && options.given(every))
-        fail(ErrorKind::usage, "--prefixes and --every: give one of them");
+        fail(ErrorKind::usage, "--prefixes and --every cannot be combined; give one of them");
     given_sizes(options);
     return options.given(prefixes) || options.given(every) || options.given(projections);
 }

@@ -18,17 +18,17 @@ namespace stipple::discrepancy::star {
 inline constexpr Param<Numbers> prefixes{
     {.name = "prefixes",
      .unit = "points",
-     .help =
-         "Instead of the whole set, its first so many points, rising: 16,32,64; a table. Limits "
-         "of work and time are for all rows of a table together: work goes by their numbers of "
-         "points, and each has its share of the time that is left"}};
+     .help = "Measure prefixes instead of the whole set: increasing numbers of points, such as "
+             "16,32,64; gives a table. Limits of work and time apply to the whole table: work is "
+             "divided in proportion to the numbers of points, and each row gets a part of the time "
+             "that is left"}};
 
 inline constexpr Param<std::int64_t> every{
     .name = "every",
     .low = 1,
     .optional = true,
     .unit = "points",
-    .help = "The same for every multiple of this number up to the set's"};
+    .help = "Like --prefixes, for every multiple of this number up to the size of the set"};
 
 inline constexpr Param<std::int64_t> projections{
     .name = "projections",
@@ -37,8 +37,9 @@ inline constexpr Param<std::int64_t> projections{
     .optional = true,
     .unit = "coordinates",
     .help =
-        "Instead of the whole set, all its projections to so many coordinates; a table, in the "
-        "order 1-2, 1-3, 2-3, 1-4, 2-4, ...: sorted by the last axis, then by the one before"};
+        "Measure all projections to this many coordinates instead of the whole set; gives a table "
+        "in the order 1-2, 1-3, 2-3, 1-4, 2-4, ...: sorted by the last axis, then by the preceding "
+        "one"};
 
 /// A set to measure, with its limits.
 struct Member {

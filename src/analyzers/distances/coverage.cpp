@@ -39,7 +39,8 @@ constexpr Param<double> tolerance{
     .fallback = 1e-6,
     .low = 1e-12,
     .high = 10,
-    .help = "In 3 and more dimensions the upper bound is at most so much larger, relatively"};
+    .help =
+        "In 3 or more dimensions: largest relative excess of the upper bound over the lower one"};
 
 constexpr Param<std::int64_t> max_boxes{
     .name = "max-boxes",
@@ -47,8 +48,8 @@ constexpr Param<std::int64_t> max_boxes{
     .low = 1,
     .unit = "boxes",
     .help =
-        "Give up when branch and bound (3 and more dimensions) has looked at so many; 10^6 "
-        "take some 10 seconds on one core"};
+        "Give up once branch and bound (3 or more dimensions) has examined this many; 10^6 take "
+        "about 10 seconds on one core"};
 
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
     const Distances distances = distances_in_box(points, options[metric], "coverage");
@@ -87,13 +88,14 @@ Analyzer unit() {
             .related = {"fill-distance", "minimax", "covering-radius", "mesh-norm"},
             .traits = {.max_dimension = 32, .unit_cube = false, .boxed = true},
             .options = Schema(metric, tolerance, max_boxes),
-            .results = {{"radius", "of the largest ball in which no point is"},
-                        {"center", "of that ball"},
-                        {"lower", "some ball is at least so large"},
-                        {"upper", "none is larger"},
-                        {"exact", "whether the two bounds are the same (up to 2 dimensions)", true,
+            .results = {{"radius", "radius of the largest ball without points"},
+                        {"center", "centre of that ball"},
+                        {"lower", "radius of an empty ball that was found, a lower bound"},
+                        {"upper", "upper bound of the radius of all empty balls"},
+                        {"exact", "whether the two bounds are equal (up to 2 dimensions)", true,
                          true_or_false},
-                        {"mesh_ratio", "radius over half the smallest distance of two points"},
+                        {"mesh_ratio",
+                         "radius divided by half the smallest distance between two points"},
                         {"metric", "torus or euclidean", true, "torus|euclidean"}},
             .analyze = analyze,
             .refine = refine};

@@ -44,15 +44,14 @@ namespace stipple::analyzers::design {
 namespace {
 
 constexpr Param<double> exponent{
-    .name = "p", .fallback = 15, .low = 1, .high = 1000, .help = "Exponent of phi_p"};
+    .name = "p", .fallback = 15, .low = 1, .high = 1000, .help = "Exponent p of phi_p"};
 
-constexpr Param<Choice> model{
-    .name = "model",
-    .fallback = "linear",
-    .choices = "none|linear|interaction|quadratic",
-    .help =
-        "Terms of the polynomial whose coefficients are to be estimated: 1 and all x; products "
-        "of two besides; squares too"};
+constexpr Param<Choice> model{.name = "model",
+                              .fallback = "linear",
+                              .choices = "none|linear|interaction|quadratic",
+                              .help =
+                                  "Terms of the polynomial to be fitted: linear: 1 and all x; "
+                                  "interaction: also products of two; quadratic: also squares"};
 
 constexpr Param<std::int64_t> compare{
     .name = "compare",
@@ -60,7 +59,7 @@ constexpr Param<std::int64_t> compare{
     .low = 0,
     .high = 100'000,
     .unit = "sets",
-    .help = "Random Latin hypercubes of the same size to compare with"};
+    .help = "Number of random Latin hypercubes of the same size to compare with"};
 
 constexpr std::size_t most_paired = 16384;
 constexpr std::size_t most_planes = 32;
@@ -175,7 +174,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     const bool modelled = options[model] != "none";
     const std::size_t terms = modelled ? model_terms(model_of(options), points.dimension()) : 0;
     if (n < terms)
-        fail_with_hint(ErrorKind::input, "--model none leaves the efficiencies out",
+        fail_with_hint(ErrorKind::input, "--model none omits the efficiencies",
                        "{} points are fewer than the {} terms of --model {}", n, terms,
                        options[model]);
     run.need_memory(16.0 * static_cast<double>(terms * terms) +
@@ -215,32 +214,33 @@ Analyzer unit() {
         .traits = {.max_dimension = 1000, .unit_cube = false, .boxed = true},
         .options = Schema(exponent, model, compare),
         .results =
-            {{"minimum", "the smallest distance of two points (maximin: larger is better)"},
+            {{"minimum", "smallest distance between two points (maximin: larger is better)"},
              {"minimum_squared", "its square"},
              {"variation",
-              "standard deviation over mean of the distances to the nearest neighbours; 0 for a "
-              "grid"},
+              "standard deviation / mean of the distances to the nearest neighbours; 0 for a grid"},
              {"phi_p", "(sum over pairs of distance^-p)^(1/p), smaller is better"},
              {"audze_eglais", "sum over pairs of 1 / distance^2, smaller is better"},
              {"maxpro",
-              "maximum projection criterion, smaller is better; left out where two points share a "
+              "maximum projection criterion, smaller is better; absent if two points share a "
               "coordinate"},
-             {"largest_correlation", "of two coordinates, the largest absolute value"},
-             {"largest_correlation_axes", "these coordinates, from 1"},
-             {"rms_correlation", "root mean square of all of them"},
-             {"line_minimum", "least distance of two points along one axis, of all axes"},
+             {"largest_correlation", "largest absolute correlation of two coordinates"},
+             {"largest_correlation_axes", "axes of these coordinates, from 1"},
+             {"rms_correlation", "root mean square of all correlations"},
+             {"line_minimum", "smallest distance between two points along one axis, over all axes"},
              {"line_axis", "that axis, from 1"},
-             {"plane_minimum", "least distance of two points seen on two axes, of all such planes"},
-             {"plane_axes", "those axes, from 1"},
+             {"plane_minimum",
+              "smallest distance between two points projected to two axes, over all pairs of axes"},
+             {"plane_axes", "these axes, from 1"},
              {"d_efficiency", "det(M)^(1/p) / n for p terms; 1 is orthogonal, 0 singular"},
              {"a_efficiency", "p / (n trace(M^-1))"},
              {"g_efficiency", "p / (n times the largest variance of prediction)"},
              {"g_places",
-              "where that is looked for: the corners of the cube, where it is; the grid of -1, 0 "
-              "and 1; or the points themselves, where that would be too many",
+              "points at which that variance is maximised: corners: of the cube, where the maximum "
+              "is; grid: of -1, 0 and 1; points: those of the design, if the others would be too "
+              "many",
               true, "corners|grid|points"},
-             {"terms", "of the model, p"},
-             {"latin_hypercube.CRITERION", "its mean over random Latin hypercubes"}},
+             {"terms", "number p of terms of the model"},
+             {"latin_hypercube.CRITERION", "mean of that criterion over random Latin hypercubes"}},
         .analyze = analyze,
         .cost = seconds,
         .refine = refine};

@@ -43,29 +43,29 @@
 namespace stipple::analyzers::differential {
 namespace {
 
-constexpr Param<double> max_distance{
-    .name = "max-distance",
-    .low = 0,
-    .low_open = true,
-    .optional = true,
-    .unit = "sqrt(V / n)",
-    .help =
-        "The image goes from -r to r along each axis; without it r is 5, but at most half the "
-        "shortest side"};
+constexpr Param<double> max_distance{.name = "max-distance",
+                                     .low = 0,
+                                     .low_open = true,
+                                     .optional = true,
+                                     .unit = "sqrt(V / n)",
+                                     .help =
+                                         "The image covers -r to r along each axis; default: r is "
+                                         "5, but at most half the shortest side"};
 
-constexpr Param<std::int64_t> pixel_count{.name = "pixels",
-                                          .fallback = 255,
-                                          .low = 3,
-                                          .high = 4095,
-                                          .help = "Pixels along each side of the image, odd"};
+constexpr Param<std::int64_t> pixel_count{
+    .name = "pixels",
+    .fallback = 255,
+    .low = 3,
+    .high = 4095,
+    .help = "Pixels along each side of the image, an odd number"};
 
 constexpr Param<Path> grid_file{
     {.name = "grid",
-     .help = "Saves the image to this .npy file: row = y, column = x, from -r to r"}};
+     .help = "Save the image to this .npy file: row = y, column = x, from -r to r"}};
 
 constexpr Param<Path> image_file{
     {.name = "image",
-     .help = "Draws it to this .png file, grey = density / (1 + density), 1 middle grey"}};
+     .help = "Draw the image to this .png file, grey = density / (1 + density), 1 middle grey"}};
 
 struct Plan {
     Distances distances;
@@ -82,7 +82,8 @@ Plan plan_for(const PointSet& points, const Values& options) {
               .reach = 0,
               .unit = 0};
     if (plan.pixels % 2 == 0)
-        fail(ErrorKind::usage, "--pixels: {} is even; one pixel is to be in the middle",
+        fail(ErrorKind::usage,
+             "--pixels: {} is even; expected an odd number, so that one pixel is in the middle",
              plan.pixels);
     const Box& box = *plan.distances.box;
     plan.unit = mean_distance(box, points.count());
@@ -248,9 +249,9 @@ void refine(Report& mean, std::size_t, const Values&) {
 /// Images with pixels of different sizes cannot be averaged.
 void combine(Report&, std::span<const Report> sets, const Values&) {
     if (!alike(sets, "pixel"))
-        fail_with_hint(ErrorKind::usage, "give them one --max-distance",
-                       "--average: the sets' images reach to different distances, as small "
-                       "sets do not have large ones");
+        fail_with_hint(ErrorKind::usage, "set one --max-distance for all",
+                       "--average: the images of the sets cover different distances, which depend "
+                       "on the numbers of points");
 }
 
 }  // namespace
@@ -261,15 +262,16 @@ Analyzer unit() {
             .source = "Wei, Wang 2011, doi:10.1145/2010324.1964945",
             .traits = {.min_dimension = 2, .max_dimension = 2, .unit_cube = false, .boxed = true},
             .options = Schema(max_distance, pixel_count, metric, grid_file, image_file),
-            .results = {{"max_distance", "r: the image goes from -r to r, in mean distances"},
+            .results = {{"max_distance", "r: the image covers -r to r, in mean distances"},
                         {"pixel", "side of a pixel, in mean distances"},
-                        {"expected_differences", "in a pixel, of independent points on the torus"},
-                        {"radial.distance", "of each ring of pixels, in mean distances"},
-                        {"radial.density", "mean over the ring; independent points have 1"},
+                        {"expected_differences",
+                         "expected number per pixel, for independent points on the torus"},
+                        {"radial.distance", "distance of each ring of pixels, in mean distances"},
+                        {"radial.density", "mean over the ring; 1 for independent points"},
                         {"radial.anisotropy_db",
                          "variance over the ring / squared mean, in dB, at least -100; independent "
-                         "points have -10 log10(expected_differences x sets averaged); of averaged "
-                         "sets that of their mean image, without a standard error"},
+                         "points have -10 log10(expected_differences x sets averaged); for "
+                         "averaged sets, that of their mean image, without a standard error"},
                         {"radial.cells", "pixels in the ring"},
                         {"mean_distance", "sqrt(V / n), in units of the points"},
                         {"metric", "torus or euclidean", true, "torus|euclidean"}},

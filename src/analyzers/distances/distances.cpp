@@ -61,7 +61,7 @@ void require_finite(const PointSet& points) {
 void require_squares(const PointSet& points, Norm norm) {
     require_finite(points);
     require_squares(bounding_box(points.flat(), points.dimension()), norm,
-                    "the points lie too far apart");
+                    "the points are too far apart");
 }
 
 /// @throws Error(input) for points outside their domain, or with coordinates that are not finite
@@ -91,7 +91,8 @@ Distances distances_of(const PointSet& points, const std::string& asked) {
     if (!distances.box) {
         if (asked.starts_with("torus"))
             fail(ErrorKind::usage,
-                 "--metric: a torus joins the faces of a unit cube or a box; the points live on {}",
+                 "--metric: a torus joins the faces of a unit cube or a box; the domain of the "
+                 "points is {}",
                  points.domain->title());
         distances.torus = false;
         require_squares(points, distances.norm);
@@ -99,14 +100,13 @@ Distances distances_of(const PointSet& points, const std::string& asked) {
     }
     const Outside outside = outside_of(points);
     if (outside.count == 0) {
-        require_squares(*distances.box, distances.norm,
-                        "the box that the points live on is too wide");
+        require_squares(*distances.box, distances.norm, "the box is too wide");
         return distances;
     }
     if (distances.torus)
         refuse_places(
             outside, points,
-            "--domain names what the points live on; --metric euclidean takes points anywhere");
+            "--domain names the domain of the points; --metric euclidean accepts points anywhere");
     distances.box.reset();
     require_squares(points, distances.norm);
     return distances;
@@ -116,13 +116,13 @@ Distances distances_in_box(const PointSet& points, const std::string& asked, con
     const std::optional<Box> box = box_of(*points.domain);
     if (!box) {
         static_cast<void>(distances_of(points, asked));  // throws its own error for a torus
-        fail(ErrorKind::input, "{} takes points of the unit cube or a box; these live on {}",
+        fail(ErrorKind::input, "{} requires points of the unit cube or a box; their domain is {}",
              analyzer, points.domain->title());
     }
     const Outside outside = outside_of(points);
     if (outside.count > 0)
         refuse_places(outside, points, "--domain 'box:bounds=[lo..hi,...]' names another box");
-    require_squares(*box, Norm::euclidean, "the box that the points live on is too wide");
+    require_squares(*box, Norm::euclidean, "the box is too wide");
     return {.torus = asked != "euclidean", .box = box};
 }
 
@@ -147,8 +147,8 @@ void require_places(const PointSet& points, const char* analyzer) {
     if (points.count() < 2)
         fail(ErrorKind::input, "{} needs at least two points; this is one", analyzer);
     if (all_equal(points))
-        fail(ErrorKind::input, "{} needs points at two places at least; all {} are at one",
-             analyzer, points.count());
+        fail(ErrorKind::input, "{} needs points at two or more places; all {} are at one", analyzer,
+             points.count());
 }
 
 std::vector<Neighbor> nearest_neighbors(const PointSet& points, const Distances& distances,

@@ -21,17 +21,17 @@ inline constexpr Param<Choice> metric{
     .name = "metric",
     .choices = "torus|euclidean",
     .help =
-        "Across opposite faces of the unit cube or box that the points live on, or straight; "
-        "default: torus, and euclidean on domains without faces"};
+        "torus: distances wrap across opposite faces of the points' unit cube or box; euclidean: "
+        "straight distances; default: torus, and euclidean on domains without faces"};
 
 /// The same option for measures that also make sense in other norms.
 inline constexpr Param<Choice> metric_of_any_norm{
     .name = "metric",
     .choices = "torus|euclidean|manhattan|chebyshev|torus-manhattan|torus-chebyshev",
     .help =
-        "Across opposite faces of the unit cube or box that the points live on (torus), or "
-        "straight; Euclidean, the sum of the distances along the axes (manhattan), or the largest "
-        "(chebyshev); default: torus, and euclidean on domains without faces"};
+        "torus: distances wrap across opposite faces of the points' unit cube or box; others are "
+        "straight. Norm: Euclidean, the sum of the distances along the axes (manhattan), or the "
+        "largest (chebyshev); default: torus, and euclidean on domains without faces"};
 
 struct Distances {
     bool torus;

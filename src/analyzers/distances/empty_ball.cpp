@@ -208,9 +208,9 @@ class Search {
     }
 
     [[noreturn]] void give_up() const {
-        fail_with_hint(ErrorKind::limit, "a larger --max-boxes or --tolerance may do",
-                       "the largest empty ball of {} points in {} dimensions takes more than {} "
-                       "boxes (--max-boxes); certain so far: its radius is at least {}",
+        fail_with_hint(ErrorKind::limit, "a larger --max-boxes or --tolerance may help",
+                       "the search for the largest empty ball of {} points in {} dimensions "
+                       "exceeds {} boxes (--max-boxes); certain so far: its radius is at least {}",
                        points_.count(), points_.dimension(), search_.max_boxes,
                        format_number(best_.radius));
     }

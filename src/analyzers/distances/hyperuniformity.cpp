@@ -76,7 +76,7 @@ constexpr Param<double> max_radius{
     .low_open = true,
     .optional = true,
     .unit = "(V / n)^(1/d)",
-    .help = "The largest radius; without it 10, but at most an eighth of the shortest side"};
+    .help = "Largest radius; default: 10, but at most an eighth of the shortest side"};
 
 constexpr Param<double> min_radius{
     .name = "min-radius",
@@ -84,21 +84,22 @@ constexpr Param<double> min_radius{
     .low_open = true,
     .optional = true,
     .unit = "(V / n)^(1/d)",
-    .help = "The smallest radius; without it 1, but at most half the largest"};
+    .help = "Smallest radius; default: 1, but at most half the largest"};
 
 constexpr Param<std::int64_t> radius_count{
     .name = "radii",
     .fallback = 40,
     .low = 3,
     .high = 1000,
-    .help = "Radii, spread evenly over their logarithms; some fall together in small ranges"};
+    .help = "Number of radii, evenly spaced in their logarithms; in small ranges some coincide"};
 
 constexpr Param<std::int64_t> window_count{
     .name = "windows",
     .fallback = 10'000,
     .low = 2,
     .high = 1'000'000'000,
-    .help = "Windows drawn with --metric euclidean; on the torus all are counted"};
+    .help =
+        "Number of random windows with --metric euclidean; on the torus all positions are counted"};
 
 /// Number of bins within twice the smallest radius, limited by their number within twice the
 /// largest.
@@ -163,7 +164,7 @@ Plan plan_for(const PointSet& points, const Box& box, const Values& options) {
     }
     if (plan.halves.size() < 3)
         fail(ErrorKind::usage,
-             "--min-radius: {} is too near to the largest radius, {}, for a slope",
+             "--min-radius: {} is too close to the largest radius, {}, to fit a slope",
              format_number(least), format_number(most));
     return plan;
 }
@@ -375,7 +376,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     const Distances distances = distances_in_box(points, options[metric], "hyperuniformity");
     require_places(points, "hyperuniformity");
     if (options.given(window_count) && distances.torus)
-        fail(ErrorKind::usage, "--windows is of --metric euclidean");
+        fail(ErrorKind::usage, "--windows applies to --metric euclidean only");
     const Plan plan = plan_for(points, *distances.box, options);
     const auto windows = static_cast<std::size_t>(options[window_count]);
     Curves curves = distances.torus ? by_pairs(points, plan, distances, run)
@@ -399,9 +400,9 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
 
 /// Fails for sets with different radii. @throws Error(usage)
 [[noreturn]] void refuse_mean() {
-    fail_with_hint(ErrorKind::usage, "give them one --min-radius and --max-radius",
-                   "--average: the sets have windows of different radii, as they have different "
-                   "numbers of points");
+    fail_with_hint(ErrorKind::usage, "set one --min-radius and --max-radius for all",
+                   "--average: the sets have windows of different radii, because their numbers of "
+                   "points differ");
 }
 
 /// Takes the slope of the mean variance, which scatters less than the mean of the slopes.
@@ -420,30 +421,32 @@ void combine(Report&, std::span<const Report> sets, const Values&) {
 Analyzer unit() {
     return {
         .name = "hyperuniformity",
-        .summary = "Number variance in growing windows, with its exponent",
+        .summary = "Variance of the number of points in growing windows, with its exponent",
         .source = "Torquato, Stillinger 2003, doi:10.1103/PhysRevE.68.041113",
         .related = {"number-variance"},
         .traits = {.max_dimension = 3, .unit_cube = false, .boxed = true},
         .options = Schema(max_radius, min_radius, radius_count, window_count, metric),
-        .results =
-            {{"exponent",
-              "slope of log variance, on the torus over 1 - its share of the volume, against "
-              "log radius: d for independent points, d - 1 for the most even ones"},
-             {"exponent_standard_error", "of the fit; too small, as radii share pairs"},
-             {"fit_from", "the smallest radius of the fit, in mean distances"},
-             {"fit_to", "the largest one"},
-             {"radius", "of the windows, in mean distances"},
-             {"mean", "number of points in a window"},
-             {"variance", "of that number over all places of the window"},
-             {"variance_error",
-              "most that it may be off by, besides rounding; on the torus, where no windows are "
-              "drawn"},
-             {"dispersion", "variance over that of n independent points, mean (1 - v / V)"},
-             {"mean_distance", "(V / n)^(1/d), in units of the points"},
-             {"method",
-              "pairs: through them, so over all places of the window; windows: over those drawn",
-              true, "pairs|windows"},
-             {"metric", "torus or euclidean", true, "torus|euclidean"}},
+        .results = {{"exponent",
+                     "slope of log variance against log radius (on the torus, of variance / (1 - "
+                     "window volume / V)): d for independent points, d - 1 for the most even ones"},
+                    {"exponent_standard_error",
+                     "standard error of the fit; too small, because radii share pairs"},
+                    {"fit_from", "smallest radius of the fit, in mean distances"},
+                    {"fit_to", "largest radius of the fit, in mean distances"},
+                    {"radius", "radius of the windows, in mean distances"},
+                    {"mean", "mean number of points in a window"},
+                    {"variance", "variance of that number over all positions of the window"},
+                    {"variance_error",
+                     "bound on the error of the variance, besides rounding; only on the torus, "
+                     "without random windows"},
+                    {"dispersion",
+                     "variance divided by that of n independent points, mean (1 - v / V)"},
+                    {"mean_distance", "(V / n)^(1/d), in units of the points"},
+                    {"method",
+                     "pairs: computed from pairs, over all positions of the window; windows: over "
+                     "random windows",
+                     true, "pairs|windows"},
+                    {"metric", "torus or euclidean", true, "torus|euclidean"}},
         .analyze = analyze,
         .refine = refine,
         .combine = combine};

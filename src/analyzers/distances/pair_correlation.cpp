@@ -54,19 +54,20 @@ constexpr Param<double> max_distance{
     .low_open = true,
     .optional = true,
     .help =
-        "Pairs up to this distance; without it 5 (V / n)^(1/d), but at most half the shortest "
-        "side on the torus and the shortest side elsewhere"};
+        "Largest distance of pairs; default: 5 (V / n)^(1/d), but at most half the shortest side "
+        "on the torus and the shortest side elsewhere"};
 
 constexpr Param<std::int64_t> bin_count{.name = "bins",
                                         .fallback = 200,
                                         .low = 1,
                                         .high = 1'000'000,
-                                        .help = "Bins of distance, all as wide"};
+                                        .help = "Number of distance bins, of equal width"};
 
-constexpr Param<Choice> kernel{.name = "kernel",
-                               .fallback = "histogram",
-                               .choices = "histogram|epanechnikov",
-                               .help = "How pairs count: by their bin, or smoothed by a parabola"};
+constexpr Param<Choice> kernel{
+    .name = "kernel",
+    .fallback = "histogram",
+    .choices = "histogram|epanechnikov",
+    .help = "How pairs are counted: histogram: in bins; epanechnikov: smoothed by a parabola"};
 
 constexpr Param<std::int64_t> bandwidth{.name = "bandwidth",
                                         .fallback = 4,
@@ -77,7 +78,7 @@ constexpr Param<std::int64_t> bandwidth{.name = "bandwidth",
 
 constexpr Param<bool> normalize{
     .name = "normalize-distance",
-    .help = "Gives distances, and takes --max-distance, in units of (V / n)^(1/d)"};
+    .help = "Give distances, and --max-distance, in units of (V / n)^(1/d)"};
 
 /// Resolved request: `bins` of `width`, and the `unit` of reported distances.
 struct Plan {
@@ -103,7 +104,7 @@ Plan plan_for(const PointSet& points, const Values& options) {
         .unit = 1,
         .pairs = 0};
     if (options.given(bandwidth) && plan.spread == 0)
-        fail(ErrorKind::usage, "--bandwidth is of --kernel epanechnikov");
+        fail(ErrorKind::usage, "--bandwidth applies to --kernel epanechnikov only");
     if (plan.spread > plan.bins)
         fail(ErrorKind::usage, "--bandwidth: {} is more than the {} bins", plan.spread, plan.bins);
     const auto n = static_cast<double>(points.count());
@@ -116,7 +117,7 @@ Plan plan_for(const PointSet& points, const Values& options) {
         reach = options[max_distance] * plan.unit;
         if (!(reach <= longest * (1 + 1e-9)))
             fail(ErrorKind::usage,
-                 "--max-distance: {} is more than any two points have; at most {}",
+                 "--max-distance: {} is more than any pair can have; expected at most {}",
                  format_number(options[max_distance]), format_number(longest / plan.unit));
     }
     plan.width = reach / static_cast<double>(plan.bins);
@@ -234,10 +235,9 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
         count_pairs(points, plan.distances, plan.width, plan.bins + plan.spread, plan.spread > 0,
                     run.stage(0, 0.98));
     if (std::ranges::count(counts.pairs, 0U) == std::ssize(counts.pairs))
-        run.notify(
-            fmt::format("no two points are within {:.4g}, as far as distances are looked at: there "
-                        "are no pairs to count",
-                        static_cast<double>(plan.bins) * plan.width));
+        run.notify(fmt::format(
+            "no two points are within the largest distance, {:.4g}: there are no pairs to count",
+            static_cast<double>(plan.bins) * plan.width));
     const RunContext rest = run.stage(0.98, 1);
     Curves curves = plan.spread == 0 ? histogram(plan, counts, rest) : smooth(plan, counts, rest);
     const char* unit = options[normalize] ? "(V / n)^(1/d)" : "";
@@ -260,33 +260,35 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
 /// Functions over different distances cannot be averaged.
 void combine(Report&, std::span<const Report> sets, const Values&) {
     if (!alike(sets, "bin_width"))
-        fail_with_hint(ErrorKind::usage, "give one --max-distance, or --normalize-distance",
-                       "--average: the sets differ in their number of points or their box, "
-                       "and so in the distances looked at");
+        fail_with_hint(ErrorKind::usage, "set one --max-distance, or --normalize-distance",
+                       "--average: the sets differ in number of points or in box, and therefore in "
+                       "their largest distances");
 }
 
 }  // namespace
 
 Analyzer unit() {
-    return {.name = "pair-correlation",
-            .summary = "Pair correlation function: points at each distance of a point",
-            .source = "Chiu, Stoyan, Kendall, Mecke, Stochastic Geometry and its Applications 2013",
-            .related = {"pcf", "rdf", "radial-distribution", "ripley"},
-            .traits = {.max_dimension = 3, .unit_cube = false, .boxed = true},
-            .options = Schema(max_distance, bin_count, kernel, bandwidth, normalize, metric),
-            .results = {{"distance", "middles of the bins (epanechnikov: their rims, from 0)"},
-                        {"density", "pairs at that distance over those of uniform points"},
-                        {"deviation",
-                         "standard deviation of the density of one set of uniform points; on the "
-                         "torus only"},
-                        {"pairs", "in each bin; kernel histogram only"},
-                        {"max_distance", "the last bin's upper rim"},
-                        {"bin_width", "of each bin"},
-                        {"mean_distance", "(V / n)^(1/d), in units of the points"},
-                        {"kernel", "histogram or epanechnikov", true, "histogram|epanechnikov"},
-                        {"metric", "torus or euclidean", true, "torus|euclidean"}},
-            .analyze = analyze,
-            .combine = combine};
+    return {
+        .name = "pair-correlation",
+        .summary =
+            "Pair correlation function: relative density of points at each distance from a point",
+        .source = "Chiu, Stoyan, Kendall, Mecke, Stochastic Geometry and its Applications 2013",
+        .related = {"pcf", "rdf", "radial-distribution", "ripley"},
+        .traits = {.max_dimension = 3, .unit_cube = false, .boxed = true},
+        .options = Schema(max_distance, bin_count, kernel, bandwidth, normalize, metric),
+        .results =
+            {{"distance", "centres of the bins (epanechnikov: their edges, from 0)"},
+             {"density", "number of pairs at that distance divided by that of uniform points"},
+             {"deviation",
+              "standard deviation of the density for one set of uniform points; only on the torus"},
+             {"pairs", "number of pairs in each bin; only for the kernel histogram"},
+             {"max_distance", "upper edge of the last bin"},
+             {"bin_width", "width of each bin"},
+             {"mean_distance", "(V / n)^(1/d), in units of the points"},
+             {"kernel", "histogram or epanechnikov", true, "histogram|epanechnikov"},
+             {"metric", "torus or euclidean", true, "torus|euclidean"}},
+        .analyze = analyze,
+        .combine = combine};
 }
 
 }  // namespace stipple::analyzers::pair_correlation

@@ -41,27 +41,27 @@
 namespace stipple::analyzers::poisson_disk {
 namespace {
 
-constexpr Param<double> radius{
-    .name = "radius",
-    .low = 0,
-    .low_open = true,
-    .optional = true,
-    .unit = "length",
-    .help =
-        "Least distance of two points, and largest to the nearest of them; default: the one "
-        "that the points were made with, if they tell, else their smallest distance"};
+constexpr Param<double> radius{.name = "radius",
+                               .low = 0,
+                               .low_open = true,
+                               .optional = true,
+                               .unit = "length",
+                               .help =
+                                   "Radius to verify: smallest distance between points, and "
+                                   "largest distance from any place to the nearest point; default: "
+                                   "that of the points' provenance, else their smallest distance"};
 
 constexpr Param<double> tolerance{
     .name = "tolerance",
     .fallback = 1e-9,
     .low = 1e-12,
     .high = 1,
-    .help = "A gap counts when its radius is larger than the set's by this part of it"};
+    .help = "A gap counts if its radius exceeds the set's by more than this fraction"};
 
 constexpr Param<Choice> expect{
     .name = "expect",
     .choices = "valid",
-    .help = "Fail (exit code 1) when the set is not spaced or not maximal"};
+    .help = "Fail (exit code 1) if points are too close or the set is not maximal"};
 
 /// Option that the points were made with, from their provenance; nullopt if unknown or after warps.
 std::optional<std::string> option_of(const PointSet& points, std::string_view option) {
@@ -80,9 +80,9 @@ std::string metric_of(const PointSet& points, const Values& options) {
 void require_one_radius(const PointSet& points) {
     for (const char* option : {"density", "radius-map", "mask"})
         if (const auto file = option_of(points, option); file && !file->empty())
-            fail_with_hint(ErrorKind::input, "--radius R verifies one radius all the same",
+            fail_with_hint(ErrorKind::input, "--radius R verifies one radius nevertheless",
                            "the points were made with --{}: {}", option,
-                           std::string_view(option) == "mask" ? "a part of the box is left out"
+                           std::string_view(option) == "mask" ? "a part of the box is excluded"
                                                               : "their radius varies");
 }
 
@@ -93,7 +93,8 @@ double radius_of(const PointSet& points, const Values& options, double squared) 
     if (const auto text = option_of(points, "radius"))
         if (const auto number = parse_number(*text); number && *number > 0) return *number;
     if (!std::isfinite(squared))
-        fail(ErrorKind::usage, "--radius: a single point tells no radius; give one");
+        fail(ErrorKind::usage,
+             "--radius: a single point has no distance from which to take the radius; give one");
     const double root = std::sqrt(squared);
     return root * root <= squared ? root : std::nextafter(root, 0.0);
 }
@@ -131,13 +132,13 @@ Conflicts find_conflicts(const PointSet& points, const Distances& distances,
 std::string complaint(double r, const Conflicts& conflicts, const EmptyBall& ball, bool maximal) {
     std::vector<std::string> reasons;
     if (conflicts.count > 0)
-        reasons.push_back(fmt::format("{} pairs are nearer, the first is {}", conflicts.count,
+        reasons.push_back(fmt::format("{} pairs are closer, the first is {}", conflicts.count,
                                       fmt::join(conflicts.first, ", ")));
     if (!maximal)
         reasons.push_back(fmt::format("({}) is {} from the nearest point",
                                       fmt::join(ball.center, ", "), format_number(ball.radius)));
-    return fmt::format("the set is no maximal Poisson-disk set of radius {}: {}", format_number(r),
-                       join(reasons, "; "));
+    return fmt::format("the set is not a maximal Poisson-disk set of radius {}: {}",
+                       format_number(r), join(reasons, "; "));
 }
 
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
@@ -188,17 +189,18 @@ Analyzer unit() {
         .related = {"maximality"},
         .traits = {.max_dimension = 32, .unit_cube = false, .boxed = true},
         .options = Schema(radius, metric, tolerance, expect),
-        .results = {{"radius", "that was verified"},
-                    {"minimum", "the smallest distance of two points"},
+        .results = {{"radius", "radius that was verified"},
+                    {"minimum", "smallest distance between two points"},
                     {"coverage_radius",
-                     "of the largest ball in which no point is; in 3 and more dimensions, of "
-                     "the largest that was met, where none is too large"},
-                    {"center", "of that ball"},
-                    {"conflicts", "pairs of points that are nearer than the radius"},
-                    {"first_conflict", "the first such pair (points from 0); else empty"},
-                    {"maximal", "whether no place is farther than the radius from all points", true,
+                     "radius of the largest ball without points; in 3 or more dimensions, of the "
+                     "largest found if none is too large"},
+                    {"center", "centre of that ball"},
+                    {"conflicts", "number of pairs of points closer than the radius"},
+                    {"first_conflict", "first such pair (points from 0); empty if there is none"},
+                    {"maximal", "whether every place is within the radius of a point", true,
                      true_or_false},
-                    {"valid", "whether that is so and there are no conflicts", true, true_or_false},
+                    {"valid", "whether the set is maximal and has no conflicts", true,
+                     true_or_false},
                     {"metric", "torus or euclidean", true, "torus|euclidean"}},
         .analyze = analyze,
         .refine = refine};

@@ -83,28 +83,28 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
 }  // namespace
 
 Analyzer unit() {
-    return {
-        .name = "spanning-tree",
-        .summary = "Minimum spanning tree: mean and deviation of its edges",
-        .source = "Dussert et al. 1986, doi:10.1103/PhysRevB.34.3528",
-        .related = {"mst"},
-        .traits = {.unit_cube = false},
-        .options = Schema(metric_of_any_norm),
-        .results = {{"mean", "length of an edge"},
-                    {"standard_deviation", "of the edges' lengths, over all n - 1"},
-                    {"normalized_mean",
-                     "mean over (V n^(d-1))^(1/d) / (n - 1); about 0.647 for independent "
-                     "points of the plane, 1.075 for hexagons"},
-                    {"normalized_deviation", "standard_deviation over the same"},
-                    {"minimum", "the shortest edge: the smallest distance of two points"},
-                    {"maximum", "the longest: disks of half of it are all connected"},
-                    {"length", "of all edges together"},
-                    {"edges", "n - 1"},
-                    {"duplicates", "edges of length 0"},
-                    {"metric",
-                     "torus, euclidean, manhattan, chebyshev, torus-manhattan or torus-chebyshev",
-                     true, metric_of_any_norm.choices}},
-        .analyze = analyze};
+    return {.name = "spanning-tree",
+            .summary = "Minimum spanning tree: mean and deviation of its edges",
+            .source = "Dussert et al. 1986, doi:10.1103/PhysRevB.34.3528",
+            .related = {"mst"},
+            .traits = {.unit_cube = false},
+            .options = Schema(metric_of_any_norm),
+            .results =
+                {{"mean", "mean length of an edge"},
+                 {"standard_deviation", "standard deviation of the edges' lengths, over all n - 1"},
+                 {"normalized_mean",
+                  "mean divided by (V n^(d-1))^(1/d) / (n - 1); about 0.647 for independent points "
+                  "of the plane, 1.075 for hexagons"},
+                 {"normalized_deviation", "standard_deviation divided by the same"},
+                 {"minimum", "shortest edge: the smallest distance between two points"},
+                 {"maximum", "longest edge: disks of half this radius form one connected region"},
+                 {"length", "total length of all edges"},
+                 {"edges", "number of edges, n - 1"},
+                 {"duplicates", "number of edges of length 0"},
+                 {"metric",
+                  "torus, euclidean, manhattan, chebyshev, torus-manhattan or torus-chebyshev",
+                  true, metric_of_any_norm.choices}},
+            .analyze = analyze};
 }
 
 }  // namespace stipple::analyzers::spanning_tree

@@ -54,7 +54,9 @@ constexpr Param<double> shortest_edge{
     .low = 0,
     .high = 1,
     .unit = "sqrt(V / n)",
-    .help = "Cells that share a shorter edge are no neighbours: four cells meet in a corner"};
+    .help =
+        "Cells whose common edge is shorter do not count as neighbours: the edge is taken as a "
+        "corner of four cells"};
 
 constexpr std::size_t fewest_neighbors = 3;
 constexpr std::size_t most_neighbors = 16;  ///< or more
@@ -234,7 +236,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
 Analyzer unit() {
     return {
         .name = "voronoi",
-        .summary = "Voronoi cells: areas, numbers of neighbours, bond order, Lloyd's energy",
+        .summary = "Voronoi cells: areas, numbers of neighbours, bond order, Lloyd energy",
         .source =
             "Halperin, Nelson 1978, doi:10.1103/PhysRevLett.41.121 (bond order); Balzer, "
             "Schloemer, Deussen 2009, doi:10.1145/1531326.1531392 (capacity error)",
@@ -242,28 +244,33 @@ Analyzer unit() {
         .traits = {.min_dimension = 2, .max_dimension = 2, .unit_cube = false, .boxed = true},
         .options = Schema(shortest_edge, metric),
         .results =
-            {{"cells", "m, the places where there are points"},
-             {"duplicates", "points that are at a place of one counted before"},
-             {"inner_cells", "cells that touch no side of the box: all on the torus"},
+            {{"cells", "m, the number of distinct places of points"},
+             {"duplicates", "points at the place of an earlier point"},
+             {"inner_cells", "cells that touch no side of the box; all cells on the torus"},
              {"area.mean", "V / m"},
-             {"area.variation", "coefficient of variation: standard deviation over mean"},
+             {"area.variation", "coefficient of variation: standard deviation / mean"},
              {"area.capacity_error", "its square, as in the literature on blue noise"},
-             {"area.smallest", "over the mean"},
-             {"area.largest", "over the mean"},
-             {"valence.mean", "neighbours of an inner cell; 6 on the torus, if no corner has four"},
-             {"valence.standard_deviation", "of the number of neighbours"},
-             {"valence.six", "share of the inner cells that have six"},
-             {"valence.neighbors", "3, 4, ..., 16; the last also stands for more"},
-             {"valence.share", "of the inner cells that have so many"},
-             {"bond_order.local", "mean |psi_6| of the inner cells, as papers on sampling have it"},
-             {"bond_order.global", "|mean psi_6|: whether all stand alike, as in physics"},
-             {"bond_order.bonds", "the same, all bonds having one weight"},
-             {"lloyd_energy", "mean squared distance of a place to the nearest point"},
+             {"area.smallest", "smallest area / mean"},
+             {"area.largest", "largest area / mean"},
+             {"valence.mean",
+              "mean number of neighbours of an inner cell; 6 on the torus, unless four cells meet "
+              "in a corner"},
+             {"valence.standard_deviation", "standard deviation of the number of neighbours"},
+             {"valence.six", "fraction of the inner cells with six neighbours"},
+             {"valence.neighbors", "numbers of neighbours: 3, 4, ..., 16; the last includes more"},
+             {"valence.share", "fraction of the inner cells with that many neighbours"},
+             {"bond_order.local", "mean |psi_6| of the inner cells, as in papers on sampling"},
+             {"bond_order.global",
+              "|mean psi_6|: also requires that all cells have the same orientation, as in "
+              "physics"},
+             {"bond_order.bonds", "the same, with equal weights of all bonds"},
+             {"lloyd_energy", "mean squared distance from a place to the nearest point"},
              {"normalized_second_moment", "m E / (2 V): 0.080188 for hexagons, 0.159 at random"},
              {"centroid_offset.mean",
-              "distance of a point from its cell's centroid, in mean distances sqrt(V / m)"},
-             {"centroid_offset.root_mean_square", "the root of the mean square of these"},
-             {"centroid_offset.maximum", "the largest of these"},
+              "mean distance from a point to the centroid of its cell, in mean distances sqrt(V / "
+              "m)"},
+             {"centroid_offset.root_mean_square", "root mean square of these distances"},
+             {"centroid_offset.maximum", "largest of these distances"},
              {"mean_distance", "sqrt(V / m), in units of the points"},
              {"metric", "torus or euclidean", true, "torus|euclidean"}},
         .analyze = analyze};

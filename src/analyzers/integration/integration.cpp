@@ -70,7 +70,7 @@ namespace {
 constexpr Param<Text> integrand{
     {.name = "integrand",
      .help = "What to integrate: NAME[:OPT=V,...], several separated by commas; default: all that "
-             "take the points. On a box: genz-oscillatory, genz-product-peak, genz-corner-peak, "
+             "fit the points. On a box: genz-oscillatory, genz-product-peak, genz-corner-peak, "
              "genz-gaussian, genz-continuous, genz-discontinuous (:seed=S,difficulty=D), "
              "smooth-gaussian (:width=W), owen (:order=K), sobol-g (:a=[A,A,...]); in 2-D "
              "disk-indicator, half-plane-indicator, soft-shadow (:seed=S), zone-plate (:phase=K); "
@@ -78,22 +78,20 @@ constexpr Param<Text> integrand{
 
 constexpr Param<Text> expression{
     {.name = "expression",
-     .help =
-         "Also, or instead, a formula in x, y, z or x1, x2, ..., the points' coordinates as they "
-         "are: 'exp(-x*y)'; its functions: stipple help formulas"}};
+     .help = "Formula to integrate, besides or instead of --integrand, in the points' coordinates "
+             "x, y, z or x1, x2, ...: 'exp(-x*y)'; functions: stipple help formulas"}};
 
 constexpr Param<double> exact{.name = "exact",
                               .optional = true,
                               .help =
-                                  "The integral of the expression over the domain, or over the "
-                                  "part where the density is not 0, if known"};
+                                  "Exact integral of the expression over the domain (over the part "
+                                  "of positive density, if that is smaller), if known"};
 
-constexpr Param<bool> compare{
-    .name = "compare",
-    .help =
-        "Also integrate by uniform points, made from the same points of the cube, and compare "
-        "the variances; where that cannot be done, work out from the points' weights what the "
-        "variance of uniform ones would be"};
+constexpr Param<bool> compare{.name = "compare",
+                              .help =
+                                  "Also integrate by uniform points, made from the same points of "
+                                  "the cube, and compare the variances; if these cannot be made, "
+                                  "estimate the variance of uniform points from the weights"};
 
 struct Task {
     std::string name;
@@ -111,14 +109,14 @@ const char* words(Region region) {
 void require_fit(const IntegrandKind& kind, const Domain& domain, const RegionView& view) {
     const std::size_t d = domain.dimension();
     if (!view.has(kind.region))
-        fail(ErrorKind::input, "--integrand: {} takes points of {}; these live on {}", kind.name,
+        fail(ErrorKind::input, "--integrand: {} requires points of {}; the domain is {}", kind.name,
              words(kind.region), domain.title());
     if (d >= kind.min_dimension && d <= kind.max_dimension) return;
     const std::string range = kind.min_dimension == kind.max_dimension
                                   ? std::to_string(kind.min_dimension)
                                   : fmt::format("{} to {}", kind.min_dimension, kind.max_dimension);
-    fail(ErrorKind::input, "--integrand: {} takes points of dimension {}; these have {}", kind.name,
-         range, d);
+    fail(ErrorKind::input, "--integrand: {} requires points of dimension {}; these have {}",
+         kind.name, range, d);
 }
 
 bool fits(const IntegrandKind& kind, const Domain& domain, const RegionView& view) {
@@ -138,7 +136,7 @@ Named named(const std::string& text) {
     try {
         const Spec spec = parse_spec(text);
         if (!spec.coordinates.empty())
-            fail(ErrorKind::usage, "'{}': coordinates behind @ are for warps", text);
+            fail(ErrorKind::usage, "'{}': coordinates after @ are for warps only", text);
         const IntegrandKind& kind = integrand_kind(spec.name);
         where += ": " + kind.name;
         return {kind, spec.values(kind.options)};
@@ -196,10 +194,10 @@ std::vector<Task> tasks_that_fit(const Domain& domain, const RegionView& view,
         if (fits(kind, domain, view))
             tasks.push_back(task_of(kind, kind.options.defaults(), domain, view, support));
     if (tasks.empty())
-        fail_with_hint(ErrorKind::input, "--expression gives one",
-                       "no integrand takes points of {}, which is neither a box nor of a finite "
-                       "measure",
-                       domain.title());
+        fail_with_hint(
+            ErrorKind::input, "--expression accepts any domain",
+            "no integrand is defined on {}, which is neither a box nor of finite measure",
+            domain.title());
     return tasks;
 }
 
@@ -228,7 +226,7 @@ std::vector<Task> tasks_of(const Domain& domain, const RegionView& view, const S
                            const Values& options) {
     const bool typed = options.given(expression);
     if (options.given(exact) && !typed)
-        fail(ErrorKind::usage, "--exact: is the integral of an --expression; none is given");
+        fail(ErrorKind::usage, "--exact: needs --expression, whose integral it is");
     std::vector<Task> tasks;
     if (options.given(integrand))
         tasks = tasks_named(options[integrand], domain, view, support);
@@ -360,7 +358,9 @@ class Evaluation {
 [[noreturn]] void refuse(const Fault& fault, const std::vector<Task>& tasks, const Domain& domain) {
     const std::string& name = tasks[fault.task].name;
     if (fault.uniform)
-        fail(ErrorKind::input, "--compare: at the uniform point made of point {} {} is {}",
+        fail(ErrorKind::input,
+             "--compare: at the uniform point made from point {}, {} is {}; expected a finite "
+             "number",
              fault.point, name, fault.value);
     fail(ErrorKind::input, "at point {} the integrand {} is {} and the density of {} is {}",
          fault.point, name, fault.value, domain.title(), fault.density);
@@ -437,8 +437,7 @@ Uniform uniform_for(const PointSet& points, const RegionView& view, const Suppor
     const Domain& domain = *points.domain;
     if (!support.finite)
         fail(ErrorKind::input,
-             "--compare: there are no uniform points on {}: its measure is "
-             "infinite",
+             "--compare: there are no uniform points on {}, because its measure is infinite",
              domain.title());
     if (!support.measure) {
         const Tally found = measure_of(points);
@@ -461,8 +460,8 @@ void tell_support(const Support& support, Report& report) {
     if (support.measure)
         part.add("measure", support.measure->value).add("measure_error", support.measure->error);
     part.add("meaning",
-             "the density is 0 on a part of the domain: estimates, and exact values where they are "
-             "given, are integrals over the rest");
+             "the density is 0 on a part of the domain: estimates, and exact values if given, are "
+             "integrals over the rest");
     report.add("support", std::move(part));
 }
 
@@ -555,41 +554,42 @@ void combine(Report& mean, std::span<const Report> sets, const Values&) {
 std::vector<ResultKey> results() {
     return {
         {"INTEGRAND.estimate",
-         "mean of f / p, where p is the density of the points: that of a column pdf or weight "
-         "(1 / pdf), or of a biased warp in the meta, where there is one; else the domain's"},
-        {"INTEGRAND.exact", "the integral; of an expression, if --exact tells it"},
+         "mean of f / p, where p is the density of the points: from a column pdf or weight (1 / "
+         "pdf), or of a biased warp in the provenance; otherwise that of the domain"},
+        {"INTEGRAND.exact", "exact integral; for an expression, the value of --exact"},
         {"INTEGRAND.error", "estimate - exact"},
-        {"INTEGRAND.exact_error", "what exact may be off by, where it is by quadrature", false},
+        {"INTEGRAND.exact_error", "bound on the error of exact, if computed by quadrature", false},
         {"density",
-         "whose density it is, where not the domain's: pdf or weight, the column's; warps, that of "
-         "the warps in the meta",
+         "origin of the density, if it is not the domain's: pdf or weight: that column; warps: the "
+         "warps in the provenance",
          false, "pdf|weight|warps"},
         {"support.whole",
-         "false where the density is 0 on a part of the domain: all is then of the rest", false,
-         true_or_false},
-        {"support.measure", "of that rest, where it is known", false},
-        {"support.measure_error", "what it may be off by; of an estimate, one standard error",
-         false},
+         "false if the density is 0 on a part of the domain: all results then apply to the rest",
+         false, true_or_false},
+        {"support.measure", "measure of that rest, if known", false},
+        {"support.measure_error",
+         "error bound of the measure; one standard error if it is an estimate", false},
         {"support.measure_is_estimate",
-         "true: --compare found the measure from the points' weights, as nobody knows it", false,
-         true_or_false},
-        {"support.meaning", "the same in words", false},
+         "true: --compare estimated the measure from the points' weights, because it is not known",
+         false, true_or_false},
+        {"support.meaning", "explanation in words", false},
         {"INTEGRAND.standard_error",
-         "of the estimate: of several sets (--average) from the spread between them; of one "
-         "set only if its meta names a generator of independent points",
+         "standard error of the estimate: for several sets (--average) from the spread between "
+         "them; for one set only if its provenance names a generator of independent points",
          false},
         {"INTEGRAND.interval_low",
-         "of several sets (--average): the 95 % confidence interval, by Student's t", false},
-        {"INTEGRAND.interval_high", "its other end", false},
-        {"INTEGRAND.rms_error", "of several sets (--average): root mean square of their errors",
+         "lower end of the 95 % confidence interval from several sets (--average), by Student's t",
          false},
-        {"compare.INTEGRAND.importance_estimate", "--compare: the estimate", false},
+        {"INTEGRAND.interval_high", "upper end of that interval", false},
+        {"INTEGRAND.rms_error", "root mean square error of several sets (--average)", false},
+        {"compare.INTEGRAND.importance_estimate", "--compare: estimate by importance sampling",
+         false},
         {"compare.INTEGRAND.importance_variance", "variance of f / p over the points", false},
         {"compare.INTEGRAND.uniform_estimate", "estimate by uniform points", false},
         {"compare.INTEGRAND.uniform_variance",
-         "variance of the domain's measure times f over uniform points", false},
+         "variance of f times the measure of the domain, over uniform points", false},
         {"compare.INTEGRAND.variance_ratio",
-         "uniform over importance: above 1, importance sampling pays", false}};
+         "uniform_variance / importance_variance: above 1, importance sampling pays", false}};
 }
 
 }  // namespace

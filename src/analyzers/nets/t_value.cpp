@@ -47,7 +47,7 @@ constexpr Param<std::int64_t> base{.name = "base",
                                    .fallback = 2,
                                    .low = 2,
                                    .high = 1'000'000,
-                                   .help = "Base b; the number of points is a power of it"};
+                                   .help = "Base b; the number of points must be a power of b"};
 
 constexpr Param<std::int64_t> projections{
     .name = "projections",
@@ -55,7 +55,7 @@ constexpr Param<std::int64_t> projections{
     .low = 1,
     .high = 8,
     .unit = "coordinates",
-    .help = "Gives the t of all projections to up to so many coordinates"};
+    .help = "Also compute t of all projections to at most this many coordinates"};
 
 /// Least number of digits along all of the coordinates that gives unequal boxes; `most` if no
 /// smaller number does. Equal boxes stay equal with fewer digits.
@@ -213,7 +213,8 @@ std::size_t exact_logarithm(std::uint64_t n, std::uint64_t b) {
     const std::uint64_t below = saturating_power(b, m);
     if (below != n)
         fail(ErrorKind::input,
-             "t-value takes b^m points; {} is no power of {} (--base); {} and {} are the nearest",
+             "t-value requires b^m points; {} is not a power of {} (--base); {} and {} are the "
+             "nearest",
              n, b, below, saturating_power(b, m + 1));
     return m;
 }
@@ -221,7 +222,8 @@ std::size_t exact_logarithm(std::uint64_t n, std::uint64_t b) {
 Net checked_net(const PointSet& points, std::int64_t b, const RunContext& run) {
     constexpr std::size_t most = std::size_t{1} << 30;
     if (points.count() > most)
-        fail(ErrorKind::limit, "t-value takes up to {} points; these are {}", most, points.count());
+        fail(ErrorKind::limit, "t-value accepts up to {} points; these are {}", most,
+             points.count());
     const std::size_t m = exact_logarithm(points.count(), static_cast<std::uint64_t>(b));
     const auto n = static_cast<double>(points.count());
     const auto d = static_cast<double>(points.dimension());
@@ -276,20 +278,19 @@ Analyzer unit() {
         .related = {"t-parameter", "net-quality", "t-m-s"},
         .traits = {.max_dimension = 10'000},
         .options = Schema(base, projections),
-        .results = {{"t", "the least t for which the points are a (t,m,d)-net in base b"},
-                    {"m", "there are b^m points"},
-                    {"base", "the base b"},
-                    {"method", "rank, as the points are a digital net; else counting", true,
-                     "rank|counting"},
-                    {"projections.t_1d", "t of each coordinate"},
-                    {"projections.t_2d",
-                     "t of each pair of coordinates: (1,2), (1,3), (2,3), (1,4), (2,4), (3,4)..."},
-                    {"projections.largest",
-                     "the largest t of a projection to 1, 2, ... coordinates"},
-                    {"projections.worst_size",
-                     "the least number of coordinates with which a projection has the t of all"},
-                    {"projections.worst",
-                     "the coordinates, counted from 1, of all projections of that size that do"}},
+        .results =
+            {{"t", "smallest t for which the points are a (t,m,d)-net in base b"},
+             {"m", "exponent m of the number of points, b^m"},
+             {"base", "the base b"},
+             {"method", "rank, if the points are a digital net; otherwise counting", true,
+              "rank|counting"},
+             {"projections.t_1d", "t of each coordinate"},
+             {"projections.t_2d",
+              "t of each pair of coordinates: (1,2), (1,3), (2,3), (1,4), (2,4), (3,4)..."},
+             {"projections.largest", "largest t of a projection to 1, 2, ... coordinates"},
+             {"projections.worst_size",
+              "smallest number of coordinates of a projection whose t is that of all coordinates"},
+             {"projections.worst", "coordinates, from 1, of all such projections"}},
         .analyze = analyze};
 }
 

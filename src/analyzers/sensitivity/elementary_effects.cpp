@@ -42,18 +42,18 @@ Layout find_moves(const PointSet& design, bool star) {
         const std::size_t i = moved(design[from], design[row]);
         if (i == k) continue;
         if (i > k)
-            return {.trouble =
-                        fmt::format("points {} and {} do not differ in one coordinate", from, row)};
+            return {.trouble = fmt::format(
+                        "points {} and {} do not differ in exactly one coordinate", from, row)};
         if (seen[i])
-            return {.trouble = fmt::format("coordinate {} moves twice on the trajectory from "
-                                           "point {} on",
-                                           i + 1, row - row % group)};
+            return {.trouble = fmt::format(
+                        "coordinate {} changes twice on the trajectory that starts at point {}",
+                        i + 1, row - row % group)};
         seen[i] = true;
         ++moves;
     }
     const std::size_t steps = design.count() / group * k;
     if (2 * moves < steps)
-        return {.trouble = fmt::format("{} of {} steps move a coordinate", moves, steps)};
+        return {.trouble = fmt::format("only {} of {} steps change a coordinate", moves, steps)};
     return {.group = group, .star = star};
 }
 
@@ -108,7 +108,7 @@ double size_of(std::span<const double> y) {
 Layout find_trajectories(const PointSet& design) {
     const std::size_t group = design.dimension() + 1;
     if (design.count() == 0 || design.count() % group != 0)
-        return {.trouble = fmt::format("{} rows are no multiple of {}", design.count(), group)};
+        return {.trouble = fmt::format("{} rows are not a multiple of {}", design.count(), group)};
     Layout trajectories = find_moves(design, false);
     if (trajectories) return trajectories;
     Layout stars = find_moves(design, true);
@@ -122,8 +122,8 @@ Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Res
     const auto r = static_cast<double>(trajectories.size());
     if (trajectories.size() < 2)
         fail(ErrorKind::input,
-             "the output {} has {} trajectories without failed runs; two are needed", response.name,
-             trajectories.size());
+             "the output {} has {} trajectories without failed runs; expected at least 2",
+             response.name, trajectories.size());
     const UnitInputs unit = unit_inputs(inputs);
     const double size = size_of(response.y);
     std::vector<double> y = response.y;
@@ -153,7 +153,7 @@ Effects elementary_effects(const Layout& layout, const Inputs& inputs, const Res
                   {"sigma", part_of(found, 2 * k, k)}},
         .no_intervals = too_few_for_intervals(trajectories.size(), least_rows, "trajectories")};
     effects.missing.assign(
-        k, "it moves in too few trajectories, or the number is too large for float64");
+        k, "it changes in too few trajectories, or the index is too large for float64");
     effects.details.add("scale", unit.scale);
     return effects;
 }

@@ -97,16 +97,17 @@ Layout find_curves(const PointSet& design, std::optional<std::size_t> asked,
     const std::size_t k = design.dimension();
     const std::size_t n = design.count() / k;
     if (design.count() % k != 0)
-        return {.trouble = fmt::format("{} rows are no multiple of {}", design.count(), k)};
+        return {.trouble = fmt::format("{} rows are not a multiple of {}", design.count(), k)};
     const std::size_t harmonics = harmonics_of(along(design, 0, 0, n));
     if (harmonics == 0)
-        return {.trouble = "coordinate 1 swings too fast on curve 1, or not at all"};
+        return {.trouble = "coordinate 1 oscillates too fast on curve 1, or not at all"};
     if (asked.value_or(harmonics) != harmonics)
-        return {.trouble = fmt::format("coordinate 1 swings on curve 1 as of {} harmonics, not {}",
-                                       harmonics, *asked)};
+        return {.trouble =
+                    fmt::format("on curve 1, coordinate 1 oscillates as for {} harmonics, not {}",
+                                harmonics, *asked)};
     if (n <= 4 * harmonics * harmonics)
-        return {.trouble = fmt::format("curves of {} rows; {} harmonics need {}", n, harmonics,
-                                       4 * harmonics * harmonics + 1)};
+        return {.trouble = fmt::format("curves have {} rows, but {} harmonics need {}", n,
+                                       harmonics, 4 * harmonics * harmonics + 1)};
     const Spectrum spectrum(n, harmonics);
     // A triangle wave has 0.998 for M = 4; discrete inputs have less.
     constexpr double own_least = 0.7;
@@ -134,8 +135,8 @@ Effects fourier_amplitudes(const Layout& layout, const Inputs& inputs, const Res
     const auto runs = succeeded(response.y);
     if (runs.size() < response.y.size())
         fail(ErrorKind::input,
-             "the output {} has {} failed runs; a curve with gaps has no spectrum: run them again, "
-             "or take --method rank or chaos",
+             "the output {} has {} failed runs; a curve with gaps has no spectrum: repeat these "
+             "runs, or use --method rank or chaos",
              response.name, response.y.size() - runs.size());
     const Centred f = centred(response.y);
     const Spectrum spectrum(n, layout.harmonics);

@@ -107,8 +107,8 @@ void drop_unlike(Effects& effects, std::span<const double> f, std::size_t k, dou
         for (PairIndex& pair : effects.pairs)
             if (pair.first == i || pair.second == i) pair.index = {.value = none};
         effects.missing[i] =
-            "the rows in which it is mixed vary far more than the first and last rows of "
-            "groups, which should be samples of the same";
+            "the rows that mix in this input vary far more than the first and last rows of groups, "
+            "although all should have the same distribution";
     }
 }
 
@@ -128,18 +128,18 @@ Layout find_pick_freeze(const PointSet& design) {
     const std::size_t k = design.dimension();
     const std::size_t n = design.count();
     Layout layout{.trouble =
-                      fmt::format("{} rows are no multiple of {} or {}", n, k + 2, 2 * k + 2)};
+                      fmt::format("{} rows are not a multiple of {} or {}", n, k + 2, 2 * k + 2)};
     for (const std::size_t group : {k + 2, 2 * k + 2}) {
         if (n == 0 || n % group != 0) continue;
         const std::size_t unfit = first_unfit(design, group);
         if (unfit == n && is_factorial(design, group))
             return {.trouble =
-                        "first and last rows of groups differ in every coordinate, as corners "
-                        "of a factorial design do; they are no independent samples"};
+                        "the first and last rows of groups differ in every coordinate, like "
+                        "corners of a factorial design; they are not independent samples"};
         if (unfit == n) return {.group = group};
         layout.trouble = fmt::format(
-            "in groups of {}, point {} is not the mix of the first and "
-            "the last of its group that it should be",
+            "in groups of {}, point {} is not the expected mix of the first and last points of its "
+            "group",
             group, unfit);
     }
     return layout;
@@ -151,7 +151,8 @@ Effects pick_freeze(const Layout& layout, const Inputs& inputs, const Response& 
     const std::size_t group = layout.group;
     const auto complete = complete_groups(response.y, group);
     if (complete.size() < 2)
-        fail(ErrorKind::input, "the output {} has {} base rows without failed runs; two are needed",
+        fail(ErrorKind::input,
+             "the output {} has {} base rows without failed runs; expected at least 2",
              response.name, complete.size());
     const Centred f = centred(joined(response.y, group, complete));
     if (is_constant(f.z))

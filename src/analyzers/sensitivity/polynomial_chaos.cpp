@@ -326,7 +326,7 @@ std::optional<Effects> polynomial_chaos(const Inputs& inputs, const Response& re
     const auto runs = succeeded(response.y);
     constexpr std::size_t least = 8;
     if (runs.size() < least)
-        fail(ErrorKind::input, "the output {} has {} runs; polynomial chaos needs {}",
+        fail(ErrorKind::input, "the output {} has {} successful runs; polynomial chaos needs {}",
              response.name, runs.size(), least);
     const Centred f = centred(picked(response.y, runs));
     const std::size_t degree = setting.degree.value_or(bearable_degree(inputs.size(), runs.size()));

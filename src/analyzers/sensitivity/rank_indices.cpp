@@ -124,10 +124,11 @@ Effects rank_indices(const Inputs& inputs, const Response& response, const Setti
     const auto runs = succeeded(response.y);
     constexpr std::size_t least = 4;
     if (runs.size() < least)
-        fail(ErrorKind::input, "the output {} has {} runs; ranks need {}", response.name,
-             runs.size(), least);
+        fail(ErrorKind::input, "the output {} has {} successful runs; rank indices need {}",
+             response.name, runs.size(), least);
     const std::size_t k = inputs.size();
-    run.need_memory(24.0 * static_cast<double>(runs.size()) * run.thread_count(), "the ranks");
+    run.need_memory(24.0 * static_cast<double>(runs.size()) * run.thread_count(),
+                    "the rank indices");
     const Centred f = centred(picked(response.y, runs));
     const double variance = f.variance();
     Effects effects{

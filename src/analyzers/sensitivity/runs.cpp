@@ -52,7 +52,7 @@ Numbers picked_columns(const std::string& wanted, const Columns& from, const cha
     Numbers columns;
     for (const auto word : split(wanted, ',')) {
         const auto c = io::find_column(std::string(trim(word)), from.names, from.place, option);
-        if (in(columns, c)) fail(ErrorKind::usage, "--{}: '{}' is named twice", option, trim(word));
+        if (in(columns, c)) fail(ErrorKind::usage, "--{}: '{}' is given twice", option, trim(word));
         columns.push_back(c);
     }
     return columns;
@@ -110,8 +110,8 @@ Numbers known_columns(const Known& known, const Columns& from) {
     Names missing;
     for (const auto& name : known.names)
         if (std::ranges::find(from.names, name) == from.names.end()) missing.push_back(name);
-    fail_with_hint(ErrorKind::input, "--inputs picks the inputs",
-                   "{} has no column {}, as inputs of its design are called; its columns are {}",
+    fail_with_hint(ErrorKind::input, "--inputs selects the inputs",
+                   "{} has no column {} for the inputs of its design; its columns are {}",
                    from.place, join(missing, ", "), join(from.names, ", "));
 }
 
@@ -124,11 +124,10 @@ Numbers coordinates_of(const Known& known, const Columns& from, const Numbers& c
     if (!coordinates.empty()) return coordinates;
     if (columns.size() == k) return columns;
     if (known.names.empty())
-        fail(ErrorKind::usage, "--bounds and --domain: {} coordinates; there are {} inputs: {}", k,
+        fail(ErrorKind::usage, "--bounds and --domain: {} coordinates, but {} inputs: {}", k,
              columns.size(), names_of(columns, from.names));
-    run.notify(
-        fmt::format("{}: not all of {} are there, and what they follow is left out of account",
-                    from.place, join(known.names, ", ")));
+    run.notify(fmt::format("{}: some of {} are missing, so that their distribution is ignored",
+                           from.place, join(known.names, ", ")));
     return {};
 }
 
@@ -161,7 +160,8 @@ void require_finite(const Inputs& inputs) {
     for (std::size_t i = 0; i < inputs.runs(); ++i)
         for (std::size_t j = 0; j < inputs.size(); ++j)
             if (!std::isfinite(inputs.values[i][j]))
-                fail(ErrorKind::input, "the input {} of point {} is missing; only outputs may be",
+                fail(ErrorKind::input,
+                     "the input {} of point {} is missing; only outputs may be missing",
                      inputs.names[j], i);
 }
 
@@ -182,19 +182,16 @@ Inputs inputs_of(const Columns& from, const Numbers& columns, const Known& known
     inputs.points = columns_of(from.table, coordinates);
     for (std::size_t i = 0; i < inputs.runs(); ++i)
         if (!known.domain->contains(inputs.points[i])) {
-            run.notify(
-                fmt::format("the inputs of point {} are outside {}, which is left out of "
-                            "account",
-                            i, known.domain->title()));
+            run.notify(fmt::format("the inputs of point {} are outside {}; this domain is ignored",
+                                   i, known.domain->title()));
             return inputs;
         }
     if (independent(*known.domain, inputs.points))
         inputs.domain = known.domain;
     else
-        run.notify(
-            fmt::format("the inputs depend on each other on {}; indices are those of "
-                        "independent inputs",
-                        known.domain->title()));
+        run.notify(fmt::format(
+            "the inputs depend on each other on {}, but the indices assume independent inputs",
+            known.domain->title()));
     return inputs;
 }
 
@@ -204,8 +201,8 @@ Inputs inputs_of(const Columns& from, const Numbers& columns, const Known& known
 Response response_of(const Columns& from, std::size_t c) {
     for (const auto& [column, words] : from.table.provenance.levels)
         if (column == from.names[c])
-            fail_with_hint(ErrorKind::input, "--response picks outputs",
-                           "the output {} holds words, such as {}; outputs are numbers", column,
+            fail_with_hint(ErrorKind::input, "--response selects outputs",
+                           "the output {} contains words, such as {}; expected numbers", column,
                            words.empty() ? "" : words.front());
     return {from.names[c], column_of(from.table, c)};
 }
@@ -241,8 +238,8 @@ Numbers other_columns(const Columns& table, const Columns& design, const Numbers
             copy = copy || (i == n && same_name);
             if (named && same_name && i < n)
                 fail_with_hint(ErrorKind::input,
-                               "are the rows in another order? --response picks outputs",
-                               "the column {} has the name of an input, and other numbers: {} in "
+                               "are the rows in another order? --response selects outputs",
+                               "the column {} has the name of an input, but other numbers: {} in "
                                "point {}, where {} has {}",
                                table.names[c], format_number(table.table[i][c]), i, design.place,
                                format_number(design.table[i][j]));
@@ -253,7 +250,7 @@ Numbers other_columns(const Columns& table, const Columns& design, const Numbers
         if (!copy) others.push_back(c);
     }
     if (others.empty())
-        fail_with_hint(ErrorKind::input, "--response picks outputs",
+        fail_with_hint(ErrorKind::input, "--response selects outputs",
                        "all columns of the table are copies of inputs: {}",
                        join(table.names, ", "));
     return others;
@@ -266,7 +263,7 @@ void note_unused(const Columns& table, const Numbers& inputs, const Numbers& out
     for (const std::size_t c : all_columns(table.table))
         if (!in(inputs, c) && !in(outputs, c)) unused.push_back(c);
     if (unused.empty()) return;
-    run.notify(fmt::format("{}: neither input nor output: {}", table.place,
+    run.notify(fmt::format("{}: columns that are neither input nor output: {}", table.place,
                            names_of(unused, table.names)));
 }
 
@@ -324,18 +321,18 @@ Runs without_design(const PointSet& all, const ColumnsAsked& asked, const RunCon
     if (asked.inputs.empty()) inputs = without(candidates, outputs);
     for (const std::size_t c : outputs)
         if (in(inputs, c))
-            fail_with_hint(ErrorKind::usage, "--response picks outputs",
-                           "--inputs: '{}' is an output, too", table.names[c]);
+            fail_with_hint(ErrorKind::usage, "--response selects outputs",
+                           "--inputs: '{}' is also an output", table.names[c]);
     if (inputs.empty() || outputs.empty())
         fail_with_hint(
             ErrorKind::input,
-            inputs.empty() ? "--design names the file of the inputs" : "--response picks outputs",
-            "a table of {} column{} holds no {}", columns.size(), columns.size() == 1 ? "" : "s",
-            inputs.empty() ? "inputs beside the outputs" : "outputs beside the inputs");
+            inputs.empty() ? "--design names the file of the inputs" : "--response selects outputs",
+            "a table of {} column{} has no {}", columns.size(), columns.size() == 1 ? "" : "s",
+            inputs.empty() ? "inputs besides the outputs" : "outputs besides the inputs");
     if (asked.inputs.empty() && asked.response.empty() && !told)
         run.notify(
-            fmt::format("the last column is taken as the output, {}, and the others as inputs, "
-                        "{}; --response and --inputs name others",
+            fmt::format("the last column is used as the output, {}, and the others as inputs, {}; "
+                        "--response and --inputs select others",
                         table.names[outputs[0]], names_of(inputs, table.names)));
     note_unused(table, inputs, outputs, run);
     Runs runs{.inputs = inputs_of(table, inputs, known, run), .responses = {}};

@@ -46,30 +46,29 @@ namespace {
 constexpr Param<Path> design{
     {.name = "design",
      .unit = "file",
-     .help = "Inputs of the runs, row by row as the outputs; default: they are columns of the "
-             "same table, which then has its outputs last"}};
+     .help = "File of the inputs, one row per run in the order of the outputs; default: the inputs "
+             "are columns of the same table, before its outputs"}};
 
 constexpr Param<Text> inputs{
     {.name = "inputs",
      .unit = "columns",
      .help =
-         "Columns of the inputs, by name or number from 1: x,y; default: those that provenance "
-         "or --parameters name, else all of --design, or all of the table that are no outputs"}};
+         "Columns of the inputs, by name or number from 1: x,y; default: those named by provenance "
+         "or --parameters, else all of --design, or all of the table that are not outputs"}};
 
 constexpr Param<Text> response{
     {.name = "response",
      .unit = "columns",
-     .help =
-         "Columns of the outputs, by name or number from 1: y,z; default: all but the inputs and "
-         "their copies or, where the inputs are not known by name, the last one"}};
+     .help = "Columns of the outputs, by name or number from 1: y,z; default: all except inputs "
+             "and their copies, or the last one if the names of the inputs are not known"}};
 
 constexpr Param<Choice> method{
     .name = "method",
     .fallback = "auto",
     .choices = "auto|saltelli|morris|fast|rank|chaos",
     .help =
-        "How the indices are estimated; auto: as the rows of the design show; where they show "
-        "nothing, chaos if its q2 is 0.8 or more, else rank; `reason` tells which"};
+        "How the indices are estimated; auto: by the method whose design the rows form; for other "
+        "rows chaos if its q2 is at least 0.8, else rank; `reason` explains the choice"};
 
 constexpr Param<std::int64_t> bootstrap{
     .name = "bootstrap",
@@ -77,30 +76,33 @@ constexpr Param<std::int64_t> bootstrap{
     .low = 0,
     .high = 1'000'000,
     .unit = "resamples",
-    .help = "For the intervals of saltelli and morris; 0: none"};
+    .help = "Number of resamples for the intervals of saltelli and morris; 0: no intervals"};
 
 constexpr Param<std::int64_t> bootstrap_seed{
-    .name = "bootstrap-seed", .fallback = 1, .low = 0, .help = "Seed of the resamples"};
+    .name = "bootstrap-seed", .fallback = 1, .low = 0, .help = "Random seed of the resamples"};
 
 constexpr Param<double> level{.name = "level",
                               .fallback = 0.95,
                               .low = 0.01,
                               .high = 0.9999,
-                              .help = "Chance that an interval is to hold the index"};
+                              .help = "Probability with which an interval contains the index"};
 
 constexpr Param<std::int64_t> harmonics{
     .name = "harmonics",
     .low = 1,
     .high = 1000,
     .optional = true,
-    .help = "Of fast: multiples of the curve's frequency that count; default: as the curves show"};
+    .help =
+        "For fast: number of harmonics of the curve's frequency that are summed; default: "
+        "determined from the curves"};
 
 constexpr Param<std::int64_t> degree{
     .name = "degree",
     .low = 1,
     .high = 20,
     .optional = true,
-    .help = "Of chaos: largest total degree; default: chosen for each polynomial by its own runs"};
+    .help =
+        "For chaos: largest total degree; default: selected for each polynomial from its own runs"};
 
 /// Method for a design, with the layout of its rows.
 struct Plan {
@@ -128,19 +130,18 @@ Layout find_layout(const std::string& kind, const PointSet& points, const Settin
 /// Warns if rows are not those of the generator that made them, or only resemble such rows.
 void note_broken(const Inputs& in, const std::string& trouble, const RunContext& run) {
     if (!trouble.empty())
-        return run.notify(fmt::format(
-            "{} made the design, and its rows are not whole: {}; constraints, correlated "
-            "or nested inputs and another order break them; as any other design it is "
-            "measured by chaos or rank, whose inputs are independent",
-            in.generator, trouble));
+        return run.notify(
+            fmt::format("{} made the design, but its rows are not complete: {}; constraints, "
+                        "correlated or nested inputs or another order cause this; chaos or rank is "
+                        "used instead, which assume independent inputs",
+                        in.generator, trouble));
     const double share = share_of_neighbors(in.values, run);
     constexpr double enough = 1. / 3;
     if (share >= enough)
         run.notify(fmt::format(
-            "{:.0f} % of the rows differ from another in one input, as those of saltelli and "
-            "morris "
-            "do, but they are not whole groups of such a design in its order; they are measured as "
-            "any rows, by chaos or rank, which take them as independent",
+            "{:.0f} % of the rows differ from another row in one input, as in designs of saltelli "
+            "and morris, but they do not form complete groups in the order of such a design; chaos "
+            "or rank is used instead, which assume independent rows",
             100 * share));
 }
 
@@ -151,8 +152,8 @@ Plan plan_of(const Inputs& in, const std::string& asked, const Setting& setting,
     if (asked != "auto") {
         Plan plan{.method = asked, .layout = find_layout(asked, in.values, setting, run)};
         if (!plan.layout)
-            fail_with_hint(ErrorKind::input, "--method rank and chaos take any design",
-                           "--method {}: the design has not its rows: {}", asked,
+            fail_with_hint(ErrorKind::input, "--method rank and chaos accept any design",
+                           "--method {}: the rows are not such a design: {}", asked,
                            plan.layout.trouble);
         return plan;
     }
@@ -182,7 +183,7 @@ Effects of_any_design(std::string& chosen, const Inputs& in, const Response& out
     if (!both || succeeded(out.y).size() >= least) {
         auto effects = polynomial_chaos(in, out, setting, both ? run.stage(0, 0.9) : run);
         if (!effects && !both)
-            fail_with_hint(ErrorKind::input, "--method rank needs no polynomial",
+            fail_with_hint(ErrorKind::input, "--method rank does not need a polynomial",
                            "no polynomial predicts the output {} better than its mean", out.name);
         chosen = "chaos";
         if (!both) return *std::move(effects);
@@ -207,7 +208,7 @@ std::string why_none(const std::string& taken, const Response& out) {
     const auto y = picked(out.y, succeeded(out.y));
     if (y.empty()) return "all runs failed";
     if (taken == "morris" || y.size() < 2 || !is_constant(y)) return {};
-    return fmt::format("{} in all runs, but for rounding at most: there is no variance to share",
+    return fmt::format("{} in all runs, up to rounding: there is no variance to attribute",
                        format_number(y.front()));
 }
 
@@ -257,9 +258,10 @@ Report report_of_input(const Effects& effects, std::size_t i) {
     const auto known = [i](const IndexKind& kind) { return std::isfinite(kind.of[i].value); };
     for (const IndexKind& kind : effects.kinds) add(own, kind.name, kind.of[i]);
     if (!std::ranges::all_of(effects.kinds, known))
-        own.add("missing", i < effects.missing.size() && !effects.missing[i].empty()
-                               ? effects.missing[i]
-                               : "the runs determine no number, or one too large for float64");
+        own.add("missing",
+                i < effects.missing.size() && !effects.missing[i].empty()
+                    ? effects.missing[i]
+                    : "the index cannot be determined from the runs, or is too large for float64");
     return own;
 }
 
@@ -302,7 +304,7 @@ void check_options(const Values& options, const std::vector<std::string>& method
             return std::ranges::find(methods, name) != methods.end();
         };
         if (options.given(option) && !methods.empty() && std::ranges::none_of(of, used))
-            fail(ErrorKind::usage, "--{} is of --method {}; this is {}", option.name,
+            fail(ErrorKind::usage, "--{} applies to --method {}; this is {}", option.name,
                  join(of, " and "), methods.front());
     };
     require(bootstrap, {"saltelli", "morris"});
@@ -337,8 +339,9 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
             const auto* scale = std::get_if<std::string>(effects.details.find("scale"));
             if (scale != nullptr && *scale == "range" && methods.empty())
                 run.notify(
-                    "the ranges of the inputs are not known; each is scaled by its own extremes; "
-                    "--parameters, --bounds and the provenance of the design tell them");
+                    "the ranges of the inputs are not known; each input is scaled by its own "
+                    "extremes; --parameters, --bounds or the provenance of the design would give "
+                    "the ranges");
             methods.push_back(own.method);
             report.add(key, report_of(effects, own.method, runs.inputs, out));
         } catch (const Error& error) {  // other outputs may have indices
@@ -367,54 +370,59 @@ Analyzer unit() {
             {{"OUTPUT.method", "saltelli, morris, fast, rank or chaos", true,
               "saltelli|morris|fast|rank|chaos"},
              {"OUTPUT.reason",
-              "of auto, where the rows of the design show no method: why chaos or rank"},
+              "for auto, if the rows form the design of no method: why chaos or rank was chosen"},
              {"OUTPUT.missing",
-              "in place of all numbers of an output: why it has none, such as a constant", false},
-             {"OUTPUT.no_intervals", "why indices have no intervals, such as few runs", false},
-             {"OUTPUT.failed", "runs without this output"},
-             {"OUTPUT.used", "runs that the indices are of"},
+              "reason why an output has no indices, instead of its numbers: for example, it is "
+              "constant",
+              false},
+             {"OUTPUT.no_intervals", "reason why indices have no intervals, for example few runs",
+              false},
+             {"OUTPUT.failed", "number of runs without this output"},
+             {"OUTPUT.used", "number of runs used for the indices"},
              {"OUTPUT.samples",
-              "independent samples among them: base rows (saltelli), trajectories (morris), points "
-              "of a curve (fast), else runs"},
-             {"OUTPUT.mean", "mean of the output; not of morris"},
-             {"OUTPUT.variance", "its variance, of which the indices are shares; not of morris"},
+              "number of independent samples among them: base rows (saltelli), trajectories "
+              "(morris), points of a curve (fast), otherwise runs"},
+             {"OUTPUT.mean", "mean of the output; absent for morris"},
+             {"OUTPUT.variance",
+              "variance of the output, of which the indices are fractions; absent for morris"},
              {"OUTPUT.q2",
-              "of chaos: share of the variance that polynomials predict of runs that had no part "
-              "in "
-              "their choice (five-fold cross-validation); 0 or less where they predict nothing",
+              "for chaos: fraction of the variance that polynomials predict in runs not used to "
+              "fit them (five-fold cross-validation); 0 or less if they predict nothing",
               false},
-             {"OUTPUT.degree", "of chaos: largest total degree of the candidates", false},
-             {"OUTPUT.terms", "of chaos: terms of the largest polynomial, without the constant",
-              false},
+             {"OUTPUT.degree", "for chaos: largest total degree of the candidate terms", false},
+             {"OUTPUT.terms",
+              "for chaos: number of terms of the largest polynomial, without the constant", false},
              {"OUTPUT.scale",
-              "of morris and chaos: how inputs become numbers in [0, 1]: cube: they are; box: from "
-              "the box that provenance or --bounds tell; distributions: as those of provenance or "
-              "--parameters; range: from their extremes. Of chaos also values and ranks, whose "
-              "distribution is that of the sample",
+              "for morris and chaos: how inputs are mapped to [0, 1]: cube: unchanged; box: from "
+              "the box in provenance or --bounds; distributions: by those in provenance or "
+              "--parameters; range: from their extremes. For chaos also values and ranks, which "
+              "use the distribution of the sample",
               false, "cube|box|distributions|range|values|ranks"},
-             {"OUTPUT.INPUT.missing", "why some index of it is not there", false},
-             {"OUTPUT.INPUT.first", "share of the variance that is due to the input alone"},
-             {"OUTPUT.INPUT.first_low", "lower end of its interval; not of fast"},
-             {"OUTPUT.INPUT.first_high", "upper end of its interval; not of fast"},
+             {"OUTPUT.INPUT.missing", "reason why some index of the input is missing", false},
+             {"OUTPUT.INPUT.first", "fraction of the variance that is due to the input alone"},
+             {"OUTPUT.INPUT.first_low", "lower end of its interval; absent for fast"},
+             {"OUTPUT.INPUT.first_high", "upper end of its interval; absent for fast"},
              {"OUTPUT.INPUT.total",
-              "share that is due to the input, alone or together with others; not of rank", false},
+              "fraction that is due to the input, alone or together with others; absent for rank",
+              false},
              {"OUTPUT.INPUT.total_low", "lower end of its interval", false},
              {"OUTPUT.INPUT.total_high", "upper end of its interval", false},
-             {"OUTPUT.INPUT.mu", "of morris: mean elementary effect", false},
+             {"OUTPUT.INPUT.mu", "for morris: mean elementary effect", false},
              {"OUTPUT.INPUT.mu_low", "lower end of its interval", false},
              {"OUTPUT.INPUT.mu_high", "upper end of its interval", false},
-             {"OUTPUT.INPUT.mu_star", "of morris: mean size of elementary effects", false},
+             {"OUTPUT.INPUT.mu_star", "for morris: mean absolute elementary effect", false},
              {"OUTPUT.INPUT.mu_star_low", "lower end of its interval", false},
              {"OUTPUT.INPUT.mu_star_high", "upper end of its interval", false},
              {"OUTPUT.INPUT.sigma",
-              "of morris: standard deviation of elementary effects; large where the input acts "
+              "for morris: standard deviation of elementary effects; large if the input acts "
               "nonlinearly or together with others",
               false},
              {"OUTPUT.INPUT.sigma_low", "lower end of its interval", false},
              {"OUTPUT.INPUT.sigma_high", "upper end of its interval", false},
              {"OUTPUT.PAIR.second",
-              "share that is due to two inputs together, beyond what each does alone; the pair is "
-              "named x:y; of saltelli with both mixes, and of chaos, where other pairs have 0",
+              "fraction that is due to two inputs together, beyond what each does alone; the pair "
+              "is named x:y; for saltelli with --second-order, and for chaos, which omits pairs of "
+              "index 0",
               false},
              {"OUTPUT.PAIR.second_low", "lower end of its interval", false},
              {"OUTPUT.PAIR.second_high", "upper end of its interval", false}},

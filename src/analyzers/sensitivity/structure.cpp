@@ -115,8 +115,8 @@ void note_dependence(const Inputs& in, const RunContext& run) {
     // Independent inputs exceed this in one of 10^4 designs.
     if (largest <= std::sqrt(2 * std::log(1e4 * pairs))) return;
     run.notify(
-        fmt::format("the inputs {} and {} depend on each other: their rank correlation is "
-                    "{:.2f}; indices are those of independent inputs",
+        fmt::format("the inputs {} and {} depend on each other: their rank correlation is {:.2f}; "
+                    "the indices assume independent inputs",
                     in.names[at.first], in.names[at.second], correlation));
 }
 

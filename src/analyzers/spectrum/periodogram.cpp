@@ -74,69 +74,67 @@ constexpr Param<std::int64_t> max_frequency{
     .optional = true,
     .unit = "cycles a unit length",
     .help =
-        "Frequencies go from -F to F along each axis; without it twice n^(1/d), rounded up, "
-        "but at least 16 and at most 65536, 1024 or 64 in 1, 2 or 3 dimensions; the oscillation "
-        "needs 5 n^(1/d) more than where power reaches 1, 6.5 n^(1/d) or so"};
+        "Largest frequency F: frequencies go from -F to F along each axis; default: twice n^(1/d), "
+        "rounded up, but at least 16 and at most 65536, 1024 or 64 in 1, 2 or 3 dimensions. The "
+        "oscillation needs 5 n^(1/d) above the frequency where power reaches 1, about 6.5 n^(1/d)"};
 
 constexpr Param<Choice> method{
     .name = "method",
     .fallback = "nufft",
     .choices = "nufft|direct",
-    .help = "nufft: non-uniform fast Fourier transform; direct: the plain sum, slow"};
+    .help = "nufft: non-uniform fast Fourier transform; direct: plain sums, slow"};
 
-constexpr Param<double> tolerance{
-    .name = "tolerance",
-    .fallback = 1e-9,
-    .low = 0,
-    .high = 1e-1,
-    .help =
-        "Largest error of the complex sums, relative to sqrt(n), of the method nufft; no less "
-        "than 1e-13, float64's floor"};
+constexpr Param<double> tolerance{.name = "tolerance",
+                                  .fallback = 1e-9,
+                                  .low = 0,
+                                  .high = 1e-1,
+                                  .help =
+                                      "For method nufft: largest error of the complex sums, "
+                                      "relative to sqrt(n); at least 1e-13, the limit of float64"};
 
 constexpr Param<bool> normalize{
     .name = "normalize-frequency",
-    .help = "Gives frequencies over n^(1/d): cycles a mean distance between points"};
+    .help = "Give frequencies divided by n^(1/d): cycles per mean distance between points"};
 
 constexpr Param<Choice> window{
     .name = "window",
     .fallback = "none",
     .choices = "none|hann",
     .help =
-        "none: the domain is a torus; hann: it is not, and points are faded out towards its "
-        "sides by w = product of sin^2(pi x_k), with the transform W: power is |sum w e - n W|^2 "
-        "/ ((3/8)^d - W^2) / n"};
+        "none: for points on a torus; hann: for other points, which are faded out towards the "
+        "sides by w = product of sin^2(pi x_k), with the transform W: power is |sum w e - n W|^2 / "
+        "((3/8)^d - W^2) / n"};
 
 constexpr Param<Text> weights{
     {.name = "weights",
      .unit = "column",
-     .help = "Name or number of the column, none of the coordinates, that holds the strength w of "
-             "each point: power is |sum w e|^2 / sum w^2"}};
+     .help = "Column with the weight w of each point, by name or number, which is not a "
+             "coordinate: power is |sum w e|^2 / sum w^2"}};
 
-constexpr Param<Path> wisdom{
-    {.name = "wisdom",
-     .help = "FFTW's measured plans are read from this file, and what is learnt is written to it; "
-             "to measure takes seconds once"}};
+constexpr Param<Path> wisdom{{.name = "wisdom",
+                              .help = "File from which FFTW's measured plans are read and to which "
+                                      "new ones are written; measuring takes seconds, once"}};
 
 constexpr Param<Path> grid_file{
     {.name = "grid",
-     .help = "Saves the power to this .npy file: row = fy, column = fx, from -F to F; a line in 1, "
-             "a cube [fz][fy][fx] in 3 dimensions"}};
+     .help = "Save the power to this .npy file: row = fy, column = fx, from -F to F; a line in 1 "
+             "dimension, a cube [fz][fy][fx] in 3"}};
 
 constexpr Param<Path> image_file{
     {.name = "image",
-     .help = "Draws the power to this .png file, frequency 0 (black) in the centre; the scale is "
-             "in the file's text. In 3 dimensions the plane of --slice"}};
+     .help = "Draw the power to this .png file, with frequency 0 (black) in the centre; the file's "
+             "text gives the scale. In 3 dimensions the plane of --slice is drawn"}};
 
 constexpr Param<Choice> image_scale{
     .name = "image-scale",
     .fallback = "ratio",
     .choices = "ratio|linear|log",
     .help =
-        "Grey from 0 to 1; white noise is middle grey in each. ratio: P / (1 + P); linear: "
-        "P / 2, white from 2 on; log: -20 dB to 20 dB"};
+        "How power becomes grey from 0 to 1; white noise is always middle grey. ratio: P / (1 + "
+        "P); linear: P / 2, white from 2 on; log: -20 dB to 20 dB"};
 
 constexpr Param<Choice> image_bits{
-    .name = "image-bits", .fallback = "8", .choices = "8|16", .help = "Bits of a pixel of --image"};
+    .name = "image-bits", .fallback = "8", .choices = "8|16", .help = "Bits per pixel of --image"};
 
 constexpr Param<std::int64_t> slice{
     .name = "slice",
@@ -144,7 +142,7 @@ constexpr Param<std::int64_t> slice{
     .low = -1'000'000,
     .high = 1'000'000,
     .unit = "cycles a unit length",
-    .help = "fz of the plane that --image draws of points in 3 dimensions"};
+    .help = "fz of the plane that --image draws for points in 3 dimensions"};
 
 constexpr double floor_of_floats = 1e-13;
 constexpr std::uint64_t buffered_points = std::uint64_t{1} << 20;
@@ -217,7 +215,7 @@ class Summation final : public SharedAccumulator {
         const std::string spec = domain_->spec();
         if (!cube_ && !spec.starts_with("box:"))
             fail(ErrorKind::input,
-                 "periodogram takes points of the unit cube or a box; these live on {}",
+                 "periodogram requires points of the unit cube or a box; the domain is {}",
                  domain_->title());
         check_options();
         if (options.given(wisdom)) read_wisdom(options[wisdom]);
@@ -248,12 +246,10 @@ class Summation final : public SharedAccumulator {
         if (n_ < 2) fail(ErrorKind::input, "periodogram needs at least 2 points; there is {}", n_);
         if (!(strengths().squares > 0))
             fail(ErrorKind::input,
-                 "--weights: all {} strengths are 0; white noise has power 1 "
-                 "only where some are not",
-                 n_);
+                 "--weights: all {} weights are 0; expected at least one that is not", n_);
         if (all_equal_)
-            run.notify(
-                fmt::format("all {} points are equal: they are in phase at every frequency", n_));
+            run.notify(fmt::format(
+                "all {} points are equal, so that they are in phase at every frequency", n_));
         if (!nufft_ && !direct_) begin(n_, run);
         return finished(run);
     }
@@ -291,16 +287,16 @@ class Summation final : public SharedAccumulator {
         // Direct sums have float64's accuracy, whatever the tolerance.
         if (options_[method] != "direct" && options_[tolerance] < floor_of_floats)
             fail(ErrorKind::usage,
-                 "--tolerance: {} is below {}, the floor of what float64 gives; --method direct is "
-                 "as exact as float64 is",
+                 "--tolerance: {} is below {}, the limit of float64; --method direct is as exact "
+                 "as float64",
                  options_[tolerance], floor_of_floats);
         if (options_.given(image_file) && d_ == 1)
-            fail(ErrorKind::usage, "--image: takes points of dimension 2 or 3; these have 1");
+            fail(ErrorKind::usage, "--image: requires points of dimension 2 or 3; these have 1");
         if (options_.given(slice) && d_ != 3)
-            fail(ErrorKind::usage, "--slice: takes points of dimension 3; these have {}", d_);
+            fail(ErrorKind::usage, "--slice: requires points of dimension 3; these have {}", d_);
         for (const std::string_view name : {image_scale.name, image_bits.name, slice.name})
             if (options_.find(name).given && !options_.given(image_file))
-                fail(ErrorKind::usage, "--{} is of --image, which is not given", name);
+                fail(ErrorKind::usage, "--{}: applies to --image, which is not given", name);
     }
 
     [[nodiscard]] std::size_t frequency_for(std::uint64_t count) const {
@@ -341,12 +337,11 @@ class Summation final : public SharedAccumulator {
         constexpr double most = 1e100;
         const double size = std::abs(strength);
         if (size == 0 || (size >= least && size <= most)) return;
-        fail_with_hint(
-            ErrorKind::input,
-            "power does not depend on their scale: divide all by the largest, and put 0 for "
-            "those that are then too small",
-            "--weights: the strength of point {} is {}; expected 0, or {} to {} in size", index,
-            format_number(strength), format_number(least), format_number(most));
+        fail_with_hint(ErrorKind::input,
+                       "the power does not depend on the scale of the weights: divide all by the "
+                       "largest, and replace those that are still too small by 0",
+                       "--weights: the weight of point {} is {}; expected 0, or {} to {} in size",
+                       index, format_number(strength), format_number(least), format_number(most));
     }
 
     /// Whether all points need no checks: they are in the unit cube, and the set is not all one
@@ -466,7 +461,7 @@ class Summation final : public SharedAccumulator {
 /// Points per block of the sums, each with its own grid; small sets are not shared.
 std::uint64_t grain(const Arrival& arrival, const Values& options) {
     if (options[method] == "direct")
-        fail(ErrorKind::usage, "periodogram: ranks share --method nufft; start one process");
+        fail(ErrorKind::usage, "periodogram: ranks can share --method nufft only; use one process");
     if (arrival.count.value_or(0) <= buffered_points) return buffered_points;
     const std::size_t d = arrival.dimension();
     const std::size_t frequency = options.given(max_frequency)
@@ -478,7 +473,7 @@ std::uint64_t grain(const Arrival& arrival, const Values& options) {
 void refine(Report& mean, std::size_t sets, const Values& options) {
     const auto* grid = mean.find("grid");
     if (grid == nullptr)
-        fail_with_hint(ErrorKind::usage, "give them one --max-frequency",
+        fail_with_hint(ErrorKind::usage, "set one --max-frequency for all",
                        "--average: the spectra have different frequencies");
     const Grid power = std::get<Grid>(*grid);
     summarize(mean, power, sets, options, {});
@@ -488,8 +483,8 @@ void refine(Report& mean, std::size_t sets, const Values& options) {
 void combine(Report&, std::span<const Report> sets, const Values& options) {
     if (options[normalize] && !alike(sets, "regular_nyquist"))
         fail_with_hint(ErrorKind::usage,
-                       "give them the same number of points, or leave --normalize-frequency out",
-                       "--average: the sets differ in their number of points, and so in their "
+                       "use the same number of points, or omit --normalize-frequency",
+                       "--average: the sets differ in number of points, and therefore in their "
                        "normalised frequencies");
 }
 
@@ -500,46 +495,43 @@ void follow(const Report& first, Values& options) {
 }
 
 std::vector<ResultKey> results() {
-    return {
-        {"max_frequency", "F: frequencies go from -F to F"},
-        {"regular_nyquist", "n^(1/d) / 2, the Nyquist frequency of a regular grid"},
-        {"tolerance",
-         "Bound of the error of the complex sums, relative to sqrt(n); no less than what "
-         "rounding leaves where all points are in phase"},
-        {"radial.frequency", "Frequency k of each ring, k - 1/2 <= |f| < k + 1/2"},
-        {"radial.power", "Mean power over the ring; white noise has 1"},
-        {"radial.anisotropy_db",
-         "Variance over the ring / squared mean, in dB, at least -100, as rings of equal "
-         "powers and "
-         "such below tolerance^2 have; of averaged sets that of their mean power, without a "
-         "standard error"},
-        {"radial.cells", "Frequency vectors in the ring"},
-        {"expected_anisotropy_db",
-         "Anisotropy of white noise: 0, less 10 log10 of the number of sets averaged"},
-        {"effective_nyquist",
-         "Half the largest radius R, at most F, with a mean power of at most 0.1 over |f| < R; of "
-         "averaged sets that of their mean power, without a standard error"},
-        {"relative_nyquist",
-         "The same over regular_nyquist, as published tables give it; psa finds another from its "
-         "pair correlation"},
-        {"oscillation",
-         "10 x root mean square of radial power - 1, weighted by cells, from where it first "
-         "reaches 0.98 over n^(1/d) x 5 frequencies, or up to F; of averaged sets that of "
-         "their mean power, without a standard error, as the next two are"},
-        {"oscillation_complete",
-         "Whether F is large enough for all of these: only then it compares with published "
-         "ones",
-         true, true_or_false},
-        {"total_variation",
-         "Half the mean of |radial power - 1| over the rings, weighted by their cells: 0 for "
-         "white noise; depends on F"},
-        {"low_frequency_exponent",
-         "a in power ~ frequency^a near 0: slope of log radial power against log frequency, "
-         "weighted by cells, over the lowest n^(1/d) / 4 rings, at least 4, as far as they "
-         "have power"},
-        {"method", "nufft or direct", true, "nufft|direct"},
-        {"window", "none or hann", true, "none|hann"},
-        {"boundary", "torus, or faded out by the window", true, "torus|faded out"}};
+    return {{"max_frequency", "F: frequencies go from -F to F"},
+            {"regular_nyquist", "n^(1/d) / 2, the Nyquist frequency of a regular grid"},
+            {"tolerance",
+             "bound of the error of the complex sums, relative to sqrt(n); at least the rounding "
+             "error if all points are in phase"},
+            {"radial.frequency", "frequency k of each ring, k - 1/2 <= |f| < k + 1/2"},
+            {"radial.power", "mean power over the ring; 1 for white noise"},
+            {"radial.anisotropy_db",
+             "variance over the ring / squared mean, in dB; at least -100, the value of rings with "
+             "equal powers or powers below tolerance^2; for averaged sets, that of their mean "
+             "power, without a standard error"},
+            {"radial.cells", "number of frequency vectors in the ring"},
+            {"expected_anisotropy_db",
+             "anisotropy of white noise: 0 minus 10 log10 of the number of averaged sets"},
+            {"effective_nyquist",
+             "half the largest radius R, at most F, for which the mean power over |f| < R is at "
+             "most 0.1; for averaged sets, that of their mean power, without a standard error"},
+            {"relative_nyquist",
+             "effective_nyquist / regular_nyquist, as in published tables; the program psa "
+             "computes a different one from its pair correlation"},
+            {"oscillation",
+             "10 x root mean square of radial power - 1, weighted by cells, over 5 n^(1/d) "
+             "frequencies from where it first reaches 0.98, or up to F; for averaged sets, that of "
+             "their mean power, without a standard error, as for the next two"},
+            {"oscillation_complete",
+             "whether F is large enough for all these frequencies; only then the oscillation is "
+             "comparable with published ones",
+             true, true_or_false},
+            {"total_variation",
+             "half the mean of |radial power - 1| over the rings, weighted by their cells: 0 for "
+             "white noise; depends on F"},
+            {"low_frequency_exponent",
+             "a in power ~ frequency^a near 0: slope of log radial power against log frequency, "
+             "weighted by cells, over the lowest n^(1/d) / 4 rings, at least 4, that have power"},
+            {"method", "nufft or direct", true, "nufft|direct"},
+            {"window", "none or hann", true, "none|hann"},
+            {"boundary", "torus, or faded out by the window", true, "torus|faded out"}};
 }
 
 }  // namespace

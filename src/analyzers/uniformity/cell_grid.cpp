@@ -68,8 +68,8 @@ Estimate mass_of(const Domain& domain, const std::vector<Box>& pieces) {
     for (const Box& piece : pieces) {
         const Estimate part = domain.probability(piece);
         if (!(part.value >= -part.error) || !(part.error >= 0) || !(part.value <= 1 + part.error))
-            fail(ErrorKind::limit, "{}: the cell {} has probability {} within {}", domain.title(),
-                 format_box(piece), part.value, part.error);
+            fail(ErrorKind::limit, "{}: the cell {} has the impossible probability {} within {}",
+                 domain.title(), format_box(piece), part.value, part.error);
         mass += {std::max(part.value, 0.0), part.error};
     }
     return mass;
@@ -105,7 +105,8 @@ CellGrid default_grid(std::uint64_t n, std::size_t axes) {
 
 CellGrid asked_grid(const std::vector<std::int64_t>& extents, std::size_t axes) {
     if (extents.size() != 1 && extents.size() != axes)
-        fail(ErrorKind::usage, "--cells: {} numbers for {} axes; one for all, or one for each",
+        fail(ErrorKind::usage,
+             "--cells: {} numbers for {} axes; expected one for all, or one for each",
              extents.size(), axes);
     CellGrid grid(axes);
     double product = 1;
@@ -114,7 +115,7 @@ CellGrid asked_grid(const std::vector<std::int64_t>& extents, std::size_t axes) 
         product *= static_cast<double>(grid[k]);
     }
     if (product < 2 || product > static_cast<double>(most_cells))
-        fail(ErrorKind::usage, "--cells: their number, {:.6g}, is outside [2, {}]", product,
+        fail(ErrorKind::usage, "--cells: the number of cells, {:.6g}, is outside [2, {}]", product,
              most_cells);
     return grid;
 }
@@ -150,7 +151,7 @@ std::vector<Estimate> cell_masses(const Domain& domain, const CellGrid& grid, bo
         std::numeric_limits<double>::epsilon() * (64 + 4 * static_cast<double>(masses.size()));
     if (std::abs(sum.value - 1) > sum.error + rounding)
         fail(ErrorKind::limit,
-             "{}: the probabilities of its {} cells sum to {}, not to 1 within their error {}",
+             "{}: the probabilities of its {} cells sum to {}; expected 1 within their error {}",
              domain.title(), masses.size(), sum.value, sum.error);
     return masses;
 }

@@ -81,15 +81,15 @@ constexpr Param<Extents> cells{
 
 constexpr Param<bool> shifted{.name = "shifted",
                               .help =
-                                  "Test on a second grid, too, shifted by half a cell along "
-                                  "each axis; the verdict is that of both"};
+                                  "Also test on a second grid, shifted by half a cell along each "
+                                  "axis; the verdict uses both"};
 
 constexpr Param<Choice> combination{
     .name = "combine",
     .fallback = "sum",
     .choices = "sum|sidak|fisher",
     .help =
-        "What makes one p of several sets (--average): the sum of their statistics, the "
+        "How several sets (--average) give one p-value: from the sum of their statistics, the "
         "smallest p (Sidak), or the product of the p (Fisher)"};
 
 constexpr std::uint64_t held_points = grid_counts[0];  ///< points kept until the grid is known
@@ -236,8 +236,8 @@ void conclude(Report& report, const Judged& plain, const std::optional<Judged>& 
     for (const auto which : {&Judged::least, &Judged::greatest})
         if (verdict_of(plain.*which, of_second(which), level) != verdict)
             fail_with_hint(ErrorKind::limit, "coarser --cells, or fewer points",
-                           "chi-square cannot tell: the cells' probabilities are known within "
-                           "{:.2g} in all, and with that the statistic within {:.3g}; it is {:.6g}",
+                           "chi-square cannot decide: the cells' probabilities have a total error "
+                           "of {:.2g}, and the statistic an error of {:.3g}; it is {:.6g}",
                            report.number("mass_error"), report.number("statistic_error"),
                            report.number("statistic"));
     add_verdict(report, verdict, p, options[expect_uniformity_option]);
@@ -447,39 +447,43 @@ void combine(Report& mean, std::span<const Report> sets, const Values& options) 
 std::vector<ResultKey> results() {
     return {
         {"statistic", "sum of (observed - expected)^2 / expected over the groups of cells"},
-        {"degrees_of_freedom", "groups of cells less 1"},
+        {"degrees_of_freedom", "groups of cells minus 1"},
         {"p_value", "two-sided: twice the smaller of p_upper and p_lower, at most 1"},
-        {"p_upper", "chance that random points have as large a statistic"},
-        {"p_lower", "chance that random points have as small a statistic; their counts are whole"},
+        {"p_upper", "probability that random points have a statistic as large or larger"},
+        {"p_lower",
+         "probability that random points have a statistic as small or smaller, given that counts "
+         "are integers"},
         {"p_method",
-         "of p_lower: exact, summed over all counts that give so small a statistic, where these "
-         "can "
-         "be gone through; corrected: chi-square's, with what whole counts add to it",
+         "method for p_lower: exact: sum over all counts with so small a statistic, if these can "
+         "be enumerated; corrected: the chi-square distribution, corrected for integer counts",
          true, "exact|corrected"},
-        {"verdict", "uniform; non-uniform: counts differ too much; stratified: too little", true,
+        {"verdict",
+         "uniform; non-uniform: counts vary too much; stratified: counts vary too little", true,
          uniformity_verdicts},
-        {"cells", "cells laid out"},
-        {"pooled_cells", "cells put together with others to expect at least 5 points"},
+        {"cells", "number of cells"},
+        {"pooled_cells",
+         "number of cells merged with others, so that each group expects at least 5 points"},
         {"smallest_detectable_effect",
-         "root-mean-square relative error of the cells' probabilities that is found non-uniform "
-         "with probability 0.9"},
+         "root-mean-square relative error of the cells' probabilities that would be found "
+         "non-uniform with probability 0.9"},
         {"grid", "cells along each axis of the domain's cube"},
-        {"mass_error",
-         "bound on the errors of the cells' probabilities, summed; 0: they are exact"},
+        {"mass_error", "sum of the error bounds of the cells' probabilities; 0: exact"},
         {"statistic_error",
-         "most by which the statistic may be off for these errors; no verdict that it could turn"},
+         "bound on the resulting error of the statistic; there is no verdict if this error could "
+         "change it"},
         {"impossible_points",
-         "points in cells or gaps of probability 0: one is enough to be non-uniform"},
-        {"combined_p_value", "of both grids: 1 - (1 - p)^2 of the smaller p", false},
+         "number of points in cells or gaps of probability 0: one is enough for non-uniform"},
+        {"combined_p_value", "p-value from both grids: 1 - (1 - p)^2 of the smaller p", false},
         {"shifted.statistic", "the same on the shifted grid", false},
-        {"shifted.degrees_of_freedom", "groups of its cells less 1", false},
+        {"shifted.degrees_of_freedom", "groups of its cells minus 1", false},
         {"shifted.p_value", "two-sided", false},
-        {"shifted.p_upper", "chance of as large a statistic", false},
-        {"shifted.p_lower", "chance of as small a statistic", false},
-        {"shifted.p_method", "of its p_lower: exact or corrected", false, "exact|corrected"},
-        {"shifted.pooled_cells", "its cells put together with others", false},
-        {"shifted.impossible_points", "points in its cells of probability 0", false},
-        {"shifted.statistic_error", "most by which its statistic may be off", false}};
+        {"shifted.p_upper", "probability of a statistic as large or larger", false},
+        {"shifted.p_lower", "probability of a statistic as small or smaller", false},
+        {"shifted.p_method", "method for its p_lower: exact or corrected", false,
+         "exact|corrected"},
+        {"shifted.pooled_cells", "number of its cells merged with others", false},
+        {"shifted.impossible_points", "number of points in its cells of probability 0", false},
+        {"shifted.statistic_error", "bound on the error of its statistic", false}};
 }
 
 }  // namespace

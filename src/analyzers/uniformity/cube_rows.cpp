@@ -14,9 +14,9 @@ namespace stipple::analyzers {
 
 void require_even(const Domain& domain, std::string_view analyzer) {
     if (domain.even()) return;
-    fail_with_hint(ErrorKind::input, "chi-square takes every domain",
-                   "{} needs coordinates that preserve probability; {} has none", analyzer,
-                   split(domain.title(), ':').front());
+    fail_with_hint(ErrorKind::input, "chi-square accepts every domain",
+                   "{} needs coordinates that preserve probability; {} does not have them",
+                   analyzer, split(domain.title(), ':').front());
 }
 
 void spread_outcomes(const Domain& domain, std::span<double> cubes, std::uint64_t first,

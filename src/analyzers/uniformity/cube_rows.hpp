@@ -48,12 +48,12 @@ inline constexpr Param<double> level_option{
     .low = 0,
     .high = 0.5,
     .low_open = true,
-    .help = "Significance: a p-value below it decides the verdict"};
+    .help = "Significance level: p-values below it are significant for the verdict"};
 
 inline constexpr Param<Choice> expect_uniformity_option{
     .name = "expect",
     .choices = "uniform|stratified",
-    .help = "Fail (exit code 1) when the verdict is another; stratified points are not 'uniform'"};
+    .help = "Fail (exit code 1) if the verdict differs; stratified points are not 'uniform'"};
 
 inline constexpr std::string_view uniformity_verdicts = "uniform|non-uniform|stratified";
 

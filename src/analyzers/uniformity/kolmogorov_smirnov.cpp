@@ -56,8 +56,8 @@ constexpr Param<std::int64_t> exact_points{
     .optional = true,
     .unit = "points",
     .help =
-        "Sets of up to so many points are kept and sorted; larger ones are counted in cells "
-        "[default: 2^26 / d]"};
+        "Largest number of points per set that are kept and sorted; larger sets are counted in "
+        "cells [default: 2^26 / d]"};
 
 /// Coordinates to keep at most, and cells of all axes together.
 constexpr std::uint64_t most_numbers = std::uint64_t{1} << 26;
@@ -234,33 +234,35 @@ void combine(Report& mean, std::span<const Report> sets, const Values& options) 
 }  // namespace
 
 Analyzer unit() {
-    return {
-        .name = "kolmogorov-smirnov",
-        .summary = "Two-sided test of each coordinate of the domain's cube for uniformity",
-        .source = "Kolmogorov 1933; Marsaglia, Tsang, Wang 2003, doi:10.18637/jss.v008.i18",
-        .related = {"ks", "kstest"},
-        .traits = {.max_dimension = 10'000, .unit_cube = false},
-        .options = Schema(level_option, expect_uniformity_option, exact_points),
-        .results = {{"axes", "what they are, where they are not x1, x2, ...", false},
-                    {"statistic", "largest distance from the uniform distribution, for each axis"},
-                    {"statistic_error",
-                     "what it may be above that, for each axis; 0 where the points were kept"},
-                    {"p_value", "for each axis: twice the smaller of both, at most 1"},
-                    {"p_upper", "for each axis: chance of as large a statistic"},
-                    {"p_lower", "for each axis: chance of as small a statistic"},
-                    {"combined_p_value", "of all axes: twice the smaller of both, at most 1"},
-                    {"combined_p_upper", "1 - (1 - p)^axes of the smallest p_upper (Sidak)"},
-                    {"combined_p_lower", "1 - (1 - p)^axes of the smallest p_lower (Sidak)"},
-                    {"verdict",
-                     "uniform; non-uniform: an axis has a wrong density; stratified: one is more "
-                     "even than random",
-                     true, uniformity_verdicts}},
-        .accumulate =
-            [](const Arrival& arrival, const Values& options, const RunContext& run) {
-                return std::make_unique<Collector>(arrival, options, run);
-            },
-        .sharing = {.grain = batch_grain},
-        .combine = combine};
+    return {.name = "kolmogorov-smirnov",
+            .summary = "Two-sided test of each coordinate of the domain's cube for uniformity",
+            .source = "Kolmogorov 1933; Marsaglia, Tsang, Wang 2003, doi:10.18637/jss.v008.i18",
+            .related = {"ks", "kstest"},
+            .traits = {.max_dimension = 10'000, .unit_cube = false},
+            .options = Schema(level_option, expect_uniformity_option, exact_points),
+            .results =
+                {{"axes", "description of the axes, if they are not x1, x2, ...", false},
+                 {"statistic", "largest distance from the uniform distribution, for each axis"},
+                 {"statistic_error",
+                  "bound on the error of the statistic, for each axis; 0 if the points were kept"},
+                 {"p_value", "for each axis: twice the smaller of p_upper and p_lower, at most 1"},
+                 {"p_upper", "for each axis: probability of a statistic as large or larger"},
+                 {"p_lower", "for each axis: probability of a statistic as small or smaller"},
+                 {"combined_p_value",
+                  "for all axes: twice the smaller of combined_p_upper and combined_p_lower, at "
+                  "most 1"},
+                 {"combined_p_upper", "1 - (1 - p)^axes of the smallest p_upper (Sidak)"},
+                 {"combined_p_lower", "1 - (1 - p)^axes of the smallest p_lower (Sidak)"},
+                 {"verdict",
+                  "uniform; non-uniform: an axis has a wrong density; stratified: an axis is more "
+                  "even than random",
+                  true, uniformity_verdicts}},
+            .accumulate =
+                [](const Arrival& arrival, const Values& options, const RunContext& run) {
+                    return std::make_unique<Collector>(arrival, options, run);
+                },
+            .sharing = {.grain = batch_grain},
+            .combine = combine};
 }
 
 }  // namespace stipple::analyzers::kolmogorov_smirnov

@@ -82,7 +82,7 @@ Report finite_of(const SampleMoments& exact) {
     add("covariance", exact.covariance);
     report.add("known", missing.empty());
     if (!missing.empty())
-        report.add("missing", fmt::format("{}: infinite, not defined, or not known within 1e-9",
+        report.add("missing", fmt::format("{}: infinite, undefined, or not known within 1e-9",
                                           fmt::join(missing, ", ")));
     return report;
 }
@@ -204,26 +204,26 @@ std::vector<ResultKey> results() {
         keys.push_back({prefix + "covariance", of + "covariance of each pair, row after row"});
     };
     group("", "");
-    group("standard_error.", "standard error, as far as points are independent: ");
-    group("exact.", "of the domain's law, where a closed form is known: ");
+    group("standard_error.", "standard error, assuming independent points: ");
+    group("exact.", "exact value for the domain's distribution, if a closed form is known: ");
+    keys.push_back({"exact.known",
+                    "whether the exact values for the domain's distribution are known: in closed "
+                    "form or, for formulas, by quadrature within 1e-6 of the range",
+                    true, true_or_false});
     keys.push_back(
-        {"exact.known",
-         "whether the exact values of the domain's law are known: in closed form or, for "
-         "formulas, by quadrature within 1e-6 of the range",
-         true, true_or_false});
-    keys.push_back({"exact.missing",
-                    "which of them are not, because they are infinite, not defined, or not known",
-                    false});
-    keys.push_back({"exact.law",
-                    "whose they are: uniform on the domain, or its density; the law that is meant, "
-                    "also where a biased method such as disk:method=naive made the points"});
+        {"exact.missing",
+         "exact values that are missing, because they are infinite, undefined or not known",
+         false});
+    keys.push_back(
+        {"exact.law",
+         "distribution of the exact values: uniform on the domain, or its density; always the "
+         "intended one, even if a biased method such as disk:method=naive made the points"});
     group("cube.", "on the domain's cube: ");
+    keys.push_back({"cube.largest_z",
+                    "largest difference of one of these from its exact value, in standard errors "
+                    "of independent points"});
     keys.push_back(
-        {"cube.largest_z",
-         "the largest distance of one of these from its exact value, in the standard errors of "
-         "independent points"});
-    keys.push_back(
-        {"cube.axes", "what the axes of the cube are, where they are not x1, x2, ...", false});
+        {"cube.axes", "description of the axes of the cube, if they are not x1, x2, ...", false});
     return keys;
 }
 
@@ -231,7 +231,8 @@ std::vector<ResultKey> results() {
 
 Analyzer unit() {
     return {.name = "moments",
-            .summary = "Mean, variance, skewness and covariances beside the domain's exact values",
+            .summary =
+                "Mean, variance, skewness and covariances, compared with the domain's exact values",
             .source = "Kendall, Stuart, The Advanced Theory of Statistics 1",
             .related = {"statistics", "covariance", "correlation"},
             .traits = {.max_dimension = 1000, .unit_cube = false},

@@ -107,7 +107,7 @@ std::vector<Group> pool(const std::vector<Group>& cells, std::uint64_t n) {
         open = {};
     }
     if (groups.size() < 2)
-        fail_with_hint(ErrorKind::input, "more points, or other --cells",
+        fail_with_hint(ErrorKind::input, "use more points, or other --cells",
                        "chi-square needs two groups of cells that expect {} points each; {} points "
                        "on {} cells give {}",
                        fewest_expected, n, cells.size(), groups.size());

@@ -41,16 +41,17 @@
 namespace stipple::analyzers::serial {
 namespace {
 
-constexpr Param<std::int64_t> lags{.name = "lags",
-                                   .fallback = 5,
-                                   .low = 1,
-                                   .high = 1000,
-                                   .unit = "points",
-                                   .help = "Correlations with the points 1, 2, ... so many before"};
+constexpr Param<std::int64_t> lags{
+    .name = "lags",
+    .fallback = 5,
+    .low = 1,
+    .high = 1000,
+    .unit = "points",
+    .help = "Largest lag: each point is correlated with the points 1, 2, ... before it"};
 
 constexpr Param<Choice> expect{.name = "expect",
                                .choices = "independent|dependent",
-                               .help = "Fail (exit code 1) when the verdict is another"};
+                               .help = "Fail (exit code 1) if the verdict differs"};
 
 /// Sums along one axis.
 struct AxisSums {
@@ -189,18 +190,19 @@ void combine(Report& mean, std::span<const Report> sets, const Values& options) 
 Analyzer unit() {
     return {
         .name = "serial",
-        .summary = "Whether points depend on the ones before: lag correlations and runs",
+        .summary = "Dependence of points on preceding ones: lag correlations and runs",
         .source = "Levene, Wolfowitz 1944, doi:10.1214/aoms/1177731307; Knuth, TAOCP 2, 3.3.2",
         .related = {"autocorrelation", "runs-test"},
         .traits = {.max_dimension = 10'000, .unit_cube = false},
         .options = Schema(lags, level_option, expect),
-        .results = {{"axes", "what they are, where they are not x1, x2, ...", false},
-                    {"lags", "lags for each axis"},
-                    {"correlation", "with the point L before, L = 1, 2, ...; axis after axis"},
+        .results = {{"axes", "description of the axes, if they are not x1, x2, ...", false},
+                    {"lags", "number of lags for each axis"},
+                    {"correlation",
+                     "correlation with the point L before, L = 1, 2, ...; axis after axis"},
                     {"correlation_z", "the same in standard deviations from its mean, 0"},
-                    {"runs_up_down", "for each axis: stretches that rise or fall"},
+                    {"runs_up_down", "for each axis: number of runs that rise or fall"},
                     {"runs_up_down_z", "the same in standard deviations from its mean"},
-                    {"runs_about_half", "for each axis: stretches below 1/2, or not below"},
+                    {"runs_about_half", "for each axis: number of runs below 1/2, or not below"},
                     {"runs_about_half_z", "the same in standard deviations from its mean"},
                     {"combined_p_value",
                      "1 - (1 - p)^T of the smallest two-sided p of all T tests"},

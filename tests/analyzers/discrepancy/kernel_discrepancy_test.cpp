@@ -268,9 +268,9 @@ TEST(KernelDiscrepancy, RefusesDomainsWhoseMeansItDoesNotKnow) {
     const PointSet disk = with_domain(points_of({{0.1, 0.2}, {-0.3, 0.4}}), "disk");
     for (const char* kernel : {"periodic", "gaussian", "matern"})
         EXPECT_TRUE(refusal(disk, {{"kernel", kernel}}).starts_with("input: ")) << kernel;
-    EXPECT_TRUE(
-        refusal(with_domain(points_of({{0.5}}), "normal"), {})
-            .starts_with("input: kernel-discrepancy takes points of the unit cube or a box"));
+    EXPECT_TRUE(refusal(with_domain(points_of({{0.5}}), "normal"), {})
+                    .starts_with("input: kernel-discrepancy with the kernel periodic requires "
+                                 "points of the unit cube or a box"));
 }
 
 // Distances of 0, 1, 3 and 7: 1, 2, 3, 4, 6, 7. Without the last, 1, 2, 3.
@@ -306,20 +306,20 @@ TEST(KernelDiscrepancy, RefusesWhatItCannotCompare) {
     const TemporaryFile plane_file(text_of(make("random", points(9, 2))));
     const std::string& plane = plane_file.path();
     EXPECT_EQ(refusal(set, {{"target", plane}}),
-              "input: " + plane + ": points of dimension 2; those to compare with it have 3");
+              "input: " + plane + ": points of dimension 2; the points to compare have 3");
     EXPECT_TRUE(refusal(set, {{"target", "nowhere.csv"}}).starts_with("io: "));
     EXPECT_EQ(refusal(set, {{"target", "-"}}),
               "usage: --target: standard input cannot be read again; give a file");
     EXPECT_EQ(refusal(set, {{"kernel", "stein"}}),
-              "input: --kernel stein takes rows of d coordinates and d scores (grad log p); these "
-              "have 3 numbers");
+              "input: --kernel stein requires rows of d coordinates and d scores (grad log p); "
+              "these have 3 numbers");
     EXPECT_TRUE(refusal(set, {{"kernel", "stein"}, {"target", plane}})
-                    .starts_with("usage: --target: the kernel stein knows its target"));
+                    .starts_with("usage: --target: the kernel stein gets its target"));
     EXPECT_EQ(refusal(set, {{"bandwidth", "1"}}),
-              "usage: --bandwidth: the kernel periodic has no length scale; gaussian, matern and "
-              "stein do");
+              "usage: --bandwidth: the kernel periodic has no length scale; expected gaussian, "
+              "matern or stein");
     EXPECT_EQ(refusal(set, {{"kernel", "gaussian"}, {"smoothness", "1.5"}}),
-              "usage: --smoothness is of --kernel matern; this is gaussian");
+              "usage: --smoothness applies to --kernel matern only; this is gaussian");
     EXPECT_TRUE(refusal(set, {{"kernel", "gaussian"}, {"bandwidth", "0"}})
                     .starts_with("usage: --bandwidth: 0 is outside"));
     PointSet out = set;

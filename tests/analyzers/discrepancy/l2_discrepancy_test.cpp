@@ -825,7 +825,7 @@ TEST(L2Discrepancy, RefusesWrongOptionsAndSaysWhy) {
               "usage: --kind: 'centred' is no kind of L2 discrepancy | did you mean 'centered'?");
     EXPECT_TRUE(error({{"kind", ""}}).starts_with("usage: --kind: "));
     EXPECT_EQ(error({{"weights", "1,2"}}),
-              "usage: --weights: 2 numbers for points of 3 coordinates; one for each");
+              "usage: --weights: 2 numbers for points of 3 coordinates; expected one for each");
     EXPECT_EQ(error({{"weights", "1,-0.5,2"}}), "usage: --weights: -0.5 is outside [0, 1e6]");
     EXPECT_EQ(error({{"weights", "1,1e7,2"}}), "usage: --weights: 10000000 is outside [0, 1e6]");
     EXPECT_TRUE(error({{"weights", "1,nan,2"}}).starts_with("usage: --weights: "));
@@ -841,7 +841,7 @@ TEST(L2Discrepancy, RefusesWhatNoDoubleHolds) {
     const PointSet set = random_set(5, 2000, 1);
     EXPECT_EQ(error_of([&] { report_of(set, {}, "wraparound"); }),
               "limit: wraparound discrepancy: in 2000 dimensions its square is beyond the largest "
-              "double | --kind chooses others");
+              "double | --kind selects others");
     EXPECT_TRUE(std::isfinite(squared(report_of(set, {}, "star"), "star")));
     // All kinds, of which diaphony is the first that is too large: 500 log10(1 + pi^2/3) = 316.
     const Report all = report_of(random_set(3, 500, 1));

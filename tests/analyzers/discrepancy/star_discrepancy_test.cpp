@@ -899,8 +899,8 @@ TEST(StarDiscrepancy, RefusesPointsOutsideTheCubeAndTooLittleMemory) {
     run.max_memory = 1000;
     EXPECT_EQ(
         error_of([&] { analyze("star-discrepancy", halton(1000, 2), {}, run); }),
-        "limit: the star discrepancy of 1000 points in 2 dimensions needs 54.7 KiB of memory; "
-        "the limit is 1000 bytes | 17 points would do; or raise the limit with --max-memory");
+        "limit: the star discrepancy of 1000 points in 2 dimensions needs 54.7 KiB of memory; the "
+        "limit is 1000 bytes | 17 points would fit; or raise the limit with --max-memory");
     EXPECT_THAT(error_of([&] { analyze("star-discrepancy", halton(1000, 5), {}, run); }),
                 HasSubstr("points would do"));
 }
@@ -1020,7 +1020,7 @@ TEST(StarDiscrepancy, LimitsAreForAllRowsOfATable) {
     ASSERT_EQ(told.size(), 1U);
     EXPECT_THAT(told[0],
                 HasSubstr(fmt::format("{} of 8 discrepancies are not known exactly", open)));
-    EXPECT_THAT(told[0], HasSubstr("the first, of the first "));
+    EXPECT_THAT(told[0], HasSubstr("the first, that of the first "));
     const Report again = rows({{"every", "20"}, {"max-work", "4000000"}}, {.threads = 3});
     for (const char* key : {"prefixes.lower", "prefixes.upper"})
         EXPECT_EQ(part.curve(key), again.curve(key));
@@ -1030,7 +1030,7 @@ TEST(StarDiscrepancy, LimitsAreForAllRowsOfATable) {
     const Report timed = rows({{"projections", "6"}, {"time-limit", "2"}}, run);
     EXPECT_LE(looks, 5000);
     EXPECT_EQ(told.size(), 2U);
-    EXPECT_THAT(told[1], HasSubstr("the first, of the projection to axes 1, 2, 3, 4, 5, "));
+    EXPECT_THAT(told[1], HasSubstr("the first, that of the projection to axes 1, 2, 3, 4, 5, "));
     EXPECT_FALSE(std::get<bool>(*timed.find("projections.worst_is_certain")));
     EXPECT_EQ(timed.find("projections.largest.value"), nullptr);
     // Once the time is over, a row costs a few looks at the clock; the first is measured.
@@ -1144,11 +1144,11 @@ TEST(StarDiscrepancy, RefusesTablesThatTheSetDoesNotHave) {
         return error_of([&] { analyze("star-discrepancy", p, settings); });
     };
     EXPECT_EQ(error({{"prefixes", "16,64"}}),
-              "input: --prefixes: 64 is beyond the set's 50 points");
+              "input: --prefixes: 64 is above the number of points, 50");
     EXPECT_EQ(error({{"prefixes", "16,8"}}),
-              "usage: --prefixes: 8 stands behind 16; expected rising numbers");
+              "usage: --prefixes: 8 comes after 16; expected increasing numbers");
     EXPECT_EQ(error({{"prefixes", "8,8"}}),
-              "usage: --prefixes: 8 is there twice; expected rising numbers");
+              "usage: --prefixes: 8 is given twice; expected increasing numbers");
     EXPECT_EQ(error({{"prefixes", "0,8"}}),
               "usage: --prefixes: 0 is not a number of points; expected 1, 2, ...");
     EXPECT_EQ(error({{"prefixes", "1.5"}}),
@@ -1156,11 +1156,11 @@ TEST(StarDiscrepancy, RefusesTablesThatTheSetDoesNotHave) {
     EXPECT_NE(error({{"prefixes", "sixteen"}}).find("--prefixes"), std::string::npos);
     EXPECT_NE(error({{"prefixes", "8,,9"}}).find("--prefixes"), std::string::npos);
     EXPECT_NE(error({{"every", "0"}}).find("--every"), std::string::npos);
-    EXPECT_EQ(error({{"every", "51"}}), "input: --every: 51 is beyond the set's 50 points");
+    EXPECT_EQ(error({{"every", "51"}}), "input: --every: 51 is above the number of points, 50");
     EXPECT_EQ(error({{"every", "5"}, {"prefixes", "5"}}),
-              "usage: --prefixes and --every: give one of them");
+              "usage: --prefixes and --every cannot be combined; give one of them");
     EXPECT_EQ(error({{"projections", "3"}}),
-              "input: --projections: 3 is beyond the points' 2 coordinates");
+              "input: --projections: 3 is above the number of coordinates, 2");
     EXPECT_NE(error({{"projections", "0"}}).find("--projections"), std::string::npos);
     EXPECT_NE(error({{"boxes", "open"}}).find("--boxes"), std::string::npos);
 }

@@ -253,16 +253,16 @@ TEST(Coverage, GivesUpAfterSoManyBoxes) {
         error_of([] {
             analyze(unit, make("random", points(300, 6)), {{"max-boxes", "10000"}});
         })
-            .starts_with("limit: the largest empty ball of 300 points in 6 dimensions takes "
-                         "more than 10000 boxes (--max-boxes); certain so far: its radius is "
-                         "at least 0."));
+            .starts_with(
+                "limit: the search for the largest empty ball of 300 points in 6 dimensions "
+                "exceeds 10000 boxes (--max-boxes); certain so far: its radius is at least 0."));
 }
 
 TEST(Coverage, RefusesDomainsThatAreNoBox) {
     PointSet set = points_of({{0, 0}});
     set.domain = parse_domain("disk", 2);
     EXPECT_EQ(error_of([&] { analyze(unit, set); }),
-              "input: coverage takes points of the unit cube or a box; these live on disk");
+              "input: coverage requires points of the unit cube or a box; their domain is disk");
     EXPECT_EQ(error_of([&] {
                   analyze(unit, points_of({{0, 2}}), with(false));
               }),

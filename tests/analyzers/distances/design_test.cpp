@@ -179,10 +179,9 @@ TEST(Design, RefusesTooFewPoints) {
         return error_of([&] { report_on(make("random", points(n, d)), settings); });
     };
     EXPECT_EQ(error(1, 2, {}), "input: design needs at least two points; this is one");
-    EXPECT_EQ(
-        error(5, 2, {{"model", "quadratic"}}),
-        "input: 5 points are fewer than the 6 terms of --model quadratic | --model none leaves "
-        "the efficiencies out");
+    EXPECT_EQ(error(5, 2, {{"model", "quadratic"}}),
+              "input: 5 points are fewer than the 6 terms of --model quadratic | --model none "
+              "omits the efficiencies");
     EXPECT_EQ(report_on(make("random", points(5, 8)), {{"model", "none"}}).find("d_efficiency"),
               nullptr);
 }

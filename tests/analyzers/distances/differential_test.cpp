@@ -138,11 +138,12 @@ TEST(Differential, RefusesWhatHasNoImage) {
     EXPECT_EQ(refusal(points_of({{0.5, 0.5}})),
               "input: differential needs at least two points; this is one");
     EXPECT_EQ(refusal(points_of({{0.5, 0.5}, {0.5, 0.5}})),
-              "input: differential needs points at two places at least; all 2 are at one");
+              "input: differential needs points at two or more places; all 2 are at one");
     EXPECT_EQ(refusal(make("random", points(10, 3))),
-              "input: differential takes points of dimension 2; these have 3");
-    EXPECT_EQ(refusal(set, {{"pixels", "100"}}),
-              "usage: --pixels: 100 is even; one pixel is to be in the middle");
+              "input: differential requires points of dimension 2; these have 3");
+    EXPECT_EQ(
+        refusal(set, {{"pixels", "100"}}),
+        "usage: --pixels: 100 is even; expected an odd number, so that one pixel is in the middle");
     EXPECT_EQ(refusal(set, {{"max-distance", "6"}}),
               "usage: --max-distance: 6 is more than half the shortest side, 5");
 }

@@ -264,17 +264,18 @@ TEST(Hyperuniformity, RefusesWhatHasNoWindows) {
     EXPECT_EQ(refusal(points_of({{0.5, 0.5}})),
               "input: hyperuniformity needs at least two points; this is one");
     EXPECT_EQ(refusal(points_of({{0.5, 0.5}, {0.5, 0.5}})),
-              "input: hyperuniformity needs points at two places at least; all 2 are at one");
+              "input: hyperuniformity needs points at two or more places; all 2 are at one");
     EXPECT_EQ(refusal(make("random", points(10, 4))),
-              "input: hyperuniformity takes points of dimension 1 to 3; these have 4");
+              "input: hyperuniformity requires points of dimension 1 to 3; these have 4");
     EXPECT_EQ(refusal(set, {{"max-radius", "2.6"}}),
               "usage: --max-radius: 2.6 is more than a quarter of the shortest side, which is 2.5 "
               "mean distances");
-    EXPECT_EQ(refusal(set, {{"windows", "100"}}), "usage: --windows is of --metric euclidean");
+    EXPECT_EQ(refusal(set, {{"windows", "100"}}),
+              "usage: --windows applies to --metric euclidean only");
     EXPECT_EQ(refusal(set, {{"min-radius", "2"}, {"max-radius", "1"}}),
               "usage: --min-radius: 2 is not below the largest radius, 1");
     EXPECT_EQ(refusal(set, {{"min-radius", "0.9999"}, {"max-radius", "1"}}),
-              "usage: --min-radius: 0.9999 is too near to the largest radius, 1, for a slope");
+              "usage: --min-radius: 0.9999 is too close to the largest radius, 1, to fit a slope");
 }
 
 }  // namespace stipple::testing::hyperuniformity_test

@@ -240,16 +240,16 @@ TEST(NearestNeighbor, RefusesSquaresBeyondFloat64) {
     };
     for (const char* analyzer : {"nearest-neighbor", "spanning-tree"})
         EXPECT_EQ(refusal(analyzer, far),
-                  "input: the points lie too far apart for squared distances in float64: x1 from "
+                  "input: the points are too far apart for squared distances in float64: x1 from "
                   "-1e+200 to 1e+200");
     EXPECT_EQ(refusal(unit, points_of({{0}, {1e154}})), "");
     EXPECT_NE(refusal(unit, points_of({{0, 0}, {0, 1.1e154}, {1.1e154, 0}})), "");
     PointSet wide = points_of({{0.25}, {0.5}});
     wide.domain = box_domain({{0}, {2e155}});
     for (const char* analyzer : {"nearest-neighbor", "pair-correlation"})
-        EXPECT_EQ(error_of([&] { analyze(analyzer, wide); }),
-                  "input: the box that the points live on is too wide for squared distances in "
-                  "float64: x1 from 0 to 2e+155");
+        EXPECT_EQ(
+            error_of([&] { analyze(analyzer, wide); }),
+            "input: the box is too wide for squared distances in float64: x1 from 0 to 2e+155");
 }
 
 TEST(NearestNeighbor, MeasuresStraightWhereThereAreNoFaces) {
@@ -257,18 +257,18 @@ TEST(NearestNeighbor, MeasuresStraightWhereThereAreNoFaces) {
     const Report anywhere = analyze(unit, set, {{"metric", "euclidean"}});
     EXPECT_EQ(anywhere.number("minimum"), 1.8);
     EXPECT_EQ(anywhere.find("relative_radius"), nullptr);
-    EXPECT_EQ(error_of([&] { analyze(unit, set); }),
-              "input: 1 of 2 points are outside the domain unit-cube; the first is point 0: "
-              "(-0.9, 0) | --domain names what the points live on; --metric euclidean takes points "
-              "anywhere");
+    EXPECT_EQ(
+        error_of([&] { analyze(unit, set); }),
+        "input: 1 of 2 points are outside the domain unit-cube; the first is point 0: (-0.9, 0) | "
+        "--domain names the domain of the points; --metric euclidean accepts points anywhere");
     set.domain = parse_domain("disk", 2);
     EXPECT_EQ(analyze(unit, set).text("metric"), "euclidean");
     EXPECT_EQ(analyze(unit, set).number("minimum"), 1.8);
     EXPECT_EQ(error_of([&] {
                   analyze(unit, set, {{"metric", "torus"}});
               }),
-              "usage: --metric: a torus joins the faces of a unit cube or a box; the points live "
-              "on disk");
+              "usage: --metric: a torus joins the faces of a unit cube or a box; the domain of the "
+              "points is disk");
 }
 
 TEST(NearestNeighbor, AMeanOverSetsHasNoPair) {

@@ -268,10 +268,10 @@ TEST(PairCorrelation, RefusesWhatHasNoPairs) {
     EXPECT_EQ(refusal(points_of({{0.5, 0.5}})),
               "input: pair-correlation needs at least two points; this is one");
     EXPECT_EQ(refusal(make("random", points(10, 2)), {{"max-distance", "0.8"}}),
-              "usage: --max-distance: 0.8 is more than any two points have; at most "
+              "usage: --max-distance: 0.8 is more than any pair can have; expected at most "
               "0.7071067811865476");
     EXPECT_EQ(refusal(make("random", points(10, 2)), {{"bandwidth", "3"}}),
-              "usage: --bandwidth is of --kernel epanechnikov");
+              "usage: --bandwidth applies to --kernel epanechnikov only");
     EXPECT_EQ(refusal(make("random", points(10, 2)), {{"kernel", "epanechnikov"}, {"bins", "3"}}),
               "usage: --bandwidth: 4 is more than the 3 bins");
     EXPECT_NE(refusal(make("random", points(10, 2)), {{"max-distance", "0"}}), "");

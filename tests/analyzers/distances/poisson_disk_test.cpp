@@ -158,13 +158,13 @@ TEST(PoissonDiskVerification, AnExpectationThatDoesNotHoldSaysWhy) {
     EXPECT_TRUE(analyze(unit, grid(), with(0.125, true, {{"expect", "valid"}})).unmet().empty());
     EXPECT_TRUE(analyze(unit, grid(), with(0.2)).unmet().empty());
     EXPECT_EQ(analyze(unit, grid(), with(0.15, true, {{"expect", "valid"}})).unmet(),
-              std::vector<std::string>{"the set is no maximal Poisson-disk set of radius 0.15: 128 "
-                                       "pairs are nearer, the first is 0, 1"});
+              std::vector<std::string>{"the set is not a maximal Poisson-disk set of radius 0.15: "
+                                       "128 pairs are closer, the first is 0, 1"});
     const PointSet lone = points_of({{0.25, 0.25}});
-    EXPECT_EQ(analyze(unit, lone, with(0.5, true, {{"expect", "valid"}})).unmet(),
-              std::vector<std::string>{"the set is no maximal Poisson-disk set of radius 0.5: "
-                                       "(0.75, 0.75) is 0.7071067811865476 from the nearest "
-                                       "point"});
+    EXPECT_EQ(
+        analyze(unit, lone, with(0.5, true, {{"expect", "valid"}})).unmet(),
+        std::vector<std::string>{"the set is not a maximal Poisson-disk set of radius 0.5: (0.75, "
+                                 "0.75) is 0.7071067811865476 from the nearest point"});
 }
 
 TEST(PoissonDiskVerification, AMeanOfSetsIsValidWhereAllAre) {
@@ -184,10 +184,11 @@ TEST(PoissonDiskVerification, OfASinglePoint) {
     EXPECT_TRUE(flag(analyze(unit, lone, with(0.75)), "valid"));
     EXPECT_TRUE(flag(analyze(unit, lone, with(1.07, false)), "valid"));
     EXPECT_FALSE(flag(analyze(unit, lone, with(1.06, false)), "valid"));
-    EXPECT_EQ(error_of([&] {
-                  analyze(unit, lone, {{"metric", "euclidean"}});
-              }),
-              "usage: --radius: a single point tells no radius; give one");
+    EXPECT_EQ(
+        error_of([&] {
+            analyze(unit, lone, {{"metric", "euclidean"}});
+        }),
+        "usage: --radius: a single point has no distance from which to take the radius; give one");
 }
 
 TEST(PoissonDiskVerification, RefusesARadiusThatIsNone) {

@@ -99,7 +99,7 @@ TEST(SpanningTree, RefusesWhatHasNoEdges) {
     EXPECT_EQ(refusal(points_of({{0.5}})),
               "input: spanning-tree needs at least two points; this is one");
     EXPECT_EQ(refusal(points_of({{0.5, 0}, {0.5, 0}})),
-              "input: spanning-tree needs points at two places at least; all 2 are at one");
+              "input: spanning-tree needs points at two or more places; all 2 are at one");
 }
 
 }  // namespace stipple::testing::spanning_tree_test

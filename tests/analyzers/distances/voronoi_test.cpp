@@ -338,9 +338,9 @@ TEST(Voronoi, RefusesWhatHasNoCells) {
     EXPECT_EQ(refusal(points_of({{0.5, 0.5}})),
               "input: voronoi needs at least two points; this is one");
     EXPECT_EQ(refusal(points_of({{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}})),
-              "input: voronoi needs points at two places at least; all 3 are at one");
+              "input: voronoi needs points at two or more places; all 3 are at one");
     EXPECT_EQ(refusal(make("random", points(10, 3))),
-              "input: voronoi takes points of dimension 2; these have 3");
+              "input: voronoi requires points of dimension 2; these have 3");
 }
 
 }  // namespace stipple::testing::voronoi_test

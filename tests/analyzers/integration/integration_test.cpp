@@ -356,27 +356,28 @@ TEST(Integration, RefusesWhatItCannotIntegrateInOneLine) {
     EXPECT_EQ(refusal(square, "sobol-g:a=[1"),
               "usage: --integrand, column 11: this '[' is not closed");
     EXPECT_EQ(refusal(square, "owen@2"),
-              "usage: --integrand: 'owen@2': coordinates behind @ are for warps");
+              "usage: --integrand: 'owen@2': coordinates after @ are for warps only");
     EXPECT_EQ(refusal(square, "sobol-g:a=-1"), "usage: --integrand: sobol-g: --a: -1 is below 0");
     EXPECT_EQ(refusal(square, "sobol-g:a=[0,1,2]"),
               "usage: --integrand: sobol-g: --a: 3 numbers for 2 coordinates; one for all, or one "
               "for each");
     EXPECT_EQ(refusal(square, "sky-radiance"),
-              "input: --integrand: sky-radiance takes points of a hemisphere; these live on "
+              "input: --integrand: sky-radiance requires points of a hemisphere; the domain is "
               "unit-cube");
     EXPECT_EQ(refusal(disk, "genz-gaussian"),
-              "input: --integrand: genz-gaussian takes points of a box; these live on disk");
+              "input: --integrand: genz-gaussian requires points of a box; the domain is disk");
     EXPECT_EQ(refusal(random_points(64, 3), "zone-plate"),
-              "input: --integrand: zone-plate takes points of dimension 2; these have 3");
+              "input: --integrand: zone-plate requires points of dimension 2; these have 3");
     PointSet decay = random_points(64, 1);
     decay.domain = parse_domain("normal", 1);
     EXPECT_EQ(refusal(decay, "measure"),
-              "input: --integrand: measure takes points of a domain of finite measure; these live "
-              "on normal");
-    EXPECT_EQ(error_of([&] {
-                  analyze("integration", decay, {{"expression", "x"}, {"compare", "true"}});
-              }),
-              "input: --compare: there are no uniform points on normal: its measure is infinite");
+              "input: --integrand: measure requires points of a domain of finite measure; the "
+              "domain is normal");
+    EXPECT_EQ(
+        error_of([&] {
+            analyze("integration", decay, {{"expression", "x"}, {"compare", "true"}});
+        }),
+        "input: --compare: there are no uniform points on normal, because its measure is infinite");
     EXPECT_EQ(refusal(points_of({{0.5}}), "owen", {{"compare", "true"}}),
               "input: --compare: needs at least 2 points, not 1");
 }
@@ -413,7 +414,7 @@ TEST(Integration, TakesFormulas) {
     EXPECT_EQ(error_of([&] {
                   of(set, {{"exact", "1"}});
               }),
-              "usage: --exact: is the integral of an --expression; none is given");
+              "usage: --exact: needs --expression, whose integral it is");
     EXPECT_TRUE(error_of([&] {
                     of(set, {{"expression", "x+"}});
                 }).starts_with("usage: --expression: 'x+': the formula ends at column 3, where "));

@@ -271,14 +271,12 @@ TEST(TValue, SeesThroughADigitalShift) {
 
 TEST(TValue, RefusesCountsThatAreNoPowerNamingTheNearest) {
     const PointSet set = make("random", points(1000, 2));
-    EXPECT_EQ(
-        error_of([&] { t_value(set); }),
-        "input: t-value takes b^m points; 1000 is no power of 2 (--base); 512 and 1024 are the "
-        "nearest");
-    EXPECT_EQ(
-        error_of([&] { t_value(set, 4096); }),
-        "input: t-value takes b^m points; 1000 is no power of 4096 (--base); 1 and 4096 are the "
-        "nearest");
+    EXPECT_EQ(error_of([&] { t_value(set); }),
+              "input: t-value requires b^m points; 1000 is not a power of 2 (--base); 512 and 1024 "
+              "are the nearest");
+    EXPECT_EQ(error_of([&] { t_value(set, 4096); }),
+              "input: t-value requires b^m points; 1000 is not a power of 4096 (--base); 1 and "
+              "4096 are the nearest");
     EXPECT_EQ(error_of([&] { t_value(set, 10); }), "");
     EXPECT_EQ(error_of([&] { t_value(set, 1); }), "usage: --base: 1 is outside [2, 1000000]");
 }

@@ -99,12 +99,12 @@ TEST(FourierAmplitude, RefusesFailedRunsAndOtherHarmonics) {
     PointSet table = with_outputs(fast_rows(257, 3, 1), ishigami);
     EXPECT_NE(error_of([&] {
                   analyze(unit, table, {{"method", "fast"}, {"harmonics", "6"}});
-              }).find("coordinate 1 swings on curve 1 as of 4 harmonics, not 6"),
+              }).find("on curve 1, coordinate 1 oscillates as for 4 harmonics, not 6"),
               std::string::npos);
     table[17][3] = std::nan("");
     EXPECT_EQ(error_of([&] { analyze(unit, table); }),
-              "input: the output x4 has 1 failed runs; a curve with gaps has no spectrum: run them "
-              "again, or take --method rank or chaos");
+              "input: the output x4 has 1 failed runs; a curve with gaps has no spectrum: repeat "
+              "these runs, or use --method rank or chaos");
     EXPECT_EQ(error_of([&] { analyze(unit, table, {{"method", "rank"}}); }), "");
 }
 

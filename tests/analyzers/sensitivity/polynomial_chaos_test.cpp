@@ -213,7 +213,7 @@ TEST(PolynomialChaos, SaysWhereNoPolynomialHelps) {
         rows.push_back({static_cast<double>(i) / 40, i % 2 == 0 ? -1. : 1.});
     EXPECT_EQ(error_of([&] { chaos(points_of(rows)); }),
               "input: no polynomial predicts the output y better than its mean | --method rank "
-              "needs no polynomial");
+              "does not need a polynomial");
 }
 
 }  // namespace stipple::testing::polynomial_chaos_test

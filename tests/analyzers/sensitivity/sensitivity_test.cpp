@@ -91,12 +91,12 @@ TEST(Sensitivity, CopiesOfInputsAreNoOutputsButNoneVanishes) {
 
     table.provenance.columns = {"other", "b", "sum", "y"};
     EXPECT_THAT(refusal(table, settings),
-                HasSubstr("the column b has the name of an input, and other numbers: "));
+                HasSubstr("the column b has the name of an input, but other numbers: "));
     table = points_of(points_in(make("sobol", points(64, 2, 1))));
     table.provenance.columns = {"a", "b"};
-    EXPECT_EQ(refusal(table, settings),
-              "input: all columns of the table are copies of inputs: a, b | --response picks "
-              "outputs");
+    EXPECT_EQ(
+        refusal(table, settings),
+        "input: all columns of the table are copies of inputs: a, b | --response selects outputs");
 }
 
 // Provenance of a design to which a column was added knows which columns it had.
@@ -113,25 +113,25 @@ TEST(Sensitivity, ProvenanceNamesTheInputs) {
     EXPECT_EQ(notes_of(table, {}), std::vector<std::string>{});
     // Of an output that is picked, the others are neither.
     table.provenance.columns = {"a", "load", "b"};
-    EXPECT_THAT(refusal(table), HasSubstr("the table has no column x, y, as inputs of its design"));
+    EXPECT_THAT(refusal(table),
+                HasSubstr("the table has no column x, y for the inputs of its design"));
     EXPECT_EQ(notes_of(table, {{"inputs", "b"}, {"response", "load"}}),
               (std::vector<std::string>{
-                  "the table: neither input nor output: a",
-                  "the table: not all of x, y are there, and what they follow is left out of "
-                  "account"}));
+                  "the table: columns that are neither input nor output: a",
+                  "the table: some of x, y are missing, so that their distribution is ignored"}));
     EXPECT_THAT(refusal(make("sobol", points(64, 2))), HasSubstr("holds no outputs"));
     PointSet words = with_outputs(points_in(make("sobol", points(8, 1))), [](auto) { return 1; });
     words.provenance.columns = {"a", "state"};
     words.provenance.levels = {{"state", {"good", "bad"}}};
-    EXPECT_THAT(refusal(words), HasSubstr("the output state holds words, such as good"));
+    EXPECT_THAT(refusal(words), HasSubstr("the output state contains words, such as good"));
 }
 
 TEST(Sensitivity, WithoutADesignTheLastColumnIsTheOutput) {
     const PointSet table = with_outputs(points_in(make("sobol", points(128, 3))), linear);
-    EXPECT_EQ(notes_of(table, {}),
-              std::vector<std::string>{"the last column is taken as the output, x4, and the others "
-                                       "as inputs, x1, x2, x3; --response and --inputs name "
-                                       "others"});
+    EXPECT_EQ(
+        notes_of(table, {}),
+        std::vector<std::string>{"the last column is used as the output, x4, and the others as "
+                                 "inputs, x1, x2, x3; --response and --inputs select others"});
     const Report report = analyze(unit, table, {{"method", "chaos"}});
     EXPECT_NEAR(report.number("x4.x1.first"), 9. / 14, 1e-12);
     const Report picked =
@@ -187,13 +187,13 @@ TEST(Sensitivity, SaysThatADesignIsBroken) {
     const Settings settings = {{"response", "4"}};
     ASSERT_EQ(notes_of(table, settings).size(), 1U);
     EXPECT_THAT(notes_of(table, settings)[0],
-                HasSubstr("83 % of the rows differ from another in one input"));
+                HasSubstr("83 % of the rows differ from another row in one input"));
     table.provenance = make("saltelli", points(320, 3)).provenance;
     table.provenance.columns = {"x", "y", "z", "out"};
     ASSERT_EQ(notes_of(table, {}).size(), 1U);
     EXPECT_THAT(
         notes_of(table, {})[0],
-        HasSubstr("saltelli made the design, and its rows are not whole: in groups of 8, "));
+        HasSubstr("saltelli made the design, but its rows are not complete: in groups of 8, "));
 
     Rows dependent = points_in(make("sobol", points(256, 2)));
     for (auto& row : dependent) row[1] = 0.7 * row[0] + 0.3 * row[1];
@@ -219,7 +219,7 @@ TEST(Sensitivity, ReplicatedFactorialsAreNoPickFreeze) {
         with_outputs(rows, [&](auto u) { return u[0] + 2 * u[1] + 0.01 * (run++ % 5); });
     EXPECT_NE(analyze(unit, table).text("z.method"), "saltelli");
     EXPECT_THAT(refusal(table, {{"method", "saltelli"}}),
-                HasSubstr("as corners of a factorial design do"));
+                HasSubstr("like corners of a factorial design"));
     // Two-level inputs of real pick-freeze rows are equal in A and B half of the time.
     Rows levels = pick_freeze_rows(make("random", points(32, 4)), false);
     for (auto& row : levels)
@@ -241,10 +241,10 @@ TEST(Sensitivity, RefusesColumnsThatAreNotThere) {
     EXPECT_THAT(
         refusal(table, {{"response", "w"}}),
         HasSubstr("usage: --response: the table has no column 'w'; its columns are 1 to 3"));
-    EXPECT_THAT(refusal(table, {{"inputs", "x,x"}}), HasSubstr("--inputs: 'x' is named twice"));
-    EXPECT_THAT(refusal(table, {{"inputs", "x,z"}}), HasSubstr("--inputs: 'z' is an output, too"));
+    EXPECT_THAT(refusal(table, {{"inputs", "x,x"}}), HasSubstr("--inputs: 'x' is given twice"));
+    EXPECT_THAT(refusal(table, {{"inputs", "x,z"}}), HasSubstr("--inputs: 'z' is also an output"));
     EXPECT_THAT(refusal(points_of({{1}, {2}})),
-                HasSubstr("a table of 1 column holds no inputs beside the outputs | --design"));
+                HasSubstr("a table of 1 column has no inputs besides the outputs | --design"));
 }
 
 // Shares of no variance are missing, with the reason; rounding is no variance. Other outputs have theirs.
@@ -267,7 +267,7 @@ TEST(Sensitivity, ConstantOutputsHaveNoIndices) {
             unit, table, {{"method", method}, {"inputs", "1,2"}, {"response", "3,4,5,6,7"}});
         for (const char* key : {"x3", "x4", "x5"}) {
             EXPECT_THAT(report.text(std::string(key) + ".missing"),
-                        HasSubstr("in all runs, but for rounding at most"))
+                        HasSubstr("in all runs, up to rounding"))
                 << method << ' ' << key;
             EXPECT_EQ(report.find(std::string(key) + ".x1"), nullptr) << method << ' ' << key;
         }
@@ -284,7 +284,8 @@ TEST(Sensitivity, AnOutputWithTooFewRunsDoesNotHideOthers) {
     for (std::size_t i = 3; i < 64; ++i) table[i][2] = std::nan("");
     const Report report =
         analyze(unit, table, {{"inputs", "1,2"}, {"response", "3,4"}, {"method", "rank"}});
-    EXPECT_EQ(report.text("x3.missing"), "the output x3 has 3 runs; ranks need 4");
+    EXPECT_EQ(report.text("x3.missing"),
+              "the output x3 has 3 successful runs; rank indices need 4");
     EXPECT_NEAR(report.number("x4.x1.first"), 9. / 14, 0.1);
 }
 
@@ -307,20 +308,20 @@ TEST(Sensitivity, SaysWhyItTookChaosOrRanks) {
 TEST(Sensitivity, RefusesAMethodThatTheDesignIsNotFor) {
     const PointSet table = with_outputs(points_in(make("sobol", points(60, 3))), linear);
     EXPECT_EQ(refusal(table, {{"method", "saltelli"}}),
-              "input: --method saltelli: the design has not its rows: in groups of 5, point 1 is "
-              "not the mix of the first and the last of its group that it should be | --method "
-              "rank and chaos take any design");
+              "input: --method saltelli: the rows are not such a design: in groups of 5, point 1 "
+              "is not the expected mix of the first and last points of its group | --method rank "
+              "and chaos accept any design");
     EXPECT_THAT(refusal(table, {{"method", "morris"}}),
-                HasSubstr("points 0 and 1 do not differ in one coordinate"));
+                HasSubstr("points 0 and 1 do not differ in exactly one coordinate"));
     EXPECT_THAT(refusal(table, {{"method", "fast"}}),
-                HasSubstr("coordinate 1 swings too fast on curve 1, or not at all"));
+                HasSubstr("coordinate 1 oscillates too fast on curve 1, or not at all"));
     EXPECT_THAT(refusal(table, {{"method", "fast"}, {"harmonics", "1"}}),
-                HasSubstr("coordinate 1 swings too fast on curve 1"));
+                HasSubstr("coordinate 1 oscillates too fast on curve 1"));
     const PointSet odd = with_outputs(points_in(make("sobol", points(61, 3))), linear);
     EXPECT_THAT(refusal(odd, {{"method", "saltelli"}}),
-                HasSubstr("61 rows are no multiple of 5 or 8"));
-    EXPECT_THAT(refusal(odd, {{"method", "morris"}}), HasSubstr("61 rows are no multiple of 4"));
-    EXPECT_THAT(refusal(odd, {{"method", "fast"}}), HasSubstr("61 rows are no multiple of 3"));
+                HasSubstr("61 rows are not a multiple of 5 or 8"));
+    EXPECT_THAT(refusal(odd, {{"method", "morris"}}), HasSubstr("61 rows are not a multiple of 4"));
+    EXPECT_THAT(refusal(odd, {{"method", "fast"}}), HasSubstr("61 rows are not a multiple of 3"));
 }
 
 TEST(Sensitivity, RefusesTooFewRuns) {
@@ -328,16 +329,16 @@ TEST(Sensitivity, RefusesTooFewRuns) {
         return with_outputs(points_in(make("sobol", points(n, 2))), [](auto u) { return u[0]; });
     };
     EXPECT_EQ(refusal(some(3), {{"method", "rank"}}),
-              "input: the output z has 3 runs; ranks need 4");
+              "input: the output z has 3 successful runs; rank indices need 4");
     EXPECT_EQ(refusal(some(7), {{"method", "chaos"}}),
-              "input: the output z has 7 runs; polynomial chaos needs 8");
+              "input: the output z has 7 successful runs; polynomial chaos needs 8");
     EXPECT_EQ(refusal(some(4)), "");
     EXPECT_THAT(refusal(with_outputs(pick_freeze_rows(make("sobol", points(1, 4, 2)), false),
                                      [](auto u) { return u[0]; }),
                         {{"method", "saltelli"}}),
-                HasSubstr("has 1 base rows without failed runs; two are needed"));
+                HasSubstr("has 1 base rows without failed runs; expected at least 2"));
     EXPECT_THAT(refusal(with_outputs(morris_rows(1, 2, 1), [](auto u) { return u[0]; })),
-                HasSubstr("has 1 trajectories without failed runs; two are needed"));
+                HasSubstr("has 1 trajectories without failed runs; expected at least 2"));
 }
 
 TEST(Sensitivity, RefusesOptionsOfOtherMethods) {
@@ -346,7 +347,7 @@ TEST(Sensitivity, RefusesOptionsOfOtherMethods) {
          {std::pair{"bootstrap", "10"}, {"bootstrap-seed", "2"}, {"harmonics", "4"}})
         EXPECT_THAT(refusal(table, {{option, value}}), HasSubstr("this is chaos")) << option;
     EXPECT_EQ(refusal(table, {{"degree", "2"}, {"method", "rank"}}),
-              "usage: --degree is of --method chaos; this is rank");
+              "usage: --degree applies to --method chaos; this is rank");
 }
 
 TEST(Sensitivity, NamesRunsThatFailed) {
@@ -361,7 +362,8 @@ TEST(Sensitivity, NamesRunsThatFailed) {
     EXPECT_EQ(report.number("x4.used"), 58);
     EXPECT_NEAR(report.number("x4.x1.first"), 9. / 14, 1e-12);
     table[5][0] = std::nan("");
-    EXPECT_EQ(refusal(table), "input: the input x1 of point 5 is missing; only outputs may be");
+    EXPECT_EQ(refusal(table),
+              "input: the input x1 of point 5 is missing; only outputs may be missing");
 }
 
 }  // namespace stipple::testing::sensitivity_test

@@ -93,8 +93,9 @@ TEST(Periodogram, PointsInOnePlaceHaveTheirNumberAsPowerEverywhere) {
             EXPECT_EQ(report.number("effective_nyquist"), 0);
             EXPECT_NEAR(report.number("oscillation"), 10, 1e-7);
             EXPECT_NEAR(report.number("total_variation"), 0.5, 1e-8);
-            EXPECT_EQ(said, std::vector<std::string>{"all 2 points are equal: they are in phase at "
-                                                     "every frequency"});
+            EXPECT_EQ(said,
+                      std::vector<std::string>{
+                          "all 2 points are equal, so that they are in phase at every frequency"});
         }
 }
 
@@ -364,10 +365,10 @@ TEST(Periodogram, NormalizedFrequenciesOfOtherSizesHaveNoMean) {
         Report mean;
         return error_of([&] { unit.combine(mean, sets, values); });
     };
-    EXPECT_EQ(refusal("true"),
-              "usage: --average: the sets differ in their number of points, and so in their "
-              "normalised frequencies | give them the same number of points, or leave "
-              "--normalize-frequency out");
+    EXPECT_EQ(
+        refusal("true"),
+        "usage: --average: the sets differ in number of points, and therefore in their normalised "
+        "frequencies | use the same number of points, or omit --normalize-frequency");
     EXPECT_EQ(refusal("false"), "");
 }
 
@@ -464,18 +465,18 @@ TEST(Periodogram, RefusesWhatItCannotDo) {
     EXPECT_EQ(refusal(set, {{"max-frequency", "0"}}),
               "usage: --max-frequency: 0 is outside [1, 1000000]");
     EXPECT_EQ(refusal(set, {{"tolerance", "1e-14"}}),
-              "usage: --tolerance: 1e-14 is below 1e-13, the floor of what float64 gives; --method "
-              "direct is as exact as float64 is");
+              "usage: --tolerance: 1e-14 is below 1e-13, the limit of float64; --method direct is "
+              "as exact as float64");
     EXPECT_EQ(refusal(set, {{"tolerance", "1e-14"}, {"method", "direct"}}), "");
     EXPECT_EQ(refusal(set, {{"image-bits", "16"}}),
-              "usage: --image-bits is of --image, which is not given");
+              "usage: --image-bits: applies to --image, which is not given");
     EXPECT_EQ(refusal(set, {{"image-scale", "log"}}),
-              "usage: --image-scale is of --image, which is not given");
+              "usage: --image-scale: applies to --image, which is not given");
     EXPECT_EQ(refusal(set, {{"tolerance", "0.2"}}), "usage: --tolerance: 0.2 is outside [0, 0.1]");
     EXPECT_EQ(refusal(make("random", points(10, 1)), {{"image", "a.png"}}),
-              "usage: --image: takes points of dimension 2 or 3; these have 1");
+              "usage: --image: requires points of dimension 2 or 3; these have 1");
     EXPECT_EQ(refusal(set, {{"slice", "1"}}),
-              "usage: --slice: takes points of dimension 3; these have 2");
+              "usage: --slice: requires points of dimension 3; these have 2");
     EXPECT_EQ(refusal(points_of({{0.5, 0.5}}), {}),
               "input: periodogram needs at least 2 points; there is 1");
     EXPECT_NE(refusal(make("random", points(10, 4)), {}).find("dimension 1 to 3"),
@@ -585,12 +586,10 @@ TEST(Periodogram, StrengthsByHand) {
         for (std::int64_t f = -6; f <= 6; ++f)
             EXPECT_NEAR(power_at(report, f), f % 2 == 0 ? 0.2 : 1.8, 1e-8) << f;
     }
-    EXPECT_EQ(
-        error_of([] {
-            (void)weighted({{0.1, 0}, {0.2, 0}}, {});
-        }),
-        "input: --weights: all 2 strengths are 0; white noise has power 1 only where some are "
-        "not");
+    EXPECT_EQ(error_of([] {
+                  (void)weighted({{0.1, 0}, {0.2, 0}}, {});
+              }),
+              "input: --weights: all 2 weights are 0; expected at least one that is not");
 }
 
 // A power of two as a factor of all strengths changes no bit; beyond 1e-100 and 1e100 they are
@@ -612,9 +611,9 @@ TEST(Periodogram, PowerDoesNotDependOnTheScaleOfStrengths) {
         return error_of([&] { (void)weighted({{0.1, 1}, {0.4, strength}, {0.7, 0}}, {}); });
     };
     EXPECT_EQ(refusal(-1e300),
-              "input: --weights: the strength of point 1 is -1e+300; expected 0, or 1e-100 to "
-              "1e+100 in size | power does not depend on their scale: divide all by the largest, "
-              "and put 0 for those that are then too small");
+              "input: --weights: the weight of point 1 is -1e+300; expected 0, or 1e-100 to 1e+100 "
+              "in size | the power does not depend on the scale of the weights: divide all by the "
+              "largest, and replace those that are still too small by 0");
     EXPECT_NE(refusal(2e-200), "");
     EXPECT_EQ(refusal(1e100), "");
     EXPECT_EQ(refusal(1e-100), "");

@@ -364,8 +364,8 @@ TEST(ChiSquare, RefusesPointsOutsideTheirDomain) {
     points[7][1] = 0.25;
     points[90][1] = std::nan("");
     EXPECT_EQ(error_of([&] { analyze("chi-square", on(mapping("disk")->domain(), points)); }),
-              "input: 2 of 100 points are outside the domain disk; the first is point 7: "
-              "(1.5, 0.25) | --domain names what the points live on");
+              "input: 2 of 100 points are outside the domain disk; the first is point 7: (1.5, "
+              "0.25) | --domain names the domain of the points");
     EXPECT_NE(error_of([&] { analyze("chi-square", points); }).find("domain unit-cube"),
               std::string::npos);
     EXPECT_EQ(
@@ -389,9 +389,9 @@ TEST(ChiSquare, RefusesTooFewPointsAndSaysHowMany) {
     EXPECT_EQ(error(9, 2, {{"cells", "1x2"}}),
               "input: chi-square needs at least 10 points for 2 cells; these are 9");
     EXPECT_EQ(error(100, 2, {{"cells", "1"}}),
-              "usage: --cells: their number, 1, is outside [2, 100000000]");
+              "usage: --cells: the number of cells, 1, is outside [2, 100000000]");
     EXPECT_EQ(error(100, 2, {{"cells", "2x3x5"}}),
-              "usage: --cells: 3 numbers for 2 axes; one for all, or one for each");
+              "usage: --cells: 3 numbers for 2 axes; expected one for all, or one for each");
     EXPECT_NE(error(100, 20, {{"cells", "10"}}), "");
     EXPECT_NE(error(100, 2, {{"level", "0"}}), "");
     EXPECT_NE(error(100, 2, {{"level", "0.6"}}), "");
@@ -446,13 +446,12 @@ TEST(ChiSquare, PoolsTheLeastProbableCellsFirst) {
     EXPECT_EQ(left.number("degrees_of_freedom"), 1);
     EXPECT_NEAR(left.number("statistic"), 2.45 * 2.45 * (1 / 5.55 + 1 / 9.45), 1e-12);
     EXPECT_EQ(left.number("pooled_cells"), 5);
-    EXPECT_EQ(
-        error_of([&] {
-            analyze("chi-square", in_cells({1, 1, 0, 3}, steps({0.7, 0.02, 0.06, 0.22})),
-                    {{"cells", "4"}});
-        }),
-        "input: chi-square needs two groups of cells that expect 5 points each; 5 points on 4 "
-        "cells give 1 | more points, or other --cells");
+    EXPECT_EQ(error_of([&] {
+                  analyze("chi-square", in_cells({1, 1, 0, 3}, steps({0.7, 0.02, 0.06, 0.22})),
+                          {{"cells", "4"}});
+              }),
+              "input: chi-square needs two groups of cells that expect 5 points each; 5 points on "
+              "4 cells give 1 | use more points, or other --cells");
 }
 
 TEST(ChiSquare, OnePointWhereNoneCanBeIsEnough) {
@@ -547,8 +546,8 @@ TEST(ChiSquare, MassesThatContradictEachOtherAreRefused) {
     EXPECT_EQ(error(0, 0), "");
     EXPECT_EQ(error(1e-4, 1e-4), "");
     EXPECT_EQ(error(1e-6, 1e-4),
-              "limit: steps: the probabilities of its 2 cells sum to 1.0001, not to 1 within their "
-              "error 2e-06");
+              "limit: steps: the probabilities of its 2 cells sum to 1.0001; expected 1 within "
+              "their error 2e-06");
     EXPECT_NE(error(std::nan(""), 0), "");
     EXPECT_NE(error(0, -3), "") << "negative";
 }
@@ -574,8 +573,8 @@ TEST(ChiSquare, AVerdictThatErrorsOfMassesCouldTurnIsRefused) {
         error_of([&] {
             judged({70, 30}, 0.06);
         })
-            .starts_with("limit: chi-square cannot tell: the cells' probabilities are known "
-                         "within 0.12 in all, and with that the statistic within "));
+            .starts_with("limit: chi-square cannot decide: the cells' probabilities have a total "
+                         "error of 0.12, and the statistic an error of "));
     EXPECT_NE(error_of([&] { judged({50, 50}, 0.3); }), "") << "may be 0 or 90";
     EXPECT_NE(error_of([&] { judged({50, 50}, 0.6); }), "") << "may be anything";
 }

@@ -218,8 +218,8 @@ TEST(KolmogorovSmirnov, NeedsCoordinatesThatPreserveProbability) {
     for (const char* analyzer : {"kolmogorov-smirnov", "serial"})
         EXPECT_EQ(error_of([&] { analyze(analyzer, set); }),
                   std::string("input: ") + analyzer +
-                      " needs coordinates that preserve probability; steps has none | chi-square "
-                      "takes every domain");
+                      " needs coordinates that preserve probability; steps does not have them | "
+                      "chi-square accepts every domain");
 }
 
 TEST(KolmogorovSmirnov, SeveralSetsBecomeOneTest) {
