@@ -15,7 +15,7 @@ namespace stipple {
 
 void write_report(const std::string& path, std::span<const NamedSet> sets, const RunContext& run) {
     if (sets.empty() || sets.size() > page::most_sets)
-        fail(ErrorKind::usage, "a report compares 1 to {} sets; these are {}", page::most_sets,
+        fail(ErrorKind::usage, "a report compares 1 to {} sets; {} are given", page::most_sets,
              sets.size());
     std::set<std::string> names;
     std::vector<std::string> title;
@@ -23,7 +23,7 @@ void write_report(const std::string& path, std::span<const NamedSet> sets, const
         if (points.dimension() != sets.front().points.dimension())
             fail(ErrorKind::usage, "'{}' has {} coordinates; the first set has {}", name,
                  points.dimension(), sets.front().points.dimension());
-        if (!names.insert(name).second) fail(ErrorKind::usage, "two sets are called '{}'", name);
+        if (!names.insert(name).second) fail(ErrorKind::usage, "two sets have the name '{}'", name);
         title.push_back(name);
     }
     page::Page all{.title = join(title, " · "), .version = STIPPLE_VERSION};

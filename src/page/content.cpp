@@ -41,9 +41,9 @@ constexpr std::array keys = {
     Key{"periodogram.oscillation", "Oscillation", "Spectrum", Better::lower, true},
     Key{"integration.genz-gaussian.error", "Error of a smooth integrand", "Integration",
         Better::lower, false, true},
-    Key{"integration.genz-continuous.error", "Error of one with a kink", "Integration",
+    Key{"integration.genz-continuous.error", "Error of an integrand with a kink", "Integration",
         Better::lower, false, true},
-    Key{"integration.genz-discontinuous.error", "Error of one with a jump", "Integration",
+    Key{"integration.genz-discontinuous.error", "Error of an integrand with a jump", "Integration",
         Better::lower, false, true},
     Key{"chi-square.p_value", "χ² p‑value", "Uniformity", Better::neither, true},
     Key{"kolmogorov-smirnov.combined_p_value", "Kolmogorov–Smirnov p‑value", "Uniformity",
@@ -68,10 +68,11 @@ std::string chi_square_words(const Report& found) {
         "χ² = {} with {} degrees of freedom, {}", rounded(found.number("statistic")),
         rounded(found.number("degrees_of_freedom"), 12), probability(found.number("p_value")));
     if (verdict == "uniform")
-        return fmt::format("Cells hold as many points as chance would put there ({}).", numbers);
+        return fmt::format("The numbers of points in the cells are as expected by chance ({}).",
+                           numbers);
     if (verdict == "stratified")
         return fmt::format(
-            "Cells are filled more evenly than independent points fill them ({}): good news for "
+            "The cells are filled more evenly than by independent points ({}): good for "
             "low-discrepancy and stratified sets.",
             numbers);
     return fmt::format("The points do not follow their domain's density ({}).", numbers);
@@ -85,7 +86,7 @@ std::string kolmogorov_words(const Report& found) {
         fmt::format("largest distance {}, on axis {}; {} over all axes", rounded(*worst),
                     worst - statistic.begin() + 1, probability(found.number("combined_p_value")));
     if (verdict == "uniform")
-        return fmt::format("Each axis on its own looks like independent uniform numbers ({}).",
+        return fmt::format("Each axis by itself looks like independent uniform numbers ({}).",
                            numbers);
     if (verdict == "stratified")
         return fmt::format("At least one axis is covered more evenly than by chance ({}).",
@@ -119,10 +120,10 @@ std::vector<std::string> notes_on(std::span<const Set> sets) {
     std::vector<std::string> notes;
     if (!same_count(sets))
         notes.emplace_back(
-            "The sets have different numbers of points: most measures change with n, so only "
-            "those that do not have their best marked.");
+            "The sets have different numbers of points. Most measures depend on this number, so "
+            "the best set is marked only for those that do not.");
     if (!same_domain(sets))
-        notes.emplace_back("The sets live on different domains: nothing is marked as best.");
+        notes.emplace_back("The sets are on different domains, so no set is marked as best.");
     for (std::size_t i = 0; i < sets.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (sets[i].fingerprint && sets[i].fingerprint == sets[j].fingerprint)

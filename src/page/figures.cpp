@@ -87,10 +87,9 @@ std::string boxes_figure(const char* kind, const std::string& drawing, const Set
                          std::string caption, bool projections) {
     const auto boxes = worst_boxes(set);
     if (!boxes.empty())
-        caption += projections
-                       ? ". A worst box is drawn as its projection: a point is in the box only if "
-                         "it is in all of its projections"
-                       : ", with the worst boxes";
+        caption += projections ? ". A worst box is drawn as its projections: a point is in the box "
+                                 "only if it is in all of them"
+                               : ", with the worst boxes";
     return figure(kind, drawing + box_legend(boxes, projections), caption + ".");
 }
 
@@ -184,7 +183,7 @@ std::string chart_figure(std::span<const Set> sets, std::span<const std::size_t>
                               "type=\"application/json\">{}</script>\n",
                               svg, numbers_of(sets, chart, frames.front())),
                   caption + (panel.log_y ? "; logarithmic" : "") +
-                      (several ? "; of the first seed" : "") +
+                      (several ? "; for the first seed" : "") +
                       (without.empty() ? "" : "; without " + html_text(join(without, ", "))) + ".");
 }
 
@@ -237,7 +236,7 @@ std::vector<std::string> point_figures(const PointSet& points, const Set& set, s
                      true);
     if (d > 3) return {pairs};
     return {figure("picture", drawing("in space", draw_points),
-                   "Points in space, seen from a fixed place."),
+                   "Points in space, seen from a fixed direction."),
             pairs};
 }
 
@@ -288,7 +287,7 @@ std::string curve_figures(std::span<const Set> sets, std::span<const std::size_t
            chart_figure(sets, which, "pair-correlation", "density", "pair correlation",
                         "Pair correlation over distance; independent points have 1") +
            chart_figure(sets, which, "convergence", "prefixes.value", "star discrepancy",
-                        "Star discrepancy of the first points, over their number");
+                        "Star discrepancy of the first n points, over n");
 }
 
 }  // namespace stipple::page

@@ -62,10 +62,10 @@ std::string facts_of(const Set& set) {
     if (set.source != set.name) text += fmt::format(" · from {}", source_of(set));
     if (set.number) text += fmt::format(" (set {})", *set.number);
     if (set.left_out > 0)
-        text += fmt::format(" · without {}, in which numbers are missing",
+        text += fmt::format(" · without {} that have missing numbers",
                             plural(set.left_out, "row", "rows"));
     if (!set.replications.empty())
-        text += fmt::format(" · the first of {} sets, of which the comparison has the means",
+        text += fmt::format(" · the first of {} sets; the comparison shows their means",
                             set.replications.size() + 1);
     return html_text(text);
 }
@@ -188,12 +188,11 @@ std::string comparison_of(std::span<const Set> sets) {
     out += "</tbody></table></div>\n";
     if (sets.size() > 1)
         out +=
-            "<p class=\"note\">★ marks what no other set shown can be better in; ↓ lower is "
-            "better, "
-            "↑ higher is better. “a to b” are certain bounds of what is not known exactly; “a ± b” "
-            "is the mean of several sets with its standard error, and means are told apart by two "
-            "of these. Errors of integrands are without their sign, of several sets the root mean "
-            "square.</p>\n";
+            "<p class=\"note\">★ marks a set that is certainly not worse than any other shown; ↓ "
+            "lower is better, ↑ higher is better. “a to b” are certain bounds of a value that is "
+            "not known exactly; “a ± b” is the mean of several sets with its standard error, and "
+            "means count as different if they differ by more than two of these. Errors of "
+            "integrands are shown without sign, for several sets as root mean square.</p>\n";
     return out + "</section>\n";
 }
 
@@ -277,7 +276,7 @@ std::string provenance_of(const Set& set) {
     if (!set.command.empty())
         out += fmt::format("<pre>{}</pre>\n", html_text(set.command));
     else if (from.generator.empty())
-        out += "<p class=\"note\">The file does not say how its points were made.</p>\n";
+        out += "<p class=\"note\">The file does not record how its points were made.</p>\n";
     return out;
 }
 

@@ -59,8 +59,8 @@ void need_few_pairs(const Planned& plan, const PointSet& points, std::int64_t wo
     const double steps = n * n * static_cast<double>(d);
     if (steps <= (sums ? 20 : 5) * static_cast<double>(work)) return;
     fail(ErrorKind::limit,
-         "it would compare all pairs of {} points in {} dimensions, which takes long; a larger "
-         "--max-work allows it, or 'stipple analyze {}'",
+         "it would compare all pairs of {} points in {} dimensions, which takes long; use a larger "
+         "--max-work, or 'stipple analyze {}'",
          points.count(), points.dimension(), plan.analyzer);
 }
 
@@ -84,7 +84,8 @@ void need_prefixes(const PointSet& points) {
     constexpr std::size_t fewest = 32;
     constexpr std::size_t most = 100'000;
     if (points.dimension() > 2 || points.count() < fewest || points.count() > most)
-        fail(ErrorKind::limit, "it is for {} to {} points in one and two dimensions", fewest, most);
+        fail(ErrorKind::limit, "it is only computed for {} to {} points in one or two dimensions",
+             fewest, most);
     if (const auto sentence = unlike_prefixes(points.provenance); !sentence.empty())
         fail(ErrorKind::input, "{}", sentence);
 }
@@ -140,11 +141,11 @@ Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube,
     if (plan.distances && points.dimension() > 1 && is_experiment(domain)) {
         measure.left_out =
             "its distances would mix the units of the parameters; 'stipple warp parameters "
-            "--inverse' takes the points to the unit cube, where they do not";
+            "--inverse' maps the points to the unit cube, which has no units";
         return measure;
     }
     if (analyzer.traits.unit_cube && domain != "unit-cube") {
-        measure.left_out = fmt::format("it measures points against the unit cube; these live on {}",
+        measure.left_out = fmt::format("it compares points with the unit cube; these are on {}",
                                        shown->domain->title());
         return measure;
     }

@@ -63,7 +63,8 @@ Chart distance_chart(std::span<const PointSet* const> sets, const std::vector<st
         largest = std::max(largest, *std::ranges::max_element(all.back()));
     }
     if (!(largest > least_shown))
-        fail(ErrorKind::input, "all nearest distances are 0, or below {}: there is nothing to draw",
+        fail(ErrorKind::input,
+             "all distances to the nearest neighbour are 0, or below {}: there is nothing to draw",
              least_shown);
     largest *= 1.08;
     ChartPanel panel{.x_name = torus ? "distance to the nearest neighbour (torus)"

@@ -119,11 +119,12 @@ double WorstBoxes::star() const {
 
 WorstBoxes worst_boxes_of(const PointSet& points, const RunContext& run) {
     if (points.dimension() != 2)
-        fail_with_hint(ErrorKind::input, points.dimension() > 2 ? "--column picks two of them" : "",
-                       "the local discrepancy is drawn of points of 2 coordinates; these have {}",
-                       points.dimension());
+        fail_with_hint(
+            ErrorKind::input, points.dimension() > 2 ? "--column selects two of them" : "",
+            "the local discrepancy can be drawn for points of 2 coordinates; these have {}",
+            points.dimension());
     if (points.count() == 0)
-        fail(ErrorKind::input, "an empty set of points has no local discrepancy");
+        fail(ErrorKind::input, "an empty set of points has no local discrepancy to draw");
     require_unit_cube(points);
     run.need_memory(static_cast<double>(2 * discrepancy::axis_bytes(true) + 32) *
                         static_cast<double>(points.count()),

@@ -479,9 +479,8 @@ Chart indices_chart(Measurements ms, const std::string& key) {
         }
     }
     if (chart.panels.empty())
-        fail_with_hint(ErrorKind::usage, "there is " + join(ms[0].results.keys(), ", "),
-                       "--key: the report of {} has no output and no index '{}'", ms[0].analyzer,
-                       key);
+        fail_with_hint(ErrorKind::usage, "known: " + join(ms[0].results.keys(), ", "),
+                       "--key: the report of {} has no output or index '{}'", ms[0].analyzer, key);
     return chart;
 }
 
@@ -609,13 +608,13 @@ std::vector<std::string> drawable(Measurements ms) {
 [[noreturn]] void refuse(Measurements ms, const std::string& key) {
     const auto keys = drawable(ms);
     if (!key.empty() && !keys.empty())
-        fail_with_hint(ErrorKind::usage, "there is " + join(keys, ", "),
+        fail_with_hint(ErrorKind::usage, "known: " + join(keys, ", "),
                        "--key: the report of {} has no '{}' to draw", ms[0].analyzer, key);
-    fail_with_hint(
-        ErrorKind::input,
-        "curves can be drawn (periodogram, pair-correlation, star-discrepancy --every), and one "
-        "number of several reports",
-        "a single report of {} has nothing to draw but numbers", ms[0].analyzer);
+    fail_with_hint(ErrorKind::input,
+                   "curves can be drawn (periodogram, pair-correlation, star-discrepancy --every), "
+                   "and one number over several reports",
+                   "a single report of {} contains only numbers, and nothing that can be drawn",
+                   ms[0].analyzer);
 }
 
 }  // namespace
@@ -632,7 +631,8 @@ std::pair<double, double> white_noise_band(double cells, double sets) {
 Chart chart_of(Measurements ms, const std::string& key) {
     for (const Measurement& m : ms)
         if (m.analyzer != ms[0].analyzer)
-            fail(ErrorKind::input, "reports of {} and of {} are not drawn in one picture",
+            fail(ErrorKind::input,
+                 "reports of different analyzers, {} and {}, cannot be drawn in one picture",
                  ms[0].analyzer, m.analyzer);
     if (auto chart = curves_chart(ms, key)) return *std::move(chart);
     if (ms.size() == 1 && ms[0].analyzer == "sensitivity") return indices_chart(ms, key);

@@ -101,10 +101,11 @@ Drawing draw_spectrum(const Grid& power, const std::string& title, const std::st
                       const PictureStyle& style, const TableNames& names) {
     if (power.rows != power.columns || power.rows % 2 == 0)
         fail(ErrorKind::input,
-             "a spectrum is a table of (2F + 1) x (2F + 1) numbers; there are {} x {}", power.rows,
+             "this table has {} x {} numbers; expected a spectrum, (2F + 1) x (2F + 1)", power.rows,
              power.columns);
     if (std::ranges::any_of(power.values, [](double p) { return !(p >= 0); }))
-        fail(ErrorKind::input, "a spectrum has no negative power; this table has");
+        fail(ErrorKind::input,
+             "this table has a negative or undefined power; expected powers from 0");
     const Theme& theme = *style.theme;
     const double last = (static_cast<double>(power.rows / 2) + 0.5) * names.cell;
     const bool whole = names.cell == 1;

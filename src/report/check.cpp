@@ -39,11 +39,11 @@ double number_of(const Check& check, const Report& report, std::string_view key)
                        "{}: there is no result '{}'", check.option, key);
     const auto list = list_at(report, name);
     if (list && open == std::string_view::npos)
-        refuse(check, "'{}' has {} numbers; one of them is {}[0]", key, list->size(), key);
+        refuse(check, "'{}' has {} numbers; choose one, such as {}[0]", key, list->size(), key);
     if (!list || !key.ends_with(']')) return report.number(key);
     const auto index = parse_unsigned(key.substr(open + 1, key.size() - open - 2));
     if (!index || *index >= list->size())
-        refuse(check, "'{}' is no key; {} has {} numbers, [0] to [{}]", key, name, list->size(),
+        refuse(check, "'{}' is not a key; {} has {} numbers, [0] to [{}]", key, name, list->size(),
                list->size() - 1);
     return (*list)[*index];
 }
@@ -116,9 +116,9 @@ Check parse_check(std::string_view text, const std::string& option) {
     const bool known = std::ranges::find(operators, check.op) != operators.end();
     const auto meant = meant_by(check.op);
     if (check.key.empty() || check.value.empty() || !known)
-        fail_with_hint(ErrorKind::usage,
-                       meant.empty() ? "" : fmt::format("did you mean '{}'?", meant),
-                       "{}: '{}' is not KEY<VALUE; with <, <=, >, >=, == or !=", option, text);
+        fail_with_hint(
+            ErrorKind::usage, meant.empty() ? "" : fmt::format("did you mean '{}'?", meant),
+            "{}: '{}' is not KEY<VALUE; expected one of <, <=, >, >=, == or !=", option, text);
     return check;
 }
 
@@ -135,12 +135,13 @@ bool Check::holds(const Report& report) const {
     const std::string word = word_of(report, key);
     if (!word.empty()) {
         if (op != "==" && op != "!=")
-            refuse(*this, "'{}' is '{}', a word; compare it with == or !=", key, word);
+            refuse(*this, "'{}' is '{}', which is text; compare it with == or !=", key, word);
         return (word == value) == (op == "==");
     }
     const double found = bounded(*this, report);
     const auto wanted = parse_number(value);
-    if (!wanted) refuse(*this, "'{}' is not a number to compare '{}' with", value, key);
+    if (!wanted)
+        refuse(*this, "'{}' is not a number, so that '{}' cannot be compared with it", value, key);
     return compare(found, op, *wanted);
 }
 

@@ -182,11 +182,10 @@ Measurement measurement_of(const Json& object, const std::string& source) {
         return it != object.end() && it->is_object() ? *it : Json::object();
     };
     if (!object.is_object() || value_or<std::string>(object, "format", {}) != "stipple.report")
-        fail(ErrorKind::input, "{}: an entry is no report; {}", source, wanted);
+        fail(ErrorKind::input, "{}: an entry is not a report; {}", source, wanted);
     const auto version = value_or<std::uint64_t>(object, "version", 0);
     if (version != 1)
-        fail(ErrorKind::input, "{}: a report of version {}; this program reads version 1", source,
-             version);
+        fail(ErrorKind::input, "{}: a report of version {}; expected version 1", source, version);
     const Json input = part("input");
     Measurement m{.analyzer = value_or<std::string>(object, "analyzer", "?"),
                   .source = value_or<std::string>(input, "source", "-"),
@@ -292,13 +291,13 @@ std::vector<Measurement> read_reports(std::string_view bytes, const std::string&
         try {
             text = parse_json(piece);
         } catch (const JsonError& e) {
-            fail(ErrorKind::input, "{}: no whole JSON, byte {} of a report: {}; {}", source,
-                 e.at + 1, e.what(), wanted);
+            fail(ErrorKind::input, "{}: incomplete or invalid JSON at byte {} of a report: {}; {}",
+                 source, e.at + 1, e.what(), wanted);
         }
         if (!text.is_array()) text = Json::array({std::move(text)});
         for (const Json& object : text) found.push_back(measurement_of(object, source));
     }
-    if (found.empty()) fail(ErrorKind::input, "{}: holds no report; {}", source, wanted);
+    if (found.empty()) fail(ErrorKind::input, "{}: contains no report; {}", source, wanted);
     return found;
 }
 

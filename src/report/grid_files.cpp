@@ -26,7 +26,7 @@ double grey(double power, const std::string& scale) {
 }
 
 std::string formula(const std::string& scale) {
-    if (scale == "linear") return "grey = P / 2, no more than 1 (white)";
+    if (scale == "linear") return "grey = P / 2, at most 1 (white)";
     if (scale == "log") return "grey = (10 log10 P + 20) / 40: black -20 dB, white 20 dB";
     return "grey = P / (1 + P)";
 }

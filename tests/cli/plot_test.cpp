@@ -238,10 +238,11 @@ TEST(Plot, RefusesALocalDiscrepancyOfOtherPoints) {
     box.write("far.csv", "0.5,0.5\n0.5,1.5\n");
     box.write("empty.csv", "x,y\n");
     for (const char* d : {"1", "3"})
-        expect_refusal(box.shell(plot + "--generate random -n 9 -d " + d), 3,
-                       std::string("the local discrepancy is drawn of points of 2 coordinates; "
-                                   "these have ") +
-                           d);
+        expect_refusal(
+            box.shell(plot + "--generate random -n 9 -d " + d), 3,
+            std::string(
+                "the local discrepancy can be drawn for points of 2 coordinates; these have ") +
+                d);
     expect_refusal(
         box.shell(plot + "far.csv"), 3,
         "far.csv: 1 of 2 points are outside the unit cube [0, 1]^2; the first is point 1");

@@ -223,7 +223,7 @@ TEST(Report, LeavesOutRowsWithMissingNumbers) {
     EXPECT_EQ(outcome.code, 0);
     EXPECT_THAT(outcome.err, HasSubstr("p.csv: 3 of 6 rows are left out"));
     EXPECT_THAT(box.read("p.html"), HasSubstr("3 points in 2 dimensions"));
-    EXPECT_THAT(box.read("p.html"), HasSubstr("without 3 rows, in which numbers are missing"));
+    EXPECT_THAT(box.read("p.html"), HasSubstr("without 3 rows that have missing numbers"));
     EXPECT_THAT(box.read("p.html"), Not(HasSubstr("stipple analyze")));
 }
 

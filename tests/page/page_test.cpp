@@ -110,8 +110,9 @@ TEST(Comparison, KnowsThatHaltonIsMoreEvenThanChance) {
             EXPECT_THAT(row.best, ElementsAre(true, false));
         }
     EXPECT_THAT(verdict_in_words(measure_of(sets[0], "chi-square")),
-                HasSubstr("more evenly than independent points"));
-    EXPECT_THAT(verdict_in_words(measure_of(sets[1], "chi-square")), HasSubstr("as chance would"));
+                HasSubstr("more evenly than by independent points"));
+    EXPECT_THAT(verdict_in_words(measure_of(sets[1], "chi-square")),
+                HasSubstr("as expected by chance"));
     EXPECT_EQ(verdict_in_words(measure_of(sets[0], "dispersion")), "");
 }
 
@@ -171,7 +172,7 @@ TEST(Measures, LeaveOutWhatTheyDoNotTakeAndSayWhy) {
     disk.domain = parse_domain("disk", 2);
     const Set set = page_set("disk", disk);
     EXPECT_EQ(measure_of(set, "star-discrepancy").left_out,
-              "it measures points against the unit cube; these live on disk");
+              "it compares points with the unit cube; these are on disk");
     EXPECT_TRUE(measure_of(set, "nearest-neighbor").results);
     const Set outside = page_set("far", points_of({{3, 4}, {0, 0}}));
     EXPECT_THAT(measure_of(outside, "star-discrepancy").left_out, HasSubstr("outside"));

@@ -112,7 +112,7 @@ TEST(ReadDocument, TakesTextsOneAfterTheOther) {
 }
 
 TEST(ReadDocument, RefusesWhatIsNoReport) {
-    EXPECT_EQ(bad_json("[]"), "f.json: holds no report; expected the JSON of 'stipple analyze'");
+    EXPECT_EQ(bad_json("[]"), "f.json: contains no report; expected the JSON of 'stipple analyze'");
     EXPECT_THAT(bad_json("[{\"format\":\"stipple.points\"}]"), HasSubstr("an entry is no report"));
     EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"version\":2}"), HasSubstr("version 2"));
     EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"vers"), HasSubstr("no whole JSON"));
@@ -430,7 +430,7 @@ TEST(ReportCharts, KeysPickOutputsAndIndices) {
     EXPECT_THAT(panels("total"), ElementsAre("y, total", "z, total"));
     EXPECT_THAT(panels("z.first"), ElementsAre("z, first"));
     EXPECT_THAT(refusal({indices()}, "mu"),
-                HasSubstr("--key: the report of sensitivity has no output and no index 'mu'"));
+                HasSubstr("--key: the report of sensitivity has no output or index 'mu'"));
 }
 
 // Four bars in two groups, each with an interval of three lines; heights are those of the axis.
@@ -465,8 +465,8 @@ TEST(ReportCharts, BarsStandWhereTheAxesSay) {
 
 TEST(ReportCharts, SaysWhatCanBeDrawnWhereNothingCan) {
     EXPECT_THAT(refusal({number(0.1, 64)}),
-                HasSubstr("a single report of star-discrepancy has nothing to draw but numbers; "
-                          "curves can be drawn"));
+                HasSubstr("a single report of star-discrepancy contains only numbers, and nothing "
+                          "that can be drawn; curves can be drawn"));
     EXPECT_THAT(refusal({number(0.1, 64), spectrum("a", {1, 1, 1})}),
                 HasSubstr("reports of star-discrepancy and of periodogram"));
     EXPECT_THAT(refusal({number(0.1, 64), number(0.2, 64)}, "volume"), HasSubstr("no 'volume'"));

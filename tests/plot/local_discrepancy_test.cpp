@@ -240,7 +240,7 @@ TEST(LocalDiscrepancy, RefusesWhatHasNone) {
     EXPECT_THAT(
         message(make("random", {5, 3})),
         HasSubstr(
-            "input: the local discrepancy is drawn of points of 2 coordinates; these have 3"));
+            "input: the local discrepancy can be drawn for points of 2 coordinates; these have 3"));
     EXPECT_THAT(message(make("random", {5, 1})), HasSubstr("of 2 coordinates; these have 1"));
     EXPECT_THAT(message(PointSet(0, 2)), HasSubstr("input: an empty set"));
     EXPECT_THAT(message(points_of({{0.5, 0.5}, {0.5, 1.5}})),

@@ -38,7 +38,7 @@ TEST(Check, OfAValueBetweenBoundsHoldsForBoth) {
 
 TEST(Check, KnowsTheOperatorsOfOtherLanguages) {
     const auto refusal = [](const char* text) { return error_of([&] { parse_check(text); }); };
-    const std::string rule = " is not KEY<VALUE; with <, <=, >, >=, == or !=";
+    const std::string rule = " is not KEY<VALUE; expected one of <, <=, >, >=, == or !=";
     EXPECT_EQ(refusal("a=1"), "usage: --check: 'a=1'" + rule + " | did you mean '=='?");
     EXPECT_EQ(refusal("a=<1"), "usage: --check: 'a=<1'" + rule + " | did you mean '<='?");
     EXPECT_EQ(refusal("a<>1"), "usage: --check: 'a<>1'" + rule + " | did you mean '!='?");
@@ -85,8 +85,9 @@ TEST(Check, OfATablesValuesHoldsForBothBounds) {
     EXPECT_TRUE(holds("prefixes.value[0]<0.5", report));
     EXPECT_FALSE(holds("prefixes.value[1]<0.5", report));
     EXPECT_TRUE(holds("prefixes.value[1]<0.95", report));
-    EXPECT_EQ(error_of([&] { holds("prefixes.value<0.5", report); }),
-              "usage: --check: 'prefixes.value' has 2 numbers; one of them is prefixes.value[0]");
+    EXPECT_EQ(
+        error_of([&] { holds("prefixes.value<0.5", report); }),
+        "usage: --check: 'prefixes.value' has 2 numbers; choose one, such as prefixes.value[0]");
 }
 
 }  // namespace stipple::testing::check_test

@@ -333,7 +333,8 @@ std::string png_bytes_of(const PixelImage& image, bool grey, const PictureNotes&
 
 std::string png_bytes_of(const Drawing& drawing, double scale, const PictureNotes& notes) {
     if (drawing.width * scale * drawing.height * scale > most_pixels)
-        fail(ErrorKind::limit, "a picture of {:.0f} x {:.0f} pixels is larger than {:.0f} pixels",
+        fail(ErrorKind::limit,
+             "a picture of {:.0f} x {:.0f} pixels is too large; expected at most {:.0f} pixels",
              drawing.width * scale, drawing.height * scale, most_pixels);
     Rasterizer rasterizer(drawing, scale);
     for (const Shape& shape : drawing.shapes) std::visit(rasterizer, shape);

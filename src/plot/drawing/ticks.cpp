@@ -121,7 +121,7 @@ void add_digits(double low, double high, std::size_t most, Ticks& ticks) {
 
 void require_shown(double low, double high) {
     if (!std::isfinite(low) || !std::isfinite(high) || size_of(low, high) <= most_shown) return;
-    fail(ErrorKind::input, "the numbers go from {} to {}; an axis reaches from {} to {}",
+    fail(ErrorKind::input, "the numbers range from {} to {}; an axis can show {} to {}",
          format_number(low), format_number(high), format_number(-most_shown),
          format_number(most_shown));
 }
