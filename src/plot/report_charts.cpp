@@ -613,8 +613,7 @@ std::vector<std::string> drawable(Measurements ms) {
     fail_with_hint(ErrorKind::input,
                    "curves can be drawn (periodogram, pair-correlation, star-discrepancy --every), "
                    "and one number over several reports",
-                   "a single report of {} contains only numbers, and nothing that can be drawn",
-                   ms[0].analyzer);
+                   "a single report of {} has only numbers, nothing to draw", ms[0].analyzer);
 }
 
 }  // namespace

@@ -366,7 +366,7 @@ TEST(Plot, RefusesWhatIsNoPictureAndLeavesNoFile) {
     expect_refusal(box.run({"plot", "p.csv", "--key", "value"}), 2, "--key");
     expect_refusal(box.run({"plot", "p.csv", "--y-scale", "cubic"}), 2, "linear, log");
     expect_refusal(box.run({"plot", "bad.csv", "-o", "bad.svg"}), 3, "bad.csv:2");
-    expect_refusal(box.run({"plot", "empty.json", "-o", "e.svg"}), 3, "holds no report");
+    expect_refusal(box.run({"plot", "empty.json", "-o", "e.svg"}), 3, "contains no report");
     expect_refusal(box.run({"plot", "none.json", "-o", "e.svg"}), 3, "none.json");
     expect_refusal(box.run({"plot", "chi.json", "-o", "c.svg"}), 3, "nothing to draw");
     expect_refusal(box.run({"plot", "moments.json", "-o", "c.svg"}), 3, "nothing to draw");

@@ -412,7 +412,7 @@ TEST(Report, ComparesMeansOfSeveralSets) {
     EXPECT_THAT(failed.err, HasSubstr("random, seed "));
     const std::string html = box.read("r.html");
     EXPECT_THAT(html, HasSubstr("the first of 5 sets"));
-    EXPECT_THAT(html, HasSubstr("Star discrepancy of the first points"));
+    EXPECT_THAT(html, HasSubstr("Star discrepancy of the first n points"));
 }
 
 TEST(Report, SavesPicturesAsTheyLook) {

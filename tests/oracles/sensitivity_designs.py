@@ -296,7 +296,7 @@ def check_broken_designs(cases):
             if meta:
                 cases.expect(what + "said", f"{generator} made the design" in told, told)
             elif generator != "fast":
-                cases.expect(what + "said", "differ from another in one input" in told, told)
+                cases.expect(what + "said", "differ from another row in one input" in told, told)
             if kind != "shuffled":
                 cases.expect(what + "dependence", "depend on each other" in told, told)
             else:

@@ -289,7 +289,7 @@ TEST(Figures, BoxesOfMoreAxesAreSaidToBeProjections) {
         const PointSet set = make("random", points(20, d));
         const std::string figure = point_figures(set, page_set("a", set, 1000)).back();
         const auto has = [&](const char* words) { return figure.find(words) != std::string::npos; };
-        EXPECT_EQ(has("drawn as its projection"), d > 2) << d;
+        EXPECT_EQ(has("drawn as its projections"), d > 2) << d;
         EXPECT_EQ(has(" checked>"), d == 2) << d;
     }
 }

@@ -113,9 +113,11 @@ TEST(ReadDocument, TakesTextsOneAfterTheOther) {
 
 TEST(ReadDocument, RefusesWhatIsNoReport) {
     EXPECT_EQ(bad_json("[]"), "f.json: contains no report; expected the JSON of 'stipple analyze'");
-    EXPECT_THAT(bad_json("[{\"format\":\"stipple.points\"}]"), HasSubstr("an entry is no report"));
+    EXPECT_THAT(bad_json("[{\"format\":\"stipple.points\"}]"),
+                HasSubstr("an entry is not a report"));
     EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"version\":2}"), HasSubstr("version 2"));
-    EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"vers"), HasSubstr("no whole JSON"));
+    EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"vers"),
+                HasSubstr("incomplete or invalid JSON"));
     EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"version\":1e999}"),
                 HasSubstr("byte 38 of a report: the number '1e999' is beyond what a double holds"));
     const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
@@ -465,8 +467,8 @@ TEST(ReportCharts, BarsStandWhereTheAxesSay) {
 
 TEST(ReportCharts, SaysWhatCanBeDrawnWhereNothingCan) {
     EXPECT_THAT(refusal({number(0.1, 64)}),
-                HasSubstr("a single report of star-discrepancy contains only numbers, and nothing "
-                          "that can be drawn; curves can be drawn"));
+                HasSubstr("a single report of star-discrepancy has only numbers, nothing to draw; "
+                          "curves can be drawn"));
     EXPECT_THAT(refusal({number(0.1, 64), spectrum("a", {1, 1, 1})}),
                 HasSubstr("reports of star-discrepancy and of periodogram"));
     EXPECT_THAT(refusal({number(0.1, 64), number(0.2, 64)}, "volume"), HasSubstr("no 'volume'"));

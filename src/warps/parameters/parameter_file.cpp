@@ -75,7 +75,7 @@ class Place {
         if (!value_.is_object()) refuse(expected);
         for (const auto& [key, ignored] : value_.items())
             if (std::ranges::find(known, key) == known.end())
-                refuse(fmt::format("unknown key {}", shown(key)), suggest(key, known));
+                refuse(fmt::format("the key {} is not known", shown(key)), suggest(key, known));
     }
 
   private:

@@ -902,7 +902,7 @@ TEST(StarDiscrepancy, RefusesPointsOutsideTheCubeAndTooLittleMemory) {
         "limit: the star discrepancy of 1000 points in 2 dimensions needs 54.7 KiB of memory; the "
         "limit is 1000 bytes | 17 points would fit; or raise the limit with --max-memory");
     EXPECT_THAT(error_of([&] { analyze("star-discrepancy", halton(1000, 5), {}, run); }),
-                HasSubstr("points would do"));
+                HasSubstr("points would fit"));
 }
 
 TEST(StarDiscrepancy, TellsThatOfEveryPrefix) {

@@ -394,7 +394,7 @@ TEST(Parameters, SayWhatIsWrongAndWhere) {
         {R"({"parameters":[{"name":"a","name":"b","range":[0,1]}]})",
          "t.json: $.parameters.name: the key stands twice"},
         {"[]", "t.json: $: expected an object"},
-        {R"({"parameter":[]})", "$: unknown key 'parameter'"},
+        {R"({"parameter":[]})", "$: the key 'parameter' is not known"},
         {R"({"parameters":[]})", "$.parameters: expected a list"},
         {R"({"parameters":[{"name":"a"}]})", "$.parameters[0]: expected one of the keys"},
         {R"({"parameters":[{"name":"a","range":[0,1],"levels":[1]}]})", "several are given"},

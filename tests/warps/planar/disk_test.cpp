@@ -172,7 +172,7 @@ TEST(Disk, NaiveIsBiasedTheOthersAreNot) {
 TEST(Disk, NaiveIsLabelledAsBiased) {
     const Warp& disk = find_warp("disk");
     EXPECT_TRUE(disk.traits.biased);
-    EXPECT_NE(disk.summary.find("naive: biased"), std::string::npos);
+    EXPECT_NE(disk.summary.find("naive is biased"), std::string::npos);
     EXPECT_NE(disk.options.options()[0].help.find("BIASED"), std::string::npos);
 }
 
