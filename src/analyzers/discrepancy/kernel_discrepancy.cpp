@@ -362,7 +362,8 @@ Analyzer unit() {
               "given: by --bandwidth; uniform: sqrt(d/6); median: median distance of all pairs of "
               "points; median-of-sample: of randomly drawn pairs; unit: 1",
               false, "given|uniform|median|median-of-sample|unit"},
-             {"bandwidth_pairs", "pairs of points of which the median distance was taken", false},
+             {"bandwidth_pairs", "number of pairs of points whose median distance was taken",
+              false},
              {"target",
               "distribution compared with: uniform: on the unit cube; domain: of the points' own "
               "domain; file: the points of --target; scores: the density with these scores",

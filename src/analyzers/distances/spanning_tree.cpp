@@ -95,7 +95,7 @@ Analyzer unit() {
                  {"normalized_mean",
                   "mean divided by (V n^(d-1))^(1/d) / (n - 1); about 0.647 for independent points "
                   "of the plane, 1.075 for hexagons"},
-                 {"normalized_deviation", "standard_deviation divided by the same"},
+                 {"normalized_deviation", "standard_deviation divided by the same factor"},
                  {"minimum", "shortest edge: the smallest distance between two points"},
                  {"maximum", "longest edge: disks of half this radius form one connected region"},
                  {"length", "total length of all edges"},

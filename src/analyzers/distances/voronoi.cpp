@@ -263,7 +263,7 @@ Analyzer unit() {
              {"bond_order.global",
               "|mean psi_6|: also requires that all cells have the same orientation, as in "
               "physics"},
-             {"bond_order.bonds", "the same, with equal weights of all bonds"},
+             {"bond_order.bonds", "the same, with all bonds weighted equally"},
              {"lloyd_energy", "mean squared distance from a place to the nearest point"},
              {"normalized_second_moment", "m E / (2 V): 0.080188 for hexagons, 0.159 at random"},
              {"centroid_offset.mean",

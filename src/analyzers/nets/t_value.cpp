@@ -278,19 +278,19 @@ Analyzer unit() {
         .related = {"t-parameter", "net-quality", "t-m-s"},
         .traits = {.max_dimension = 10'000},
         .options = Schema(base, projections),
-        .results =
-            {{"t", "smallest t for which the points are a (t,m,d)-net in base b"},
-             {"m", "exponent m of the number of points, b^m"},
-             {"base", "the base b"},
-             {"method", "rank, if the points are a digital net; otherwise counting", true,
-              "rank|counting"},
-             {"projections.t_1d", "t of each coordinate"},
-             {"projections.t_2d",
-              "t of each pair of coordinates: (1,2), (1,3), (2,3), (1,4), (2,4), (3,4)..."},
-             {"projections.largest", "largest t of a projection to 1, 2, ... coordinates"},
-             {"projections.worst_size",
-              "smallest number of coordinates of a projection whose t is that of all coordinates"},
-             {"projections.worst", "coordinates, from 1, of all such projections"}},
+        .results = {{"t", "smallest t for which the points are a (t,m,d)-net in base b"},
+                    {"m", "exponent m of the number of points, b^m"},
+                    {"base", "the base b"},
+                    {"method", "rank, if the points are a digital net; otherwise counting", true,
+                     "rank|counting"},
+                    {"projections.t_1d", "t of each coordinate"},
+                    {"projections.t_2d",
+                     "t of each pair of coordinates: (1,2), (1,3), (2,3), (1,4), (2,4), (3,4)..."},
+                    {"projections.largest", "largest t of a projection to 1, 2, ... coordinates"},
+                    {"projections.worst_size",
+                     "smallest number of coordinates of a projection whose t equals that of all "
+                     "coordinates"},
+                    {"projections.worst", "coordinates, from 1, of all such projections"}},
         .analyze = analyze};
 }
 

@@ -246,7 +246,7 @@ class Summation final : public SharedAccumulator {
         if (n_ < 2) fail(ErrorKind::input, "periodogram needs at least 2 points; there is {}", n_);
         if (!(strengths().squares > 0))
             fail(ErrorKind::input,
-                 "--weights: all {} weights are 0; expected at least one that is not", n_);
+                 "--weights: all {} weights are 0; expected at least one other number", n_);
         if (all_equal_)
             run.notify(fmt::format(
                 "all {} points are equal, so that they are in phase at every frequency", n_));

@@ -474,7 +474,7 @@ std::vector<ResultKey> results() {
         {"impossible_points",
          "number of points in cells or gaps of probability 0: one is enough for non-uniform"},
         {"combined_p_value", "p-value from both grids: 1 - (1 - p)^2 of the smaller p", false},
-        {"shifted.statistic", "the same on the shifted grid", false},
+        {"shifted.statistic", "statistic on the shifted grid", false},
         {"shifted.degrees_of_freedom", "groups of its cells minus 1", false},
         {"shifted.p_value", "two-sided", false},
         {"shifted.p_upper", "probability of a statistic as large or larger", false},

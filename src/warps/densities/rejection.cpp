@@ -106,8 +106,8 @@ Warp unit() {
             .source = "von Neumann 1951, NBS Applied Mathematics Series 12, 36-38",
             .related = {"accept-reject"},
             .strata =
-                "coordinates keep their strata, except for the points dropped; the last coordinate "
-                "decides which",
+                "coordinates keep their strata, except for the points dropped; the last unit "
+                "coordinate decides which",
             .traits = {.invertible = false, .drops = true},
             .options = Schema(density, bound, bounds),
             .mapping = make};

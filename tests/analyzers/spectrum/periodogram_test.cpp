@@ -589,7 +589,7 @@ TEST(Periodogram, StrengthsByHand) {
     EXPECT_EQ(error_of([] {
                   (void)weighted({{0.1, 0}, {0.2, 0}}, {});
               }),
-              "input: --weights: all 2 weights are 0; expected at least one that is not");
+              "input: --weights: all 2 weights are 0; expected at least one other number");
 }
 
 // A power of two as a factor of all strengths changes no bit; beyond 1e-100 and 1e100 they are
