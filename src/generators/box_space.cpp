@@ -51,7 +51,7 @@ void BoxSpace::check_resolution(double radius, std::string_view name) const {
     const double finest = largest * 0x1p-52 * 1024;
     if (!(radius >= finest))
         fail(ErrorKind::limit,
-             "{} of {} is too fine for coordinates near {}, which tell {:.5g} from each other well",
+             "{} of {} is too small for coordinates near {}, whose rounding allows {:.5g} or more",
              name, format_number(radius), format_number(largest), finest);
 }
 
@@ -75,7 +75,8 @@ Plan plan_in_box(const Request& request, const Values& options) {
     const BoxSpace space = space_of(plan, false);
     const double most = space.largest_distance();
     if (!(most > 1e-140 && most < 1e150))
-        fail(ErrorKind::usage, "--bounds: {} has no distances that float64 can square",
+        fail(ErrorKind::usage,
+             "--bounds: {} has distances whose squares are out of the range of float64",
              format_box(space.box));
     return plan;
 }

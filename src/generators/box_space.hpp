@@ -17,9 +17,9 @@
 namespace stipple {
 
 inline constexpr Param<bool> torus_option{
-    .name = "torus", .help = "Distances go across opposite faces (so they do by default)"};
+    .name = "torus", .help = "Measure distances across opposite faces (the default)"};
 inline constexpr Param<bool> bounded_option{.name = "bounded",
-                                            .help = "Distances end at the faces"};
+                                            .help = "Do not measure distances across faces"};
 
 /// @throws Error(usage) if both --torus and --bounded are given
 void check_torus(const Values& options);

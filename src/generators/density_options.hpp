@@ -18,9 +18,9 @@ namespace stipple {
 inline constexpr Param<Path> density_option{
     {.name = "density",
      .help =
-         "Picture (PNG, PFM) or array (NPY, row 0 at y = 0): points per area go by its values"}};
+         "Picture (PNG, PFM) or array (NPY, row 0 at y = 0); points per area follow its values"}};
 inline constexpr Param<bool> invert_option{
-    .name = "invert", .help = "Points where --density is dark, as ink on paper"};
+    .name = "invert", .help = "Place points where --density is dark, like ink on paper"};
 
 /// @throws Error(usage) if --invert is given without --density
 void check_invert(const Values& options);

@@ -15,8 +15,8 @@ void check_dimension(const Generator& generator, std::size_t dimension, const Va
     const bool unlimited = !more.empty() && options.find(more).given;
     if (dimension >= traits.min_dimension && (dimension <= traits.max_dimension || unlimited))
         return;
-    fail_with_hint(ErrorKind::usage, more.empty() ? "" : fmt::format("--{} brings more", more),
-                   "--dimension: {} is outside [{}, {}], what {} can make", dimension,
+    fail_with_hint(ErrorKind::usage, more.empty() ? "" : fmt::format("--{} allows more", more),
+                   "--dimension: {} is outside [{}, {}], the range of {}", dimension,
                    traits.min_dimension, traits.max_dimension, generator.name);
 }
 
@@ -25,7 +25,7 @@ void check_indices(const Generator& generator, const Request& request, std::uint
     const auto& traits = generator.traits;
     if (request.start > 0 && !traits.prefix)
         fail(ErrorKind::usage,
-             "--start: {} is not a sequence without end, its points depend on their number; leave "
+             "--start: {} is not an infinite sequence, its points depend on their number; leave "
              "--start out",
              generator.name);
     if (request.start > traits.max_index || count > traits.max_index - request.start)
@@ -63,7 +63,7 @@ Plan plan_for(const Generator& generator, const Request& request, const Values& 
     check_dimension(generator, plan.dimension, options);
     check_indices(generator, request, plan.count, plan.dimension);
     if (generator.max_seed && plan.seed > generator.max_seed(options))
-        fail(ErrorKind::usage, "--seed: {} is outside [0, {}], what this generator's seeding takes",
+        fail(ErrorKind::usage, "--seed: {} is outside [0, {}], the range of this generator's seeds",
              plan.seed, generator.max_seed(options));
     return plan;
 }

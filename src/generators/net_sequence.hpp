@@ -51,16 +51,16 @@ inline constexpr Param<Choice> binary_order{
     .fallback = "natural",
     .choices = "natural|gray",
     .help =
-        "Point i is that of index i, or of i XOR i/2 (Gray code), as SciPy and most others "
-        "give it; 2^k points from a multiple of 2^k on are the same in both"};
+        "Index of point i: natural, i; gray, i XOR i/2 (Gray code), as in SciPy and most others. "
+        "Both give the same 2^k points from a multiple of 2^k on"};
 
 inline constexpr Param<Choice> binary_scramble{
     .name = "scramble",
     .fallback = "none",
     .choices = "none|digital-shift|matrix|owen",
     .help =
-        "Randomize digits by the seed: add random ones to all points alike, multiply by a "
-        "random triangular matrix, or scramble nested and uniformly (Owen)"};
+        "Randomize the digits by the seed: add the same random digits to all points, multiply by a "
+        "random triangular matrix, or use nested uniform scrambling (owen)"};
 
 /// Sequence of these matrices, ordered and scrambled according to the options.
 std::unique_ptr<Sequence> binary_sequence(BinaryMatrices matrices, const Plan& plan,

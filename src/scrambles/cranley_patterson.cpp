@@ -22,7 +22,7 @@ namespace {
 
 constexpr Param<Numbers> shift{
     {.name = "shift",
-     .help = "The vector itself, one number for each coordinate, taken modulo 1; else random"}};
+     .help = "Shift vector, one number per coordinate, taken modulo 1; default: random"}};
 
 /// The given shifts modulo 1, in [0, 1).
 std::vector<double> fractions(std::vector<double> numbers, std::size_t coordinates) {
@@ -49,14 +49,13 @@ Randomization make(const Values& options, const ScrambleRequest& request) {
 }  // namespace
 
 Scramble unit() {
-    return {
-        .name = "cranley-patterson",
-        .summary = "Rotation of all points by one vector, random or given, modulo 1; for lattices",
-        .source = "Cranley, Patterson 1976, doi:10.1137/0713071",
-        .related = {"toroidal-shift", "modulo-shift"},
-        .options = Schema(scramble_seed, shift),
-        .aliases = {"rotation", "random-shift", "shift"},
-        .make = make};
+    return {.name = "cranley-patterson",
+            .summary = "Shift of all points by one random or given vector, modulo 1; for lattices",
+            .source = "Cranley, Patterson 1976, doi:10.1137/0713071",
+            .related = {"toroidal-shift", "modulo-shift"},
+            .options = Schema(scramble_seed, shift),
+            .aliases = {"rotation", "random-shift", "shift"},
+            .make = make};
 }
 
 }  // namespace stipple::scrambles::cranley_patterson

@@ -35,7 +35,7 @@ class BinaryShift {
 
 Scramble unit() {
     return {.name = "digital-shift",
-            .summary = "The same random digits added to those of all points, without carries",
+            .summary = "Adds the same random digits to those of all points, without carries",
             .source = "Owen 1995, doi:10.1007/978-1-4612-2552-2_19",
             .related = {"xor", "random-digits"},
             .options = Schema(base, scramble_seed),

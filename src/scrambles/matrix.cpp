@@ -56,8 +56,8 @@ class BinaryProduct {
 Scramble unit() {
     return {.name = "matrix",
             .summary =
-                "Linear matrix scrambling: digits times a random lower triangular matrix, "
-                "and a digital shift",
+                "Linear matrix scrambling: a random lower triangular matrix times the digits, then "
+                "a digital shift",
             .source = "Matousek 1998, doi:10.1006/jcom.1998.0489",
             .related = {"matousek", "affine"},
             .options = Schema(base, scramble_seed),

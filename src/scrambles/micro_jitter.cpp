@@ -24,7 +24,7 @@ constexpr Param<std::int64_t> cells{.name = "cells",
                                     .low = 1,
                                     .high = std::int64_t{1} << 53,
                                     .optional = true,
-                                    .help = "Number N of intervals; else the number of points"};
+                                    .help = "Number N of intervals; default: the number of points"};
 
 /// Index of the interval of x; if x is the rounded value of an edge, of the interval that begins
 /// there.
@@ -55,11 +55,12 @@ Randomization make(const Values& options, const ScrambleRequest& request) {
 }  // namespace
 
 Scramble unit() {
-    return {.name = "micro-jitter",
-            .summary = "Every coordinate to a random place in its interval of length 1 / N",
-            .source = "Standard construction",
-            .options = Schema(cells, scramble_seed),
-            .make = make};
+    return {
+        .name = "micro-jitter",
+        .summary = "Moves every coordinate to a random position in its interval of length 1 / N",
+        .source = "Standard construction",
+        .options = Schema(cells, scramble_seed),
+        .make = make};
 }
 
 }  // namespace stipple::scrambles::micro_jitter

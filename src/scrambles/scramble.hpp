@@ -18,7 +18,7 @@ namespace stipple {
 
 /// Option of every scramble; resolved before the scramble is made.
 inline constexpr Param<Text> scramble_seed{
-    {.name = "seed", .help = "64-bit seed of its own; else the set's"}};
+    {.name = "seed", .help = "64-bit seed of this scramble; default: the set's"}};
 
 /// Describes the set to scramble.
 struct ScrambleRequest {

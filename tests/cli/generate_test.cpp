@@ -401,9 +401,9 @@ TEST(Generate, WritesVectorsAsOtherPackagesDo) {
         "stipple generate polynomial-lattice --vector-file i.txt --vector-output j.txt ";
     good(box.shell(interlaced + "--vector-format latnet-builder"));
     EXPECT_EQ(box.read("j.txt"), box.read("i.txt"));
-    expect_refusal(box.shell(interlaced), 2, "lddata has no interlaced lattices");
+    expect_refusal(box.shell(interlaced), 2, "lddata cannot hold interlaced lattices");
     expect_refusal(box.shell("stipple generate rank1-lattice --vector-format lddata"), 2,
-                   "--vector-format is of --vector-output, which is not given");
+                   "--vector-format applies to --vector-output only; give that too");
     expect_refusal(box.shell("stipple generate rank1-lattice --vector-output p.csv -o p.csv"), 2,
                    "is where the points go");
 }

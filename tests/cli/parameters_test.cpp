@@ -68,8 +68,8 @@ TEST_F(Parameters, WordsWithoutParametersAreNumberedByTheirLetters) {
     text("stipple generate sobol -n 16 --parameters beam.json -o a.csv");
     const Outcome read = box.shell("stipple convert a.csv -f jsonl | head -n 1");
     EXPECT_EQ(read.code, 0);
-    EXPECT_THAT(read.err, HasSubstr("the column 'kind' holds words, which are taken for numbers: "
-                                    "'0 brass, 1 mild steel, 2 oak'"));
+    EXPECT_THAT(read.err, HasSubstr("the column 'kind' holds words, which are read as numbers: '0 "
+                                    "brass, 1 mild steel, 2 oak'"));
     EXPECT_EQ(box.shell("stipple convert a.csv --quiet").out, box.read("a.csv"));
     box.write("wrong.csv", "a,b\n1,steel\n2,3\n");
     expect_refusal(box.run({"convert", "wrong.csv"}), 3, "wrong.csv:2:3: 'steel' is not a number");
@@ -158,7 +158,7 @@ TEST_F(Parameters, DesignsHaveTheirLevels) {
     EXPECT_EQ(box.shell("stipple generate factorial --parameters d.json").err, "");
     expect_refusal(
         box.run({"generate", "factorial", "--levels", "4", "--parameters", "d.json"}), 2,
-        "--levels: 4 levels of parameter 2 would show some of its 3 outcomes more often");
+        "--levels: 4 levels of parameter 2 would give some of its 3 outcomes more often");
 }
 
 TEST_F(Parameters, FixedDesignsKeepWhatHolds) {
@@ -302,8 +302,9 @@ TEST_F(Parameters, OptimizedDesignsHaveOtherStrataWhereConstraintsNeedThem) {
         "stipple generate latin-hypercube --optimize maximin --effort 0.001 -n 40 --parameters "
         "tight.json";
     const auto made = box.shell(make);
-    EXPECT_THAT(made.err, HasSubstr("no Latin hypercube of 40 points was found that satisfies the "
-                                    "constraints; each axis has strata that hold equal shares"));
+    EXPECT_THAT(made.err,
+                HasSubstr("no Latin hypercube of 40 points was found that satisfies the "
+                          "constraints; instead, the strata of each axis hold equal fractions"));
     EXPECT_EQ(box.shell(make + " | tail -n +2 | awk -F, '$1+$2 < 0.25' | wc -l").out, "40\n");
     EXPECT_EQ(made.out, box.shell(make + " --threads 1").out);
     // Below 0.25 - s is a share of (1 - 4 s)^2: the quarters of 40 points are 10 each, or nearly.
@@ -314,7 +315,7 @@ TEST_F(Parameters, OptimizedDesignsHaveOtherStrataWhereConstraintsNeedThem) {
     EXPECT_LE(count, 11);
     expect_refusal(box.run({"generate", "latin-hypercube", "--optimize", "maximin", "--parameters",
                             "never.json", "-n", "10"}),
-                   3, "latin-hypercube: the constraints hold for 0 of ");
+                   3, "latin-hypercube: only 0 of ");
 }
 
 // The set as a whole: made, read, one of several, measured and made again.

@@ -410,7 +410,7 @@ TEST(Reproduce, OpensNoFileThatItsProvenanceNames) {
         if (!only_writes) {
             EXPECT_THAT(outcome.err,
                         ::testing::AnyOf(HasSubstr("'canary'"), HasSubstr("contradicts --count"),
-                                         HasSubstr("how many points to add?")))
+                                         HasSubstr("the number of new points is missing")))
                 << meta;
         }
         EXPECT_EQ(box.read("canary"), "precious");

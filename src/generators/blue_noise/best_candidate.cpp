@@ -54,7 +54,7 @@ constexpr Param<double> candidates{
     .high = 1e6,
     .low_open = true,
     .unit = "per point",
-    .help = "Candidates for a point, as a multiple of the number of points before it"};
+    .help = "Number of candidates for a point, as a multiple of the number of earlier points"};
 
 /// Stream of uniform numbers for one point, a function of the seed and the point's index.
 class PointDraws {
@@ -465,7 +465,9 @@ std::vector<double> lazily(const BoxSpace& space, const Plan& plan, double facto
     run.need_memory(GrowingPoints<D>::memory(number) + number * cell_bytes[D - 1] * more,
                     fmt::format("{} points", wanted));
     if (number >= 2e7)
-        fail(ErrorKind::limit, "--count: {} points; at most 2e7 have cells with 32-bit numbers",
+        fail(ErrorKind::limit,
+             "--count: {} points are too many for cells with 32-bit numbers; expected fewer than "
+             "2e7",
              wanted);
     LazySearch<D> search(space, plan.seed, factor);
     for (std::uint64_t i = 0; i < wanted; ++i) {
@@ -574,14 +576,16 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
 }  // namespace
 
 Generator unit() {
-    return {.name = "best-candidate",
-            .summary = "Each point the farthest from all before among ever more candidates",
-            .source = "Mitchell 1991, doi:10.1145/122718.122736",
-            .traits = {.max_dimension = 32, .sequence = false, .boxed = true},
-            .options = Schema(candidates, torus_option, bounded_option),
-            .aliases = {"mitchell"},
-            .plan = plan_in_box,
-            .set = make};
+    return {
+        .name = "best-candidate",
+        .summary =
+            "Each point is the candidate farthest from all earlier points, of ever more candidates",
+        .source = "Mitchell 1991, doi:10.1145/122718.122736",
+        .traits = {.max_dimension = 32, .sequence = false, .boxed = true},
+        .options = Schema(candidates, torus_option, bounded_option),
+        .aliases = {"mitchell"},
+        .plan = plan_in_box,
+        .set = make};
 }
 
 }  // namespace stipple::generators::best_candidate

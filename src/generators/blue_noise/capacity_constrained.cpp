@@ -43,9 +43,9 @@ namespace {
 
 using planar::from;
 
-constexpr auto iterations = planar::iterations_option(60, "How often every point moves");
+constexpr auto iterations = planar::iterations_option(60, "Number of moves of every point");
 constexpr Param<bool> crystals{.name = "crystals",
-                               .help = "Leave hexagons that form as they are; do not shake them"};
+                               .help = "Keep regular hexagons that form instead of shaking them"};
 
 constexpr double rough = 1e-2;   // sufficient while points still move
 constexpr std::size_t few = 20;  // Newton steps then; mostly one or two suffice

@@ -46,20 +46,20 @@ constexpr Param<double> radius{.name = "radius",
                                .optional = true,
                                .unit = "length",
                                .help =
-                                   "Least distance of two points, which stays; without it, it "
-                                   "shrinks until --count points have found a place"};
+                                   "Fixed minimum distance between points; without it, the "
+                                   "distance shrinks until --count points are placed"};
 constexpr Param<std::int64_t> misses{
     .name = "misses",
     .fallback = 200,
     .low = 1,
     .high = 1'000'000'000,
     .unit = "darts",
-    .help = "Darts in a row without a place that end the set, or shrink the radius"};
+    .help = "Number of rejected darts in a row that ends the set, or shrinks the radius"};
 constexpr Param<double> shrink{.name = "shrink",
                                .fallback = 0.99,
                                .low = 0.01,
                                .high = 0.999999,
-                               .help = "What the radius is multiplied by when it shrinks"};
+                               .help = "Factor by which the radius shrinks"};
 
 Plan plan(const Request& request, const Values& options) {
     Plan plan = plan_in_box(request, options);
@@ -71,7 +71,8 @@ Plan plan(const Request& request, const Values& options) {
              "--radius: {} is outside (0, {}]; no two points of the box are farther apart",
              format_number(options[radius]), format_number(most));
     if (options.given(shrink))
-        fail(ErrorKind::usage, "--shrink: a radius given by --radius stays; give one of them");
+        fail(ErrorKind::usage,
+             "--shrink contradicts --radius, which fixes the radius; give one of them");
     if (!request.count) plan.count = 0;
     return plan;
 }
@@ -181,8 +182,8 @@ std::pair<std::vector<double>, double> throw_all(Darts darts, const BoxSpace& sp
     }
     if (darts.count() < wanted || darts.count() <= plan.start)
         fail(ErrorKind::limit,
-             "only {} points keep a radius of {} before {} darts in a row have missed; {} were "
-             "asked for",
+             "only {} points were placed with a radius of {} before {} darts in a row were "
+             "rejected; {} were requested",
              darts.count(), format_number(r), patience, std::max(wanted, plan.start + 1));
     return {darts.rows(), r};
 }
@@ -219,7 +220,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
 
 Generator unit() {
     return {.name = "dart-throwing",
-            .summary = "Random points that keep a distance, which shrinks as they become many",
+            .summary = "Random points with a minimum distance, which shrinks until all are placed",
             .source = "McCool, Fiume 1992, Graphics Interface, 94-105",
             .related = {"hard-disks", "random-sequential-addition", "matern"},
             .traits = {.max_dimension = most_directions, .sequence = false, .boxed = true},

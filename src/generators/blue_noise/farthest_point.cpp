@@ -40,12 +40,12 @@
 namespace stipple::generators::farthest_point {
 namespace {
 
-constexpr auto iterations = planar::iterations_option(50, "How often every point moves, at most");
+constexpr auto iterations = planar::iterations_option(50, "Maximum number of moves of every point");
 
 constexpr Param<Choice> initial{.name = planar::initial.name,
                                 .fallback = "random",
                                 .choices = planar::initial.choices,
-                                .help = "Points to start from; they are moved in their order"};
+                                .help = "Points to start from; they are moved in this order"};
 
 /// Maximum of n numbers that change one at a time.
 class Tournament {
@@ -204,7 +204,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
 Generator unit() {
     return {.name = "farthest-point",
             .summary =
-                "Points moved to the largest gap, one by one: the least distance near its "
+                "Points moved to the largest gap, one by one: minimum distance near its upper "
                 "bound (blue noise)",
             .source = "Schloemer, Heck, Deussen 2011, doi:10.1145/2018323.2018345",
             .related = {"maximin"},

@@ -47,8 +47,8 @@ constexpr Param<std::int64_t> iterations{
     .optional = true,
     .unit = "steps",
     .help =
-        "Steps down the energy, the more the emptier the spectrum below its peak; 1000 unless "
-        "given, with a density 300"};
+        "Gradient steps; more of them leave less in the spectrum below its peak. Default: 1000, or "
+        "300 with a density"};
 
 Plan plan(const Request& request, const Values& options) {
     const Plan plan = plan_in_proportion(request);
@@ -92,7 +92,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
 
 Generator unit() {
     return {.name = "gaussian-blue-noise",
-            .summary = "Random points that Gaussian kernels have pushed apart (blue noise)",
+            .summary = "Random points pushed apart by Gaussian kernels (blue noise)",
             .source = "Ahmed, Ren, Wonka 2022, doi:10.1145/3550454.3555519",
             .related = {"blue-noise"},
             .traits = {.max_dimension = relaxation_dimensions,

@@ -31,7 +31,7 @@ namespace {
 
 using planar::from;
 
-constexpr auto iterations = planar::iterations_option(50, "How often every point moves");
+constexpr auto iterations = planar::iterations_option(50, "Number of moves of every point");
 
 /// Centroid of a site's cell; nullopt if it has no cell.
 std::optional<Vec2> centroid(const PeriodicVoronoi& sites, std::size_t i,
@@ -79,17 +79,18 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
 }  // namespace
 
 Generator unit() {
-    return {.name = "lloyd",
-            .summary = "Centroidal Voronoi relaxation: every point in the middle of its cell",
-            .source = "Lloyd 1982, doi:10.1109/TIT.1982.1056489",
-            .related = {"voronoi-relaxation", "relaxation", "k-means"},
-            .traits = planar_traits,
-            .options = Schema(iterations, planar::initial, from, density_option, invert_option,
-                              torus_option, bounded_option),
-            .aliases = {"cvt", "centroidal-voronoi"},
-            .plan = planar_plan,
-            .set = make,
-            .uses_seed = planar::uses_seed};
+    return {
+        .name = "lloyd",
+        .summary = "Centroidal Voronoi relaxation: moves every point to the centroid of its cell",
+        .source = "Lloyd 1982, doi:10.1109/TIT.1982.1056489",
+        .related = {"voronoi-relaxation", "relaxation", "k-means"},
+        .traits = planar_traits,
+        .options = Schema(iterations, planar::initial, from, density_option, invert_option,
+                          torus_option, bounded_option),
+        .aliases = {"cvt", "centroidal-voronoi"},
+        .plan = planar_plan,
+        .set = make,
+        .uses_seed = planar::uses_seed};
 }
 
 }  // namespace stipple::generators::lloyd

@@ -101,8 +101,7 @@ Plan planar_plan(const Request& request, const Values& options) {
     Plan plan = plan_in_bounds(request);
     if (options.given(planar::from)) {
         if (request.count)
-            fail(ErrorKind::usage,
-                 "--from contradicts --count; the points of the file are counted");
+            fail(ErrorKind::usage, "--from contradicts --count; the count is that of the file");
         if (options.given(planar::initial))
             fail(ErrorKind::usage, "--from contradicts --initial; give one of them");
         plan.count = 0;
@@ -112,8 +111,8 @@ Plan planar_plan(const Request& request, const Values& options) {
     const double shortest = std::min(plan.bounds->extent(0), plan.bounds->extent(1));
     if (!(shortest > 1e-100 && longest < 1e100 && longest <= 1e6 * shortest))
         fail(ErrorKind::usage,
-             "--bounds: {} is no rectangle to cut cells from; expected sides in [1e-100, 1e100], "
-             "none a million times the other",
+             "--bounds: {} cannot be divided into cells; expected sides in [1e-100, 1e100], "
+             "neither above 1e6 times the other",
              format_box(*plan.bounds));
     return plan;
 }

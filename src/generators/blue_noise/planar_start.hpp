@@ -27,7 +27,7 @@ namespace stipple {
 
 namespace planar {
 constexpr Param<Path> from{
-    {.name = "from", .help = "File of the points to start from, which make the count"}};
+    {.name = "from", .help = "File of points to start from; gives the count"}};
 constexpr Param<Choice> initial{.name = "initial",
                                 .fallback = "jittered",
                                 .choices = "jittered|random",

@@ -48,38 +48,39 @@
 namespace stipple::generators::sample_elimination {
 namespace {
 
-constexpr Param<double> ratio{.name = "ratio",
-                              .fallback = 5,
-                              .low = 1,
-                              .high = 1e6,
-                              .unit = "points",
-                              .help = "Random points to choose from, for each one of the result"};
-constexpr Param<Choice> order{.name = "order",
-                              .fallback = "random",
-                              .choices = "random|progressive",
-                              .help = "As the points came, or such that every prefix is spread"};
+constexpr Param<double> ratio{
+    .name = "ratio",
+    .fallback = 5,
+    .low = 1,
+    .high = 1e6,
+    .unit = "points",
+    .help = "Number of random points to choose from, per point of the result"};
+constexpr Param<Choice> order{
+    .name = "order",
+    .fallback = "random",
+    .choices = "random|progressive",
+    .help = "random: original order; progressive: every prefix is well spread"};
 constexpr Param<Path> from{
     {.name = "from",
      .unit = "file",
-     .help = "File of points to choose from (on a warp's domain, too), not random ones: "
-             "a fifth of them by default, with bounded distances, no seed"}};
+     .help = "File of points to choose from, also on a warp's domain, instead of random ones. "
+             "Default count: a fifth of them; distances are bounded, the seed is unused"}};
 constexpr Param<std::int64_t> manifold{
     .name = "manifold-dimension",
     .low = 1,
     .high = static_cast<std::int64_t>(most_directions),
     .optional = true,
     .help =
-        "Dimension of the curve or surface that a file's points are on; else found by their "
-        "distances"};
-constexpr Param<double> measure{
-    .name = "measure",
-    .low = 0,
-    .low_open = true,
-    .optional = true,
-    .unit = "length, area, ...",
-    .help =
-        "Length of that curve, area of the surface...; else that of the box, or what their "
-        "distances say where they fill less"};
+        "Dimension of the curve or surface that contains a file's points; default: estimated from "
+        "their distances"};
+constexpr Param<double> measure{.name = "measure",
+                                .low = 0,
+                                .low_open = true,
+                                .optional = true,
+                                .unit = "length, area, ...",
+                                .help =
+                                    "Length of the curve, area of the surface...; default: that of "
+                                    "the box, or an estimate if the points fill less of it"};
 
 /// All points to choose from, and the space that they are in.
 struct Crowd {
@@ -115,14 +116,14 @@ std::vector<std::uint32_t> copies_among(const std::vector<double>& rows, std::si
 Plan plan_for_file(const Request& request, const Values& options) {
     if (options.given(ratio))
         fail(ErrorKind::usage,
-             "--ratio is of random points; with --from there are as many as in "
-             "the file");
+             "--ratio applies to random points only; --from chooses from all points of the file");
     if (options.given(density_option))
-        fail(ErrorKind::usage,
-             "--density is followed by random points; those of --from are as dense as they are");
+        fail(
+            ErrorKind::usage,
+            "--density applies to random points only; the points of --from have a density already");
     const std::size_t d = io::width_of_given(from.name, options[from]);
     if (d > most_directions)
-        fail(ErrorKind::input, "{}: {} coordinates a point; sample-elimination takes up to {}",
+        fail(ErrorKind::input, "{}: points of {} coordinates; sample-elimination takes up to {}",
              options[from], d, most_directions);
     require_dimension(request, d, options[from]);
     Request complete = request;
@@ -140,8 +141,7 @@ Plan plan(const Request& request, const Values& options) {
     if (options.given(from)) return plan_for_file(request, options);
     if (options.given(manifold) || options.given(measure))
         fail(ErrorKind::usage,
-             "--manifold-dimension and --measure are of points from a file; give "
-             "--from too");
+             "--manifold-dimension and --measure apply to points from a file; give --from too");
     const Plan plan = plan_in_box(request, options);
     check_density(options, plan.dimension);
     return plan;
@@ -222,12 +222,12 @@ CrowdExtent extent_of_file(const Crowd& crowd, std::uint64_t kept, const Values&
     if (filled || (found.dimension == 0 && !said)) return box;
     if (found.dimension == 0)
         fail(ErrorKind::input,
-             "{}: too few different points to tell the measure of what they are "
-             "on; --measure says it",
+             "{}: too few different points to estimate the length, area or volume that they fill; "
+             "give --measure",
              options[from]);
     run.notify(fmt::format(
-        "{}: the points fill a part of {} dimension{} of their box, of a measure of about {:.3g}; "
-        "--manifold-dimension and --measure say what they are on",
+        "{}: the points fill only a part of their box, of {} dimension{} and measure about {:.3g}; "
+        "--manifold-dimension and --measure replace this estimate",
         options[from], found.dimension, found.dimension == 1 ? "" : "s", found.measure));
     return found;
 }
@@ -305,9 +305,8 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& outside
     crowd.extent = file ? extent_of_file(crowd, count, options, run)
                         : CrowdExtent{d, volume_of(crowd.space.box)};
     if (!(radius_for(crowd, count) > 0))
-        fail_with_hint(ErrorKind::input,
-                       "--measure, with --manifold-dimension, tells what they are on",
-                       "the points of {} lie in a box of no volume", options[from]);
+        fail_with_hint(ErrorKind::input, "give --manifold-dimension and --measure",
+                       "the box around the points of {} has no volume", options[from]);
     const bool progressive = options[order] == "progressive";
     std::vector<std::uint32_t> chosen(all);
     std::iota(chosen.begin(), chosen.end(), 0U);
@@ -329,7 +328,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& outside
 
 Generator unit() {
     return {.name = "sample-elimination",
-            .summary = "Random points less those that are crowded most (blue noise, exact count)",
+            .summary = "Random points without the most crowded ones (blue noise, exact count)",
             .source = "Yuksel 2015, doi:10.1111/cgf.12538",
             .related = {"blue-noise"},
             .traits = {.max_dimension = most_directions,

@@ -73,13 +73,13 @@ constexpr Param<std::int64_t> tile_points{
     .low = 16,
     .high = 65536,
     .unit = "points",
-    .help = "Largest number of points in the tile; as many as fit n are made"};
+    .help = "Maximum number of points in the tile; the actual number is chosen to fit n"};
 constexpr Param<std::int64_t> iterations{.name = "iterations",
                                          .fallback = 250,
                                          .low = 0,
                                          .high = 1'000'000,
                                          .unit = "steps",
-                                         .help = "Steps that make the tile even"};
+                                         .help = "Optimization steps that make the tile even"};
 
 double difference(double a, double b) {
     const double t = std::abs(a - b);
@@ -217,8 +217,8 @@ std::unique_ptr<Sequence> make_thinned(const Plan& plan, const Values& options, 
     const double needed = (n + 2 * std::sqrt(n)) * density->largest();
     if (!(needed < 0x1p53))
         fail(ErrorKind::limit,
-             "{}: to thin to {} points takes {:.3g}, as the largest density is {:.3g} times the "
-             "mean; at most 2^53",
+             "{}: thinning to {} points needs {:.3g} points, because the largest density is {:.3g} "
+             "times the mean; at most 2^53 are possible",
              options[density_option], plan.count, needed, density->largest());
     Tiling tiling = tiling_of(static_cast<std::uint64_t>(std::ceil(needed / most)), sides);
     const double share = needed / static_cast<double>(tiling.tiles());

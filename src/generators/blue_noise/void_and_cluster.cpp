@@ -38,14 +38,15 @@ namespace {
 
 constexpr Param<Extents> size{{.name = "size",
                                .unit = "cells",
-                               .help = "Cells of the torus, such as 256x256; without it squares, "
-                                       "16 or more a point"}};
+                               .help = "Number of cells of the torus, such as 256x256; default: "
+                                       "square cells, at least 16 per point"}};
 constexpr Param<Choice> cell{.name = "cell",
                              .fallback = "center",
                              .choices = "center|random",
-                             .help = "Where in its cell a point is"};
+                             .help = "Position of a point in its cell"};
 constexpr Param<Path> mask_image{
-    {.name = "mask-image", .help = "Also writes the ranks of all cells as a PNG dither mask"}};
+    {.name = "mask-image",
+     .help = "Also write the ranks of all cells to this file, as a PNG dither mask"}};
 
 struct Torus {
     std::size_t width;
@@ -66,7 +67,7 @@ constexpr double most_cells = 0x1p31;
 /// @throws Error(usage)
 Torus torus_of(const std::vector<std::int64_t>& extents, const std::string& text) {
     if (extents.size() != 2)
-        fail(ErrorKind::usage, "--size: {}: two numbers are expected, such as 64x64", text);
+        fail(ErrorKind::usage, "--size: {} is not two numbers; expected, for example, 64x64", text);
     const auto whole = static_cast<double>(extents[0]) * static_cast<double>(extents[1]);
     if (whole >= most_cells)
         fail(ErrorKind::usage, "--size: {} is outside 1x1 to 2^31 cells", text);
@@ -103,8 +104,7 @@ Plan plan(const Request& request, const Values& options) {
     const double stretch = torus.stretch(proportions_of(plan));
     if (!(stretch <= most_stretch && 1 / stretch <= most_stretch))
         fail(ErrorKind::usage,
-             "--size: {} makes cells as wide as {:.4g} times their height in the box; expected "
-             "{:.2f} to "
+             "--size: {} makes cells {:.4g} times as wide as high in the box; expected {:.2f} to "
              "{:.0f} times",
              text, stretch, 1 / most_stretch, most_stretch);
     return plan;
@@ -216,7 +216,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
 
 Generator unit() {
     return {.name = "void-and-cluster",
-            .summary = "Cells of a torus in the order of void and cluster, and its dither mask",
+            .summary = "Cells of a torus in void-and-cluster order; also makes a dither mask",
             .source = "Ulichney 1993, doi:10.1117/12.152707",
             .related = {"blue-noise-mask", "ordered-dither", "dithering"},
             .traits = planar_traits,

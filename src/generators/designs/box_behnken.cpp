@@ -54,7 +54,7 @@ const Blocks& blocks_for(std::size_t factors) {
                  factors, below, blocks.factors);
         below = blocks.factors;
     }
-    fail(ErrorKind::usage, "--dimension: {} is outside [3, {}], what box-behnken can make", factors,
+    fail(ErrorKind::usage, "--dimension: {} is outside [3, {}], the range of box-behnken", factors,
          below);
 }
 
@@ -113,7 +113,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
 Generator unit() {
     return {
         .name = "box-behnken",
-        .summary = "Three-level design for quadratic models without corners, by Box and Behnken",
+        .summary = "Three-level design without corners for quadratic models, by Box and Behnken",
         .source = "Box, Behnken 1960, doi:10.1080/00401706.1960.10489912",
         .related = {"doe", "experiment", "response-surface", "rsm", "bbdesign", "quadratic"},
         .traits = {.min_dimension = 3, .max_dimension = 16, .prefix = false, .seeded = false},

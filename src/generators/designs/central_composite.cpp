@@ -40,20 +40,19 @@ constexpr Param<Choice> type{
     .fallback = "circumscribed",
     .choices = "circumscribed|inscribed|faced",
     .help =
-        "Which runs are at the coded values -1 and 1: the corners, with "
-        "axial runs outside; the axial runs, with corners inside; or both"};
+        "Runs at the coded values -1 and 1: the corners, with axial runs outside (circumscribed); "
+        "the axial runs, with corners inside (inscribed); or both (faced)"};
 
-constexpr Param<Text> alpha{{.name = "alpha",
-                             .fallback = "rotatable",
-                             .help =
-                                 "Distance of axial runs over that of the corners' "
-                                 "coordinates: rotatable, orthogonal or a number of at least 1"}};
+constexpr Param<Text> alpha{
+    {.name = "alpha",
+     .fallback = "rotatable",
+     .help = "Distance of the axial runs from the centre over the corners' coordinate: rotatable, "
+             "orthogonal or a number of at least 1"}};
 
-constexpr Param<bool> fraction{
-    .name = "fraction",
-    .help =
-        "Only the smallest fraction of resolution V or more of the corners, for 5 factors and "
-        "more"};
+constexpr Param<bool> fraction{.name = "fraction",
+                               .help =
+                                   "Use only the smallest fraction of the corners that has "
+                                   "resolution V or more; for 5 factors and more"};
 
 RegularFraction corners_for(std::size_t factors, const Values& options) {
     if (!options[fraction]) return full_fraction(factors);
@@ -81,8 +80,8 @@ double alpha_of(const Values& options, double corners, double runs) {
 Plan plan(const Request& request, const Values& options) {
     const std::size_t k = request.dimension.value_or(2);
     if (k < 2 || k > 20)
-        fail(ErrorKind::usage,
-             "--dimension: {} is outside [2, 20], what central-composite can make", k);
+        fail(ErrorKind::usage, "--dimension: {} is outside [2, 20], the range of central-composite",
+             k);
     const std::uint64_t corners = corners_for(k, options).runs();
     const Plan plan =
         plan_with_center(request, options, corners + 2 * k, k,

@@ -25,9 +25,9 @@ namespace {
 constexpr Param<Numbers> levels{
     {.name = "levels",
      .unit = "levels",
-     .help = "Levels of all factors (3) or of each (2,3,4); gives the count, and the dimension. "
-             "Default: 2, or the k-th root of the count; of parameters with up to 10 outcomes, all "
-             "of these"}};
+     .help = "Number of levels of all factors (3) or of each (2,3,4); gives the count and the "
+             "dimension. Default: 2, or the k-th root of the count; for parameters with up to 10 "
+             "outcomes, one per outcome"}};
 
 /// Number of levels of each factor. @throws Error(usage)
 std::vector<std::uint64_t> levels_of(const std::vector<double>& given, std::size_t dimension) {
@@ -66,8 +66,8 @@ void check_outcomes(const std::vector<std::uint64_t>& sizes, const LevelPlaces& 
         const std::uint64_t outcomes = places.outcomes(k);
         if (outcomes == 0 || sizes[k] <= outcomes || sizes[k] % outcomes == 0) continue;
         fail(ErrorKind::usage,
-             "--levels: {} levels of parameter {} would show some of its {} outcomes more often "
-             "than others; {} or fewer, or a multiple, show them equally",
+             "--levels: {} levels of parameter {} would give some of its {} outcomes more often "
+             "than others; expected at most {} levels, or a multiple",
              sizes[k], k + 1, outcomes, outcomes);
     }
 }

@@ -25,12 +25,13 @@
 namespace stipple::generators::fast {
 namespace {
 
-constexpr Param<std::int64_t> harmonics{
-    .name = "harmonics",
-    .fallback = 4,
-    .low = 1,
-    .high = 1000,
-    .help = "Multiples M of a frequency that count as the factor's; the analysis needs the same"};
+constexpr Param<std::int64_t> harmonics{.name = "harmonics",
+                                        .fallback = 4,
+                                        .low = 1,
+                                        .high = 1000,
+                                        .help =
+                                            "Number M of harmonics of a factor's frequency that "
+                                            "count as the factor's; the analysis needs the same"};
 
 constexpr std::uint64_t usual_curve = 1025;  // 2 M w + 1 for M = 4 and w = 128: no aliasing
 
@@ -41,7 +42,7 @@ Plan plan(const Request& request, const Values& options) {
     const Plan plan = default_plan(request, std::max(usual_curve, least) * k, k);
     if (plan.count % k != 0 || plan.count / k < least)
         refuse_count(plan.count,
-                     fmt::format("a multiple of {} from {} curves of {} runs on", k, k, least),
+                     fmt::format("a multiple of {} (at least {} curves of {} runs)", k, k, least),
                      "fast", plan.count / k < least ? 0 : plan.count / k * k,
                      std::max(least, plan.count / k + 1) * k);
     return plan;

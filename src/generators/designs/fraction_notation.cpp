@@ -26,7 +26,7 @@ Equation parse_equation(std::string_view text) {
         const auto at = letters.find(c);
         if (at == std::string_view::npos)
             fail(ErrorKind::usage,
-                 "--generators: '{}' in '{}' is no factor; these are A to Z and a to z without I",
+                 "--generators: '{}' in '{}' is not a factor; expected A to Z, except I, or a to z",
                  c, text);
         return at;
     };
@@ -88,7 +88,8 @@ RegularFraction fraction_of(const std::vector<Equation>& equations, std::size_t 
                 left &= ~(std::uint64_t{1} << design.basic[j]);
             }
         if (left != 0)
-            fail(ErrorKind::usage, "--generators: {}={} has {}, itself a product or no factor",
+            fail(ErrorKind::usage,
+                 "--generators: {}={} contains {}, which is a product itself or not a factor",
                  letters[e.factor], name_of(e.product), name_of(left));
     }
     require_different_columns(design);

@@ -38,7 +38,7 @@ namespace {
 
 constexpr Param<Text> equations{
     {.name = "generators",
-     .help = "Factors that are products of others, such as D=ABC,E=-AB; gives the count"}};
+     .help = "Factors defined as products of others, such as D=ABC,E=-AB; gives the count"}};
 
 constexpr Param<std::int64_t> resolution{
     .name = "resolution",
@@ -46,8 +46,8 @@ constexpr Param<std::int64_t> resolution{
     .high = 8,
     .optional = true,
     .help =
-        "The fewest runs with it or a higher one that are known, and of these the least known "
-        "aberration; default: 3, or the highest that is known for the count"};
+        "Minimum resolution, with the fewest runs that are known to reach it, and of these the "
+        "smallest known aberration; default: 3, or the highest known for the count"};
 
 std::size_t asked_resolution(const Values& options) {
     return options.given(resolution) ? static_cast<std::size_t>(options[resolution]) : 3;
@@ -59,24 +59,24 @@ KnownFraction for_count(std::uint64_t count, std::size_t factors, const Values& 
     if (!std::has_single_bit(count) || count > all) {
         const std::uint64_t below = std::min(std::bit_floor(count), all);
         const bool largest = below == all;
-        refuse_count(count, largest ? "a part of the 2^k runs" : "a power of two",
+        refuse_count(count, largest ? "a fraction of the 2^k runs" : "a power of two",
                      fmt::format("fractional-factorial of {} factors", factors), below,
                      largest ? ~std::uint64_t{0} : std::bit_ceil(count));
     }
     const auto basic = static_cast<std::size_t>(std::countr_zero(count));
     if (basic < factors && basic > most_basic_factors)
         fail(ErrorKind::usage,
-             "--count: {} runs are more than 2^{}, up to which there are fractions; --generators "
-             "gives larger ones",
+             "--count: {} runs are more than 2^{}, the largest known fraction; --generators gives "
+             "larger ones",
              count, most_basic_factors);
     const std::size_t asked = asked_resolution(options);
     const auto known = known_fraction(factors, basic);
     if (known && known->has(asked)) return *known;
     const auto fewest = fewest_runs(factors, asked);
-    const std::string others = fewest ? fmt::format("; {} do", fewest->design.runs()) : "";
+    const std::string others = fewest ? fmt::format("; {} suffice", fewest->design.runs()) : "";
     if (known && known->bound >= asked)
         fail(ErrorKind::usage,
-             "--count: {} runs are not known to do for {} factors at resolution {}{}", count,
+             "--count: {} runs are not known to suffice for {} factors at resolution {}{}", count,
              factors, roman_numeral(asked), others);
     fail(ErrorKind::usage, "--count: {} runs are too few for {} factors at resolution {}{}", count,
          factors, roman_numeral(asked), others);
@@ -105,14 +105,14 @@ std::size_t factors_of(const Request& request, const Values& options) {
         named |= e.product | std::uint64_t{1} << e.factor;
     const auto least = static_cast<std::size_t>(std::bit_width(named));
     if (request.dimension.value_or(least) < least)
-        fail(ErrorKind::usage, "--dimension: {} factors, but --generators names {}",
+        fail(ErrorKind::usage, "--dimension: {} factors are too few; --generators names factor {}",
              *request.dimension, factor_letters[least - 1]);
     return request.dimension.value_or(least);
 }
 
 Plan plan(const Request& request, const Values& options) {
     if (options.given(equations) && options.given(resolution))
-        fail(ErrorKind::usage, "--generators and --resolution are two ways to choose; give one");
+        fail(ErrorKind::usage, "--generators contradicts --resolution; give one of them");
     const std::size_t k = factors_of(request, options);
     const RegularFraction design = decide(request.count, k, options).design;
     return plan_of_runs(request, design.runs(), k,
@@ -170,7 +170,7 @@ std::vector<std::string> notes(const Request& request, const Plan& plan, const V
     if (const std::uint64_t fewer = request.count ? 0 : fewer_in_doubt(k, known, asked); fewer > 0)
         notes.push_back(
             fmt::format("fractional-factorial: {} runs are the fewest that are known for {} "
-                        "factors at resolution {}; it is open whether {} do",
+                        "factors at resolution {}; it is open whether {} suffice",
                         plan.count, k, roman_numeral(asked), fewer));
     if (!known.least)
         notes.push_back(

@@ -45,7 +45,7 @@ Plan plan_with_center(const Request& request, const Values& options, std::uint64
     if (asked != others + center)
         fail_with_hint(
             ErrorKind::usage,
-            asked >= others ? fmt::format("--center {} gives so many", asked - others) : "",
+            asked >= others ? fmt::format("--center {} gives that count", asked - others) : "",
             "--count: {} contradicts {}, which has {} runs and {} at the centre", asked, design,
             others, center);
     return default_plan(request, others + center, factors);

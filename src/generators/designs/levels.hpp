@@ -31,9 +31,9 @@ namespace stipple::generators {
 inline constexpr Param<bool> ends_option{
     .name = "ends",
     .help =
-        "Levels go from 0 to just below 1; by default they are the middles of equal cells, "
-        "which warps onto integers and categories take. --bounds with the provenance's "
-        "coded_bounds makes them -1 to 1"};
+        "Spread levels from 0 to just below 1 instead of over the middles of equal cells, which "
+        "warps onto integers and categories expect. --bounds with the provenance's coded_bounds "
+        "makes them -1 to 1"};
 
 inline constexpr Param<std::int64_t> center_option{
     .name = "center",
@@ -41,7 +41,7 @@ inline constexpr Param<std::int64_t> center_option{
     .low = 0,
     .high = 1'000'000,
     .unit = "runs",
-    .help = "Runs at the centre, the last ones; experiments with noise repeat it 3 to 6 times"};
+    .help = "Number of runs at the centre, which come last; experiments with noise use 3 to 6"};
 
 using Findings = std::vector<std::pair<std::string, std::string>>;
 

@@ -39,25 +39,26 @@ constexpr Param<std::int64_t> levels{.name = "levels",
                                      .low = 2,
                                      .high = 1'048'576,
                                      .unit = "levels",
-                                     .help = "Levels of each factor, an even number"};
+                                     .help = "Number of levels of each factor, even"};
 
-constexpr Param<std::int64_t> trajectories{
-    .name = "trajectories",
-    .low = 1,
-    .high = 1'000'000'000,
-    .optional = true,
-    .unit = "trajectories",
-    .help = "Trajectories of k + 1 runs; gives the count. Default: 10, or as the count says"};
+constexpr Param<std::int64_t> trajectories{.name = "trajectories",
+                                           .low = 1,
+                                           .high = 1'000'000'000,
+                                           .optional = true,
+                                           .unit = "trajectories",
+                                           .help =
+                                               "Number of trajectories of k + 1 runs each; gives "
+                                               "the count. Default: 10, or from the count"};
 
-constexpr Param<bool> radial{
-    .name = "radial",
-    .help = "One point after the other with one coordinate replaced, by Sobol' points, not levels"};
+constexpr Param<bool> radial{.name = "radial",
+                             .help =
+                                 "Stars instead of trajectories: a Sobol' point, then copies with "
+                                 "one coordinate each from another Sobol' point; without levels"};
 
-constexpr Param<bool> middles{
-    .name = "middles",
-    .help =
-        "Levels are the middles of equal cells, for distributions without ends; by default they "
-        "go from 0 to just below 1"};
+constexpr Param<bool> middles{.name = "middles",
+                              .help =
+                                  "Place levels at the middles of equal cells, for unbounded "
+                                  "distributions; by default they range from 0 to just below 1"};
 
 void check_options(const Values& options) {
     if (options[levels] % 2 != 0)
@@ -148,18 +149,19 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
 }  // namespace
 
 Generator unit() {
-    return {.name = "morris",
-            .summary = "One factor at a time along random trajectories, for elementary effects",
-            .source =
-                "Morris 1991, doi:10.1080/00401706.1991.10484804; Campolongo, Saltelli, Cariboni "
-                "2011, doi:10.1016/j.cpc.2010.12.039",
-            .related = {"sensitivity", "elementary-effects", "screening", "oat", "one-at-a-time",
-                        "gsa", "salib"},
-            .traits = {.max_dimension = 10'600},
-            .options = Schema(levels, trajectories, radial, middles),
-            .stream_version = 2,
-            .plan = plan,
-            .sequence = make};
+    return {
+        .name = "morris",
+        .summary = "Changes one factor at a time along random trajectories, for elementary effects",
+        .source =
+            "Morris 1991, doi:10.1080/00401706.1991.10484804; Campolongo, Saltelli, Cariboni "
+            "2011, doi:10.1016/j.cpc.2010.12.039",
+        .related = {"sensitivity", "elementary-effects", "screening", "oat", "one-at-a-time", "gsa",
+                    "salib"},
+        .traits = {.max_dimension = 10'600},
+        .options = Schema(levels, trajectories, radial, middles),
+        .stream_version = 2,
+        .plan = plan,
+        .sequence = make};
 }
 
 }  // namespace stipple::generators::morris

@@ -41,15 +41,15 @@ Plan plan(const Request& request, const Values& /*options*/) {
     const std::uint64_t n = *request.count;
     if (!has_hadamard(n)) {
         const std::uint64_t above = nearest_above(n);
-        refuse_count(
-            n, n % 4 == 0 ? "the order of a Hadamard matrix that is built here" : "a multiple of 4",
-            "plackett-burman", nearest_below(n), above == 0 ? ~std::uint64_t{0} : above);
+        refuse_count(n,
+                     n % 4 == 0 ? "the order of an available Hadamard matrix" : "a multiple of 4",
+                     "plackett-burman", nearest_below(n), above == 0 ? ~std::uint64_t{0} : above);
     }
     const std::size_t k = request.dimension.value_or(n - 1);
     if (k >= n)
         fail(ErrorKind::usage,
-             "--dimension: {} factors take more than {} runs, which have up to {}; {} runs are the "
-             "fewest for them",
+             "--dimension: {} factors need more than {} runs, which allow up to {}; {} runs are "
+             "the fewest that suffice",
              k, n, n - 1, nearest_above(k + 1));
     return default_plan(request, n, k);
 }

@@ -16,10 +16,10 @@ void require_sequence(const std::string& base, Request request) {
     try {
         Sampler(base, request);
     } catch (const Error&) {
-        fail(
-            ErrorKind::usage,
-            "--base: the points of {} depend on their number; sobol, halton and random have no end",
-            base);
+        fail(ErrorKind::usage,
+             "--base: the points of {} depend on their number; expected an infinite sequence such "
+             "as sobol, halton or random",
+             base);
     }
 }
 

@@ -26,14 +26,13 @@ namespace {
 
 constexpr Param<bool> second_order{
     .name = "second-order",
-    .help = "Also the runs that indices of pairs of factors need: N (2 k + 2) in all"};
+    .help = "Add the runs for indices of pairs of factors: N (2 k + 2) in all"};
 
 constexpr Param<Text> base{
     {.name = "base",
      .fallback = usual_base,
      .unit = "generator",
-     .help =
-         "Sequence in 2 k dimensions that the two points of each base row are from, as a spec"}};
+     .help = "Spec of the sequence in 2 k dimensions that gives the two points of each base row"}};
 
 std::size_t runs_of_row(std::size_t dimension, const Values& options) {
     return (options[second_order] ? 2 * dimension : dimension) + 2;
@@ -68,17 +67,15 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
 }  // namespace
 
 Generator unit() {
-    return {
-        .name = "saltelli",
-        .summary =
-            "Runs from which Sobol' sensitivity indices are estimated, as Saltelli arranged them",
-        .source = "Saltelli et al. 2010, doi:10.1016/j.cpc.2009.09.018",
-        .related = {"sensitivity", "sobol-indices", "gsa", "salib", "total-effects",
-                    "variance-based"},
-        .traits = {.max_dimension = 10'600},
-        .options = Schema(second_order, base),
-        .plan = plan,
-        .sequence = make};
+    return {.name = "saltelli",
+            .summary = "Saltelli's runs for estimating Sobol' sensitivity indices",
+            .source = "Saltelli et al. 2010, doi:10.1016/j.cpc.2009.09.018",
+            .related = {"sensitivity", "sobol-indices", "gsa", "salib", "total-effects",
+                        "variance-based"},
+            .traits = {.max_dimension = 10'600},
+            .options = Schema(second_order, base),
+            .plan = plan,
+            .sequence = make};
 }
 
 }  // namespace stipple::generators::saltelli

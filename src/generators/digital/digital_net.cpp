@@ -66,32 +66,30 @@ namespace stipple::generators::digital_net {
 namespace {
 
 constexpr Param<Path> matrices_option{
-    {.name = "matrices",
-     .help = "File of the generating matrices; needed, and gives the dimension"}};
+    {.name = "matrices", .help = "File of the generating matrices, required; gives the dimension"}};
 constexpr Param<Choice> layout_option{
     .name = "layout",
     .fallback = "auto",
     .choices = "auto|dnet|dnetup|digits|columns|rows",
     .help =
-        "How the file is written: dnet and dnetup of LatNet Builder and LDData (base, matrices, "
-        "columns, rows, then a whole number a column and a line a matrix), digits (the same "
-        "four numbers, then the matrices row by row), columns (Magic Point Shop: no header, "
-        "base 2), rows (MatBuilder: no header, square); auto: as its first line says"};
-constexpr Param<std::int64_t> base_option{.name = "base",
-                                          .low = 2,
-                                          .high = BaseNet::largest_base,
-                                          .optional = true,
-                                          .help =
-                                              "Base of a file in the layout rows, a prime; "
-                                              "else 2"};
+        "Layout of the file: dnet and dnetup of LatNet Builder and LDData (base, matrices, "
+        "columns, rows, then one line per matrix, one whole number per column), digits (the same "
+        "four numbers, then the matrices row by row), columns (Magic Point Shop: no header, base "
+        "2), rows (MatBuilder: no header, square); auto: from the first line"};
+constexpr Param<std::int64_t> base_option{
+    .name = "base",
+    .low = 2,
+    .high = BaseNet::largest_base,
+    .optional = true,
+    .help = "Base of a file in the layout rows, a prime; default: 2"};
 constexpr Param<std::int64_t> interlacing{
     .name = "interlace",
     .low = 1,
     .high = 64,
     .optional = true,
     .help =
-        "Interlacing factor alpha: a coordinate is made of the digits of that many matrices; "
-        "default: as the file says, else 1"};
+        "Interlacing factor alpha: each coordinate takes its digits from alpha matrices; default: "
+        "from the file, else 1"};
 
 /// Matrices of one shape, in one prime base.
 struct MatrixFile {
@@ -148,9 +146,11 @@ Header read_header(TokenFile& file) {
     for (std::size_t k = 1; header.columns > most_columns && k <= most_columns; ++k)
         if (saturating_power(header.base, k) == header.columns) header.columns = k;
     if (header.columns > most_columns)
-        file.refuse(shape, fmt::format("{} is neither a number of columns up to {} nor one of "
-                                       "points, a power of {}",
-                                       shape.text, most_columns, header.base));
+        file.refuse(
+            shape,
+            fmt::format(
+                "{} is neither a number of columns up to {} nor a number of points, a power of {}",
+                shape.text, most_columns, header.base));
     header.rows = file.number("the number of rows", 1, most_rows);
     file.expect_line_end();
     return header;
@@ -202,10 +202,9 @@ MatrixFile with_header(TokenFile& file, std::string_view layout) {
     MatrixFile found{.base = header.base, .matrices = {}, .interlaced = header.interlaced};
     const std::uint64_t high = largest_column(header);
     if (layout != "digits" && high == 0)
-        file.refuse_whole(
-            fmt::format("columns of {} digits in base {} are beyond 64 bits; expected "
-                        "the layout digits",
-                        header.rows, header.base));
+        file.refuse_whole(fmt::format(
+            "columns of {} digits in base {} exceed 64 bits; expected the layout digits",
+            header.rows, header.base));
     while (found.matrices.size() < header.matrices)
         if (layout == "digits")
             found.matrices.push_back(
@@ -215,9 +214,9 @@ MatrixFile with_header(TokenFile& file, std::string_view layout) {
             found.matrices.push_back(of_columns(read_line(file, "a column", header.columns, high),
                                                 header.base, header.rows, layout == "dnetup"));
     if (!file.at_end())
-        file.refuse(file.peek(), fmt::format("{} is too much; expected the end of the file behind "
-                                             "{} matrices",
-                                             shown(file.peek().text), header.matrices));
+        file.refuse(file.peek(),
+                    fmt::format("unexpected {}; expected the end of the file after {} matrices",
+                                shown(file.peek().text), header.matrices));
     return found;
 }
 
@@ -263,7 +262,8 @@ MatrixFile read(const Values& options) {
         fail(ErrorKind::usage, "--matrices: digital-net needs a file of generating matrices");
     const bool rows = options[layout_option] == "rows";
     if (options.given(base_option) && !rows)
-        fail(ErrorKind::usage, "--base: only the layout rows does not say or fix its base");
+        fail(ErrorKind::usage,
+             "--base applies to the layout rows only; the others give or fix their base");
     const std::uint32_t base = prime_base(options.given(base_option) ? options[base_option] : 2);
     TokenFile file(options[matrices_option]);
     MatrixFile found = read_matrices(file, options[layout_option], base);
@@ -281,7 +281,7 @@ Plan plan(const Request& request, const Values& options) {
              file.matrices.size(), options[matrices_option]);
     const Plan decided = default_plan(request, 1024, most);
     if (decided.dimension > most)
-        fail(ErrorKind::usage, "--dimension: {} is outside [1, {}], what {} gives",
+        fail(ErrorKind::usage, "--dimension: {} is outside [1, {}], the dimensions in {}",
              decided.dimension, most, options[matrices_option]);
     const std::size_t columns = file.matrices.front().columns;
     const std::uint64_t end = std::min(saturating_power(file.base, columns), exact_limit);

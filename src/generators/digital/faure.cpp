@@ -30,14 +30,14 @@ constexpr Param<std::int64_t> base_option{
     .low = 2,
     .high = BaseNet::largest_base,
     .optional = true,
-    .help = "Base of the digits, a prime not below the dimension; else the smallest such prime"};
+    .help = "Base of the digits, a prime not below the dimension; default: the smallest one"};
 
 std::uint32_t base_for(std::size_t dimension, const Values& options) {
     if (!options.given(base_option)) return static_cast<std::uint32_t>(next_prime(dimension));
     const std::uint32_t base = prime_base(options[base_option]);
     if (base < dimension)
         fail(ErrorKind::usage,
-             "--base: {} is below the dimension {}; faure needs a prime not below", base,
+             "--base: {} is below the dimension {}; expected a prime not below it", base,
              dimension);
     return base;
 }
@@ -81,7 +81,7 @@ std::vector<std::string> notes(const Request& request, const Plan& decided, cons
 
 Generator unit() {
     return {.name = "faure",
-            .summary = "Faure sequence: a (0, d)-sequence in the smallest prime base from d on",
+            .summary = "Faure sequence: a (0, d)-sequence in the smallest prime base not below d",
             .source = "Faure 1982, doi:10.4064/aa-41-4-337-351",
             .traits = {.max_dimension = BaseNet::largest_base},
             .options = Schema(base_option, binary_scramble),

@@ -84,7 +84,8 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values&, const RunContext
 
 Generator unit() {
     return {.name = "pmj",
-            .summary = "Progressive multi-jittered points: every 4^k are multi-jittered",
+            .summary =
+                "Progressive multi-jittered points: the first 4^k are multi-jittered, for every k",
             .source =
                 "Christensen, Kensler, Kilpatrick 2018, doi:10.1111/cgf.13472; the "
                 "construction by random matrices is stipple's",

@@ -43,8 +43,8 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values&, const RunContext
 Generator unit() {
     return {.name = "pmj02",
             .summary =
-                "Progressive multi-jittered (0,2) points: every 2^m meet all elementary "
-                "intervals",
+                "Progressive multi-jittered (0,2) points: the first 2^m meet all elementary "
+                "intervals, for every m",
             .source =
                 "Christensen, Kensler, Kilpatrick 2018, doi:10.1111/cgf.13472; made by "
                 "nested uniform scrambling of Sobol's points, Owen 1995, "

@@ -26,10 +26,9 @@ namespace {
 
 constexpr Param<Path> directions{
     {.name = "directions",
-     .help =
-         "Direction numbers in the format of Joe and Kuo's files: a line of names, then a line "
-         "\"d s a m_1 ... m_s\" for each dimension from 2 on; or LDData's \"# sobol\", with the "
-         "m alone; without it, a table of theirs"}};
+     .help = "File of direction numbers in Joe and Kuo's format: a line of names, then a line \"d "
+             "s a m_1 ... m_s\" for each dimension from 2 on; or LDData's \"# sobol\", with the m "
+             "alone. Default: a table of Joe and Kuo"}};
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     auto matrices = options.given(directions)

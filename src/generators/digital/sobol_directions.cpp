@@ -71,7 +71,7 @@ Initializer read_line(TokenFile& file, std::size_t dimension, bool bare) {
     Initializer initial;
     if (bare) {
         if (dimension > JoeKuoTable::max_dimension)
-            file.refuse(file.peek(), "a line more than there are polynomials");
+            file.refuse(file.peek(), "more lines than there are polynomials");
         initial = from_table(dimension - 2);
         initial.first.clear();
     } else {
@@ -143,9 +143,8 @@ BinaryMatrices sobol_matrices(std::size_t dimension, std::size_t digits, const s
         file.refuse_whole("no direction numbers; expected lines \"d s a m_1 ... m_s\"");
     const std::size_t most = (initials.size() + 1) / alpha;
     if (dimension > most)
-        fail(ErrorKind::usage,
-             "--dimension: {} is outside [1, {}], what {} has direction numbers for", dimension,
-             most, path);
+        fail(ErrorKind::usage, "--dimension: {} is outside [1, {}], the dimensions in {}",
+             dimension, most, path);
     BinaryMatrices matrices = van_der_corput_first(dimension * alpha, digits);
     for (std::size_t k = 1; k < matrices.dimension; ++k) grow(initials[k - 1], k, matrices);
     return alpha > 1 ? interlaced(matrices, alpha) : matrices;

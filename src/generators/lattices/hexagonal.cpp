@@ -59,8 +59,8 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values&, const RunContext
 Generator unit() {
     return {.name = "hexagonal",
             .summary =
-                "Hexagonal lattice: of all lattices of n points that with the largest "
-                "smallest distance on the torus, also in a box",
+                "Hexagonal lattice: the lattice of n points with the largest minimum distance on "
+                "the torus, also in a box",
             .source = "Standard construction; the densest lattice of n points, by search",
             .related = {"honeycomb"},
             .traits = {.min_dimension = 2,

@@ -77,14 +77,15 @@ VectorFile vector_in_file(const Values& options, bool polynomial) {
 std::vector<SideFile> vector_files(const Values& options, const VectorFile& lattice) {
     if (!options.given(vector_output)) {
         if (options.given(vector_format))
-            fail(ErrorKind::usage, "--vector-format is of --vector-output, which is not given");
+            fail(ErrorKind::usage,
+                 "--vector-format applies to --vector-output only; give that too");
         return {};
     }
     const bool latnet = options[vector_format] == "latnet-builder";
     const bool polynomial = lattice.modulus > 0;
     if (lattice.interlaced > 1 && !latnet)
         fail(ErrorKind::usage,
-             "--vector-format: lddata has no interlaced lattices; latnet-builder has");
+             "--vector-format: lddata cannot hold interlaced lattices; latnet-builder can");
     std::string text = latnet       ? "# Parameters for a lattice rule\n"
                        : polynomial ? "# plattice\n2  # base\n"
                                     : "# lattice\n";
@@ -112,10 +113,9 @@ void check_weights(const Values& options, bool searches, std::string_view search
     const bool given = options.given(product_weights);
     const bool decays = options.given(weight_decay);
     if (!searches && (given || decays))
-        fail(ErrorKind::usage, "--{}: is of {}; the rule here is {}",
+        fail(ErrorKind::usage, "--{} applies to {} only; the rule here is {}",
              given ? product_weights.name : weight_decay.name, searching, rule);
-    if (given && decays)
-        fail(ErrorKind::usage, "--weights and --decay: either gives the weights; leave one out");
+    if (given && decays) fail(ErrorKind::usage, "--weights contradicts --decay; give one of them");
 }
 
 std::vector<std::uint64_t> given_components(const Values& options, const VectorFile& file,
@@ -131,7 +131,7 @@ std::vector<std::uint64_t> given_components(const Values& options, const VectorF
         components.push_back(static_cast<std::uint64_t>(z));
     }
     if (components.size() < dimension)
-        fail(ErrorKind::usage, "{}: {} components are too few; dimension {} needs as many", who,
+        fail(ErrorKind::usage, "{}: {} components are too few for dimension {}", who,
              components.size(), dimension);
     components.resize(dimension);
     return components;

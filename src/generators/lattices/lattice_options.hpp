@@ -17,29 +17,29 @@ namespace stipple {
 
 inline constexpr Param<Numbers> product_weights{
     {.name = "weights",
-     .help = "Weights of the coordinates in what the search makes least, a positive number each"}};
+     .help = "Weight of each coordinate in the error that the search minimizes, above 0"}};
 
 inline constexpr Param<std::int64_t> weight_decay{
     .name = "decay",
     .fallback = 2,
     .low = 0,
     .high = 20,
-    .help = "Without weights: coordinate j has the weight j^-decay"};
+    .help = "Without --weights, coordinate j has the weight j^-decay"};
 
 inline constexpr Param<Path> vector_file{
     {.name = "vector-file",
-     .help = "File of a generating vector: a line a coordinate, with its value, or its number from "
-             "1 and its value; or as LDData or LatNet Builder write lattices"}};
+     .help = "File of a generating vector: one line per coordinate, with its value, or its number "
+             "(from 1) and its value; or a lattice file of LDData or LatNet Builder"}};
 
 inline constexpr Param<Path> vector_output{
-    {.name = "vector-output", .help = "Also writes the generating vector to this file"}};
+    {.name = "vector-output", .help = "Also write the generating vector to this file"}};
 
 inline constexpr Param<Choice> vector_format{
     .name = "vector-format",
     .choices = "lddata|latnet-builder",
     .help =
-        "Form of --vector-output: that of LDData (the default), or of LatNet Builder; "
-        "--vector-file reads both"};
+        "Format of --vector-output: LDData's (the default) or LatNet Builder's; --vector-file "
+        "reads both"};
 
 /// Contents of a file with a lattice.
 struct VectorFile {

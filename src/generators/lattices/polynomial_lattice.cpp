@@ -43,19 +43,19 @@ constexpr Param<Choice> rule{
     .name = "rule",
     .fallback = "cbc",
     .choices = "cbc|vector",
-    .help = "Where the generating vector comes from; a given vector says so itself"};
+    .help = "Source of the generating vector; a given vector implies the rule vector"};
 constexpr Param<std::int64_t> modulus_option{
     .name = "modulus",
     .low = 2,
     .high = (std::int64_t{1} << (largest_degree + 1)) - 1,
     .optional = true,
     .help =
-        "Modulus, as the number that the polynomial is at x = 2: 11 is x^3 + x + 1; else the "
-        "smallest irreducible one for as many points"};
+        "Modulus, as the polynomial's value at x = 2: 11 is x^3 + x + 1; default: the smallest "
+        "irreducible one for the count"};
 constexpr Param<Numbers> vector_option{
     {.name = "vector",
-     .help = "Generating vector, polynomials as such numbers; gives the dimension, or more numbers "
-             "than that"}};
+     .help = "Generating vector of polynomials, written like the modulus; as long as the "
+             "dimension, which it gives by default, or longer"}};
 
 bool gives_vector(const Values& options) {
     return options.given(vector_option) || options.given(vector_file);
@@ -65,24 +65,23 @@ bool searches(const Values& options) { return options[rule] == "cbc" && !gives_v
 
 void refuse_contradictions(const Values& options) {
     if (options[rule] == "vector" && !gives_vector(options))
-        fail(ErrorKind::usage, "--rule: vector needs its --vector or --vector-file");
+        fail(ErrorKind::usage, "--rule: vector needs a vector; give --vector or --vector-file");
     if (options.given(vector_option) && options.given(vector_file))
-        fail(ErrorKind::usage,
-             "--vector and --vector-file: either gives the vector; leave one out");
+        fail(ErrorKind::usage, "--vector contradicts --vector-file; give one of them");
     if (options.given(rule) && options[rule] == "cbc" && gives_vector(options))
-        fail(ErrorKind::usage, "--vector: is of the rule vector; the rule here is cbc");
+        fail(ErrorKind::usage, "--vector applies to the rule vector only; the rule here is cbc");
     check_weights(options, searches(options), "the rule cbc", "vector");
 }
 
 std::uint64_t modulus_for(std::uint64_t count, const Values& options) {
     const std::uint64_t modulus = vector_in_file(options, true).modulus;
     if (modulus > 0 && options.given(modulus_option))
-        fail(ErrorKind::usage, "--modulus: {} says its own, {}", options[vector_file], modulus);
+        fail(ErrorKind::usage, "--modulus: {} contains its own, {}", options[vector_file], modulus);
     if (modulus > 0) return modulus;
     if (options.given(modulus_option)) return static_cast<std::uint64_t>(options[modulus_option]);
     const int m = std::max(1, static_cast<int>(std::bit_width(count - 1)));
     if (m > largest_degree)
-        fail(ErrorKind::usage, "--count: {} is outside [1, 2^{}], what polynomial-lattice can make",
+        fail(ErrorKind::usage, "--count: {} is outside [1, 2^{}], the range of polynomial-lattice",
              count, largest_degree);
     return gf2::smallest_irreducible(m);
 }
@@ -90,8 +89,8 @@ std::uint64_t modulus_for(std::uint64_t count, const Values& options) {
 void check_search(std::uint64_t count, std::uint64_t modulus) {
     if (gf2::degree(modulus) > largest_searched_degree)
         fail_with_hint(ErrorKind::usage, "give a --vector",
-                       "--count: cbc searches for up to 2^{} points; {} points and modulus {} are "
-                       "of 2^{}",
+                       "--count: cbc searches lattices of up to 2^{} points; {} points with "
+                       "modulus {} belong to one of 2^{}",
                        largest_searched_degree, count, modulus, gf2::degree(modulus));
     if (!gf2::is_irreducible(modulus))
         fail_with_hint(ErrorKind::usage, "give a --vector, which takes any modulus",
@@ -109,12 +108,12 @@ Plan plan(const Request& request, const Values& options) {
     const Plan decided =
         default_plan(request, file.points > 0 ? file.points : 1024, numbers > 0 ? numbers : 2);
     if (file.interlaced > 1 && decided.dimension > numbers)
-        fail(ErrorKind::usage, "--dimension: {} is outside [1, {}], what {} gives",
+        fail(ErrorKind::usage, "--dimension: {} is outside [1, {}], the dimensions in {}",
              decided.dimension, numbers, options[vector_file]);
     const std::uint64_t modulus = modulus_for(decided.count, options);
     const int m = gf2::degree(modulus);
     if (decided.count > std::uint64_t{1} << m)
-        fail(ErrorKind::usage, "--count: {} is above {} = 2^{}, the points of modulus {}",
+        fail(ErrorKind::usage, "--count: {} is above {} = 2^{}, the number of points of modulus {}",
              decided.count, std::uint64_t{1} << m, m, modulus);
     if (searches(options)) check_search(decided.count, modulus);
     return decided;
@@ -169,7 +168,7 @@ std::unique_ptr<Sequence> make(const Plan& decided, const Values& options, const
 
 Generator unit() {
     return {.name = "polynomial-lattice",
-            .summary = "Polynomial lattice in base 2, of a given or a searched vector",
+            .summary = "Polynomial lattice in base 2, with a given or a searched vector",
             .source =
                 "Niederreiter 1992, doi:10.1137/1.9781611970081; "
                 "Baldeaux et al. 2012, doi:10.1007/s11075-011-9497-y",

@@ -44,28 +44,28 @@
 namespace stipple::generators::rank1_lattice {
 namespace {
 
-constexpr Param<Choice> rule{.name = "rule",
-                             .fallback = "cbc",
-                             .choices = "cbc|korobov|fibonacci|vector",
-                             .help =
-                                 "Where the generating vector comes from; a given vector or "
-                                 "multiplier says so itself"};
+constexpr Param<Choice> rule{
+    .name = "rule",
+    .fallback = "cbc",
+    .choices = "cbc|korobov|fibonacci|vector",
+    .help = "Source of the generating vector; a given vector or multiplier implies its rule"};
 constexpr Param<std::int64_t> multiplier{.name = "multiplier",
                                          .low = 1,
                                          .high = std::int64_t{1} << 53,
                                          .optional = true,
                                          .help =
                                              "Multiplier a of the rule korobov, z_k = a^k; "
-                                             "without it, the best of those that --effort tries"};
-constexpr Param<double> effort{
-    .name = "effort",
-    .fallback = 1,
-    .low = 1e-3,
-    .high = 1e9,
-    .help = "Multipliers that the rule korobov tries: this times those of about a second"};
+                                             "default: the best of those that --effort tries"};
+constexpr Param<double> effort{.name = "effort",
+                               .fallback = 1,
+                               .low = 1e-3,
+                               .high = 1e9,
+                               .help =
+                                   "Multipliers that the rule korobov tries, as a multiple of the "
+                                   "default: about a second's work"};
 constexpr Param<Numbers> vector{{.name = "vector",
-                                 .help = "Generating vector, such as 1,182667,469891; gives the "
-                                         "dimension, or more numbers than that"}};
+                                 .help = "Generating vector, such as 1,182667,469891; as long as "
+                                         "the dimension, which it gives by default, or longer"}};
 /// Numbers that are updated side by side, those of a few points, so that none waits for the one
 /// before.
 constexpr std::size_t some_numbers = 64;
@@ -111,7 +111,8 @@ void refuse_contradictions(const Values& options, const std::string& chosen) {
     const bool searches = chosen == "cbc" || searches_multiplier(chosen, options);
     const auto only_for = [&](std::string_view name, bool given, bool fits, std::string_view what) {
         if (given && !fits)
-            fail(ErrorKind::usage, "--{}: is of {}; the rule here is {}", name, what, chosen);
+            fail(ErrorKind::usage, "--{} applies to {} only; the rule here is {}", name, what,
+                 chosen);
     };
     only_for("multiplier", options.given(multiplier), chosen == "korobov", "the rule korobov");
     only_for("effort", options.given(effort), searches_multiplier(chosen, options),
@@ -121,7 +122,7 @@ void refuse_contradictions(const Values& options, const std::string& chosen) {
     check_weights(options, searches, "the searches cbc and korobov", chosen);
     if (chosen == "vector" && options.given(vector) == options.given(vector_file))
         fail(ErrorKind::usage,
-             "--rule: vector needs its vector, by one of --vector and --vector-file");
+             "--rule: vector needs one vector; give either --vector or --vector-file");
 }
 
 /// F_(k-1) for n = F_k. @throws Error(usage) if n is not a Fibonacci number
@@ -144,18 +145,18 @@ Plan plan(const Request& request, const Values& options) {
     if (chosen == "fibonacci") {
         fibonacci_before(plan.count);
         if (plan.dimension > 2)
-            fail(ErrorKind::usage, "--dimension: {} is outside [1, 2], what fibonacci can make",
+            fail(ErrorKind::usage, "--dimension: {} is outside [1, 2], the range of fibonacci",
                  plan.dimension);
     }
     if (file.points % plan.count != 0)
         fail_with_hint(ErrorKind::usage, "--vector takes a vector for any count",
-                       "--count: {} is a lattice of {} points; {} does not divide that",
+                       "--count: {} holds a lattice of {} points; {} does not divide this number",
                        options[vector_file], file.points, plan.count);
     const bool searches = chosen == "cbc" || searches_multiplier(chosen, options);
     if (searches && plan.count > largest_searched_lattice)
-        fail_with_hint(ErrorKind::usage, "give a vector, or korobov's multiplier",
-                       "--count: {} is outside [1, {}], where a vector can be searched", plan.count,
-                       largest_searched_lattice);
+        fail_with_hint(ErrorKind::usage, "give a vector, or a multiplier for korobov",
+                       "--count: {} is outside [1, {}], the range of the search for a vector",
+                       plan.count, largest_searched_lattice);
     return plan;
 }
 
@@ -208,13 +209,14 @@ void note_repeated(std::span<const std::uint64_t> z, std::uint64_t n, const RunC
     for (std::size_t k = 0; k < z.size() && n > 1; ++k) {
         const auto [there, is_new] = seen.try_emplace(z[k] % n, k);
         if (!is_new && repeated++ == 0)
-            first = fmt::format("coordinate {} is the same as {}", k + 1, there->second + 1);
+            first = fmt::format("coordinate {} equals coordinate {}", k + 1, there->second + 1);
     }
     if (repeated == 0) return;
     const std::string others =
         repeated > 1 ? fmt::format(", and {} more are repeated", repeated - 1) : "";
-    run.notify(fmt::format("rank1-lattice: {}{}: the vector of {} numbers has {} different ones",
-                           first, others, z.size(), seen.size()));
+    run.notify(
+        fmt::format("rank1-lattice: {}{}: the {} numbers of the vector have {} different values",
+                    first, others, z.size(), seen.size()));
 }
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext& run) {
@@ -243,8 +245,8 @@ std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
             divisor = std::gcd(divisor, z);
         if (divisor == 1) return {};
         return {
-            fmt::format("rank1-lattice: {0} divides the number of points and all of the vector: "
-                        "every point comes {0} times",
+            fmt::format("rank1-lattice: {0} divides the number of points and all numbers of the "
+                        "vector: every point occurs {0} times",
                         divisor)};
     }
     const std::uint64_t tries = tries_of(plan, options);

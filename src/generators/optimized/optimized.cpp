@@ -61,38 +61,40 @@ constexpr Param<Choice> objective{
         "star|extreme|periodic|dispersion|l2-star|l2-centered|l2-wraparound|l2-mixture|"
         "l2-average",
     .help =
-        "What is made small: the largest discrepancy of boxes at the origin, anywhere or on the "
-        "torus, the largest empty box, or an L2 discrepancy"};
+        "Measure to minimize: the largest discrepancy of boxes at the origin (star), anywhere "
+        "(extreme) or on the torus (periodic), the largest empty box (dispersion), or an L2 "
+        "discrepancy"};
 constexpr Param<double> effort{.name = "effort",
                                .fallback = 1,
                                .low = 1e-6,
                                .high = 1e6,
                                .help =
-                                   "Steps of the search: this times those of some 20 seconds of "
-                                   "one core (fewer where points are few)"};
+                                   "Search steps as a multiple of the default: some 20 seconds of "
+                                   "one core, less for few points"};
 constexpr Param<Text> initial{
     {.name = "initial",
-     .help = "Generator to start from in place of lattices and nets, such as sobol:scramble=owen"}};
-constexpr Param<Path> from{
-    {.name = "from",
-     .unit = "file",
-     .help = "Start from the points of a file; random ones follow where it has fewer than wanted"}};
+     .help = "Generator to start from instead of lattices and nets, such as sobol:scramble=owen"}};
+constexpr Param<Path> from{{.name = "from",
+                            .unit = "file",
+                            .help = "Start from the points of a file; random ones are added if "
+                                    "they are fewer than the count"}};
 constexpr Param<std::int64_t> keep{.name = "keep",
                                    .low = 1,
                                    .optional = true,
                                    .unit = "points",
-                                   .help = "The first so many points of the file stay as they are"};
+                                   .help = "Number of first points of the file to keep unchanged"};
 constexpr Param<Numbers> axis_weights{
     {.name = "weights",
-     .help = "A weight for each coordinate, above 0: boxes count with the product of those of the "
-             "coordinates that they bound (star), projections with theirs (L2 kinds)"}};
+     .help = "Weight of each coordinate, above 0. A box is weighted by the product over the "
+             "coordinates that it bounds (star), a projection by that over its coordinates (L2 "
+             "kinds)"}};
 constexpr Param<bool> lattice{
     .name = "lattice",
     .help =
-        "The lattice of least objective, periodic or l2-wraparound: of all i (1, g, g^2, ...) / n "
-        "modulo 1, whatever the seed"};
+        "Find the best lattice i (1, g, g^2, ...) / n modulo 1 over all g, for the objective "
+        "periodic or l2-wraparound; the seed is unused"};
 constexpr Param<bool> order{.name = "order",
-                            .help = "Put the points in an order whose beginnings are even, too"};
+                            .help = "Order the points so that their prefixes are even, too"};
 
 bool is_l2(const Values& options) { return options[objective].starts_with("l2-"); }
 
@@ -128,7 +130,7 @@ PointSet given_points(const Values& options, const RunContext& run) {
 /// Request with count and dimension taken from the file's points. @throws Error(usage)
 Request fitted(Request request, const Values& options) {
     if (options.given(initial))
-        fail(ErrorKind::usage, "--initial and --from are two ways to start; give one");
+        fail(ErrorKind::usage, "--initial contradicts --from; give one of them");
     const PointSet points = given_points(options, {});
     require_dimension(request, points.dimension(), options[from]);
     request.dimension = points.dimension();
@@ -146,10 +148,10 @@ void check_weights(const Values& options, std::size_t dimension) {
     if (!options.given(axis_weights)) return;
     const std::vector<double> weights = options[axis_weights];
     if (!is_l2(options) && options[objective] != "star")
-        fail(ErrorKind::usage, "--weights: objective {} has none; star and the L2 kinds do",
+        fail(ErrorKind::usage, "--weights: objective {} takes no weights; star and the L2 kinds do",
              options[objective]);
     if (weights.size() != dimension)
-        fail(ErrorKind::usage, "--weights: {} numbers for {} coordinates; one for each",
+        fail(ErrorKind::usage, "--weights: {} numbers for {} coordinates; give one for each",
              weights.size(), dimension);
     for (const double weight : weights)
         if (!(weight > 0 && weight <= 1000))
@@ -162,21 +164,21 @@ void check_lattice(const Values& options) {
     const std::string what = options[objective];
     if (what != "periodic" && what != "l2-wraparound")
         fail(ErrorKind::usage,
-             "--lattice: objective {} depends on the lattice's place; periodic and "
+             "--lattice: objective {} depends on a shift of the lattice; periodic and "
              "l2-wraparound do not",
              what);
     if (options.given(from) || options.given(initial))
-        fail(ErrorKind::usage, "--lattice tries all lattices; it has no points to start from");
+        fail(ErrorKind::usage, "--lattice tries all lattices; it takes no points to start from");
 }
 
 Plan plan(const Request& request, const Values& options) {
     constexpr std::size_t most_box_axes = 6;
     if (options.given(keep) && !options.given(from))
-        fail(ErrorKind::usage, "--keep is of the points of a file; give --from too");
+        fail(ErrorKind::usage, "--keep applies to the points of a file; give --from too");
     const Plan plan = default_plan(options.given(from) ? fitted(request, options) : request, 64);
     if (!is_l2(options) && plan.dimension > most_box_axes)
         fail(ErrorKind::usage,
-             "optimized: objective {} is for 1 to {} dimensions; L2 kinds for more",
+             "optimized: objective {} takes 1 to {} dimensions; L2 kinds take more",
              options[objective], most_box_axes);
     check_weights(options, plan.dimension);
     check_lattice(options);
@@ -437,9 +439,9 @@ PointSet finished(OptimizedRows found, const Plan& plan, const Values& options,
     const bool valued = !found.stopped || is_soon_judged(plan, options);
     if (found.stopped)
         run.notify(fmt::format(
-            "interrupted: these are the best points so far, as their provenance says{}{}",
+            "interrupted: these are the best points so far, as recorded in their provenance{}{}",
             valued ? "" : ", without their value",
-            options[order] && !ordered ? ", in no order" : ""));
+            options[order] && !ordered ? ", not ordered" : ""));
     if (ordered)
         found.rows = in_even_order(found.rows, plan.dimension, kept(options), order_kind(options),
                                    weights_of(options), last);
@@ -474,8 +476,8 @@ std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
                                const Values& options) {
     if (!is_known(plan, options)) return {};
     return {
-        "optimized: the best set is known, of one point or on the line; seed and --effort change "
-        "nothing"};
+        "optimized: for one point or one dimension the best set is known; the seed and --effort "
+        "have no effect"};
 }
 
 double seconds(double n, double d) { return d < 2 ? 1e-8 * n : 20 + 1e-7 * n * n; }
@@ -484,7 +486,7 @@ double seconds(double n, double d) { return d < 2 ? 1e-8 * n : 20 + 1e-7 * n * n
 
 Generator unit() {
     return {.name = "optimized",
-            .summary = "Points of least discrepancy or dispersion for their number, by a search",
+            .summary = "Points whose discrepancy or dispersion is minimized by a search",
             .source = "Clement, Doerr, Klamroth, Paquete 2023, arXiv:2311.17463",
             .related = {"message-passing", "mpmc", "optimal", "low-discrepancy-set", "openevolve",
                         "minimal", "design-augmentation"},

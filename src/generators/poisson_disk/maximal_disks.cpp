@@ -68,8 +68,8 @@ void check_size(const BoxSpace& space, double radius, double cell_radius, const 
         fmt::format("a radius of {}, with about {:.3g} points,", format_number(radius), points));
     if (cells >= 0xffff'fffe)
         fail(ErrorKind::limit,
-             "a radius of {} makes about {:.3g} points, and {:.3g} cells to find them by; at most "
-             "2^32 cells are possible",
+             "a radius of {} makes about {:.3g} points and needs {:.3g} search cells; at most 2^32 "
+             "cells are possible",
              format_number(radius), points, cells);
 }
 

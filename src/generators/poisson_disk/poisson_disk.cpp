@@ -59,35 +59,35 @@ constexpr Param<double> radius{.name = "radius",
                                .optional = true,
                                .unit = "length",
                                .help =
-                                   "Least distance of two points; as many as fit are made. "
-                                   "Instead of --count, which finds the radius"};
-constexpr Param<std::int64_t> about{.name = "n-approx",
-                                    .low = 1,
-                                    .high = std::int64_t{1} << 53,
-                                    .optional = true,
-                                    .unit = "points",
-                                    .help =
-                                        "About so many points, made in one go: on the torus mostly "
-                                        "within 2 % from 1000 on, with walls fewer. Instead of "
-                                        "--count"};
+                                   "Minimum distance between points; as many as fit are made. "
+                                   "Instead of --count, for which the radius is searched"};
+constexpr Param<std::int64_t> about{
+    .name = "n-approx",
+    .low = 1,
+    .high = std::int64_t{1} << 53,
+    .optional = true,
+    .unit = "points",
+    .help =
+        "Approximate number of points, made in one pass: on the torus mostly within 2 % from 1000 "
+        "on; fewer if bounded. Instead of --count"};
 constexpr Param<Path> density{
     {.name = "density",
-     .help = "Picture (PNG, PFM) or array (NPY, row 0 at y = 0): points per area go by its values, "
-             "none where it is 0. The densest place has --radius; two points keep the smaller of "
-             "their radii. In 2-D, as the next three"}};
-constexpr Param<Path> radius_map{{.name = "radius-map",
-                                  .help = "Array (NPY, row 0 at y = 0) of radii; two points keep "
-                                          "the smaller of theirs. Scaled to a least one "
-                                          "of --radius, or for --count or --n-approx"}};
+     .help = "Picture (PNG, PFM) or array (NPY, row 0 at y = 0); points per area follow its "
+             "values, with none where it is 0. --radius is the radius at the largest value; two "
+             "points keep the smaller of their radii. 2-D only, like the next three options"}};
+constexpr Param<Path> radius_map{
+    {.name = "radius-map",
+     .help = "Array (NPY, row 0 at y = 0) of radii; two points keep the smaller of theirs. Scaled "
+             "so that the smallest is --radius, or to fit --count or --n-approx"}};
 constexpr Param<Path> mask{
     {.name = "mask",
-     .help = "Picture (PNG) or array (NPY, row 0 at y = 0): points only where it is not 0"}};
-constexpr Param<Choice> order{.name = "order",
-                              .fallback = "random",
-                              .choices = "random|progressive",
-                              .help =
-                                  "progressive: the first n points are well spread, too, for "
-                                  "every n"};
+     .help =
+         "Picture (PNG) or array (NPY, row 0 at y = 0); points are only placed where it is not 0"}};
+constexpr Param<Choice> order{
+    .name = "order",
+    .fallback = "random",
+    .choices = "random|progressive",
+    .help = "progressive: for every n, the first n points are well spread"};
 
 /// Whether radii vary, or some places are without points.
 bool is_varied(const Values& options) {
@@ -272,24 +272,25 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& given) 
 }  // namespace
 
 Generator unit() {
-    return {.name = "poisson-disk",
-            .summary = "Random points that keep a distance, until no place is left (blue noise)",
-            .source =
-                "Cook 1986, doi:10.1145/7529.8927; Ebeida et al. 2012, "
-                "doi:10.1111/j.1467-8659.2012.03059.x",
-            .related = {"blue-noise", "maximal-poisson-disk", "bridson", "minimum-distance",
-                        "hard-core"},
-            .traits = {.min_dimension = 2,
-                       .max_dimension = 6,
-                       .sequence = false,
-                       .prefix = false,
-                       .boxed = true},
-            .options = Schema(radius, about, density, invert_option, radius_map, mask, torus_option,
-                              bounded_option, order),
-            .aliases = {"poisson", "poisson-disc"},
-            .stream_version = 5,
-            .plan = plan,
-            .set = make};
+    return {
+        .name = "poisson-disk",
+        .summary = "Random points with a minimum distance, added until no more fit (blue noise)",
+        .source =
+            "Cook 1986, doi:10.1145/7529.8927; Ebeida et al. 2012, "
+            "doi:10.1111/j.1467-8659.2012.03059.x",
+        .related = {"blue-noise", "maximal-poisson-disk", "bridson", "minimum-distance",
+                    "hard-core"},
+        .traits = {.min_dimension = 2,
+                   .max_dimension = 6,
+                   .sequence = false,
+                   .prefix = false,
+                   .boxed = true},
+        .options = Schema(radius, about, density, invert_option, radius_map, mask, torus_option,
+                          bounded_option, order),
+        .aliases = {"poisson", "poisson-disc"},
+        .stream_version = 5,
+        .plan = plan,
+        .set = make};
 }
 
 }  // namespace stipple::generators::poisson_disk

@@ -26,12 +26,12 @@ class Search {
         for (std::uint64_t stream = 0; stream < streams; ++stream)
             if (found_in(stream == 0 ? seed : Rng(seed, stream).bits(0))) return std::move(best_);
         if (best_.radius == 0)
-            fail(ErrorKind::limit, "--count: no radius was found that leaves {} points", count_);
+            fail(ErrorKind::limit, "--count: no radius was found that gives {} points", count_);
         trim(seed);
-        run_.notify(fmt::format(
-            "no radius was found that leaves exactly {} points; points were removed from a larger "
-            "set, which leaves room for others",
-            count_));
+        run_.notify(
+            fmt::format("no radius was found that gives exactly {} points; points were removed "
+                        "from a larger set, so more would fit",
+                        count_));
         return std::move(best_);
     }
 

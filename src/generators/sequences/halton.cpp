@@ -39,17 +39,17 @@ constexpr Param<Choice> scramble{
     .fallback = "none",
     .choices = "none|faure|reverse|permutation|owen",
     .help =
-        "Permutations of the digits: Faure's fixed ones; reverse, a to b - a but for 0; a random "
-        "one "
-        "for each base and position; nested (Owen), one for each choice of the digits before, too"};
+        "Permutations of the digits: faure, Faure's fixed ones; reverse, a becomes b - a, except "
+        "0; permutation, a random one per base and position; owen, nested: one per prefix of "
+        "digits"};
 constexpr Param<std::int64_t> leap{
     .name = "leap",
     .fallback = 1,
     .low = 1,
     .high = std::int64_t{1} << 53,
     .help =
-        "Takes every leap-th point of the sequence, from the first on (Kocis and Whiten's L; "
-        "MATLAB's Leap is one less); shares no factor with a base"};
+        "Take every leap-th point of the sequence, from the first on (Kocis and Whiten's L; "
+        "MATLAB's Leap is one less); must not share a factor with a base"};
 
 /// One coordinate of the sequence.
 using Inverse = std::variant<RadicalInverse, PermutedInverse, BaseOwen>;
@@ -72,15 +72,14 @@ Plan plan(const Request& request, const Values& options) {
     const auto step = static_cast<std::uint64_t>(options[leap]);
     for (std::size_t k = 0; k < std::min(plan.dimension, primes.size()); ++k)
         if (step % primes[k] == 0)
-            fail_with_hint(ErrorKind::usage, "take a prime that is not among the bases",
+            fail_with_hint(ErrorKind::usage, "choose a prime that is not among the bases",
                            "--leap: {} is a multiple of {}, the base of coordinate {}, which would "
                            "not fill [0, 1)",
                            step, primes[k], k + 1);
     constexpr std::uint64_t end = std::uint64_t{1} << 53;
     const bool there = request.start < end && plan.count > 0 && plan.count <= end - request.start;
     if (there && request.start + plan.count - 1 > (end - 1) / step)
-        fail(ErrorKind::usage,
-             "--leap: {} points from {} on, each {} behind the one before, go beyond index {}",
+        fail(ErrorKind::usage, "--leap: {} points from {} on, at steps of {}, go beyond index {}",
              plan.count, request.start, step, end - 1);
     return plan;
 }
@@ -111,19 +110,20 @@ bool random_digits(const Values& options) {
 }  // namespace
 
 Generator unit() {
-    return {.name = "halton",
-            .summary = "Halton sequence: radical inverses in the first primes, also scrambled",
-            .source = "Halton 1960, doi:10.1007/BF01386213",
-            .related = {"generalized-halton", "leaped-halton", "quasi-random", "low-discrepancy"},
-            .traits = {.max_dimension = primes.size()},
-            .options = Schema(scramble, leap),
-            .plan = plan,
-            .sequence = make,
-            .uses_seed = random_digits,
-            .bases = [](const Plan& plan, const Values&) {
-                const auto end = primes.begin() + static_cast<std::ptrdiff_t>(plan.dimension);
-                return std::vector<std::uint32_t>(primes.begin(), end);
-            }};
+    return {
+        .name = "halton",
+        .summary = "Halton sequence: radical inverses in the first primes, optionally scrambled",
+        .source = "Halton 1960, doi:10.1007/BF01386213",
+        .related = {"generalized-halton", "leaped-halton", "quasi-random", "low-discrepancy"},
+        .traits = {.max_dimension = primes.size()},
+        .options = Schema(scramble, leap),
+        .plan = plan,
+        .sequence = make,
+        .uses_seed = random_digits,
+        .bases = [](const Plan& plan, const Values&) {
+            const auto end = primes.begin() + static_cast<std::ptrdiff_t>(plan.dimension);
+            return std::vector<std::uint32_t>(primes.begin(), end);
+        }};
 }
 
 }  // namespace stipple::generators::halton

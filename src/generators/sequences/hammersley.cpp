@@ -24,13 +24,12 @@ namespace {
 constexpr Param<Choice> sweep{.name = "sweep",
                               .fallback = "first",
                               .choices = "first|last",
-                              .help = "Which coordinate goes evenly from 0 to 1"};
-constexpr Param<Choice> offset{.name = "offset",
-                               .fallback = "0",
-                               .choices = "0|half",
-                               .help =
-                                   "Where the sweep starts: i / n, or half a step further, "
-                                   "(i + 1/2) / n"};
+                              .help = "Coordinate that increases evenly from 0 to 1"};
+constexpr Param<Choice> offset{
+    .name = "offset",
+    .fallback = "0",
+    .choices = "0|half",
+    .help = "Values of the sweep: i / n, or half a step further, (i + 1/2) / n"};
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     const bool last = options[sweep] == "last";

@@ -38,14 +38,15 @@ namespace {
 constexpr Param<Text> alpha{
     {.name = "alpha",
      .fallback = "golden",
-     .help = "What every next point adds: golden, powers of the generalised golden ratio (R_d); "
-             "square-roots or richtmyer, those of the primes; or a number a coordinate, which may "
-             "be a formula: 'sqrt(2),pi'"}};
-constexpr Param<double> offset{.name = "offset",
-                               .fallback = 0,
-                               .low = 0,
-                               .high = one_minus_ulp,
-                               .help = "Every coordinate of point 0; 0.5 is M. Roberts' choice"};
+     .help = "Step between points: golden, powers of the generalised golden ratio (R_d); "
+             "square-roots or richtmyer, those of the primes; or one number per coordinate, also "
+             "as a formula: 'sqrt(2),pi'"}};
+constexpr Param<double> offset{
+    .name = "offset",
+    .fallback = 0,
+    .low = 0,
+    .high = one_minus_ulp,
+    .help = "Value of every coordinate of point 0; 0.5 is M. Roberts' choice"};
 
 /// @param alphas, begin fractions of 127 bits
 std::unique_ptr<Sequence> multiples(const std::vector<Wide>& alphas, Wide begin) {
@@ -148,7 +149,7 @@ Plan plan(const Request& request, const Values& options) {
     const std::size_t given = is_preset(text) ? 0 : numbers_of(text).size();
     const Plan plan = default_plan(request, 1024, given > 0 ? given : 2);
     if (given > 0 && given < plan.dimension)
-        fail(ErrorKind::usage, "--alpha: {} numbers are too few; dimension {} needs as many", given,
+        fail(ErrorKind::usage, "--alpha: {} numbers are too few for dimension {}", given,
              plan.dimension);
     return plan;
 }
@@ -175,17 +176,16 @@ std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
 }  // namespace
 
 Generator unit() {
-    return {
-        .name = "kronecker",
-        .summary = "Kronecker sequence: multiples of a vector modulo 1; R_d unless one is given",
-        .source = "Roberts 2018, extremelearning.com.au; Kuipers & Niederreiter 1974",
-        .related = {"golden-ratio", "plastic-number", "richtmyer"},
-        .traits = {.seeded = false},
-        .options = Schema(alpha, offset),
-        .aliases = {"additive-recurrence", "r2", "rd", "weyl"},
-        .plan = plan,
-        .sequence = make,
-        .notes = notes};
+    return {.name = "kronecker",
+            .summary = "Kronecker sequence: multiples of a vector modulo 1; by default R_d",
+            .source = "Roberts 2018, extremelearning.com.au; Kuipers & Niederreiter 1974",
+            .related = {"golden-ratio", "plastic-number", "richtmyer"},
+            .traits = {.seeded = false},
+            .options = Schema(alpha, offset),
+            .aliases = {"additive-recurrence", "r2", "rd", "weyl"},
+            .plan = plan,
+            .sequence = make,
+            .notes = notes};
 }
 
 }  // namespace stipple::generators::kronecker

@@ -28,8 +28,8 @@ constexpr Param<Choice> engine{
     .fallback = "philox",
     .choices = "philox|mt19937-64|drand48|ranlux48|ranmar|random",
     .help =
-        "Engine; all but philox are legacy ones, and these are sequential (one thread; --start "
-        "and --shard walk to their place) except for drand48"};
+        "Random number engine; philox or a legacy one. Legacy engines except drand48 are "
+        "sequential: one thread, and --start and --shard draw all earlier numbers"};
 
 /// Sequence of an engine that can only move forward.
 template <class Engine>

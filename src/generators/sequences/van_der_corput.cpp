@@ -21,7 +21,7 @@ constexpr Param<std::int64_t> base{.name = "base",
                                    .fallback = 2,
                                    .low = 2,
                                    .high = 65536,
-                                   .help = "Base of the digits; any, not only a prime"};
+                                   .help = "Base of the digits, prime or not"};
 
 Plan plan(const Request& request, const Values&) { return default_plan(request, 1024, 1); }
 

@@ -17,14 +17,15 @@
 namespace stipple::generators::grid {
 namespace {
 
-constexpr Param<Extents> shape{{.name = "shape",
-                                .unit = "points",
-                                .help = "Points in each direction, such as 40x25; gives count and "
-                                        "dimension. Without it: count = k^dimension"}};
+constexpr Param<Extents> shape{
+    {.name = "shape",
+     .unit = "points",
+     .help = "Number of points in each direction, such as 40x25; gives count and dimension. "
+             "Without it, the count is k^dimension"}};
 constexpr Param<Choice> cell{.name = "cell",
                              .fallback = "center",
                              .choices = "center|corner",
-                             .help = "Where in its cell a point is"};
+                             .help = "Position of a point in its cell"};
 
 /// Fills one coordinate of a row of points: that of the cells first, first + step, ... of k.
 void place(double* x, std::size_t stride, bool centered, std::uint64_t first, std::size_t length,

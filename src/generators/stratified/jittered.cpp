@@ -31,11 +31,11 @@ namespace {
 constexpr Param<Extents> shape{
     {.name = "shape",
      .unit = "cells",
-     .help = "Cells in each direction, such as 40x25; gives count and dimension"}};
+     .help = "Number of cells in each direction, such as 40x25; gives count and dimension"}};
 constexpr Param<Choice> cell{.name = "cell",
                              .fallback = "random",
                              .choices = "random|center",
-                             .help = "Where in its cell a point is"};
+                             .help = "Position of a point in its cell"};
 
 /// Moves numbers from [0, 1) into their cells, or to the middles of these.
 void place(bool centered, const Strata& strata, double* x, std::size_t stride) {

@@ -44,7 +44,8 @@ std::vector<double> points_with_image(const Plan& plan, std::size_t need, const 
     }
     if (found.size() < need * d)
         fail(ErrorKind::input,
-             "latin-hypercube: the constraints hold for {} of {} points; a search needs {}",
+             "latin-hypercube: only {} of {} random points satisfy the constraints; a search needs "
+             "{}",
              found.size() / d, made, need);
     return found;
 }
@@ -103,7 +104,8 @@ void aim_at_destination(const Plan& plan, const std::shared_ptr<LatinPlaces>& pl
                         search::Search& task, const RunContext& run) {
     const auto destination = plan.destination;
     if (!task.rules.axes.empty() && std::ranges::any_of(destination->axes, &OutcomeAxis::discrete))
-        fail(ErrorKind::usage, "--levels: the parameters say which of them are discrete");
+        fail(ErrorKind::usage,
+             "--levels: the parameters define their own levels; leave --levels out");
     count_outcomes(*destination, *places, task);
     if (!destination->drops) return;
     task.rules.feasible = [places, destination](std::size_t row,
@@ -119,12 +121,12 @@ void aim_at_destination(const Plan& plan, const std::shared_ptr<LatinPlaces>& pl
         if (unsatisfied(plan, task, run) == 0)
             return run.notify(
                 fmt::format("latin-hypercube: no Latin hypercube of {} points was found that "
-                            "satisfies the constraints; each axis has strata that hold equal "
-                            "shares of what satisfies them instead",
+                            "satisfies the constraints; instead, the strata of each axis hold "
+                            "equal fractions of the points that satisfy them",
                             plan.count));
     }
     fail_with_hint(
-        ErrorKind::input, "without --optimize a larger design is made and cut",
+        ErrorKind::input, "without --optimize, a larger design is made and reduced",
         "latin-hypercube: no design of {} points was found that satisfies the constraints",
         plan.count);
 }

@@ -52,51 +52,51 @@ constexpr Param<std::int64_t> strength{
     .low = 1,
     .high = 2,
     .help =
-        "1: one point in each of n strata along each axis; 2: and one in each of n squares for "
-        "each two axes (n the square of a prime)"};
+        "1: one point in each of n strata along each axis; 2: also one in each of n squares for "
+        "each pair of axes (n is the square of a prime)"};
 constexpr Param<Choice> optimize{
     .name = "optimize",
     .choices = "maximin|phi-p|audze-eglais|centered-l2|maxpro|correlation",
     .help =
-        "Search the strata of the points, up to 10000 of them, that are best by this: the least "
-        "distance large, or the sum of d^-p or d^-2 over pairs, the centered L2 discrepancy, the "
-        "MaxPro measure, or the largest correlation small"};
+        "Search the strata of up to 10000 points by this criterion: maximize the minimum distance, "
+        "or minimize the sum of d^-p or d^-2 over pairs, the centered L2 discrepancy, the MaxPro "
+        "measure, or the largest correlation"};
 constexpr Param<std::int64_t> power{
-    .name = "p", .fallback = 15, .low = 1, .high = 50, .help = "The p of --optimize phi-p"};
-constexpr Param<double> effort{.name = "effort",
-                               .fallback = 1,
-                               .low = 1e-6,
-                               .high = 1e6,
-                               .help =
-                                   "Trials of --optimize: this times those of some 20 seconds "
-                                   "of one core (fewer where points are few); rounded down to a "
-                                   "power of 2, so that more is never worse"};
+    .name = "p", .fallback = 15, .low = 1, .high = 50, .help = "Exponent p of --optimize phi-p"};
+constexpr Param<double> effort{
+    .name = "effort",
+    .fallback = 1,
+    .low = 1e-6,
+    .high = 1e6,
+    .help =
+        "Trials of --optimize as a multiple of the default: some 20 seconds of one core, less for "
+        "few points. Rounded down to a power of 2, so that more is never worse"};
 constexpr Param<std::int64_t> sliced{
     .name = "sliced",
     .low = 1,
     .high = 1'000'000'000,
     .optional = true,
     .unit = "slices",
-    .help = "So many slices of equal size, one after the other, each a Latin hypercube itself"};
+    .help = "Number of slices of equal size, one after the other, each a Latin hypercube itself"};
 constexpr Param<Numbers> nested{
     {.name = "nested",
      .unit = "N1,N2",
-     .help = "N2 points of which the first N1 are a Latin hypercube themselves; N1 divides N2"}};
+     .help = "N2 points whose first N1 are a Latin hypercube themselves; N1 divides N2"}};
 constexpr Param<Path> extend{
     {.name = "extend",
      .unit = "file",
-     .help = "Begin with the points of a file, which stay as they are; new ones are where, along "
-             "each axis, of as many strata as there will be points none was in"}};
+     .help = "Start with the points of a file, unchanged. With as many strata per axis as points "
+             "in the result, new points fill strata that the given ones leave empty"}};
 constexpr Param<std::int64_t> add{.name = "add",
                                   .low = 1,
                                   .high = 1'000'000'000,
                                   .optional = true,
                                   .unit = "points",
-                                  .help = "New points of --extend"};
+                                  .help = "Number of points that --extend adds"};
 constexpr Param<Numbers> levels{
     {.name = "levels",
-     .help = "For each axis the number m of values that floor(x m) will be made of, by which "
-             "--optimize then counts distances; 0: x itself, such as 0,3,8"}};
+     .help = "Number m of levels of each axis, such as 0,3,8: --optimize then measures distances "
+             "between the levels floor(x m); 0: between the x"}};
 
 /// Points are in order, so the images of a block are those of consecutive indices.
 StrataOf permuted_strata(const Plan& plan) {
@@ -112,7 +112,8 @@ constexpr const char* strong = "latin-hypercube of strength 2";
 /// @throws Error(usage) if options contradict each other
 void check_options(const Values& options) {
     const auto only_with = [](std::string_view name, bool given, bool fits, std::string_view what) {
-        if (given && !fits) fail(ErrorKind::usage, "--{}: is of {}; give that too", name, what);
+        if (given && !fits)
+            fail(ErrorKind::usage, "--{} applies to {} only; give that too", name, what);
     };
     const bool searches = options.given(optimize);
     only_with("levels", options.given(levels), searches, "--optimize");
@@ -127,10 +128,9 @@ void check_options(const Values& options) {
         fail(ErrorKind::usage, "{} and {} contradict each other; give one of them", forms[0],
              forms[1]);
     if (options[strength] == 2 && searches)
-        fail(
-            ErrorKind::usage,
-            "--strength 2 and --optimize contradict each other: exchanges of strata would not keep "
-            "the squares");
+        fail(ErrorKind::usage,
+             "--strength 2 and --optimize contradict each other: exchanging strata would break the "
+             "squares");
 }
 
 std::uint64_t whole_of(const Values& options, std::size_t i) {
@@ -142,10 +142,10 @@ Plan plan_nested(const Request& request, const Values& options) {
     const std::string text = format_value(Value(counts));
     for (const double count : counts)
         if (!(count >= 1 && count <= 0x1p53 && count == std::floor(count)))
-            fail(ErrorKind::usage, "--nested: {} is no number of points", format_number(count));
+            fail(ErrorKind::usage, "--nested: {} is not a number of points", format_number(count));
     if (counts.size() != 2 || whole_of(options, 1) % whole_of(options, 0) != 0)
-        fail(ErrorKind::usage, "--nested: {} are not N1,N2 with N1 dividing N2, such as 10,30",
-             text);
+        fail(ErrorKind::usage,
+             "--nested: {} is not N1,N2 where N1 divides N2; expected, for example, 10,30", text);
     if (request.count.value_or(whole_of(options, 1)) != whole_of(options, 1))
         fail(ErrorKind::usage, "--count: {} contradicts --nested {}, which has {} points",
              *request.count, text, whole_of(options, 1));
@@ -178,9 +178,9 @@ void require_more(std::uint64_t count, const PointSet& given, const Values& opti
 Plan plan_extended(const Request& request, const Values& options) {
     if (request.bounds)
         fail(ErrorKind::usage,
-             "--bounds: the points of --extend stay as they are; scale all of them afterwards");
+             "--bounds: --extend does not scale the given points; scale all points afterwards");
     if (!options.given(add) && !request.count)
-        fail(ErrorKind::usage, "--extend: how many points to add? --add says it");
+        fail(ErrorKind::usage, "--extend: the number of new points is missing; give --add");
     if (!options.given(add) && request.dimension) return default_plan(request);  // no file to read
     const PointSet points = given_points({}, options, {});
     require_dimension(request, points.dimension(), options[extend]);
@@ -188,7 +188,8 @@ Plan plan_extended(const Request& request, const Values& options) {
                                     ? points.count() + static_cast<std::uint64_t>(options[add])
                                     : *request.count;
     if (request.count.value_or(count) != count)
-        fail(ErrorKind::usage, "--count: {} is not {}, the {} points of {} and those of --add",
+        fail(ErrorKind::usage,
+             "--count: {} is not {}, the sum of the {} points of {} and those of --add",
              *request.count, count, points.count(), options[extend]);
     require_more(count, points, options);
     return default_plan(request, count, points.dimension());
@@ -206,10 +207,10 @@ void check_search(const Plan& plan, const Values& options) {
     constexpr std::uint64_t most = 10'000;
     constexpr std::size_t most_axes = 100;
     if (plan.count > most)
-        fail(ErrorKind::usage, "--count: {} is outside [1, {}], what --optimize can search",
+        fail(ErrorKind::usage, "--count: {} is outside [1, {}], the range of --optimize",
              plan.count, most);
     if (plan.dimension > most_axes)
-        fail(ErrorKind::usage, "--dimension: {} is outside [1, {}], what --optimize can search",
+        fail(ErrorKind::usage, "--dimension: {} is outside [1, {}], the range of --optimize",
              plan.dimension, most_axes);
     const double reach = static_cast<double>(plan.count) * static_cast<double>(plan.count);
     if (reach * static_cast<double>(plan.dimension) >= 0x1p31)
@@ -220,7 +221,7 @@ void check_search(const Plan& plan, const Values& options) {
     if (!options.given(levels)) return;
     const std::vector<double> parts = options[levels];
     if (parts.size() != plan.dimension)
-        fail(ErrorKind::usage, "--levels: {} numbers for {} coordinates; one for each",
+        fail(ErrorKind::usage, "--levels: {} numbers for {} coordinates; give one for each",
              parts.size(), plan.dimension);
     for (const double m : parts)
         if (!(m >= 0 && m <= static_cast<double>(most) && m == std::floor(m)))
@@ -310,8 +311,8 @@ PointSet points_to_extend(const Plan& plan, const Values& options, const RunCont
         most = std::max(most, crowded_strata(given, k, plan.count));
     if (most > 0)
         run.notify(fmt::format(
-            "latin-hypercube: no Latin hypercube of all {0} points: points of {1} share "
-            "up to {2} of the {0} strata along an axis; new ones share none",
+            "latin-hypercube: all {0} points together are not a Latin hypercube: points of {1} "
+            "share up to {2} of the {0} strata along an axis; new points share none",
             plan.count, options[extend], most));
     return given;
 }
@@ -332,7 +333,7 @@ std::unique_ptr<Sequence> make_design(const Plan& plan, const Values& options,
     if (!options.given(optimize)) return points_of(places, std::move(task.start), given);
     for (std::size_t i = 0; i < given.count() && plan.destination; ++i)
         if (!plan.destination->has_image(i, given[i]))
-            fail(ErrorKind::input, "--extend: point {} of {} breaks the constraints", i,
+            fail(ErrorKind::input, "--extend: point {} of {} violates the constraints", i,
                  options[extend]);
     if (plan.destination) aim_at_destination(plan, places, task, run);
     task.objective = objective_of(options);
@@ -342,9 +343,9 @@ std::unique_ptr<Sequence> make_design(const Plan& plan, const Values& options,
     constexpr double few = 2e7;
     const bool soon = static_cast<double>(plan.count * plan.count * plan.dimension) <= few;
     if (result.stopped)
-        run.notify(
-            fmt::format("interrupted: this is the best design so far, as its provenance says{}",
-                        soon ? "" : ", without its value"));
+        run.notify(fmt::format(
+            "interrupted: this is the best design so far, as recorded in its provenance{}",
+            soon ? "" : ", without its value"));
     std::vector<std::pair<std::string, std::string>> found;
     if (!result.stopped || soon)
         found = search::described(task.objective, result.design, task.rules,

@@ -110,8 +110,8 @@ Generator unit() {
     return {.name = "multi-jittered",
             .summary = "Multi-jittered points: one in each cell, and in each strip along both axes",
             .source =
-                "Chiu, Shirley, Wang 1994, Graphics Gems IV, 370-374; counts that are no "
-                "grid's: stipple's own",
+                "Chiu, Shirley, Wang 1994, Graphics Gems IV, 370-374; counts other than a grid's: "
+                "stipple's own",
             .traits = {.min_dimension = 2, .max_dimension = 2, .prefix = false},
             .options = Schema(shape_option, centered_option, order_option),
             .aliases = {"mj"},

@@ -22,13 +22,12 @@
 namespace stipple::generators::orthogonal_array {
 namespace {
 
-constexpr Param<Choice> construction{
-    .name = "construction",
-    .fallback = "cmj",
-    .choices = "bose|bush|cmj",
-    .help =
-        "bose: s^2 points, bush: s^strength points, s prime in both; "
-        "cmj: s^dimension points, any s"};
+constexpr Param<Choice> construction{.name = "construction",
+                                     .fallback = "cmj",
+                                     .choices = "bose|bush|cmj",
+                                     .help =
+                                         "bose: s^2 points, s prime; bush: s^strength points, s "
+                                         "prime; cmj: s^dimension points, any s"};
 constexpr Param<std::int64_t> strength{
     .name = "strength",
     .low = 1,
@@ -36,15 +35,15 @@ constexpr Param<std::int64_t> strength{
     .optional = true,
     .unit = "coordinates",
     .help =
-        "So many coordinates at once are stratified: 2 for bose, the dimension for cmj, any "
-        "for bush (3 unless given)"};
+        "Number of coordinates that are stratified jointly: 2 for bose, the dimension for cmj, any "
+        "for bush (default: 3)"};
 constexpr Param<Choice> substrata{
     .name = "substrata",
     .fallback = "correlated",
     .choices = "none|independent|correlated",
     .help =
-        "How points share the strips within a level: not at all, at random in each, or alike "
-        "in all"};
+        "Order of points along an axis within a level: not stratified (none), random in each level "
+        "(independent), or the same in all (correlated)"};
 
 std::size_t strength_of(const Values& options, std::size_t dimension) {
     const std::string name = options[construction];

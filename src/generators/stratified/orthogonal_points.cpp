@@ -106,7 +106,7 @@ Plan plan_by_polynomials(const Request& request, std::size_t strength, const std
     const std::uint64_t least = next_prime(d < 3 ? 2 : d - 1);
     const std::uint64_t least_count = saturating_power(least, strength);
     if (least_count > std::uint64_t{1} << 53)
-        fail(ErrorKind::usage, "--dimension: {} takes more than 2^53 points at strength {}", d,
+        fail(ErrorKind::usage, "--dimension: {} needs more than 2^53 points at strength {}", d,
              strength);
     if (!request.count) {
         std::uint64_t p = least;
@@ -122,8 +122,8 @@ Plan plan_by_polynomials(const Request& request, std::size_t strength, const std
     const std::uint64_t p = prime_root(*request.count, strength, who);
     if (d > p + 1)
         fail(ErrorKind::usage,
-             "--dimension: {} is outside [1, {}], what {} points of strength {} have; {} points "
-             "are the fewest for it",
+             "--dimension: {} is outside [1, {}], the range of {} points at strength {}; it needs "
+             "at least {} points",
              d, p + 1, *request.count, strength, least_count);
     return default_plan(request, *request.count, d);
 }

@@ -129,7 +129,7 @@ Plan plan_jitter_grid(const Request& request, const Values& options) {
     if (!options.given(shape_option)) return default_plan(request);
     const auto sides = options[shape_option];
     if (sides.size() != 2)
-        fail(ErrorKind::usage, "--shape: {} has {} sides; columns x rows are two",
+        fail(ErrorKind::usage, "--shape: {} has {} sides; expected two, columns x rows",
              format_value(Value(sides)), sides.size());
     return plan_of_shape(request, sides, "cells");
 }

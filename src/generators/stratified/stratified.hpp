@@ -23,7 +23,8 @@
 namespace stipple::generators {
 
 inline constexpr Param<bool> centered_option{
-    .name = "centered", .help = "Puts points into the middles of their strata, not anywhere"};
+    .name = "centered",
+    .help = "Place each point at the middle of its stratum instead of at random"};
 
 inline constexpr Param<Choice> order_option{.name = "order",
                                             .fallback = "shuffled",
@@ -34,8 +35,8 @@ inline constexpr Param<Choice> order_option{.name = "order",
 inline constexpr Param<Extents> shape_option{
     {.name = "shape",
      .unit = "cells",
-     .help = "Columns x rows, such as 40x25; gives the count. Without it: as square as the count "
-             "allows"}};
+     .help =
+         "Columns x rows, such as 40x25; gives the count. Default: as square as the count allows"}};
 
 struct StratifiedStyle {
     bool centered;

@@ -49,13 +49,12 @@ namespace {
 constexpr Param<Path> from{
     {.name = "from",
      .unit = "file",
-     .help = "File of points to choose from; a sixteenth of them by default"}};
+     .help = "File of points to choose from; default count: a sixteenth of them"}};
 
-constexpr Param<Text> of{
-    {.name = "of",
-     .unit = "generator",
-     .help = "Generator of points to choose from where there is no --from, as a spec: "
-             "'sobol:scramble=owen'; default: random"}};
+constexpr Param<Text> of{{.name = "of",
+                          .unit = "generator",
+                          .help = "Generator of points to choose from, without --from, as a spec: "
+                                  "'sobol:scramble=owen'; default: random"}};
 
 constexpr Param<std::int64_t> candidates{
     .name = "candidates",
@@ -63,7 +62,7 @@ constexpr Param<std::int64_t> candidates{
     .high = 1'000'000'000'000,
     .optional = true,
     .unit = "points",
-    .help = "Points of --of to choose from; default: 16 for each one of the result"};
+    .help = "Number of points of --of to choose from; default: 16 per point of the result"};
 
 constexpr Param<Choice> by{
     .name = "by",
@@ -72,8 +71,8 @@ constexpr Param<Choice> by{
         "star|l2-star|l2-centered|l2-wraparound|l2-mixture|l2-average|periodic|gaussian|"
         "matern|stein",
     .help =
-        "What is to be small; with stein, rows of --from have d coordinates, then d scores, the "
-        "gradient of log p, and stay whole"};
+        "Discrepancy to minimize. For stein, rows of --from hold d coordinates, then d scores (the "
+        "gradient of log p), and are written whole"};
 
 constexpr Param<double> bandwidth{
     .name = "bandwidth",
@@ -81,11 +80,10 @@ constexpr Param<double> bandwidth{
     .high = 1e100,
     .optional = true,
     .unit = "length",
-    .help = "Length scale of gaussian, matern and stein; default: sqrt(d/6), for stein 1"};
+    .help = "Length scale of gaussian, matern and stein; default: sqrt(d/6), or 1 for stein"};
 
-constexpr Param<Choice> smoothness{.name = "smoothness",
-                                   .choices = "0.5|1.5|2.5",
-                                   .help = "The parameter nu of matern; default: 2.5"};
+constexpr Param<Choice> smoothness{
+    .name = "smoothness", .choices = "0.5|1.5|2.5", .help = "Parameter nu of matern; default: 2.5"};
 
 constexpr Param<std::int64_t> split{
     .name = "split",
@@ -94,14 +92,14 @@ constexpr Param<std::int64_t> split{
     .high = 1'000'000,
     .unit = "sets",
     .help =
-        "Above 1: parts all points into so many sets of equal size, even alike, which follow one "
-        "another; --count is then the number of all points"};
+        "Number of sets. Above 1, all points are split into sets of equal size, about equally "
+        "even, one after the other; --count is then the number of all points"};
 
 constexpr Param<double> effort{.name = "effort",
                                .fallback = 1,
                                .low = 1e-6,
                                .high = 1e6,
-                               .help = "Steps of the search: this times those of some seconds"};
+                               .help = "Search steps as a multiple of the default: some seconds"};
 
 bool is_stein(const Values& options) { return options[by] == "stein"; }
 
@@ -109,23 +107,24 @@ void check_options(const Values& options) {
     const std::string name = options[by];
     const bool has_length = name == "gaussian" || name == "matern" || name == "stein";
     if (options.given(bandwidth) && !has_length)
-        fail(ErrorKind::usage, "--bandwidth: {} has no length scale; gaussian, matern and stein do",
-             name);
+        fail(ErrorKind::usage,
+             "--bandwidth: {} has no length scale; gaussian, matern and stein have one", name);
     if (options.given(smoothness) && name != "matern")
-        fail(ErrorKind::usage, "--smoothness is of --by matern; this is {}", name);
+        fail(ErrorKind::usage, "--smoothness applies to --by matern only; --by is {}", name);
     if (is_stein(options) && !options.given(from))
-        fail(ErrorKind::usage, "--by stein needs rows with scores; --from names their file");
+        fail(ErrorKind::usage, "--by stein needs rows with scores; give their file by --from");
     if (options.given(from) && options.given(of))
         fail(ErrorKind::usage, "--from contradicts --of; give one of them");
     if (options.given(from) && options.given(candidates))
         fail(ErrorKind::usage,
-             "--candidates is of --of; with --from there are as many as in the file");
+             "--candidates applies to --of only; --from chooses from all points of the file");
 }
 
 /// @throws Error(usage) if `all` points cannot be split into sets of equal size
 void check_split(std::uint64_t all, std::uint64_t sets, const std::string& whose) {
     if (all % sets != 0)
-        fail(ErrorKind::usage, "--split: the {} points{} are no {} sets of equal size", all, whose,
+        fail(ErrorKind::usage,
+             "--split: the {} points{} cannot be split into {} sets of equal size", all, whose,
              sets);
 }
 
@@ -199,7 +198,7 @@ PointSet points_for(const Plan& plan, const Values& options, const RunContext& r
         PointSet points = io::read_given(from.name, options[from], {}, run);
         needed(static_cast<double>(points.count()));
         if (!is_stein(options))
-            require_in_cube(points, options[from], "--by stein takes points anywhere");
+            require_in_cube(points, options[from], "--by stein takes points outside the cube");
         return points;
     }
     const std::uint64_t all = candidates_for(plan.count, options);
@@ -334,7 +333,7 @@ double seconds(double n, double d) { return 2 + 16e-9 * n * n * d; }
 
 Generator unit() {
     return {.name = "subset",
-            .summary = "The best points of a file or of another generator, by a discrepancy",
+            .summary = "Points chosen from a file or another generator to minimize a discrepancy",
             .source =
                 "Clement, Doerr, Paquete 2024, arXiv:2306.15276; Chen, Welling, Smola 2010, "
                 "arXiv:1203.3472",

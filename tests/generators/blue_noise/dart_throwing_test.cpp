@@ -205,7 +205,7 @@ TEST(DartThrowing, RefusesWhatContradictsItselfOrFindsNoPlace) {
     EXPECT_EQ(refusal({}, {{"torus", "true"}, {"bounded", "true"}}),
               "usage: --torus contradicts --bounded; give one of them");
     EXPECT_EQ(refusal({}, {{"radius", "0.1"}, {"shrink", "0.9"}}),
-              "usage: --shrink: a radius given by --radius stays; give one of them");
+              "usage: --shrink contradicts --radius, which fixes the radius; give one of them");
     EXPECT_EQ(refusal({}, {{"invert", "true"}}),
               "usage: --invert: there is no --density to invert");
     EXPECT_EQ(refusal(points(9, 3), {{"density", "x.png"}}),
@@ -215,8 +215,8 @@ TEST(DartThrowing, RefusesWhatContradictsItselfOrFindsNoPlace) {
               "are farther apart");
     const std::string few = refusal(points(1000, 2), {{"radius", "0.1"}});
     EXPECT_TRUE(few.starts_with("limit: only ")) << few;
-    EXPECT_NE(few.find(" points keep a radius of 0.1 before 200 darts in a row have missed; 1000 "
-                       "were asked for"),
+    EXPECT_NE(few.find(" points were placed with a radius of 0.1 before 200 darts in a row were "
+                       "rejected; 1000 were requested"),
               std::string::npos)
         << few;
     EXPECT_EQ(refusal({}, {{"radius", "1e-6"}}).substr(0, 6), "limit:");

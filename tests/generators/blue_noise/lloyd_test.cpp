@@ -222,7 +222,7 @@ TEST(Lloyd, RefusesWhatContradictsOrIsOutside) {
     EXPECT_EQ(refusal({}, {{"from", path}}),
               "input: " + path + ": point 2, (0.5, 1.5), is outside 0..1,0..1");
     EXPECT_EQ(refusal(points(3, 2), {{"from", path}}),
-              "usage: --from contradicts --count; the points of the file are counted");
+              "usage: --from contradicts --count; the count is that of the file");
     EXPECT_EQ(refusal({}, {{"from", path}, {"initial", "random"}}),
               "usage: --from contradicts --initial; give one of them");
     EXPECT_EQ(error_of([&] {

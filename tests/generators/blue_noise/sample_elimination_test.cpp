@@ -507,14 +507,15 @@ TEST(SampleElimination, RefusesWhatCannotBe) {
               "usage: --dimension: 3, but FILE has points of 2 coordinates");
     EXPECT_EQ(refusal({}, {{"from", "FILE"}, {"torus", "true"}}),
               "input: FILE: point 2 is outside the box 0..1,0..1; coordinate 1 is 1.5");
-    EXPECT_EQ(refusal({}, {{"from", "FILE"}, {"ratio", "3"}}),
-              "usage: --ratio is of random points; with --from there are as many as in the file");
-    EXPECT_EQ(refusal({}, {{"measure", "3"}}),
-              "usage: --manifold-dimension and --measure are of points from a file; give --from "
-              "too");
+    EXPECT_EQ(
+        refusal({}, {{"from", "FILE"}, {"ratio", "3"}}),
+        "usage: --ratio applies to random points only; --from chooses from all points of the file");
+    EXPECT_EQ(
+        refusal({}, {{"measure", "3"}}),
+        "usage: --manifold-dimension and --measure apply to points from a file; give --from too");
     EXPECT_EQ(refusal({}, {{"from", "FILE"}, {"manifold-dimension", "1"}}),
-              "input: FILE: too few different points to tell the measure of what they are on; "
-              "--measure says it");
+              "input: FILE: too few different points to estimate the length, area or volume that "
+              "they fill; give --measure");
     EXPECT_NE(refusal({}, {{"from", "FILE"}, {"manifold-dimension", "3"}}), "");
     EXPECT_NE(refusal({}, {{"ratio", "0.5"}}), "");
     EXPECT_EQ(refusal({}, {{"invert", "true"}}),
@@ -522,17 +523,16 @@ TEST(SampleElimination, RefusesWhatCannotBe) {
     EXPECT_EQ(refusal(points(9, 3), {{"density", "FILE"}}),
               "usage: --dimension: 3 is not 2, the dimension of a --density");
     EXPECT_EQ(refusal({}, {{"density", "FILE"}, {"from", "FILE"}}),
-              "usage: --density is followed by random points; those of --from are as dense as they "
-              "are");
+              "usage: --density applies to random points only; the points of --from have a density "
+              "already");
     EXPECT_NE(refusal({}, {{"density", "FILE"}}), "");
     EXPECT_NE(refusal({}, {{"torus", "true"}, {"bounded", "true"}}), "");
     EXPECT_EQ(refusal({}, {{"from", "/no/such"}}), "io: /no/such: no such file");
     EXPECT_EQ(refusal(points(10'000'000, 2), {}).substr(0, 6), "limit:");
     const TemporaryFile flat(csv_of(points_of({{1, 1}, {1, 2}, {1, 3}})));
     EXPECT_EQ(refusal({}, {{"from", flat.path()}}),
-              "input: the points of " + flat.path() +
-                  " lie in a box of no volume | --measure, with --manifold-dimension, tells what "
-                  "they are on");
+              "input: the box around the points of " + flat.path() +
+                  " has no volume | give --manifold-dimension and --measure");
     EXPECT_EQ(refusal({.count = 2},
                       {{"from", flat.path()}, {"manifold-dimension", "1"}, {"measure", "2"}}),
               "");

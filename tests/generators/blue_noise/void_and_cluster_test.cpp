@@ -142,7 +142,8 @@ TEST(VoidAndCluster, RefusesWrongOptionsInOneLine) {
         return error_of([&] { make(name, points(n, 2), settings); });
     };
     EXPECT_EQ(error({{"size", "8x8"}}), "usage: --size: 8x8 has 64 cells, too few for 100 points");
-    EXPECT_EQ(error({{"size", "8"}}), "usage: --size: 8: two numbers are expected, such as 64x64");
+    EXPECT_EQ(error({{"size", "8"}}),
+              "usage: --size: 8 is not two numbers; expected, for example, 64x64");
     EXPECT_EQ(error({{"size", "65536x65536"}}),
               "usage: --size: 65536x65536 is outside 1x1 to 2^31 cells");
     EXPECT_EQ(error({{"invert", "true"}}), "usage: --invert: there is no --density to invert");
@@ -183,12 +184,11 @@ TEST(VoidAndCluster, DistancesHoldInABox) {
 TEST(VoidAndCluster, RefusesCellsThatAreTooLong) {
     Request request = points(9, 2);
     request.bounds = Box{{0, 0}, {1, 200}};
-    EXPECT_EQ(
-        error_of([&] {
-            make(name, request, {{"size", "64x64"}});
-        }),
-        "usage: --size: 64x64 makes cells as wide as 0.005 times their height in the box; expected "
-        "0.01 to 100 times");
+    EXPECT_EQ(error_of([&] {
+                  make(name, request, {{"size", "64x64"}});
+              }),
+              "usage: --size: 64x64 makes cells 0.005 times as wide as high in the box; expected "
+              "0.01 to 100 times");
 }
 
 }  // namespace stipple::testing::void_and_cluster_test

@@ -65,10 +65,9 @@ TEST(BoxBehnken, RefusesWhatIsNotPublished) {
         error({.dimension = 8}),
         "usage: --dimension: no Box-Behnken design of 8 factors is published; 7 and 9 are the "
         "nearest");
-    EXPECT_EQ(
-        error(points(15, 3)),
-        "usage: --count: 15 contradicts the Box-Behnken design of 3 factors, which has 12 runs "
-        "and 1 at the centre | --center 3 gives so many");
+    EXPECT_EQ(error(points(15, 3)),
+              "usage: --count: 15 contradicts the Box-Behnken design of 3 factors, which has 12 "
+              "runs and 1 at the centre | --center 3 gives that count");
     EXPECT_EQ(
         error(points(10, 3)),
         "usage: --count: 10 contradicts the Box-Behnken design of 3 factors, which has 12 runs "

@@ -98,10 +98,9 @@ TEST(CentralComposite, RefusesContradictions) {
     const auto error = [](const Request& request, const Settings& settings) {
         return error_of([&] { make(unit, request, settings); });
     };
-    EXPECT_EQ(
-        error(points(20, 3), {}),
-        "usage: --count: 20 contradicts the central composite design of 8 corners and 6 axial "
-        "runs, which has 14 runs and 1 at the centre | --center 6 gives so many");
+    EXPECT_EQ(error(points(20, 3), {}),
+              "usage: --count: 20 contradicts the central composite design of 8 corners and 6 "
+              "axial runs, which has 14 runs and 1 at the centre | --center 6 gives that count");
     EXPECT_EQ(error({}, {{"alpha", "0.5"}}),
               "usage: --alpha: '0.5' is not rotatable, orthogonal or a number in [1, 1e6]");
     EXPECT_EQ(error({}, {{"type", "faced"}, {"alpha", "2"}}),

@@ -63,13 +63,13 @@ TEST(Fast, RefusesShortAndUnequalCurves) {
         return error_of([&] { make("fast", request, settings); });
     };
     EXPECT_EQ(error(points(1000, 3), {}),
-              "usage: --count: 1000 is not a multiple of 3 from 3 curves of 65 runs on, as fast "
+              "usage: --count: 1000 is not a multiple of 3 (at least 3 curves of 65 runs), as fast "
               "needs; 999 and 1002 are the nearest");
     EXPECT_EQ(error(points(99, 3), {}),
-              "usage: --count: 99 is not a multiple of 3 from 3 curves of 65 runs on, as fast "
+              "usage: --count: 99 is not a multiple of 3 (at least 3 curves of 65 runs), as fast "
               "needs; 195 is the least");
     EXPECT_EQ(error(points(300, 3), {{"harmonics", "6"}}),
-              "usage: --count: 300 is not a multiple of 3 from 3 curves of 145 runs on, as fast "
+              "usage: --count: 300 is not a multiple of 3 (at least 3 curves of 145 runs), as fast "
               "needs; 435 is the least");
 }
 

@@ -156,8 +156,8 @@ TEST(FractionalFactorial, SaysWhatIsOpen) {
                                  "reached"));
     EXPECT_TRUE(
         notes({.dimension = 48}, {{"resolution", "5"}})
-            .starts_with("fractional-factorial: 4096 runs are the fewest that are known for "
-                         "48 factors at resolution V; it is open whether 2048 do"));
+            .starts_with("fractional-factorial: 4096 runs are the fewest that are known for 48 "
+                         "factors at resolution V; it is open whether 2048 suffice"));
 }
 
 // Word lengths of designs of least aberration, as tables of Chen, Sun and Wu (Int. Stat. Rev. 61
@@ -202,13 +202,13 @@ TEST(FractionalFactorial, RefusesWhatIsNoFraction) {
         "usage: --count: 12 is not a power of two, as fractional-factorial of 5 factors needs; "
         "8 and 16 are the nearest");
     EXPECT_EQ(error(points(64, 5), {}),
-              "usage: --count: 64 is not a part of the 2^k runs, as fractional-factorial of 5 "
+              "usage: --count: 64 is not a fraction of the 2^k runs, as fractional-factorial of 5 "
               "factors needs; 32 is the nearest");
     EXPECT_EQ(error(points(8, 5), {{"resolution", "4"}}),
               "usage: --count: 8 runs are too few for 5 factors at resolution IV; 16 do");
     EXPECT_EQ(error(points(2048, 48), {{"resolution", "5"}}),
-              "usage: --count: 2048 runs are not known to do for 48 factors at resolution V; 4096 "
-              "do");
+              "usage: --count: 2048 runs are not known to suffice for 48 factors at resolution V; "
+              "4096 suffice");
     EXPECT_EQ(error({.dimension = 50}, {{"resolution", "8"}}),
               "usage: --resolution: no fraction of up to 2^16 runs is known for 50 factors at "
               "resolution VIII; --generators gives larger ones");
@@ -220,16 +220,16 @@ TEST(FractionalFactorial, RefusesWhatIsNoFraction) {
               "usage: --generators: D would be A or -A in all runs");
     EXPECT_EQ(
         error({}, {{"generators", "D=AI"}}),
-        "usage: --generators: 'I' in 'D=AI' is no factor; these are A to Z and a to z without I");
+        "usage: --generators: 'I' in 'D=AI' is not a factor; expected A to Z, except I, or a to z");
     EXPECT_EQ(error({}, {{"generators", "DABC"}}),
               "usage: --generators: 'DABC' is not of the form D=ABC or D=-ABC");
     EXPECT_EQ(error({}, {{"generators", "D=ABC,E=AD"}}),
-              "usage: --generators: E=AD has D, itself a product or no factor");
+              "usage: --generators: E=AD contains D, which is a product itself or not a factor");
     EXPECT_EQ(error({}, {{"generators", "D=ABC,D=AB"}}), "usage: --generators: D is given twice");
     EXPECT_EQ(error({.dimension = 3}, {{"generators", "D=ABC"}}),
-              "usage: --dimension: 3 factors, but --generators names D");
+              "usage: --dimension: 3 factors are too few; --generators names factor D");
     EXPECT_EQ(error({}, {{"generators", "D=ABC"}, {"resolution", "4"}}),
-              "usage: --generators and --resolution are two ways to choose; give one");
+              "usage: --generators contradicts --resolution; give one of them");
 }
 
 }  // namespace stipple::testing::fractional_factorial_test

@@ -96,16 +96,16 @@ TEST(PlackettBurman, RefusesOtherCountsNamingTheNearest) {
               "usage: --count: 14 is not a multiple of 4, as plackett-burman needs; 12 and 16 are "
               "the nearest");
     EXPECT_EQ(error(668, 5),
-              "usage: --count: 668 is not the order of a Hadamard matrix that is built here, as "
+              "usage: --count: 668 is not the order of an available Hadamard matrix, as "
               "plackett-burman needs; 664 and 672 are the nearest");
     EXPECT_EQ(error(3, 1),
               "usage: --count: 3 is not a multiple of 4, as plackett-burman needs; 4 is the least");
     EXPECT_EQ(error(std::uint64_t{1} << 30, 1),
-              "usage: --count: 1073741824 is not the order of a Hadamard matrix that is built "
-              "here, as plackett-burman needs; 1048576 is the nearest");
+              "usage: --count: 1073741824 is not the order of an available Hadamard matrix, as "
+              "plackett-burman needs; 1048576 is the nearest");
     EXPECT_EQ(error(12, 12),
-              "usage: --dimension: 12 factors take more than 12 runs, which have up to 11; 16 runs "
-              "are the fewest for them");
+              "usage: --dimension: 12 factors need more than 12 runs, which allow up to 11; 16 "
+              "runs are the fewest that suffice");
 }
 
 }  // namespace stipple::testing::plackett_burman_test

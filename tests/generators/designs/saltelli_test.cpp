@@ -74,8 +74,8 @@ TEST(Saltelli, RefusesParts) {
     EXPECT_EQ(error(points(50, 3, 3), {}),
               "usage: --start: 3 is not a multiple of 5, as saltelli needs");
     EXPECT_EQ(error(points(50, 3), {{"base", "hammersley"}}),
-              "usage: --base: the points of hammersley depend on their number; sobol, halton and "
-              "random have no end");
+              "usage: --base: the points of hammersley depend on their number; expected an "
+              "infinite sequence such as sobol, halton or random");
 }
 
 }  // namespace stipple::testing::saltelli_test

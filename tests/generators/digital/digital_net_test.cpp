@@ -214,7 +214,7 @@ TEST(DigitalNet, MakesAllItsPointsAndNoMore) {
     EXPECT_EQ(refusal(text, {}, points(9, 1, 1)),
               "usage: --count: 9 points from index 1 on go beyond the 9 = 3^2 points of FILE");
     EXPECT_EQ(refusal(text, {}, points(9, 2)),
-              "usage: --dimension: 2 is outside [1, 1], what FILE gives");
+              "usage: --dimension: 2 is outside [1, 1], the dimensions in FILE");
     EXPECT_EQ(refusal(text, {{"interlace", "2"}}),
               "usage: --interlace: 2 is above the 1 matrices of FILE");
 }
@@ -236,21 +236,21 @@ TEST(DigitalNet, SaysWhereAFileIsWrong) {
     EXPECT_EQ(refusal("# dnet\n1 1 1 1\n1\n"),
               "input: FILE:2:1: '1' is out of range; expected the base in [2, 65521]");
     EXPECT_EQ(refusal("# dnet\n3\n1\n100\n2\n"),
-              "input: FILE:4:1: 100 is neither a number of columns up to 64 nor one of points, a "
-              "power of 3");
+              "input: FILE:4:1: 100 is neither a number of columns up to 64 nor a number of "
+              "points, a power of 3");
     EXPECT_EQ(refusal("# dnet\n2 1 2 2\n1 4\n"),
               "input: FILE:3:3: '4' is out of range; expected a column in [0, 3]");
     EXPECT_EQ(refusal("# dnet\n2 2 2 2\n1 3\n1\n2\n"),
               "input: FILE:4:2: the line ends here; expected a column in [0, 3]");
     EXPECT_EQ(refusal("# dnet\n2 1 2 2\n1 3 2\n"),
-              "input: FILE:3:5: '2' is too much; expected the end of the line");
+              "input: FILE:3:5: unexpected '2'; expected the end of the line");
     EXPECT_EQ(refusal("# dnet\n2 2 2 2\n1 3\n"),
               "input: FILE:4:1: the file ends here; expected a column in [0, 3]");
     EXPECT_EQ(refusal("# dnet\n2 1 2 2\n1 3\n1 2\n"),
-              "input: FILE:4:1: '1' is too much; expected the end of the file behind 1 matrices");
-    EXPECT_EQ(refusal("# dnet\n3 1 1 41\n1\n"),
-              "input: FILE: columns of 41 digits in base 3 are beyond 64 bits; expected the layout "
-              "digits");
+              "input: FILE:4:1: unexpected '1'; expected the end of the file after 1 matrices");
+    EXPECT_EQ(
+        refusal("# dnet\n3 1 1 41\n1\n"),
+        "input: FILE: columns of 41 digits in base 3 exceed 64 bits; expected the layout digits");
     EXPECT_EQ(refusal("# digits\n3 1 2 2\n1 x\n"),
               "input: FILE:3:3: 'x' is not a whole number; expected a digit in [0, 2]");
     EXPECT_EQ(refusal("1 0\n0 1\n1 2\n0 1\n", {{"layout", "rows"}}),
@@ -260,7 +260,7 @@ TEST(DigitalNet, SaysWhereAFileIsWrong) {
     EXPECT_EQ(refusal("1 0\n", {{"layout", "rows"}, {"base", "6"}}),
               "usage: --base: 6 is not a prime, 2 divides it");
     EXPECT_EQ(refusal("# dnet\n2 1 1 1\n1\n", {{"base", "3"}}),
-              "usage: --base: only the layout rows does not say or fix its base");
+              "usage: --base applies to the layout rows only; the others give or fix their base");
 }
 
 TEST(DigitalNet, TakesColumnsOfAll64Bits) {

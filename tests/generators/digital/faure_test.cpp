@@ -161,7 +161,7 @@ TEST(Faure, ReachesItsLastIndexAndDimension) {
               "usage: --start 617673396283946 and 2 points go beyond index 617673396283946, the "
               "last of faure in base 3");
     EXPECT_EQ(error_of([] { make("faure", points(1, 65522)); }),
-              "usage: --dimension: 65522 is outside [1, 65521], what faure can make");
+              "usage: --dimension: 65522 is outside [1, 65521], the range of faure");
 }
 
 TEST(Faure, RefusesBasesThatAreNoPrimesOrTooSmall) {
@@ -172,7 +172,7 @@ TEST(Faure, RefusesBasesThatAreNoPrimesOrTooSmall) {
     EXPECT_EQ(error_of([] {
                   make("faure", points(1, 3), {{"base", "2"}});
               }),
-              "usage: --base: 2 is below the dimension 3; faure needs a prime not below");
+              "usage: --base: 2 is below the dimension 3; expected a prime not below it");
     EXPECT_EQ(error_of([] {
                   make("faure", points(1, 3), {{"base", "1"}});
               }),

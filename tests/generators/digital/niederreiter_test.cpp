@@ -81,7 +81,7 @@ TEST(Niederreiter, MakesAllItsDimensionsAndNoMore) {
     const PointSet set = make("niederreiter", points(256, 1000));
     for (const double x : set.flat()) ASSERT_TRUE(x >= 0 && x < 1);
     EXPECT_EQ(error_of([] { make("niederreiter", points(1, 1001)); }),
-              "usage: --dimension: 1001 is outside [1, 1000], what niederreiter can make");
+              "usage: --dimension: 1001 is outside [1, 1000], the range of niederreiter");
 }
 
 // Over GF(3): x, x + 1, x + 2, then three polynomials of degree 2; over GF(5) five of degree 1.

@@ -67,7 +67,7 @@ TEST(Pmj02, AnyStretchIsThatOfTheWhole) { EXPECT_TRUE(stretches_agree("pmj02", p
 
 TEST(Pmj02, IsOfThePlane) {
     EXPECT_EQ(error_of([] { make("pmj02", points(16, 3)); }),
-              "usage: --dimension: 3 is outside [2, 2], what pmj02 can make");
+              "usage: --dimension: 3 is outside [2, 2], the range of pmj02");
 }
 
 }  // namespace stipple::testing::pmj02_test

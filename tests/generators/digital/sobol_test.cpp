@@ -249,7 +249,7 @@ TEST(Sobol, InterlacesWhatAFileSaysIsToBe) {
                          {0.234375, 0.859375},
                          {0.984375, 0.109375}}));
     EXPECT_EQ(complaint(text, 3),
-              "usage: --dimension: 3 is outside [1, 2], what FILE has direction numbers for");
+              "usage: --dimension: 3 is outside [1, 2], the dimensions in FILE");
     EXPECT_EQ(complaint("# Parameters m_{j,c} for Sobol points\n0 # dimensions\n1\n"),
               "input: FILE:2:1: '0' is out of range; expected a number of the header in [1, "
               "1000000]");
@@ -272,11 +272,11 @@ TEST(Sobol, SaysWhatIsWrongWithDirectionNumbers) {
     EXPECT_EQ(complaint("2 1 0 1\n3 2 1 1 5\n"),
               "input: FILE:2:9: '5' is out of range; expected an odd m_2 in [1, 3]");
     EXPECT_EQ(complaint("2 1 0 1 1\n"),
-              "input: FILE:1:9: '1' is too much; expected the end of the line");
+              "input: FILE:1:9: unexpected '1'; expected the end of the line");
     EXPECT_EQ(complaint("2 1 0 one\n"),
               "input: FILE:1:7: 'one' is not a whole number; expected an odd m_1, 1");
     EXPECT_EQ(complaint("2 1 0 1\n", 3),
-              "usage: --dimension: 3 is outside [1, 2], what FILE has direction numbers for");
+              "usage: --dimension: 3 is outside [1, 2], the dimensions in FILE");
     EXPECT_EQ(error_of([] {
                   make("sobol", points(4, 2), {{"directions", "/no/such"}});
               }),
@@ -285,8 +285,8 @@ TEST(Sobol, SaysWhatIsWrongWithDirectionNumbers) {
 
 TEST(Sobol, RefusesDimensionsBeyondItsTable) {
     EXPECT_EQ(error_of([] { make("sobol", points(1, 3668)); }),
-              "usage: --dimension: 3668 is outside [1, 3667], what sobol can make | "
-              "--directions brings more");
+              "usage: --dimension: 3668 is outside [1, 3667], the range of sobol | --directions "
+              "allows more");
 }
 
 }  // namespace stipple::testing::sobol_test

@@ -289,7 +289,8 @@ TEST(PolynomialLattice, ReadsLatticesOfOtherPackages) {
         refusal("# Parameters for a polynomial lattice rule\n2\n2 # Interlacing factor\n5\n"),
         ::testing::HasSubstr(":4:1: '5' is out of range; expected the number of components, "
                              "4"));
-    EXPECT_THAT(refusal(latnet, {{"modulus", "11"}}), ::testing::HasSubstr(" says its own, 11"));
+    EXPECT_THAT(refusal(latnet, {{"modulus", "11"}}),
+                ::testing::HasSubstr(" contains its own, 11"));
     EXPECT_THAT(refusal("# lattice\n1\n8\n1\n"),
                 ::testing::HasSubstr("a lattice of whole numbers, which rank1-lattice reads"));
     EXPECT_THAT(refusal("# plattice\n3\n1\n3\n11\n1\n"), ::testing::HasSubstr("the base 2"));
@@ -298,7 +299,7 @@ TEST(PolynomialLattice, ReadsLatticesOfOtherPackages) {
     EXPECT_THAT(refusal("# plattice\n2\n1\n3\n11\n8\n"),
                 ::testing::HasSubstr("8 is not a polynomial in [1, 7]"));
     EXPECT_THAT(refusal(latnet, {{"vector", "1,5"}}),
-                ::testing::HasSubstr("either gives the vector; leave one out"));
+                ::testing::HasSubstr("--vector contradicts --vector-file; give one of them"));
 }
 
 TEST(PolynomialLattice, RefusesWhatItCannotMake) {
@@ -306,35 +307,35 @@ TEST(PolynomialLattice, RefusesWhatItCannotMake) {
         return error_of([&] { make("polynomial-lattice", request, settings); });
     };
     EXPECT_EQ(refusal(points(9, 2), given(11, {1, 3})),
-              "usage: --count: 9 is above 8 = 2^3, the points of modulus 11");
+              "usage: --count: 9 is above 8 = 2^3, the number of points of modulus 11");
     EXPECT_EQ(
         refusal(points(8, 2), {{"modulus", "9"}}),
         "usage: --modulus: 9 is not irreducible, as cbc needs; 11 is the smallest of degree 3 "
         "that is | give a --vector, which takes any modulus");
     EXPECT_EQ(refusal(points(8, 3), given(11, {1, 3})),
-              "usage: --vector: 2 components are too few; dimension 3 needs as many");
+              "usage: --vector: 2 components are too few for dimension 3");
     EXPECT_EQ(refusal(points(8, 2), given(11, {1, 8})),
               "usage: --vector: 8 is not a polynomial in [1, 7]");
     EXPECT_EQ(refusal(points(8, 2), {{"modulus", "11"}, {"vector", "1,2.5"}}),
               "usage: --vector: 2.5 is not a polynomial in [1, 7]");
     EXPECT_EQ(refusal(points(8, 2), {{"rule", "vector"}}),
-              "usage: --rule: vector needs its --vector or --vector-file");
+              "usage: --rule: vector needs a vector; give --vector or --vector-file");
     EXPECT_EQ(refusal(points(8, 2), {{"rule", "cbc"}, {"vector", "1,2"}}),
-              "usage: --vector: is of the rule vector; the rule here is cbc");
+              "usage: --vector applies to the rule vector only; the rule here is cbc");
     EXPECT_EQ(refusal(points(8, 2), {{"decay", "1"}, {"vector", "1,2"}}),
-              "usage: --decay: is of the rule cbc; the rule here is vector");
+              "usage: --decay applies to the rule cbc only; the rule here is vector");
     EXPECT_EQ(refusal(points(8, 2), {{"decay", "1"}, {"weights", "1,2"}}),
-              "usage: --weights and --decay: either gives the weights; leave one out");
+              "usage: --weights contradicts --decay; give one of them");
     EXPECT_EQ(refusal(points(8, 2), {{"weights", "1"}}),
               "usage: --weights: 1 numbers for 2 coordinates; give one for each");
     EXPECT_EQ(refusal(points(8, 2), {{"weights", "1,-1"}}),
               "usage: --weights: -1 is outside (0, 1000000]");
     EXPECT_EQ(refusal(points(5'000'000, 2), {}),
-              "usage: --count: cbc searches for up to 2^22 points; 5000000 points and modulus "
-              "8388641 are of 2^23 | give a --vector");
-    EXPECT_EQ(refusal(points((std::uint64_t{1} << 52) + 1, 2), {}),
-              "usage: --count: 4503599627370497 is outside [1, 2^52], what polynomial-lattice can "
-              "make");
+              "usage: --count: cbc searches lattices of up to 2^22 points; 5000000 points with "
+              "modulus 8388641 belong to one of 2^23 | give a --vector");
+    EXPECT_EQ(
+        refusal(points((std::uint64_t{1} << 52) + 1, 2), {}),
+        "usage: --count: 4503599627370497 is outside [1, 2^52], the range of polynomial-lattice");
 }
 
 TEST(PolynomialLattice, ASearchCanBeStoppedShowsItsProgressAndKeepsToItsMemory) {

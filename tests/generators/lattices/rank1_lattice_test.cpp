@@ -263,8 +263,9 @@ TEST(Rank1Lattice, ReadsLatticesOfOtherPackages) {
         EXPECT_EQ(make("rank1-lattice", {}, settings), expected) << text;
         EXPECT_EQ(make("rank1-lattice", {.count = 4}, settings),
                   make("rank1-lattice", points(4, 3), {{"vector", "1,3,5"}}));
-        EXPECT_THAT(error_of([&] { make("rank1-lattice", {.count = 16}, settings); }),
-                    ::testing::HasSubstr("is a lattice of 8 points; 16 does not divide that"));
+        EXPECT_THAT(
+            error_of([&] { make("rank1-lattice", {.count = 16}, settings); }),
+            ::testing::HasSubstr("holds a lattice of 8 points; 16 does not divide this number"));
     }
     const auto refusal = [](const std::string& text) {
         const TemporaryFile file(text);
@@ -291,12 +292,12 @@ TEST(Rank1Lattice, ComplainsOfFilesByLineAndColumn) {
         });
         return error.substr(std::min(error.size(), error.find(file.path()) + file.path().size()));
     };
-    EXPECT_EQ(complaint("1\n2\n"), ": 2 components are too few; dimension 3 needs as many");
+    EXPECT_EQ(complaint("1\n2\n"), ": 2 components are too few for dimension 3");
     EXPECT_EQ(complaint("1 1\n3 5\n"),
               ":2:1: 3 is out of order; expected 2, the number of the next component");
     EXPECT_EQ(complaint("1\n2.5\n"),
               ":2:1: '2.5' is not a whole number; expected a component of the vector");
-    EXPECT_EQ(complaint("1 1 1\n"), ":1:5: '1' is too much; expected the end of the line");
+    EXPECT_EQ(complaint("1 1 1\n"), ":1:5: unexpected '1'; expected the end of the line");
     EXPECT_EQ(complaint("1 1\n2\n"),
               ":2:2: the line ends here; expected a component of the vector");
 }
@@ -313,27 +314,29 @@ TEST(Rank1Lattice, RefusesWhatItCannotMake) {
               "usage: --count: 9000000000000000 is not a Fibonacci number, as the rule fibonacci "
               "needs; 8944394323791464 is the nearest");
     EXPECT_EQ(error(8, 3, {{"rule", "fibonacci"}}),
-              "usage: --dimension: 3 is outside [1, 2], what fibonacci can make");
+              "usage: --dimension: 3 is outside [1, 2], the range of fibonacci");
     EXPECT_EQ(error(std::uint64_t{1} << 30, 2, {}),
-              "usage: --count: 1073741824 is outside [1, 16777216], where a vector can be searched "
-              "| give a vector, or korobov's multiplier");
+              "usage: --count: 1073741824 is outside [1, 16777216], the range of the search for a "
+              "vector | give a vector, or a multiplier for korobov");
     EXPECT_EQ(error(8, 3, {{"vector", "1,3"}}),
-              "usage: --vector: 2 components are too few; dimension 3 needs as many");
+              "usage: --vector: 2 components are too few for dimension 3");
     EXPECT_EQ(error(8, 2, {{"vector", "1,2.5"}}),
               "usage: --vector: 2.5 is not a whole number in [0, 2^53]");
     EXPECT_EQ(error(8, 2, {{"vector", "1,3"}, {"rule", "cbc"}}),
-              "usage: --vector: is of the rule vector; the rule here is cbc");
-    EXPECT_EQ(error(8, 2, {{"multiplier", "3"}, {"decay", "1"}}),
-              "usage: --decay: is of the searches cbc and korobov; the rule here is korobov");
+              "usage: --vector applies to the rule vector only; the rule here is cbc");
+    EXPECT_EQ(
+        error(8, 2, {{"multiplier", "3"}, {"decay", "1"}}),
+        "usage: --decay applies to the searches cbc and korobov only; the rule here is korobov");
     EXPECT_EQ(error(8, 2, {{"weights", "1"}}),
               "usage: --weights: 1 numbers for 2 coordinates; give one for each");
     EXPECT_EQ(error(8, 2, {{"weights", "1,0"}}), "usage: --weights: 0 is outside (0, 1000000]");
     EXPECT_EQ(error(8, 2, {{"weights", "1,2"}, {"decay", "1"}}),
-              "usage: --weights and --decay: either gives the weights; leave one out");
+              "usage: --weights contradicts --decay; give one of them");
     EXPECT_EQ(error(8, 2, {{"rule", "vector"}}),
-              "usage: --rule: vector needs its vector, by one of --vector and --vector-file");
+              "usage: --rule: vector needs one vector; give either --vector or --vector-file");
     EXPECT_EQ(error(8, 2, {{"rule", "korobov"}, {"multiplier", "3"}, {"effort", "2"}}),
-              "usage: --effort: is of korobov's search for a multiplier; the rule here is korobov");
+              "usage: --effort applies to korobov's search for a multiplier only; the rule here is "
+              "korobov");
 }
 
 // 32 multipliers of 16384 that are prime to n, and 64, among which are better ones.
@@ -368,8 +371,9 @@ TEST(Rank1Lattice, SaysWherePointsCoincide) {
     generate("rank1-lattice", points(100, 2), {{"vector", "1,2"}}, run);
     EXPECT_TRUE(notes.empty());
     generate("rank1-lattice", points(100, 2), {{"vector", "0,12"}}, run);
-    EXPECT_EQ(notes, std::vector<std::string>{"rank1-lattice: 4 divides the number of points and "
-                                              "all of the vector: every point comes 4 times"});
+    EXPECT_EQ(notes,
+              std::vector<std::string>{"rank1-lattice: 4 divides the number of points and all "
+                                       "numbers of the vector: every point occurs 4 times"});
 }
 
 // Where there are enough components, no coordinate is another one; else a note names the first.
@@ -384,8 +388,9 @@ TEST(Rank1Lattice, RepeatsNoCoordinateInSilence) {
     generate("rank1-lattice", points(128, 12), {}, run);
     EXPECT_TRUE(notes.empty());
     generate("rank1-lattice", points(10, 3), {{"vector", "1,3,11"}}, run);
-    EXPECT_EQ(notes, std::vector<std::string>{"rank1-lattice: coordinate 3 is the same as 1: the "
-                                              "vector of 3 numbers has 2 different ones"});
+    EXPECT_EQ(notes,
+              std::vector<std::string>{"rank1-lattice: coordinate 3 equals coordinate 1: the 3 "
+                                       "numbers of the vector have 2 different values"});
     notes.clear();
     generate("rank1-lattice", points(8, 5), {}, run);  // 1 and 3 are all that are prime to 8
     EXPECT_EQ(notes.size(), 1U);

@@ -365,9 +365,9 @@ TEST(Optimized, RefusesWhatItCannotMake) {
     };
     const std::string& ten = file.path();
     EXPECT_EQ(error(points(64, 7), {}),
-              "usage: optimized: objective star is for 1 to 6 dimensions; L2 kinds for more");
+              "usage: optimized: objective star takes 1 to 6 dimensions; L2 kinds take more");
     EXPECT_EQ(error(points(64, 2), {{"keep", "3"}}),
-              "usage: --keep is of the points of a file; give --from too");
+              "usage: --keep applies to the points of a file; give --from too");
     EXPECT_EQ(error(points(64, 2), {{"from", ten}, {"keep", "11"}}),
               "usage: --keep: 11 is more than the 10 points of " + ten);
     EXPECT_EQ(error(points(9, 2), {{"from", ten}}),
@@ -376,12 +376,12 @@ TEST(Optimized, RefusesWhatItCannotMake) {
     EXPECT_THAT(error(points(9, 2), {{"from", wide.path()}}),
                 ::testing::HasSubstr("outside the unit cube"));
     EXPECT_EQ(error(points(9, 2), {{"weights", "1,2,3"}}),
-              "usage: --weights: 3 numbers for 2 coordinates; one for each");
+              "usage: --weights: 3 numbers for 2 coordinates; give one for each");
     EXPECT_THAT(error(points(9, 2), {{"weights", "1,0"}}), ::testing::HasSubstr("outside (0, "));
     EXPECT_THAT(error(points(9, 2), {{"weights", "1,2"}, {"objective", "dispersion"}}),
                 ::testing::HasSubstr("objective dispersion has none"));
     EXPECT_THAT(error(points(9, 2), {{"lattice", "true"}}),
-                ::testing::HasSubstr("objective star depends on the lattice's place"));
+                ::testing::HasSubstr("objective star depends on a shift of the lattice"));
     EXPECT_THAT(
         error(points(10, 2), {{"objective", "periodic"}, {"lattice", "true"}, {"from", ten}}),
         ::testing::HasSubstr("no points to start from"));

@@ -60,16 +60,15 @@ TEST(RadiusSearch, TellsWhenTheSurplusHadToGo) {
     EXPECT_LT(*points.rbegin(), 100);  // of the set with the least surplus
     EXPECT_NEAR(found.packing.radius, 0.1, 1e-6);
     ASSERT_EQ(found.told.size(), 1U);
-    EXPECT_EQ(
-        found.told[0],
-        "no radius was found that leaves exactly 99 points; points were removed from a larger "
-        "set, which leaves room for others");
+    EXPECT_EQ(found.told[0],
+              "no radius was found that gives exactly 99 points; points were removed from a larger "
+              "set, so more would fit");
 }
 
 TEST(RadiusSearch, RefusesACountThatNoRadiusReaches) {
     const Pack none = [](double, double, std::uint64_t, const RunContext&) { return Rows(); };
     EXPECT_EQ(error_of([&] { Found(9, none); }),
-              "limit: --count: no radius was found that leaves 9 points");
+              "limit: --count: no radius was found that gives 9 points");
 }
 
 }  // namespace stipple::testing::radius_search_test

@@ -182,23 +182,21 @@ TEST(Halton, AnyStretchIsThatOfTheWhole) {
 }
 
 TEST(Halton, RefusesLeapsThatMissPartOfTheCube) {
-    EXPECT_EQ(
-        error_of([] {
-            make("halton", points(9, 3), {{"leap", "35"}});
-        }),
-        "usage: --leap: 35 is a multiple of 5, the base of coordinate 3, which would not fill "
-        "[0, 1) | take a prime that is not among the bases");
+    EXPECT_EQ(error_of([] {
+                  make("halton", points(9, 3), {{"leap", "35"}});
+              }),
+              "usage: --leap: 35 is a multiple of 5, the base of coordinate 3, which would not "
+              "fill [0, 1) | choose a prime that is not among the bases");
     EXPECT_EQ(make("halton", points(9, 2), {{"leap", "35"}}).count(), 9U);
     EXPECT_EQ(error_of([] {
                   make("halton", points(100, 1, 90'071'992'547'410), {{"leap", "99"}});
               }),
               "");
-    EXPECT_EQ(
-        error_of([] {
-            make("halton", points(100, 1, 90'071'992'547'410), {{"leap", "101"}});
-        }),
-        "usage: --leap: 100 points from 90071992547410 on, each 101 behind the one before, go "
-        "beyond index 9007199254740991");
+    EXPECT_EQ(error_of([] {
+                  make("halton", points(100, 1, 90'071'992'547'410), {{"leap", "101"}});
+              }),
+              "usage: --leap: 100 points from 90071992547410 on, at steps of 101, go beyond index "
+              "9007199254740991");
     EXPECT_TRUE(error_of([] { make("halton", {}, {{"leap", "0"}}); }).starts_with("usage: --leap"));
 }
 
@@ -209,7 +207,7 @@ TEST(Halton, ThreadsChangeNothing) {
 
 TEST(Halton, RefusesWhatIsBeyondItsTables) {
     EXPECT_EQ(error_of([] { make("halton", points(1, 1001)); }),
-              "usage: --dimension: 1001 is outside [1, 1000], what halton can make");
+              "usage: --dimension: 1001 is outside [1, 1000], the range of halton");
     const std::uint64_t end = std::uint64_t{1} << 53;
     EXPECT_EQ(error_of([&] { make("halton", points(1, 1, end - 1)); }), "");
     EXPECT_EQ(error_of([&] { make("halton", points(2, 1, end - 1)); }).substr(0, 14),

@@ -149,7 +149,7 @@ TEST(Kronecker, RefusesTooFewNumbersAndWrongOffsets) {
     EXPECT_EQ(error_of([] {
                   make("kronecker", points(4, 3), {{"alpha", "0.5,0.25"}});
               }),
-              "usage: --alpha: 2 numbers are too few; dimension 3 needs as many");
+              "usage: --alpha: 2 numbers are too few for dimension 3");
     EXPECT_TRUE(error_of([] {
                     make("kronecker", points(4, 3), {{"offset", "1"}});
                 }).starts_with("usage: --offset: 1 is outside"));

@@ -84,8 +84,8 @@ TEST(Random, RefusesSeedsThatAnEngineDoesNotTake) {
     };
     EXPECT_EQ(refusal("drand48", 0xffffffff), "");
     EXPECT_EQ(refusal("drand48", 0x100000000),
-              "usage: --seed: 4294967296 is outside [0, 4294967295], what this generator's seeding "
-              "takes");
+              "usage: --seed: 4294967296 is outside [0, 4294967295], the range of this generator's "
+              "seeds");
     EXPECT_EQ(refusal("random", 0xffffffff), "");
     EXPECT_NE(refusal("random", 0x100000000), "");
     EXPECT_EQ(refusal("ranmar", 942438977), "");

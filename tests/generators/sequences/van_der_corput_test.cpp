@@ -58,7 +58,7 @@ TEST(VanDerCorput, AnyStretchIsThatOfTheWhole) {
 
 TEST(VanDerCorput, RefusesBasesAndDimensionsThatItDoesNotHave) {
     EXPECT_EQ(error_of([] { make("van-der-corput", points(1, 2)); }),
-              "usage: --dimension: 2 is outside [1, 1], what van-der-corput can make");
+              "usage: --dimension: 2 is outside [1, 1], the range of van-der-corput");
     for (const char* base : {"1", "0", "-2", "65537"})
         EXPECT_TRUE(error_of([&] {
                         make("van-der-corput", {}, {{"base", base}});

@@ -150,8 +150,8 @@ TEST(LatinHypercube, RefusesWhatStrengthTwoCannotBe) {
               "usage: --count: 1 is not p^2 for a prime p, as latin-hypercube of strength 2 needs; "
               "4 is the least");
     EXPECT_EQ(strong(49, 9),
-              "usage: --dimension: 9 is outside [1, 8], what 49 points of strength 2 have; 121 "
-              "points are the fewest for it");
+              "usage: --dimension: 9 is outside [1, 8], the range of 49 points at strength 2; it "
+              "needs at least 121 points");
     EXPECT_EQ(strong(49, 8), "");
     EXPECT_EQ(make("latin-hypercube", {.dimension = 2}, {{"strength", "2"}}).count(), 961U);
     EXPECT_EQ(make("latin-hypercube", {.dimension = 50}, {{"strength", "2"}}).count(), 2809U);
@@ -310,9 +310,10 @@ TEST(LatinHypercube, TellsWhereAnExtensionIsNoLatinHypercube) {
     RunContext run;
     run.warn = [&](const std::string& note) { notes += note; };
     make("latin-hypercube", {}, {{"extend", file.path()}, {"add", "2"}}, run);
-    EXPECT_EQ(notes, "latin-hypercube: no Latin hypercube of all 5 points: points of " +
-                         file.path() +
-                         " share up to 1 of the 5 strata along an axis; new ones share none");
+    EXPECT_EQ(notes,
+              "latin-hypercube: all 5 points together are not a Latin hypercube: points of " +
+                  file.path() +
+                  " share up to 1 of the 5 strata along an axis; new points share none");
 }
 
 TEST(LatinHypercube, LevelsSpreadCategories) {
@@ -350,40 +351,42 @@ TEST(LatinHypercube, RefusesWhatItCannotMake) {
     const auto error = [&](const Request& request, const Settings& settings) {
         return error_of([&] { make("latin-hypercube", request, settings); });
     };
-    EXPECT_EQ(error({}, {{"levels", "2,2"}}), "usage: --levels: is of --optimize; give that too");
-    EXPECT_EQ(error({}, {{"add", "2"}}), "usage: --add: is of --extend; give that too");
+    EXPECT_EQ(error({}, {{"levels", "2,2"}}),
+              "usage: --levels applies to --optimize only; give that too");
+    EXPECT_EQ(error({}, {{"add", "2"}}), "usage: --add applies to --extend only; give that too");
     EXPECT_EQ(error({}, {{"p", "2"}, {"optimize", "maximin"}}),
-              "usage: --p: is of --optimize phi-p; give that too");
+              "usage: --p applies to --optimize phi-p only; give that too");
     EXPECT_EQ(error({}, {{"sliced", "2"}, {"nested", "2,4"}}),
               "usage: --sliced and --nested contradict each other; give one of them");
     EXPECT_EQ(error({}, {{"strength", "2"}, {"optimize", "maximin"}}),
-              "usage: --strength 2 and --optimize contradict each other: exchanges of strata would "
-              "not keep the squares");
+              "usage: --strength 2 and --optimize contradict each other: exchanging strata would "
+              "break the squares");
     EXPECT_EQ(error(points(10, 2), {{"sliced", "3"}}),
               "usage: --count: 10 is not a multiple of 3, as --sliced 3 needs; 9 and 12 are the "
               "nearest");
-    EXPECT_EQ(error({}, {{"nested", "3,10"}}),
-              "usage: --nested: 3,10 are not N1,N2 with N1 dividing N2, such as 10,30");
-    EXPECT_EQ(error({}, {{"nested", "2.5,10"}}), "usage: --nested: 2.5 is no number of points");
+    EXPECT_EQ(
+        error({}, {{"nested", "3,10"}}),
+        "usage: --nested: 3,10 is not N1,N2 where N1 divides N2; expected, for example, 10,30");
+    EXPECT_EQ(error({}, {{"nested", "2.5,10"}}), "usage: --nested: 2.5 is not a number of points");
     EXPECT_EQ(error(points(10, 2), {{"nested", "4,12"}}),
               "usage: --count: 10 contradicts --nested 4,12, which has 12 points");
     EXPECT_EQ(error(points(10'001, 2), {{"optimize", "maximin"}}),
-              "usage: --count: 10001 is outside [1, 10000], what --optimize can search");
+              "usage: --count: 10001 is outside [1, 10000], the range of --optimize");
     EXPECT_EQ(error(points(20, 101), {{"optimize", "maximin"}}),
-              "usage: --dimension: 101 is outside [1, 100], what --optimize can search");
+              "usage: --dimension: 101 is outside [1, 100], the range of --optimize");
     EXPECT_EQ(error(points(20, 3), {{"optimize", "maximin"}, {"levels", "2,2"}}),
-              "usage: --levels: 2 numbers for 3 coordinates; one for each");
+              "usage: --levels: 2 numbers for 3 coordinates; give one for each");
     EXPECT_EQ(error(points(20, 1), {{"optimize", "maximin"}, {"levels", "2.5"}}),
               "usage: --levels: 2.5 is not a whole number in [0, 10000]");
     EXPECT_EQ(error({}, {{"extend", file.path()}}),
-              "usage: --extend: how many points to add? --add says it");
+              "usage: --extend: the number of new points is missing; give --add");
     EXPECT_EQ(error(points(9, 2), {{"extend", file.path()}, {"add", "3"}}),
               "usage: --count: 9 is not 5, the 2 points of " + file.path() + " and those of --add");
     EXPECT_EQ(error(points(5, 3), {{"extend", file.path()}, {"add", "3"}}),
               "usage: --dimension: 3, but " + file.path() + " has points of 2 coordinates");
-    EXPECT_EQ(error({.bounds = Box{{0, 0}, {2, 2}}}, {{"extend", file.path()}, {"add", "3"}}),
-              "usage: --bounds: the points of --extend stay as they are; scale all of them "
-              "afterwards");
+    EXPECT_EQ(
+        error({.bounds = Box{{0, 0}, {2, 2}}}, {{"extend", file.path()}, {"add", "3"}}),
+        "usage: --bounds: --extend does not scale the given points; scale all points afterwards");
     EXPECT_EQ(error({}, {{"extend", outside.path()}, {"add", "3"}}),
               "input: " + outside.path() +
                   ": point 0 is outside the unit cube; it has a coordinate 1.2 | --extend takes "

@@ -138,7 +138,7 @@ TEST(MultiJittered, RefusesContradictions) {
     EXPECT_EQ(error_of([] {
                   make("multi-jittered", {}, {{"shape", "3x4x5"}});
               }),
-              "usage: --shape: 3x4x5 has 3 sides; columns x rows are two");
+              "usage: --shape: 3x4x5 has 3 sides; expected two, columns x rows");
     EXPECT_NE(error_of([] { make("multi-jittered", points(10, 3)); }), "");
 }
 

@@ -106,8 +106,8 @@ TEST(OrthogonalArray, RefusesWhatNoArrayIs) {
               "usage: --count: 100 is not p^2 for a prime p, as orthogonal-array by bose needs; 49 "
               "and 121 are the nearest");
     EXPECT_EQ(error(343, 9, {{"construction", "bush"}}),
-              "usage: --dimension: 9 is outside [1, 8], what 343 points of strength 3 have; 1331 "
-              "points are the fewest for it");
+              "usage: --dimension: 9 is outside [1, 8], the range of 343 points at strength 3; it "
+              "needs at least 1331 points");
     EXPECT_EQ(error(100, 3, {}),
               "usage: --count: 100 is not k^3, as orthogonal-array by cmj needs; 64 and 125 are "
               "the nearest");

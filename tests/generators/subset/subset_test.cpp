@@ -294,26 +294,28 @@ TEST(Subset, RefusesWhatCannotBeChosenAndSaysWhy) {
     EXPECT_EQ(refusal({.dimension = 2}, {{"from", path}}),
               "usage: --dimension: 2, but FILE has rows of 3 numbers");
     EXPECT_EQ(refusal({}, {{"from", path}, {"split", "4"}}),
-              "usage: --split: the 30 points of FILE are no 4 sets of equal size");
+              "usage: --split: the 30 points of FILE cannot be split into 4 sets of equal size");
     EXPECT_EQ(refusal({.count = 10}, {{"from", path}, {"split", "3"}}),
               "usage: --count: 10, but --split writes all 30 points of FILE; leave --count out");
     EXPECT_EQ(refusal({.count = 31}, {{"split", "3"}}),
-              "usage: --split: the 31 points are no 3 sets of equal size");
+              "usage: --split: the 31 points cannot be split into 3 sets of equal size");
     EXPECT_EQ(refusal({}, {{"from", path}, {"of", "sobol"}}),
               "usage: --from contradicts --of; give one of them");
-    EXPECT_EQ(refusal({}, {{"from", path}, {"candidates", "9"}}),
-              "usage: --candidates is of --of; with --from there are as many as in the file");
+    EXPECT_EQ(
+        refusal({}, {{"from", path}, {"candidates", "9"}}),
+        "usage: --candidates applies to --of only; --from chooses from all points of the file");
     EXPECT_EQ(refusal({}, {{"by", "stein"}}),
-              "usage: --by stein needs rows with scores; --from names their file");
+              "usage: --by stein needs rows with scores; give their file by --from");
     EXPECT_EQ(refusal({}, {{"by", "stein"}, {"from", path}}),
               "input: FILE: rows of 3 numbers; --by stein takes d coordinates and d scores");
-    EXPECT_EQ(refusal({}, {{"bandwidth", "1"}}),
-              "usage: --bandwidth: periodic has no length scale; gaussian, matern and stein do");
+    EXPECT_EQ(
+        refusal({}, {{"bandwidth", "1"}}),
+        "usage: --bandwidth: periodic has no length scale; gaussian, matern and stein have one");
     EXPECT_EQ(refusal({}, {{"smoothness", "0.5"}}),
-              "usage: --smoothness is of --by matern; this is periodic");
+              "usage: --smoothness applies to --by matern only; --by is periodic");
     EXPECT_EQ(refusal({.count = 1}, {{"from", beyond.path()}}),
               "input: BEYOND: point 1 is outside the unit cube; it has a coordinate 1.5 | --by "
-              "stein takes points anywhere");
+              "stein takes points outside the cube");
     EXPECT_TRUE(refusal({}, {{"of", "sobl"}}).starts_with("usage: "));
     EXPECT_TRUE(refusal({}, {{"from", empty.path()}}).starts_with("input: "));
     EXPECT_TRUE(refusal({}, {{"from", "nowhere.csv"}}).starts_with("io: "));

@@ -104,8 +104,7 @@ void RadiusField::fill(const Box& box, const FieldSource& source, const RunConte
     }
     const double least = std::ranges::min(cells.least);
     if (least == closed)
-        fail(ErrorKind::input,
-             "--mask: the density is 0 all over it; there is no place for a point");
+        fail(ErrorKind::input, "--mask: the density is 0 everywhere in it; no point can be placed");
     for (double& f : cells.least)
         if (f < closed) f = std::min(f, widest * least);
 }

@@ -254,9 +254,9 @@ void check_size(const BoxSpace& space, const RadiusField& field, double scale,
                 const RunContext& run) {
     constexpr double bytes = 300;  // per point
     const double radius = scale * field.least();
-    space.check_resolution(radius, "a least radius");
+    space.check_resolution(radius, "a minimum radius");
     const double points = expected_varied(field, scale);
-    const std::string what = fmt::format("a least radius of {}, with about {:.3g} points,",
+    const std::string what = fmt::format("a minimum radius of {}, with about {:.3g} points,",
                                          format_number(radius), points);
     run.need_memory(bytes * points, what);
     if (points >= 0x1p31)

@@ -115,8 +115,8 @@ void Exchanges::shuffle(SplitMix64& draws, std::size_t times, const RunContext& 
     const std::size_t all = times * design_.points * design_.dimension;
     if (const std::size_t wrong = make_feasible(draws, run); wrong > 0)
         fail(ErrorKind::limit,
-             "latin-hypercube: no design found that is feasible; {} of {} points "
-             "are not",
+             "latin-hypercube: no feasible design was found; {} of {} points violate the "
+             "constraints",
              wrong, design_.points);
     Exchange one{};
     constexpr std::size_t often = 4096;

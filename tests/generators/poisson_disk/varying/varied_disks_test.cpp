@@ -556,14 +556,14 @@ TEST(VariedDisks, RefusesContradictionsAndBadFiles) {
     EXPECT_EQ(refusal({{"density", zeros.path()}}).substr(0, 6), "input:");
     EXPECT_EQ(refusal({{"mask", zeros.path()}}).substr(0, 6), "input:");
     EXPECT_EQ(refusal({{"density", left.path()}, {"mask", right.path()}}),
-              "input: --mask: the density is 0 all over it; there is no place for a point");
+              "input: --mask: the density is 0 everywhere in it; no point can be placed");
     EXPECT_EQ(
         refusal({{"radius-map", none.path()}}),
         "input: " + none.path() + ": value 0 in row 0, column 1; expected finite lengths above 0");
     EXPECT_EQ(refusal({{"radius-map", nan.path()}}).substr(0, 6), "input:");
     EXPECT_EQ(refusal({{"radius-map", flat.path()}}).substr(0, 6), "input:");
     EXPECT_EQ(refusal({{"radius-map", picture.path()}}),
-              "input: " + picture.path() + ": not an NPY array, which lengths have to be in");
+              "input: " + picture.path() + ": not an NPY array; expected an NPY array of lengths");
     EXPECT_EQ(refusal({{"density", cut.path()}}).substr(0, 6), "input:");
     EXPECT_EQ(refusal({{"density", path + ".missing"}}).substr(0, 3), "io:");
     EXPECT_EQ(refusal({{"density", path}, {"radius", "1e-5"}}).substr(0, 6), "limit:");

@@ -185,7 +185,8 @@ TEST(LatinSearch, KeepsRowsFeasible) {
             found(Kind::maximin, random_design(5, 2, 1), 1000,
                   {.feasible = [](std::size_t, std::span<const Level> row) { return row[0] > 0; }});
         }),
-        "limit: latin-hypercube: no design found that is feasible; 1 of 5 points are not");
+        "limit: latin-hypercube: no feasible design was found; 1 of 5 points violate the "
+        "constraints");
 }
 
 // Eight points of two coordinates of two categories: each of the four cells is to hold two of them.
