@@ -179,7 +179,7 @@ TEST(Spectrum, WisdomIsWrittenAndRead) {
             {"analyze", "periodogram", "--generate", "random", "-n", "50", "--wisdom", "w.txt"});
     };
     if (!fft_library().starts_with("fftw"))
-        return expect_error(run(), 2, "--wisdom: w.txt is for FFTW, and this program has");
+        return expect_error(run(), 2, "--wisdom: w.txt is for FFTW; this program uses");
     const json first = report_of(run());
     EXPECT_THAT(box.read("w.txt"), HasSubstr("fftw"));
     const json second = report_of(run());
@@ -187,7 +187,7 @@ TEST(Spectrum, WisdomIsWrittenAndRead) {
         EXPECT_NEAR(first["results"]["radial"]["power"][i].get<double>(),
                     second["results"]["radial"]["power"][i].get<double>(), 1e-8);
     box.write("w.txt", "words");
-    expect_error(run(), 3, "w.txt: this is no wisdom of fftw");
+    expect_error(run(), 3, "w.txt: not a wisdom file of fftw");
 }
 
 TEST(Spectrum, RefusesWhatDoesNotGoTogether) {

@@ -208,14 +208,14 @@ std::string expectation(const mu::ParserError& error, const std::string& variabl
             return "expected more arguments";
         case mu::ecUNEXPECTED_ARG_SEP:
         case mu::ecUNEXPECTED_ARG:
-            return "expected one formula, with commas between arguments of a function only";
+            return "expected one formula; commas only separate arguments of a function";
         case mu::ecUNEXPECTED_VAL:
         case mu::ecUNEXPECTED_VAR:
         case mu::ecUNEXPECTED_FUN:
             return "expected an operator before it";
         case mu::ecUNEXPECTED_PARENS:
             if (error.GetToken() == "(") return "expected an operator before it";
-            return "expected a '(' for it, and something between";
+            return "expected a '(' before it, and a formula between them";
         case mu::ecUNEXPECTED_OPERATOR:
         case mu::ecUNEXPECTED_CONDITIONAL:
             return "expected a number, a variable, a function or '(' before it";
@@ -236,7 +236,7 @@ std::string expectation(const mu::ParserError& error, const std::string& variabl
                              mu::EErrorCodes code) {
     std::string_view wanted = "a number, a variable, a function or '('";
     if (code == mu::ecMISSING_PARENS) wanted = "')'";
-    if (code == mu::ecMISSING_ELSE_CLAUSE) wanted = "':' and what holds else";
+    if (code == mu::ecMISSING_ELSE_CLAUSE) wanted = "':' and the value otherwise";
     fail(ErrorKind::usage, "--{}: '{}': the formula ends at column {}, where {} was expected",
          option, text, column, wanted);
 }
@@ -270,7 +270,7 @@ std::string_view first_word(std::string_view rest) {
     }
     const std::string word(first_word(text.substr(at)));
     refuse(option, text, at + 1, word,
-           functions.contains(word) ? "expected '(' behind it" : expectation(error, variables));
+           functions.contains(word) ? "expected '(' after it" : expectation(error, variables));
 }
 
 /// Rejects characters with a special meaning, and a single =, which would assign to a variable.
@@ -330,8 +330,8 @@ void refuse_chains(std::string_view option, std::string_view text, std::string_v
                 return trim(text.substr(from, to - from));
             };
             refuse(option, text, i + 1, text.substr(i, size),
-                   fmt::format("one comparison is compared with another; write {} && {} {}",
-                               piece(begin, i), piece(operand, i), piece(i, part_end(marked, i))));
+                   fmt::format("comparisons cannot be chained; write {} && {} {}", piece(begin, i),
+                               piece(operand, i), piece(i, part_end(marked, i))));
         }
         i += size - 1;
         parts.back().operand = i + 1;
@@ -399,8 +399,7 @@ class NameReader {
     Word quoted(std::size_t begin) const {
         const std::size_t end = text_.find(text_[begin], begin + 1);
         if (end == text_.npos)
-            refuse(option_, text_, begin + 1, text_.substr(begin, 1),
-                   "expected another one behind");
+            refuse(option_, text_, begin + 1, text_.substr(begin, 1), "expected a closing quote");
         return {begin, end + 1, text_.substr(begin + 1, end - begin - 1), true};
     }
 
@@ -434,7 +433,7 @@ class NameReader {
             if (at != words.end()) by = std::to_string(at - words.begin());
         }
         if (by.empty()) {
-            if (!name) unknown(word, "a name, or a level beside == or !=", names_.names());
+            if (!name) unknown(word, "a name, or a level next to == or !=", names_.names());
             by = fmt::format("{}{}", quote_mark, *name);
             use(word.text, by);
         }
@@ -543,7 +542,7 @@ void Expression::parse(std::string_view option, std::string_view text, const std
         machine->parser.Eval();
         if (machine->parser.GetNumResults() > 1)
             refuse(option, text, text.rfind(',') + 1, ",",
-                   "expected one formula, with commas between arguments of a function only");
+                   "expected one formula; commas only separate arguments of a function");
     } catch (const mu::ParserError& error) {
         explain(option, text, error, told,
                 machine ? machine->parser.GetFunDef() : mu::funmap_type());

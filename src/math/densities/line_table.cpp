@@ -53,8 +53,8 @@ class LineTabulator {
             mass += pieces.back().f_low + pieces.back().f_high;
         }
         if (!(mass > 0))
-            fail(ErrorKind::usage, "{} is 0 wherever it was looked at from {} to {}", what_,
-                 range.low, range.high);
+            fail(ErrorKind::usage, "{} is 0 at all points tried from {} to {}", what_, range.low,
+                 range.high);
         return pieces;
     }
 
@@ -183,11 +183,12 @@ class LineTabulator {
     [[noreturn]] void refuse(const Sampled& piece, double tolerance) const {
         const double mean = mass_ / width_;
         if (std::ranges::max(piece.f) > 1e6 * mean)
-            fail(ErrorKind::usage, "{} has no bound near x = {}; a density is to be finite", what_,
+            fail(ErrorKind::usage, "{} has no bound near x = {}; a density must be finite", what_,
                  piece.at(0.5));
-        fail_with_hint(ErrorKind::limit, "name its jumps by --breaks, or ask for less",
-                       "{}: --tolerance {} is out of reach, {:.2g} was reached, worst near x = {}",
-                       what_, tolerance, error_ / mass_, piece.at(0.5));
+        fail_with_hint(
+            ErrorKind::limit, "give its jumps by --breaks, or raise --tolerance",
+            "{}: --tolerance {} cannot be reached; the error is {:.2g}, largest near x = {}", what_,
+            tolerance, error_ / mass_, piece.at(0.5));
     }
 
     /// True if f is 0 at a point in the piece, but not in all of it. If it is 0 at an end, a point
@@ -218,7 +219,7 @@ void require_density(const std::string& what, std::span<const double> place, dou
     if (value >= 0 && std::isfinite(value)) return;
     // The sign of a NaN has no meaning.
     const double shown = std::isnan(value) ? std::numeric_limits<double>::quiet_NaN() : value;
-    fail(ErrorKind::usage, "{} is {} at {}; a density is finite and not below 0", what, shown,
+    fail(ErrorKind::usage, "{} is {} at {}; a density must be finite and not below 0", what, shown,
          place_text(place));
 }
 

@@ -122,8 +122,7 @@ class StripTabulator {
             }
         }
         if (!(mass > 0))
-            fail(ErrorKind::usage, "{} is 0 wherever it was looked at in {}", what_,
-                 format_box(box_));
+            fail(ErrorKind::usage, "{} is 0 at all points tried in {}", what_, format_box(box_));
         return out;
     }
 
@@ -203,8 +202,8 @@ class StripTabulator {
             if (little) return;
             if (look == most_looks)
                 fail(ErrorKind::limit,
-                     "{} has features too narrow for a table: it is {:.4g} at {}, and nothing "
-                     "beside that place led to expect it",
+                     "{} has features too narrow for a table: it is {:.4g} at {}, which values "
+                     "nearby do not suggest",
                      what_, met[0].f, place_text(met[0].at));
         }
     }
@@ -455,9 +454,10 @@ class StripTabulator {
     }
 
     [[noreturn]] void refuse(const SampledStrip& strip) const {
-        fail_with_hint(ErrorKind::limit, "ask for less by --tolerance",
-                       "{}: --tolerance {} is out of reach, {:.2g} was reached, worst near x = {}",
-                       what_, tolerance_, error_ / mass_, strip.low);
+        fail_with_hint(
+            ErrorKind::limit, "raise --tolerance",
+            "{}: --tolerance {} cannot be reached; the error is {:.2g}, largest near x = {}", what_,
+            tolerance_, error_ / mass_, strip.low);
     }
 
     /// True if f is 0 somewhere inside the patch, but not in all of it.

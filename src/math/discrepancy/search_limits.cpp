@@ -72,17 +72,16 @@ Limits Limits::part(double of_work, double of_time, const RunContext& run) const
 void Limits::give_up(const SearchResult& found, const std::string& what,
                      const PointSet& points) const {
     const bool time = found.ending == Ending::time;
-    fail_with_hint(
-        ErrorKind::limit,
-        fmt::format("a larger {}, or fewer points, may give the exact value; --method "
-                    "bounds is content with bounds",
-                    time ? "--time-limit" : "--max-work"),
-        "{} of {} points in {} dimensions takes more than {}; certain so far: it is between "
-        "{} and {}",
-        what, points.count(), points.dimension(),
-        time ? fmt::format("{} seconds (--time-limit)", seconds_)
-             : fmt::format("{} comparisons (--max-work)", work_),
-        format_number(found.worst.value()), format_number(found.upper));
+    fail_with_hint(ErrorKind::limit,
+                   fmt::format("a larger {}, or fewer points, may give the exact value; --method "
+                               "bounds accepts bounds",
+                               time ? "--time-limit" : "--max-work"),
+                   "{} of {} points in {} dimensions takes more than {}; so far it is proven to be "
+                   "between {} and {}",
+                   what, points.count(), points.dimension(),
+                   time ? fmt::format("{} seconds (--time-limit)", seconds_)
+                        : fmt::format("{} comparisons (--max-work)", work_),
+                   format_number(found.worst.value()), format_number(found.upper));
 }
 
 void Limits::judge(const SearchResult& found, const std::string& what, const PointSet& points,

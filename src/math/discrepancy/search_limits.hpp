@@ -23,8 +23,8 @@ inline constexpr Param<Choice> method{
     .fallback = "auto",
     .choices = "auto|exact|bounds",
     .help =
-        "auto: exact, or where a limit comes first, certain bounds; exact: that, or an error; "
-        "bounds: certain bounds that meet within --tolerance"};
+        "auto: the exact value, or proven bounds if a limit is reached first; exact: the exact "
+        "value, or an error; bounds: proven bounds within --tolerance of each other"};
 
 inline constexpr Param<double> time_limit{
     .name = "time-limit",
@@ -33,16 +33,15 @@ inline constexpr Param<double> time_limit{
     .optional = true,
     .unit = "seconds",
     .help =
-        "Stop after this time, in place of --max-work; what bounds it gives depends on the "
-        "machine and its load. The sorting of millions of points is not cut short"};
+        "Stop after this time, instead of --max-work; the bounds then depend on the machine and "
+        "its load. Sorting millions of points is not interrupted"};
 
-inline constexpr Param<double> tolerance{
-    .name = "tolerance",
-    .low = 0,
-    .optional = true,
-    .help =
-        "Enough if upper - lower is at most this, relative to lower [default: 0.1 for bounds, "
-        "else 0]"};
+inline constexpr Param<double> tolerance{.name = "tolerance",
+                                         .low = 0,
+                                         .optional = true,
+                                         .help =
+                                             "Stop when upper - lower is at most this, relative to "
+                                             "lower [default: 0.1 for bounds, else 0]"};
 
 inline constexpr Param<std::int64_t> max_work{
     .name = "max-work",
@@ -50,8 +49,8 @@ inline constexpr Param<std::int64_t> max_work{
     .low = 1,
     .unit = "comparisons",
     .help =
-        "Stop when a search, where no sweep gives the value, has compared this many coordinates, "
-        "the same on any machine; 10^9 take one to four seconds on one core"};
+        "Stop a search after comparing this many coordinates, with the same result on any machine "
+        "(sweeps are not limited); 10^9 take one to four seconds on one core"};
 
 }  // namespace limit
 

@@ -66,10 +66,10 @@ MarginalPtr lognormal_of(const ParameterValues& p) {
     if (mean || deviation) {
         if (p.find("mu") || p.find("sigma"))
             fail(ErrorKind::usage,
-                 "{}mean: {}mu or {}sigma is given, too; give mu and sigma, or mean and deviation",
+                 "{}mean: {}mu or {}sigma is also given; give mu and sigma, or mean and deviation",
                  p.where, p.where, p.where);
         if (!mean || !deviation)
-            fail(ErrorKind::usage, "{}{}: {}{} is needed, too", p.where,
+            fail(ErrorKind::usage, "{}{}: {}{} is needed as well", p.where,
                  mean ? "mean" : "deviation", p.where, mean ? "deviation" : "mean");
         const double square = log_1p((*deviation / *mean) * (*deviation / *mean));
         sigma = std::sqrt(square);
@@ -77,9 +77,8 @@ MarginalPtr lognormal_of(const ParameterValues& p) {
     }
     if (!(std::abs(mu) + 38 * sigma <= 650 && sigma >= 1e-9))
         fail(ErrorKind::usage,
-             "{}sigma: with mu = {:.6g} and sigma = {:.6g} there are numbers too small or too "
-             "large; "
-             "sigma of at least 1e-9, and |mu| + 38 sigma of at most 650 are allowed",
+             "{}sigma: mu = {:.6g} and sigma = {:.6g} give numbers that are too small or too "
+             "large; expected sigma of at least 1e-9 and |mu| + 38 sigma of at most 650",
              p.where, mu, sigma);
     return lognormal_law(mu, sigma);
 }
@@ -111,7 +110,7 @@ std::vector<MarginalFamily> all_families() {
         {"binomial",
          {whole(1, 1e8, number("trials", 10, "Number of trials, up to 1e8")),
           within(1e-12, 1 - 1e-12,
-                 number("probability", 0.5, "Probability of success of each, between 0 and 1"))},
+                 number("probability", 0.5, "Success probability of each trial, between 0 and 1"))},
          [](const auto& p) { return binomial_law(p["trials"], p["probability"]); }},
         {"exponential",
          {within(1e-150, 1e150, number("rate", 1, "Rate lambda, 1 / mean, above 0"))},
@@ -121,7 +120,7 @@ std::vector<MarginalFamily> all_families() {
           scale("scale", 1, "Scale theta, above 0: the mean is k theta")},
          [](const auto& p) { return gamma_law(p["shape"], p["scale"]); }},
         {"gumbel",
-         {location("Where the density is highest"), scale("scale", 1, "Scale, above 0")},
+         {location("Position of the highest density"), scale("scale", 1, "Scale, above 0")},
          [](const auto& p) { return gumbel_law(p["location"], p["scale"]); }},
         {"integers",
          {whole(-most_whole, most_whole, number("low", 1, "The smallest number")),
@@ -138,11 +137,11 @@ std::vector<MarginalFamily> all_families() {
            .fallback = {},
            .low = 0},
           {.name = "mean",
-           .help = "In place of mu and sigma: mean of the number itself, above 0",
+           .help = "Instead of mu and sigma: mean of the number itself, above 0",
            .fallback = {},
            .low = 1e-150},
           {.name = "deviation",
-           .help = "With it: standard deviation of the number itself, above 0",
+           .help = "With mean: standard deviation of the number itself, above 0",
            .fallback = {},
            .low = 1e-150}},
          lognormal_of},
@@ -158,12 +157,12 @@ std::vector<MarginalFamily> all_families() {
           location("Middle"), scale("scale", 1, "Scale, above 0")},
          [](const auto& p) { return student_t_law(p["degrees"], p["location"], p["scale"]); }},
         {"triangular",
-         {low, number("mode", 0.5, "Where the density is highest, from low to high"), high},
+         {low, number("mode", 0.5, "Position of the highest density, from low to high"), high},
          triangular_of},
         {"uniform", {low, high}, uniform_of},
         {"weibull",
          {within(0.05, 1e3, number("shape", 2, "Shape k, in [0.05, 1000]")),
-          scale("scale", 1, "Scale, above 0: 1 - 1/e of all is below it")},
+          scale("scale", 1, "Scale, above 0: the quantile at 1 - 1/e")},
          [](const auto& p) { return weibull_law(p["shape"], p["scale"]); }},
     };
 }
@@ -231,9 +230,8 @@ MarginalPtr measured_law(std::vector<double> numbers, bool linear, ErrorKind kin
     std::ranges::sort(numbers);
     const auto twice = std::ranges::adjacent_find(numbers);
     if (twice != numbers.end())
-        fail_with_hint(kind, "steps take them",
-                       "{}: {} stands twice; linear needs numbers of which no two are the same",
-                       where, *twice);
+        fail_with_hint(kind, "steps accept repeated numbers",
+                       "{}: {} occurs twice; linear needs different numbers", where, *twice);
     if (numbers.size() < 2) fail(kind, "{}: 1 number; linear needs 2 or more", where);
     return interpolated_law(std::move(numbers));
 }

@@ -121,23 +121,22 @@ MarginalPtr truncated(MarginalPtr law, double low, double high, std::string_view
         MarginalPtr part = discrete->between(low, high);
         if (!part)
             fail(ErrorKind::usage,
-                 "{}low: {} has no outcome of a probability above 1e-290 from {} "
-                 "to {}",
-                 where, law->name(), low, high);
+                 "{}low: {} has no outcome with a probability above 1e-290 from {} to {}", where,
+                 law->name(), low, high);
         return part;
     }
     auto part = std::make_shared<const Truncated>(law, low, high);
     const auto [from, to] = part->support();
     if (!(from < to && part->mass() > 1e-290))
         fail(ErrorKind::usage,
-             "{}low: {} has the probability {:.3g} from {} to {}; above 1e-290 is needed", where,
+             "{}low: {} has the probability {:.3g} from {} to {}; expected above 1e-290", where,
              law->name(), from < to ? part->mass() : 0.0, low, high);
     const double beside =
         std::min(law->probability(from, Tail::upper), law->probability(to, Tail::lower));
     if (part->mass() < 1e-6 * beside)
         fail(ErrorKind::usage,
-             "{}low: of the probability of {} beyond it, less than 1e-6 is from {} to {}: too "
-             "narrow for its digits",
+             "{}low: less than 1e-6 of the probability of {} beyond it is from {} to {}; the range "
+             "is too narrow for float64",
              where, law->name(), low, high);
     return part;
 }

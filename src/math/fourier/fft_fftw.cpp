@@ -107,8 +107,8 @@ void read_wisdom(const std::string& path) {
     const std::string text = read_file(path);
     const std::lock_guard lock(planner());
     if (fftw_import_wisdom_from_string(text.c_str()) == 0)
-        fail_with_hint(ErrorKind::input, "it is written anew where it is not there",
-                       "{}: this is no wisdom of {}", path, fftw_version);
+        fail_with_hint(ErrorKind::input, "if there is no such file, a new one is written",
+                       "{}: not a wisdom file of {}", path, fftw_version);
 }
 
 std::string wisdom_text() {

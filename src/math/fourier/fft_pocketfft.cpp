@@ -97,9 +97,7 @@ std::string_view fft_licence() { return "so is this program, with pocketfft in i
 
 void read_wisdom(const std::string& path) {
     fail(ErrorKind::usage,
-         "--wisdom: {} is for FFTW, and this program has pocketfft in its place, which learns "
-         "nothing",
-         path);
+         "--wisdom: {} is for FFTW; this program uses pocketfft, which has no wisdom", path);
 }
 
 std::string wisdom_text() { return {}; }

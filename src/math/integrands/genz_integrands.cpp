@@ -46,7 +46,7 @@ namespace stipple {
 namespace {
 
 constexpr Param<std::int64_t> peak_seed{
-    .name = "seed", .fallback = 1, .low = 0, .help = "Draws where it peaks and how steeply"};
+    .name = "seed", .fallback = 1, .low = 0, .help = "Seed of its random position and steepness"};
 
 Param<double> difficulty(double fallback) {
     return {.name = "difficulty",
@@ -209,8 +209,8 @@ IntegrandKind family(std::string name, std::string summary, std::uint64_t number
 std::vector<IntegrandKind> genz_integrands() {
     return {
         family("oscillatory", "cosine of a sum", 0, 9, 10'000, oscillatory),
-        family("product-peak", "a peak on each axis, multiplied", 1, 7.25, 100, product_peak),
-        family("corner-peak", "a peak in the corner 0", 2, 1.85, 100, corner_peak),
+        family("product-peak", "a product of a peak on each axis", 1, 7.25, 100, product_peak),
+        family("corner-peak", "a peak at the origin", 2, 1.85, 100, corner_peak),
         family("gaussian", "a Gaussian peak", 3, 7.03, 10'000, gaussian),
         family("continuous", "a peak with kinks", 4, 20.4, 10'000, continuous),
         family("discontinuous", "an exponential, cut off on two axes", 5, 4.3, 10'000,

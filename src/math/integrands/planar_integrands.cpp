@@ -28,7 +28,7 @@ namespace stipple {
 namespace {
 
 constexpr Param<std::int64_t> placing_seed{
-    .name = "seed", .fallback = 1, .low = 0, .help = "Draws where things stand"};
+    .name = "seed", .fallback = 1, .low = 0, .help = "Seed of the random geometry"};
 
 DrawStream draws(const Values& values, std::uint64_t what) {
     constexpr std::uint64_t stream = 0x706c616e6500;  // "plane"
@@ -141,7 +141,7 @@ IntegrandKind planar(std::string name, std::string summary,
 std::vector<IntegrandKind> planar_integrands() {
     return {planar("disk-indicator", "1 in a disk, 0 outside", disk),
             planar("half-plane-indicator", "1 on one side of a line", half_plane),
-            planar("soft-shadow", "1 where a light is seen past a card", soft_shadow)};
+            planar("soft-shadow", "1 where a light is visible past a card", soft_shadow)};
 }
 
 }  // namespace stipple

@@ -95,11 +95,12 @@ Integrand zone_plate(std::size_t, const Values& values) {
 
 // ---------------------------------------------------------------- Owen
 
-constexpr Param<std::int64_t> order{.name = "order",
-                                    .fallback = 2,
-                                    .low = 1,
-                                    .high = 10,
-                                    .help = "Coordinates that interact; at most the dimension"};
+constexpr Param<std::int64_t> order{
+    .name = "order",
+    .fallback = 2,
+    .low = 1,
+    .high = 10,
+    .help = "Number of coordinates that interact, at most the dimension"};
 
 Integrand owen(std::size_t dimension, const Values& values) {
     const auto k = static_cast<std::size_t>(std::min<std::int64_t>(
@@ -119,10 +120,9 @@ Integrand owen(std::size_t dimension, const Values& values) {
 
 // ---------------------------------------------------------------- Sobol' g
 
-constexpr Param<Numbers> a{
-    {.name = "a",
-     .help =
-         "Unimportance of each coordinate, 0 or more, or one number for all; default 0,1,2,..."}};
+constexpr Param<Numbers> a{{.name = "a",
+                            .help = "Number a of each coordinate, 0 or more, or one for all; a "
+                                    "larger one makes it less important; default: 0,1,2,..."}};
 
 Integrand sobol_g(std::size_t dimension, const Values& values) {
     std::vector<double> given = values[a];
@@ -130,8 +130,8 @@ Integrand sobol_g(std::size_t dimension, const Values& values) {
         if (!(x >= 0)) fail(ErrorKind::usage, "--integrand: sobol-g: --a: {} is below 0", x);
     if (given.size() > 1 && given.size() != dimension)
         fail(ErrorKind::usage,
-             "--integrand: sobol-g: --a: {} numbers for {} coordinate{}; one for all, or one for "
-             "each",
+             "--integrand: sobol-g: --a: {} numbers for {} coordinate{}; give one for all, or one "
+             "for each",
              given.size(), dimension, dimension == 1 ? "" : "s");
     const bool rising = given.empty();
     for (std::size_t j = given.size(); j < dimension; ++j)
@@ -170,7 +170,7 @@ std::vector<IntegrandKind> smooth_integrands() {
              .options = Schema(phase),
              .make = zone_plate},
             {.name = "owen",
-             .summary = "interactions of a given number of coordinates alone",
+             .summary = "only interactions of a given number of coordinates",
              .options = Schema(order),
              .make = owen},
             {.name = "sobol-g",
@@ -178,7 +178,7 @@ std::vector<IntegrandKind> smooth_integrands() {
              .options = Schema(a),
              .make = sobol_g},
             {.name = "sky-radiance",
-             .summary = "light from an overcast sky on a level plane",
+             .summary = "light from an overcast sky on a horizontal plane",
              .region = Region::hemisphere,
              .min_dimension = 3,
              .max_dimension = 3,

@@ -78,14 +78,14 @@ std::vector<Kind> parse_kinds(std::string_view words) {
         }
         if (trim(word) != "all")
             fail_with_hint(ErrorKind::usage, suggest(trim(word), names),
-                           "--kind: '{}' is no kind of L2 discrepancy", trim(word));
+                           "--kind: '{}' is not a kind of L2 discrepancy", trim(word));
         wanted.assign(names.size(), true);
     }
     std::vector<Kind> kinds;
     for (const Kind kind : all_kinds)
         if (wanted[static_cast<std::size_t>(kind)]) kinds.push_back(kind);
     if (kinds.empty())
-        fail(ErrorKind::usage, "--kind: is empty; it takes all, {}", join(names, ", "));
+        fail(ErrorKind::usage, "--kind: is empty; expected all, {}", join(names, ", "));
     return kinds;
 }
 

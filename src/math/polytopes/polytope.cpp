@@ -145,13 +145,13 @@ Polytope::Polytope(Box box, const std::vector<HalfSpace>& cuts)
         moments_.covariance[k * d + k] = extent * extent / 12;
     }
     if (!(volume_ > 1e-300 && volume_ < 1e300))
-        fail(ErrorKind::usage, "the volume is {:.3g}; in [1e-300, 1e+300] it is needed", volume_);
+        fail(ErrorKind::usage, "the volume is {:.3g}; expected one in [1e-300, 1e+300]", volume_);
 }
 
 void Polytope::add_group(const std::vector<std::size_t>& coordinates,
                          const std::vector<HalfSpace>& cuts) {
     if (coordinates.size() > most_polytope_dimensions)
-        fail(ErrorKind::limit, "inequalities join {} coordinates; at most {} are taken",
+        fail(ErrorKind::limit, "inequalities join {} coordinates; at most {} are possible",
              coordinates.size(), most_polytope_dimensions);
     std::vector<HalfSpace> own;
     for (const HalfSpace& cut : cuts) {
@@ -223,9 +223,9 @@ bool Polytope::contains(std::span<const double> point) const {
 
 std::string Polytope::cube_axis(std::size_t k) const {
     for (const Group& group : groups_) {
-        if (group.coordinates[0] == k) return "share of the volume before";
+        if (group.coordinates[0] == k) return "fraction of the volume before";
         if (std::ranges::find(group.coordinates, k) != group.coordinates.end())
-            return fmt::format("place in the simplex, x{}", k + 1);
+            return fmt::format("position in the simplex, x{}", k + 1);
     }
     return fmt::format("x{}", k + 1);
 }

@@ -90,10 +90,10 @@ class DoubleDescription {
         if (most < -on_plane) {
             check_flat();
             fail(ErrorKind::usage, "no point in the ranges satisfies '{}'{}", half.text,
-                 planes_.size() > 2 * d_ ? " and those before it" : "");
+                 planes_.size() > 2 * d_ ? " and the inequalities before it" : "");
         }
         if (planes_.size() == most_polytope_planes)
-            fail(ErrorKind::limit, "more than {} inequalities cut something off",
+            fail(ErrorKind::limit, "more than {} inequalities exclude part of the ranges",
                  most_polytope_planes - 2 * d_);
         planes_.push_back(cut);
         keep(slack);
@@ -164,7 +164,7 @@ class DoubleDescription {
             ++k;
         comparisons_ += k;
         if (comparisons_ > most_comparisons)
-            fail(ErrorKind::limit, "the polytope has {} vertices or more, with too many edges",
+            fail(ErrorKind::limit, "the polytope has at least {} vertices and too many edges",
                  vertices_.size());
         return k == vertices_.size();
     }

@@ -96,7 +96,7 @@ Estimate FormulaBox::integral() const {
                      what, format_box(box_), integral_.value, mean.value);
         }
         if (!(integral_.value > 0))
-            fail(ErrorKind::usage, "{} is 0 at all points evaluated in {}", what, format_box(box_));
+            fail(ErrorKind::usage, "{} is 0 at all points tried in {}", what, format_box(box_));
     });
     return integral_;
 }

@@ -821,8 +821,9 @@ TEST(L2Discrepancy, RefusesWrongOptionsAndSaysWhy) {
     const auto error = [&](const Settings& settings) {
         return error_of([&] { analyze("l2-discrepancy", set, settings); });
     };
-    EXPECT_EQ(error({{"kind", "star,centred"}}),
-              "usage: --kind: 'centred' is no kind of L2 discrepancy | did you mean 'centered'?");
+    EXPECT_EQ(
+        error({{"kind", "star,centred"}}),
+        "usage: --kind: 'centred' is not a kind of L2 discrepancy | did you mean 'centered'?");
     EXPECT_TRUE(error({{"kind", ""}}).starts_with("usage: --kind: "));
     EXPECT_EQ(error({{"weights", "1,2"}}),
               "usage: --weights: 2 numbers for points of 3 coordinates; expected one for each");

@@ -354,13 +354,13 @@ TEST(Integration, RefusesWhatItCannotIntegrateInOneLine) {
     EXPECT_EQ(refusal(square, "owen:ordr=1"),
               "usage: --integrand: owen: unknown option 'ordr' | did you mean 'order'?");
     EXPECT_EQ(refusal(square, "sobol-g:a=[1"),
-              "usage: --integrand, column 11: this '[' is not closed");
+              "usage: --integrand, column 11: this '[' has no ']'");
     EXPECT_EQ(refusal(square, "owen@2"),
               "usage: --integrand: 'owen@2': coordinates after @ are for warps only");
     EXPECT_EQ(refusal(square, "sobol-g:a=-1"), "usage: --integrand: sobol-g: --a: -1 is below 0");
     EXPECT_EQ(refusal(square, "sobol-g:a=[0,1,2]"),
-              "usage: --integrand: sobol-g: --a: 3 numbers for 2 coordinates; one for all, or one "
-              "for each");
+              "usage: --integrand: sobol-g: --a: 3 numbers for 2 coordinates; give one for all, or "
+              "one for each");
     EXPECT_EQ(refusal(square, "sky-radiance"),
               "input: --integrand: sky-radiance requires points of a hemisphere; the domain is "
               "unit-cube");

@@ -130,7 +130,7 @@ TEST(Expression, SaysWhereItEndsTooEarly) {
         {"sin(x", 6, "')'"},  {"2*x+", 5, value},
         {"x ^ ", 4, value},   {"x &&", 5, value},
         {"-", 2, value},      {"sin(", 5, value},
-        {"max(x,", 7, value}, {"x ? 1", 6, "':' and what holds else"}};
+        {"max(x,", 7, value}, {"x ? 1", 6, "':' and the value otherwise"}};
     for (const auto& [text, column, wanted] : cases)
         EXPECT_EQ(refused(text),
                   fmt::format("usage: --density: '{}': the formula ends at column {}, where {} was "
@@ -146,13 +146,12 @@ TEST(Expression, SaysAtWhichColumnWhatIsExpected) {
         {"foo(x)",
          "column 1: 'foo': expected a number, an operator, x, y, pi, e or a function "
          "such as exp"},
-        {"sin(x))", "column 7: ')': expected a '(' for it, and something between"},
+        {"sin(x))", "column 7: ')': expected a '(' before it, and a formula between them"},
         {"x y", "column 3: 'y': expected an operator before it"},
         {"2x", "column 2: 'x': expected an operator before it"},
         {"", "column 1: expected a formula"},
         {"x,y",
-         "column 2: ',': expected one formula, with commas between arguments of a function "
-         "only"},
+         "column 2: ',': expected one formula; commas only separate arguments of a function"},
         {"pow(x)", "column 6: 'pow': expected more arguments"},
         {"pow(x,y,x)", "column 10: 'pow': expected fewer arguments"},
         {"x = 3", "column 3: '=': expected == to compare"},
@@ -162,7 +161,7 @@ TEST(Expression, SaysAtWhichColumnWhatIsExpected) {
         {"x \u00d7 y",
          "column 3: '\u00d7': expected a number, an operator, x, y, pi, e or a function such as "
          "exp"},
-        {"sin x", "column 1: 'sin': expected '(' behind it"},
+        {"sin x", "column 1: 'sin': expected '(' after it"},
         {"x~y", "column 2: '~': expected a number, a variable or an operator"}};
     for (const auto& [text, message] : cases)
         EXPECT_EQ(refused(text), "usage: --density: '" + text + "', " + message);
@@ -174,15 +173,13 @@ TEST(Expression, SaysAtWhichColumnWhatIsExpected) {
 // Which would be compared with 0 or 1.
 TEST(Expression, RefusesChainsOfComparisons) {
     const std::vector<std::pair<std::string, std::string>> cases = {
-        {"0.2 < x < 0.5",
-         "column 9: '<': one comparison is compared with another; write 0.2 < x && x < 0.5"},
+        {"0.2 < x < 0.5", "column 9: '<': comparisons cannot be chained; write 0.2 < x && x < 0.5"},
         {"(x + 1 >= 2*y >= 3) ? 1 : 2",
-         "column 15: '>=': one comparison is compared with another; write x + 1 >= 2*y && 2*y >= "
-         "3"},
+         "column 15: '>=': comparisons cannot be chained; write x + 1 >= 2*y && 2*y >= 3"},
         {"x == y == 1 && y > 0",
-         "column 8: '==': one comparison is compared with another; write x == y && y == 1"},
+         "column 8: '==': comparisons cannot be chained; write x == y && y == 1"},
         {"max(x, x < y <= (1 + 1))",
-         "column 14: '<=': one comparison is compared with another; write x < y && y <= (1 + 1)"}};
+         "column 14: '<=': comparisons cannot be chained; write x < y && y <= (1 + 1)"}};
     for (const auto& [text, message] : cases)
         EXPECT_EQ(refused(text), "usage: --density: '" + text + "', " + message);
     EXPECT_EQ(value("(x < y) < 2"), 1);  // which is meant
@@ -228,10 +225,10 @@ TEST(Expression, SaysWhichNamesAndWordsThereAre) {
               "usage: --: 'material == 'stele'', column 13: 'stele': expected a level of material "
               "| did you mean 'steel'?");
     EXPECT_EQ(named_error("load < 'steel'"),
-              "usage: --: 'load < 'steel'', column 8: 'steel': expected a name, or a level beside "
+              "usage: --: 'load < 'steel'', column 8: 'steel': expected a name, or a level next to "
               "== or != | known: cross section, material, load, log");
     EXPECT_EQ(named_error("load < \"steel"),
-              "usage: --: 'load < \"steel', column 8: '\"': expected another one behind");
+              "usage: --: 'load < \"steel', column 8: '\"': expected a closing quote");
     EXPECT_EQ(named_error("load 'cross section'"),
               "usage: --: 'load 'cross section'', column 6: ''cross section'': expected an "
               "operator before it");

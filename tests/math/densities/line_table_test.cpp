@@ -113,13 +113,12 @@ TEST(TabulateLine, RefusesWhatIsNoDensityAndSaysWhere) {
         return error_of([&] { tabulated(f); });
     };
     EXPECT_EQ(refused([](double x) { return 1 / x; }),
-              "usage: f is inf at x = 0; a density is finite and not below 0");
+              "usage: f is inf at x = 0; a density must be finite and not below 0");
     EXPECT_EQ(refused([](double x) { return std::sqrt(x - 1) + 1; }).substr(0, 20),
               "usage: f is nan at x");
     EXPECT_EQ(refused([](double x) { return x - 1; }),
-              "usage: f is -1 at x = 0; a density is finite and not below 0");
-    EXPECT_EQ(refused([](double) { return 0; }),
-              "usage: f is 0 wherever it was looked at from 0 to 1");
+              "usage: f is -1 at x = 0; a density must be finite and not below 0");
+    EXPECT_EQ(refused([](double) { return 0; }), "usage: f is 0 at all points tried from 0 to 1");
     EXPECT_NE(refused([](double x) { return 1 / std::abs(x - 1 / 3.0); }).find("0.333333333"),
               std::string::npos);
 }

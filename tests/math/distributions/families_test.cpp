@@ -59,13 +59,14 @@ TEST(MarginalFamilies, SayWhatIsWrong) {
     EXPECT_EQ(refusal("binomial", {{"trials", 2.5}}),
               "usage: x2.trials: 2.5 is not a whole number");
     EXPECT_EQ(refusal("integers", {{"low", 7}}), "usage: x2.low: 7 is above x2.high, 6");
-    EXPECT_EQ(refusal("lognormal", {{"mean", 2}}), "usage: x2.mean: x2.deviation is needed, too");
+    EXPECT_EQ(refusal("lognormal", {{"mean", 2}}),
+              "usage: x2.mean: x2.deviation is needed as well");
     EXPECT_EQ(refusal("lognormal", {{"mean", 2}, {"deviation", 1}, {"mu", 0}}),
-              "usage: x2.mean: x2.mu or x2.sigma is given, too; give mu and sigma, or mean and "
+              "usage: x2.mean: x2.mu or x2.sigma is also given; give mu and sigma, or mean and "
               "deviation");
     EXPECT_EQ(refusal("lognormal", {{"sigma", 100}}),
-              "usage: x2.sigma: with mu = 0 and sigma = 100 there are numbers too small or too "
-              "large; sigma of at least 1e-9, and |mu| + 38 sigma of at most 650 are allowed");
+              "usage: x2.sigma: mu = 0 and sigma = 100 give numbers that are too small or too "
+              "large; expected sigma of at least 1e-9 and |mu| + 38 sigma of at most 650");
 }
 
 }  // namespace stipple::testing::families_test

@@ -132,14 +132,15 @@ TEST(Truncated, RefusesWhatCannotBeDividedBy) {
     };
     EXPECT_EQ(error(normal_law(0, 1), 2, 1), "usage: --low: 2 is not below --high, 1");
     EXPECT_EQ(error(normal_law(0, 1), 40, 50),
-              "usage: --low: normal has the probability 0 from 40 to 50; above 1e-290 is needed");
+              "usage: --low: normal has the probability 0 from 40 to 50; expected above 1e-290");
     EXPECT_EQ(error(uniform_law(0, 1), 3, 4),
-              "usage: --low: uniform has the probability 0 from 3 to 4; above 1e-290 is needed");
+              "usage: --low: uniform has the probability 0 from 3 to 4; expected above 1e-290");
     EXPECT_EQ(error(normal_law(0, 1), 0, 1e-8),
-              "usage: --low: of the probability of normal beyond it, less than 1e-6 is from 0 to "
-              "1e-08: too narrow for its digits");
-    EXPECT_EQ(error(poisson_law(3), 0.2, 0.8),
-              "usage: --low: poisson has no outcome of a probability above 1e-290 from 0.2 to 0.8");
+              "usage: --low: less than 1e-6 of the probability of normal beyond it is from 0 to "
+              "1e-08; the range is too narrow for float64");
+    EXPECT_EQ(
+        error(poisson_law(3), 0.2, 0.8),
+        "usage: --low: poisson has no outcome with a probability above 1e-290 from 0.2 to 0.8");
 }
 
 }  // namespace stipple::testing::truncated_test

@@ -377,7 +377,7 @@ TEST(Nufft, WisdomIsWrittenAndReadBack) {
         FAIL() << "took words for wisdom";
     } catch (const Error& e) {
         EXPECT_EQ(e.kind(), ErrorKind::input);
-        EXPECT_NE(std::string(e.what()).find("this is no wisdom of fftw"), std::string::npos);
+        EXPECT_NE(std::string(e.what()).find("not a wisdom file of fftw"), std::string::npos);
     }
     EXPECT_THROW(read_wisdom("/"), Error);
 }

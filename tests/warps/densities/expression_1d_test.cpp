@@ -108,11 +108,11 @@ TEST(Expression1d, RefusesBadOptions) {
               "usage: --density: 'y', column 1: 'y': expected a number, an operator, x, pi, e or a "
               "function such as exp");
     EXPECT_EQ(error_of([] { mapping("expression-1d:density=x-1"); }),
-              "usage: --density: x-1 is -1 at x = 0; a density is finite and not below 0");
+              "usage: --density: x-1 is -1 at x = 0; a density must be finite and not below 0");
     EXPECT_EQ(error_of([] { mapping("expression-1d:density=1/x"); }),
-              "usage: --density: 1/x is inf at x = 0; a density is finite and not below 0");
+              "usage: --density: 1/x is inf at x = 0; a density must be finite and not below 0");
     EXPECT_EQ(error_of([] { mapping("expression-1d:density=0*x"); }),
-              "usage: --density: 0*x is 0 wherever it was looked at from 0 to 1");
+              "usage: --density: 0*x is 0 at all points tried from 0 to 1");
     EXPECT_EQ(error_of([] { mapping("expression-1d:density=x,range=[1,0]"); }),
               "usage: --range: '1,0' is not a,b with a < b");
     EXPECT_EQ(error_of([] { mapping("expression-1d:density=x,breaks=2"); }),

@@ -235,7 +235,7 @@ TEST(Expression2d, RefusesBadOptions) {
     EXPECT_EQ(error_of([] { mapping("expression-2d"); }),
               "usage: --density: no formula given; expected one in x and y, such as 'x + y'");
     EXPECT_EQ(error_of([] { mapping("expression-2d:density=0"); }),
-              "usage: --density: 0 is 0 at all points evaluated in 0..1,0..1");
+              "usage: --density: 0 is 0 at all points tried in 0..1,0..1");
     EXPECT_NE(error_of([] { mapping("expression-2d:density=x-0.5"); }).find("is -0."),
               std::string::npos);
     EXPECT_NE(error_of([] { mapping("expression-2d:density=1/(x*y)"); }).find("is inf at (0"),

@@ -79,7 +79,7 @@ TEST(Rejection, RefusesBadOptionsAndHasNoWayBack) {
         error_of([&] {
             mapping("rejection:density=x-1")->forward(std::vector{0.0, 0.0, 0.0}, image, keep);
         }),
-        "usage: --density: x-1 is -1 at (0, 0); a density is finite and not below 0");
+        "usage: --density: x-1 is -1 at (0, 0); a density must be finite and not below 0");
     EXPECT_NE(error_of([] { inverse_of(*mapping("rejection:density=x"), {0, 0}); }), "");
 }
 

@@ -35,8 +35,7 @@ TEST(EmpiricalWarp, ColumnsOfAFile) {
     EXPECT_EQ(
         refusal(of + ",file-columns=a,interpolation=linear"),
         "input: " + file.path() +
-            ": 2 stands twice; linear needs numbers of which no two are the same | steps take "
-            "them");
+            ": 2 occurs twice; linear needs different numbers | steps accept repeated numbers");
 }
 
 TEST(EmpiricalWarp, StrataGiveEachNumberAsOftenAsItStandsThere) {

@@ -39,10 +39,10 @@ TEST(LognormalWarp, BothWaysAndDensity) {
 }
 
 TEST(LognormalWarp, RefusesHalfAPair) {
-    EXPECT_EQ(refusal("lognormal:mean=2"), "usage: --mean: --deviation is needed, too");
-    EXPECT_EQ(refusal("lognormal:mean=2,deviation=1,sigma=1"),
-              "usage: --mean: --mu or --sigma is given, too; give mu and sigma, or mean and "
-              "deviation");
+    EXPECT_EQ(refusal("lognormal:mean=2"), "usage: --mean: --deviation is needed as well");
+    EXPECT_EQ(
+        refusal("lognormal:mean=2,deviation=1,sigma=1"),
+        "usage: --mean: --mu or --sigma is also given; give mu and sigma, or mean and deviation");
 }
 
 }  // namespace stipple::testing::lognormal_test

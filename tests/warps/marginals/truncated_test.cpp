@@ -52,7 +52,7 @@ TEST(TruncatedWarp, RefusesWhatIsNoPartOfADistribution) {
               "usage: --low: neither --low nor --high is given; expected one or both");
     EXPECT_EQ(refusal("truncated:low=3,high=1"), "usage: --low: 3 is not below --high, 1");
     EXPECT_EQ(refusal("truncated:low=45"),
-              "usage: --low: normal has the probability 0 from 45 to inf; above 1e-290 is needed");
+              "usage: --low: normal has the probability 0 from 45 to inf; expected above 1e-290");
     EXPECT_EQ(refusal("truncated:of=sphere,low=0").substr(0, 42),
               "usage: there is no distribution 'sphere' |");
     EXPECT_EQ(refusal("truncated:of=[gamma:shape=0],low=0"),

@@ -392,7 +392,7 @@ TEST(Parameters, SayWhatIsWrongAndWhere) {
     const Wrong cases[] = {
         {"{", "t.json:1:2: not JSON"},
         {R"({"parameters":[{"name":"a","name":"b","range":[0,1]}]})",
-         "t.json: $.parameters.name: the key stands twice"},
+         "t.json: $.parameters.name: the key occurs twice"},
         {"[]", "t.json: $: expected an object"},
         {R"({"parameter":[]})", "$: the key 'parameter' is not known"},
         {R"({"parameters":[]})", "$.parameters: expected a list"},
@@ -415,8 +415,8 @@ TEST(Parameters, SayWhatIsWrongAndWhere) {
          "$.parameters[0].name: 'e' is a constant in formulas, which the name would hide"},
         {R"({"parameters":[{"name":"pi","range":[0,1]}]})", "'pi' is a constant in formulas"},
         {R"({"parameters":[{"name":"a","range":[0,1]}],"constraints":["0.2<a<0.5"]})",
-         "$.constraints[0]: '0.2<a<0.5', column 6: '<': one comparison is compared with another; "
-         "write 0.2<a && a <0.5"},
+         "$.constraints[0]: '0.2<a<0.5', column 6: '<': comparisons cannot be chained; write 0.2<a "
+         "&& a <0.5"},
         {R"({"parameters":[{"name":"m","levels":["x","y"]}],"constraints":["m=='z'"]})",
          "$.constraints[0]: 'm=='z'', column 4: 'z': expected a level of m"},
         {R"({"parameters":[{"name":"a","distribution":"norml"}]})",
@@ -451,7 +451,7 @@ TEST(Parameters, SayWhatIsWrongAndWhere) {
         {R"({"parameters":[{"name":"a","values":[1,"2"]}]})",
          "$.parameters[0].values[1]: '\"2\"' is not a number"},
         {R"({"parameters":[{"name":"a","values":[1,1],"interpolation":"linear"}]})",
-         "$.parameters[0].values: 1 stands twice; linear needs"},
+         "$.parameters[0].values: 1 occurs twice; linear needs"},
         {R"({"parameters":[{"name":"a","values":[1],"interpolation":"linear"}]})",
          "$.parameters[0].values: 1 number; linear needs 2 or more"},
         {R"({"parameters":[{"name":"a","values":[1,2],"interpolation":"cubic"}]})",

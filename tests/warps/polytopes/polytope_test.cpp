@@ -159,8 +159,8 @@ TEST(Polytope, CoordinatesThatNoInequalityJoinsAreIndependent) {
     EXPECT_EQ(m.covariance[0 * 5 + 1], 0);
     EXPECT_DOUBLE_EQ(m.covariance[0 * 5 + 3], -1 / 36.0);
     EXPECT_THAT(map->domain()->cube_axes(),
-                ElementsAre("share of the volume before", "share of the volume before", "x3",
-                            "place in the simplex, x4", "x5"));
+                ElementsAre("fraction of the volume before", "fraction of the volume before", "x3",
+                            "position in the simplex, x4", "x5"));
 }
 
 // Those of the simplex by its own formulas, in each dimension; and those of a polytope that is the
@@ -301,7 +301,8 @@ TEST(Polytope, SaysWhatIsWrong) {
     };
     EXPECT_EQ(says(2, "x+y>=3"), "usage: --constraints: no point in the ranges satisfies 'x+y>=3'");
     EXPECT_EQ(says(2, "x>0.6;x<0.5;y<0.5"),
-              "usage: --constraints: no point in the ranges satisfies 'x<0.5' and those before it");
+              "usage: --constraints: no point in the ranges satisfies 'x<0.5' and the inequalities "
+              "before it");
     EXPECT_EQ(says(2, "x+y<=1;1>2"), "usage: --constraints: no point satisfies '1>2'");
     const std::pair<const char*, const char*> flat[] = {
         {"x+y<=1;x+y>=1", "x+y>=1"},       {"x<=0", "x<=0"},
@@ -321,7 +322,7 @@ TEST(Polytope, SaysWhatIsWrong) {
         "usage: --constraints: none given; expected linear inequalities, such as 'x + y <= 1'");
     EXPECT_THAT(says(2, "x+q<1"), ::testing::StartsWith("usage: --constraints: 'x+q<1', column 3"));
     EXPECT_EQ(says(13, sum_of(13) + "<=1"),
-              "limit: --constraints: inequalities join 13 coordinates; at most 12 are taken");
+              "limit: --constraints: inequalities join 13 coordinates; at most 12 are possible");
     EXPECT_EQ(error_of([] { polytope_of(2, "x<y", "0..1,0..1,0..1"); }),
               "usage: --bounds: 3 ranges for 2 coordinates; one for all, or one for each");
     EXPECT_THAT(says(12, differences(12, "0.9")), ::testing::StartsWith("limit: --constraints: "));
