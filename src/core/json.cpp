@@ -21,7 +21,7 @@ JsonError error_of(const Json::exception& error, std::string_view text) {
     // The library's message ends with the number that is too large, in quotes.
     const std::string_view message = error.what();
     const auto number = split(message.substr(message.find('\'') + 1), '\'').front();
-    return {fmt::format("the number {} is beyond what a double holds", shown(number)),
+    return {fmt::format("the number {} is out of the range of a double", shown(number)),
             std::min(text.find(number), text.size())};
 }
 
@@ -41,7 +41,7 @@ class Repetitions {
         if (!twice) return true;
         std::string where = "$";
         for (const auto& object : objects_) where += "." + object.back();
-        fail(ErrorKind::input, "{}: {}: the key stands twice", source_, where);
+        fail(ErrorKind::input, "{}: {}: the key occurs twice", source_, where);
     }
 
   private:
@@ -76,7 +76,7 @@ JsonExtent json_extent(std::string_view text) {
 
 Json parse_json(std::string_view text) {
     if (const auto at = json_extent(text).too_deep; at != std::string_view::npos)
-        throw JsonError("lists in lists too deep", at);
+        throw JsonError("lists are nested too deeply", at);
     try {
         return Json::parse(text);
     } catch (const Json::exception& error) {

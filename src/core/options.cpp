@@ -210,8 +210,8 @@ Value Option::parse(std::string_view text) const {
     if (type == "points") return parse_points(*this, text);
     if (type == "extents") return parse_extents(*this, text);
     if (text.empty())
-        fail(ErrorKind::usage, "--{}: is empty; {} is expected", name,
-             type == "file" ? "a file's name" : "a text");
+        fail(ErrorKind::usage, "--{}: is empty; expected {}", name,
+             type == "file" ? "a file name" : "a text");
     return std::string(text);
 }
 

@@ -17,7 +17,7 @@ PointSet::PointSet(Rows rows, std::size_t dimension)
     : domain(unit_cube(dimension)), rows_(std::move(rows)), dimension_(dimension) {
     const std::size_t numbers = flat().size();
     if (dimension == 0 ? numbers > 0 : numbers % dimension != 0)
-        fail(ErrorKind::usage, "{} numbers are no whole points of {} coordinates", numbers,
+        fail(ErrorKind::usage, "{} numbers are not whole points of {} coordinates", numbers,
              dimension);
     count_ = dimension == 0 ? 0 : numbers / dimension;
 }

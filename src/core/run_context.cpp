@@ -120,7 +120,7 @@ RunContext RunContext::share_of_memory(std::uint64_t workers) const {
 void RunContext::need_memory(double bytes, std::string_view what) const {
     if (bytes <= static_cast<double>(memory_left())) return;
     const auto limit = static_cast<double>(max_memory);
-    const char* beside = bytes > limit ? "" : " besides what is in use";
+    const char* beside = bytes > limit ? "" : " besides that in use";
     fail_with_hint(ErrorKind::limit, "raise the limit with --max-memory",
                    "{} needs {} of memory{}; the limit is {}", what, format_bytes(bytes), beside,
                    format_bytes(limit));

@@ -51,7 +51,7 @@ class SpecParser {
             const auto k = parse_integer(part);
             if (!k || *k < 1 || *k > 1'000'000) complain("coordinates such as 1,2 are expected");
             const auto index = static_cast<std::size_t>(*k - 1);
-            if (std::ranges::find(list, index) != list.end()) complain("a coordinate stands twice");
+            if (std::ranges::find(list, index) != list.end()) complain("a coordinate occurs twice");
             list.push_back(index);
         }
         if (list.empty()) complain("coordinates such as 1,2 are expected");
@@ -156,14 +156,14 @@ std::vector<std::string> split_specs(std::string_view text, std::string_view who
     for (std::size_t i = 0; i < text.size(); ++i) {
         if (text[i] == '[') open.push_back(i);
         if (text[i] == ']' && open.empty())
-            fail(ErrorKind::usage, "{}, column {}: ']' closes nothing", who, i + 1);
+            fail(ErrorKind::usage, "{}, column {}: this ']' has no '['", who, i + 1);
         if (text[i] == ']') open.pop_back();
         if (!open.empty() || (text[i] != ',' && text[i] != ';')) continue;
         const bool with_options = text.substr(begin, i - begin).find(':') != std::string::npos;
         if (text[i] == ';' || !with_options || !goes_on(text.substr(i + 1))) cut(i);
     }
     if (!open.empty())
-        fail(ErrorKind::usage, "{}, column {}: this '[' is not closed", who, open.back() + 1);
+        fail(ErrorKind::usage, "{}, column {}: this '[' has no ']'", who, open.back() + 1);
     cut(text.size());
     return specs;
 }

@@ -731,7 +731,7 @@ TEST(Study, BadInputIsOneLineThatHelps) {
         {"--generators random --analyze moments -w dsk",
          "stipple: unknown warp 'dsk'; did you mean 'disk'?\n"},
         {"--generators 'random,a:v=[1' --analyze moments",
-         "stipple: --generators, column 12: this '[' is not closed\n"},
+         "stipple: --generators, column 12: this '[' has no ']'\n"},
         {"--generators 'random,halton;' --analyze moments",
          "stipple: --generators, column 15: a name is expected\n"},
         {"--generators random --analyze moments -n 64..16",
@@ -748,7 +748,7 @@ TEST(Study, BadInputIsOneLineThatHelps) {
         {"--generators random --analyze moments --confidence 95",
          "stipple: --confidence: '95' is not a number between 0 and 1\n"},
         {"--generators random --analyze l2-discrepancy:kind=centred -n 16,32 -d 2,3",
-         "stipple: analyze: l2-discrepancy: --kind: 'centred' is no kind of L2 discrepancy; did "
+         "stipple: analyze: l2-discrepancy: --kind: 'centred' is not a kind of L2 discrepancy; did "
          "you mean 'centered'?\n"},
         {"--generators random --analyze differential:pixels=8 -w disk",
          "stipple: analyze: differential: --pixels: 8 is even; expected an odd number, so that one "

@@ -38,14 +38,14 @@ TEST(JsonText, WhatIsNoJsonIsRefusedWithItsPlace) {
     EXPECT_EQ(parse_json("{\"a\":[1,null]}").size(), 1U);
     EXPECT_EQ(try_parse_json(brackets(20)), parse_json(brackets(20)));
     EXPECT_EQ(refused("[1,x]"), "3: not JSON");
-    EXPECT_EQ(refused("[1,1e999]"), "3: the number '1e999' is beyond what a double holds");
+    EXPECT_EQ(refused("[1,1e999]"), "3: the number '1e999' is out of the range of a double");
 }
 
 // The parser copies a value where another key follows it, by recursion.
 TEST(JsonText, WhatIsTooDeepIsRefusedBeforeItIsParsed) {
-    EXPECT_EQ(refused(brackets(21)), "20: lists in lists too deep");
+    EXPECT_EQ(refused(brackets(21)), "20: lists are nested too deeply");
     EXPECT_EQ(refused("{\"a\":{\"b\":" + brackets(200'000) + ",\"c\":2}}"),
-              "28: lists in lists too deep");
+              "28: lists are nested too deeply");
 }
 
 }  // namespace stipple::testing::json_text_test

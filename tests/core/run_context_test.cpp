@@ -39,8 +39,8 @@ TEST(RunContext, MemoryInUseCountsTowardsTheLimit) {
     RunContext run{.max_memory = 1000, .memory_in_use = [] { return std::uint64_t{600}; }};
     EXPECT_EQ(error_of([&] { run.need_memory(400, "it"); }), "");
     EXPECT_EQ(error_of([&] { run.need_memory(401, "it"); }),
-              "limit: it needs 401 bytes of memory besides what is in use; the limit is 1000 bytes "
-              "| raise the limit with --max-memory");
+              "limit: it needs 401 bytes of memory besides that in use; the limit is 1000 bytes | "
+              "raise the limit with --max-memory");
     EXPECT_EQ(error_of([&] { run.need_memory(1001, "it"); }),
               "limit: it needs 1001 bytes of memory; the limit is 1000 bytes | raise the limit "
               "with --max-memory");

@@ -24,9 +24,9 @@ TEST(SplitSpecs, HonoursBracketsAndOptionsWithCommas) {
 
 TEST(SplitSpecs, NamesTheColumnOfWhatIsUnbalancedOrMissing) {
     EXPECT_EQ(error_of([] { split_specs("random,a:v=[0,[1]", "--generators"); }),
-              "usage: --generators, column 12: this '[' is not closed");
+              "usage: --generators, column 12: this '[' has no ']'");
     EXPECT_EQ(error_of([] { split_specs("random],halton", "--generators"); }),
-              "usage: --generators, column 7: ']' closes nothing");
+              "usage: --generators, column 7: this ']' has no '['");
     EXPECT_EQ(error_of([] { split_specs("random,,halton", "--generators"); }),
               "usage: --generators, column 8: a name is expected");
     EXPECT_EQ(error_of([] { split_specs("", "--generators"); }),

@@ -92,9 +92,9 @@ TEST(PointSet, ConsistsOfWholePoints) {
     EXPECT_EQ(error_of([] {
                   PointSet(std::vector<double>{.1, .2, .3}, 2);
               }),
-              "usage: 3 numbers are no whole points of 2 coordinates");
+              "usage: 3 numbers are not whole points of 2 coordinates");
     EXPECT_EQ(error_of([] { PointSet(std::vector<double>{.1}, 0); }),
-              "usage: 1 numbers are no whole points of 0 coordinates");
+              "usage: 1 numbers are not whole points of 0 coordinates");
 }
 
 TEST(Report, SaysWhatIsNoNumber) {

@@ -118,15 +118,16 @@ TEST(ReadDocument, RefusesWhatIsNoReport) {
     EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"version\":2}"), HasSubstr("version 2"));
     EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"vers"),
                 HasSubstr("incomplete or invalid JSON"));
-    EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"version\":1e999}"),
-                HasSubstr("byte 38 of a report: the number '1e999' is beyond what a double holds"));
+    EXPECT_THAT(
+        bad_json("{\"format\":\"stipple.report\",\"version\":1e999}"),
+        HasSubstr("byte 38 of a report: the number '1e999' is out of the range of a double"));
     const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
     EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"options\":" + deep + "}"),
-                HasSubstr("lists in lists too deep; expected the JSON"));
+                HasSubstr("lists are nested too deeply; expected the JSON"));
     // The parser copies a value where another key follows it.
     EXPECT_THAT(
         bad_json("{\"format\":\"stipple.report\",\"input\":{\"source\":" + deep + ",\"count\":2}}"),
-        HasSubstr("byte 64 of a report: lists in lists too deep"));
+        HasSubstr("byte 64 of a report: lists are nested too deeply"));
     EXPECT_FALSE(looks_like_reports("x,y\n0.1,0.2\n"));
     EXPECT_FALSE(looks_like_reports("[[0.1,0.2]]"));
     EXPECT_FALSE(looks_like_reports("{\"format\":\"stipple.points\",\"version\":1}"));

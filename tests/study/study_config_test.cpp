@@ -70,7 +70,7 @@ TEST(StudyConfig, ErrorsNameThePlaceAndWhatIsNearest) {
     EXPECT_EQ(error_with(R"("curves": 1)"),
               "input: s.json: $.curves: expected true or false, got '1'");
     EXPECT_EQ(error_with("\"count\": " + std::string(100'000, '[') + std::string(100'000, ']')),
-              "input: s.json:1:80: lists in lists too deep");
+              "input: s.json:1:80: lists are nested too deeply");
     EXPECT_EQ(error_in(R"({"generators": []})"),
               "input: s.json: $.generators: expected a list of specs such as "
               "\"sobol:scramble=owen\"");
@@ -80,15 +80,15 @@ TEST(StudyConfig, ErrorsNameThePlaceAndWhatIsNearest) {
     EXPECT_EQ(error_in("{\n \"a\": ,"), "input: s.json:2:7: not JSON");
     EXPECT_EQ(error_in(""), "input: s.json:1:1: not JSON");
     EXPECT_EQ(error_in("{\n \"a\": 1e999}"),
-              "input: s.json:2:7: the number '1e999' is beyond what a double holds");
+              "input: s.json:2:7: the number '1e999' is out of the range of a double");
 }
 
 TEST(StudyConfig, KeysThatStandTwiceAreRefused) {
     EXPECT_EQ(error_with(R"("seeds": 3, "seeds": 4)"),
-              "input: s.json: $.seeds: the key stands twice");
+              "input: s.json: $.seeds: the key occurs twice");
     EXPECT_EQ(error_in(R"({"generators": [{"name": "sobol", "options": {"scramble": "owen",
                            "scramble": "none"}}], "analyze": "moments"})"),
-              "input: s.json: $.generators.options.scramble: the key stands twice");
+              "input: s.json: $.generators.options.scramble: the key occurs twice");
     // In objects side by side they do not.
     EXPECT_NO_THROW(parse_study_config(
         R"({"generators": [{"name": "sobol"}, {"name": "halton"}], "analyze": "moments"})", ""));

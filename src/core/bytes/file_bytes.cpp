@@ -94,9 +94,10 @@ std::string read_file(const std::string& path) {
     for (std::size_t got = step; got == step;) {
         const std::size_t before = bytes.size();
         if (before > most_bytes())
-            fail_with_hint(ErrorKind::limit, "--max-memory has to be three times its size",
-                           "{}: the file is larger than {}, and has to be read at once", path,
-                           format_bytes(static_cast<double>(most_bytes())));
+            fail_with_hint(
+                ErrorKind::limit, "--max-memory must be three times its size",
+                "{}: the file is larger than {}, the limit for files that are read at once", path,
+                format_bytes(static_cast<double>(most_bytes())));
         if (before + step > bytes.capacity()) bytes.reserve(before + before / 2 + step);
         bytes.resize(before + step);
         got = std::fread(bytes.data() + before, 1, step, file.get());
@@ -127,16 +128,17 @@ const std::string& FileRules::readable(const std::string& path) {
     if (rules == nullptr) return path;
     const auto it = rules->readable_.find(path);
     if (it == rules->readable_.end())
-        fail_with_hint(ErrorKind::usage, "--input FILE names a file that may be read",
-                       "it names the file {}, which is not read for that alone", shown(path));
+        fail_with_hint(ErrorKind::usage, "--input FILE allows reading a file",
+                       "it names the file {}, which is only read if --input allows it",
+                       shown(path));
     return it->second;
 }
 
 void FileRules::require_writable(const std::string& path) {
     if (rules == nullptr || std::ranges::find(rules->writable_, path) != rules->writable_.end())
         return;
-    fail(ErrorKind::usage, "it names the file {}, which is not written: only --output is",
-         shown(path));
+    fail(ErrorKind::usage,
+         "it names the file {}, which is not written; only the file of --output is", shown(path));
 }
 
 }  // namespace stipple

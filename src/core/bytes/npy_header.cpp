@@ -43,7 +43,7 @@ class HeaderReader {
     }
 
     std::size_t number(std::size_t at, std::size_t size) const {
-        if (bytes_.size() < at + size) refuse(bytes_.size(), "the file ends in the npy header");
+        if (bytes_.size() < at + size) refuse(bytes_.size(), "the file ends within the npy header");
         std::size_t value = 0;
         for (std::size_t i = size; i-- > 0;)
             value = value * 256 + static_cast<unsigned char>(bytes_[at + i]);
