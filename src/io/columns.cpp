@@ -116,12 +116,13 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
                        "{}: no column holds coordinates; the columns are {}", place,
                        join(names, ", "));
     if (strong && columns.role[strength] < columns.dimension)
-        fail(ErrorKind::usage, "--weights: '{}' is a coordinate, too; --column picks the others",
+        fail(ErrorKind::usage,
+             "--weights: '{}' is also a coordinate; pick the coordinates by --column",
              options.strengths);
     if (options.dimension && *options.dimension != columns.dimension &&
         !(strong && *options.dimension == columns.dimension + 1))
         fail_with_hint(ErrorKind::input, "--column picks columns by name or number",
-                       "{}: points have {} coordinates; --dimension says {}", place,
+                       "{}: points have {} coordinates; --dimension is {}", place,
                        columns.dimension, *options.dimension);
     if (strong) columns.role[strength] = columns.dimension++;
     if (options.densities && options.columns.empty()) add_density(columns, names);

@@ -36,7 +36,7 @@ std::vector<PointSet> read_sets(std::string_view bytes, const std::string& path,
         std::vector<std::string> readable;
         for (const Format& known : all())
             if (known.read) readable.push_back(known.name);
-        fail(ErrorKind::usage, "{}: {} is only written; formats that are read: {}",
+        fail(ErrorKind::usage, "{}: {} can only be written; formats that can be read: {}",
              source_name(inner.source), chosen.name, join(readable, ", "));
     }
     return chosen.read(bytes, inner, run);

@@ -101,7 +101,7 @@ Output::Output(std::string path, std::stop_token stop)
     }
     if (const auto kind = compression_of_name(path_); kind != Compression::none)
         compressor_ = std::make_unique<Compressor>(kind);
-    if (path_.empty()) fail(ErrorKind::io, "the output's name is empty; expected a file's name");
+    if (path_.empty()) fail(ErrorKind::io, "the output's name is empty; expected a file name");
     FileRules::require_writable(path_);
     struct stat status {};
     const bool there = ::stat(path_.c_str(), &status) == 0;
@@ -279,7 +279,7 @@ void Outputs::commit() {
             const std::string more =
                 count > named ? fmt::format(" and {} others", count - named) : "";
             throw Error(e.kind(),
-                        fmt::format("{}; in place already: {}{}", e.what(), join(some, ", "), more),
+                        fmt::format("{}; already written: {}{}", e.what(), join(some, ", "), more),
                         e.hint());
         }
     };

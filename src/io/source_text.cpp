@@ -14,7 +14,7 @@ std::string source_name(std::string_view source) {
 void refuse_empty(std::string_view source, std::string_view expected) {
     if (source == "-")
         fail_with_hint(ErrorKind::input, "did the command before it in the pipe fail?",
-                       "stdin: nothing came; expected {}", expected);
+                       "stdin: no input; expected {}", expected);
     fail(ErrorKind::input, "{}: the file is empty; expected {}", source, expected);
 }
 
@@ -27,7 +27,7 @@ SourceText::SourceText(std::string_view bytes, std::string_view source)
     if (bytes.starts_with("\x1F\x8B"sv))
         refuse_whole("the file is compressed; expected plain points", "unpack it: gunzip, zcat");
     if (bytes_.starts_with("\xEF\xBB\xBF"sv)) bytes_.remove_prefix(3);
-    if (bytes_.empty()) refuse_empty(source, "points, one a line");
+    if (bytes_.empty()) refuse_empty(source, "points, one per line");
     if (bytes_.find('\n') == std::string_view::npos) newline_ = '\r';
 }
 

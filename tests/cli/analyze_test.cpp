@@ -559,7 +559,7 @@ TEST(Analyze, SaysWhereRangesMixUnits) {
     const Sandbox box;
     box.write("w.csv", "height,weight\n1.5,60000\n1.7,75000\n1.8,90000\n");
     EXPECT_THAT(box.run({"analyze", "nearest-neighbor", "w.csv", "--metric", "euclidean"}).err,
-                HasSubstr("the column 'weight' is taken for the weight of the points"));
+                HasSubstr("the column 'weight' is used as the weight of the points"));
     box.write("t.csv", "height,mass\n1.5,60000\n1.7,75000\n1.8,90000\n");
     const Outcome mixed =
         box.run({"analyze", "nearest-neighbor", "t.csv", "--metric", "euclidean"});

@@ -154,7 +154,7 @@ TEST(BadInput, EmptyFiles) {
     expect_refusal(judge("p.npy", ""), 3, "p.npy");
     const Sandbox box;
     expect_refusal(box.run({"analyze", "star-discrepancy"}, ""), 3,
-                   "stdin: nothing came; expected points, one a line; did the command before it in "
+                   "stdin: no input; expected points, one per line; did the command before it in "
                    "the pipe fail?");
 }
 
@@ -506,7 +506,7 @@ TEST(BadInput, OneFileIsNotSeveral) {
     expect_refusal(box.run({"generate", "lloyd", "-n", "9", "--density", "d.pfm", "--with-weight"}),
                    2, "--with-weight: the density of points made with --density is not known");
     expect_refusal(box.run({"warp", "disk", "p.csv", "--with-pdf", "-f", "psa"}), 2,
-                   "psa has no place for pdf");
+                   "psa cannot hold pdf");
 }
 
 TEST(BadInput, BoxesWiderThanFloat64) {

@@ -30,7 +30,8 @@ TEST(Convert, SaysThatItLeavesRowNamesOut) {
         const Outcome outcome = box.shell(from);
         EXPECT_EQ(outcome.code, 0);
         EXPECT_EQ(outcome.out, "x,y\n0.5,0.25\n0.125,0\n");
-        EXPECT_THAT(outcome.err, HasSubstr("the first column has no name: it holds row names"));
+        EXPECT_THAT(outcome.err,
+                    HasSubstr("the first column has no name; it is read as row names"));
     }
 }
 
@@ -45,9 +46,8 @@ TEST(Convert, SaysWhichColumnCountsTheRows) {
         return file.err;
     };
     const std::string note =
-        "stipple: note: r.csv: the column 'id' counts the rows, and is taken for a coordinate; "
-        "--column "
-        "picks the others\n";
+        "stipple: note: r.csv: the column 'id' counts the rows but is used as a coordinate; "
+        "--column picks the others\n";
     EXPECT_EQ(notes("id,x\n0,0.5\n1,0.25\n2,0.5\n"), note);
     EXPECT_EQ(notes("id x\n# as in R\n1 0.5\n2 0.25\n\n3 0.5\n4 0.125\n"), note);
     EXPECT_EQ(notes("id,x\n0,0.5\n1,0.25\n2,0.5\n", "--column x"), "");

@@ -180,7 +180,7 @@ TEST_F(Files, OutputsAppearTogetherOrNotAtAll) {
     fs::create_directory(path("folder"));
     const std::string error = error_of([&] { halfway.commit(); });
     EXPECT_TRUE(error.starts_with("io: " + path("folder") + ": ")) << error;
-    EXPECT_TRUE(error.ends_with("; in place already: " + path("old.csv"))) << error;
+    EXPECT_TRUE(error.ends_with("; already written: " + path("old.csv"))) << error;
 }
 
 // As many files as a command may have, with fewer descriptors than files.
@@ -248,7 +248,7 @@ TEST_F(Files, OutputSaysWhyNot) {
     EXPECT_TRUE(
         error_of([] { io::Output{"/proc/stipple.csv"}; }).starts_with("io: /proc/stipple.csv: "));
     EXPECT_EQ(error_of([] { io::Output{""}; }),
-              "io: the output's name is empty; expected a file's name");
+              "io: the output's name is empty; expected a file name");
     if (::geteuid() != 0) {
         fs::create_directory(path("closed"));
         fs::permissions(path("closed"), fs::perms(0555));
@@ -311,8 +311,8 @@ TEST_F(Files, ReadPointsNamesTheFile) {
     put("a.ply", "ply\n");
     EXPECT_EQ(error_of([&] { io::read_points(path("a.ply"), {}, {}); }),
               "usage: " + path("a.ply") +
-                  ": ply is only written; formats that are read: bin, csv, json, jsonl, npy, psa, "
-                  "txt, utk");
+                  ": ply can only be written; formats that can be read: bin, csv, json, jsonl, "
+                  "npy, psa, txt, utk");
 }
 
 }  // namespace stipple::testing::files_test

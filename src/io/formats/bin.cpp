@@ -21,7 +21,7 @@ void rows(const Layout& layout, std::size_t, std::uint64_t, std::span<const doub
 
 std::size_t width_of(const ReadOptions& options) {
     if (!options.dimension || *options.dimension == 0)
-        fail(ErrorKind::usage, "{}: raw numbers do not tell their dimension; say it with -d",
+        fail(ErrorKind::usage, "{}: raw numbers have no dimension; give it with -d",
              source_name(options.source));
     return *options.dimension;
 }

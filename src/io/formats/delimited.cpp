@@ -149,7 +149,8 @@ bool is_gap(const Field& field) {
 std::string trouble_with(const Field& field, bool decimal_comma) {
     if (field.text.empty()) return "an empty field; expected a number";
     if (decimal_comma && field.text.find('.') != std::string_view::npos)
-        return shown(field.text) + " has a point; expected a decimal comma, as in the rows above";
+        return shown(field.text) +
+               " has a decimal point; expected a decimal comma, as in the rows above";
     if (!is_number(field.text)) {
         const bool comma = !decimal_comma && std::ranges::count(field.text, ',') == 1;
         return shown(field.text) + " is not a number; expected " +
@@ -416,8 +417,7 @@ std::vector<std::uint64_t> set_starts(const SourceText& text, const Rows& rows,
     for (const Mark& mark : rows.marks) {
         if (mark.row == 0) continue;  // comments before the first point
         if (mark.row == starts.back() || mark.row * dimension == rows.numbers.size())
-            text.refuse(mark.at,
-                        "a set without points; a line such as this stands between two sets");
+            text.refuse(mark.at, "a set without points; a line such as this separates two sets");
         starts.push_back(mark.row);
     }
     return starts;
@@ -444,8 +444,8 @@ Top read_top(const SourceText& text) {
         ours = ours || comment == "tool: \"stipple\"";
         if (ours) take_comment_line(comment, top.provenance);
     }
-    text.refuse_whole(comments ? "the file holds only comments; expected points, one a line"
-                               : "the file holds only blank lines; expected points, one a line");
+    text.refuse_whole(comments ? "the file holds only comments; expected points, one per line"
+                               : "the file holds only blank lines; expected points, one per line");
 }
 
 namespace {
@@ -491,18 +491,18 @@ struct TableHead {
     void tell_row_names(const std::string& source, const RunContext& run) const {
         if (row_names)
             run.notify(
-                fmt::format("{}: the first column has no name: it holds row names, and is "
-                            "left out; --column picks columns by number",
+                fmt::format("{}: the first column has no name; it is read as row names and left "
+                            "out; --column picks columns by number",
                             source_name(source)));
         if (!measure.empty())
             run.notify(
-                fmt::format("{}: the column '{}' is taken for the {} of the points, not for a "
+                fmt::format("{}: the column '{}' is used as the {} of the points, not as a "
                             "coordinate; --column picks columns by name",
                             source_name(source), measure, measure == "pdf" ? "density" : measure));
         if (!counter.empty())
             run.notify(
-                fmt::format("{}: the column '{}' counts the rows, and is taken for a "
-                            "coordinate; --column picks the others",
+                fmt::format("{}: the column '{}' counts the rows but is used as a coordinate; "
+                            "--column picks the others",
                             source_name(source), counter));
     }
 };
@@ -589,7 +589,7 @@ void find_words(TableHead& head, const SourceText& text, const std::string& sour
         std::vector<std::string> told;
         for (const std::string& word : words)
             told.push_back(fmt::format("{} {}", told.size(), word));
-        run.notify(fmt::format("{}: the column '{}' holds words, which are taken for numbers: {}",
+        run.notify(fmt::format("{}: the column '{}' holds words, which are read as numbers: {}",
                                source_name(source), head.columns.names[role],
                                shown(join(told, ", "))));
         head.top.provenance.levels.emplace_back(head.columns.names[role], words);
@@ -774,8 +774,8 @@ class DelimitedStream final : public PointStream {
             const std::size_t line = text.line_of(mark.at);
             if (!seen_.insert(mark.number).second)
                 fail_with_hint(ErrorKind::input, "sort the rows by their set",
-                               "{}:{}:1: set {} begins again; in more than {} MiB of text the rows "
-                               "of a set stand together",
+                               "{}:{}:1: set {} begins again; in text of more than {} MiB the rows "
+                               "of a set must be adjacent",
                                source_name(source_), line, mark.number, Feed::front_size >> 20);
             if (!std::isnan(number_)) marks_.push_back({part_begin_ + mark.row, line});
             number_ = mark.number;
@@ -788,7 +788,7 @@ class DelimitedStream final : public PointStream {
 
     [[noreturn]] void refuse_empty(std::size_t line) const {
         fail(ErrorKind::input,
-             "{}:{}:1: a set without points; a line such as this stands between two sets",
+             "{}:{}:1: a set without points; a line such as this separates two sets",
              source_name(source_), line);
     }
 
@@ -824,10 +824,9 @@ std::vector<PointSet> read_delimited(std::string_view bytes, const ReadOptions& 
     const Columns& columns = head.columns;
     Rows rows = read_rows(text, head.body, columns, head.dialect, run);
     if (rows.numbers.empty())
-        text.refuse_whole(
-            fmt::format("the file holds only a header (line {}); expected points "
-                        "below it, one a line",
-                        head.dialect.model_line));
+        text.refuse_whole(fmt::format(
+            "the file holds only a header (line {}); expected points below it, one per line",
+            head.dialect.model_line));
     if (columns.has(Columns::set_number))
         return gather_sets(std::move(rows), columns.dimension, head.top.provenance);
     const auto starts = set_starts(text, rows, columns.dimension);

@@ -80,7 +80,7 @@ class Reader {
         for (std::size_t c = 0; c < words_.size(); ++c)
             if (words_[c] != nullptr && columns.role[c] < columns.dimension) {
                 p_ = words_[c];
-                refuse("a finite number, or --column with the names of others");
+                refuse("a finite number, or --column with the names of other columns");
             }
     }
 
@@ -161,7 +161,7 @@ class Reader {
             const std::string_view key = read_key();
             const std::size_t c = first ? add_name(key) : column_of(key, count);
             if (first) numbers.push_back(0);
-            if (!first && seen[c]) text_.refuse(key.data(), "a name for a second time");
+            if (!first && seen[c]) text_.refuse(key.data(), "the name occurs twice");
             if (!first) seen[c] = true;
             expect(':', "':'");
             skip_blanks();
@@ -177,14 +177,14 @@ class Reader {
         if (first) width = count;
         if (first) reserve_for(begin);
         if (count != width)
-            text_.refuse(begin, fmt::format("the record has {} of the {} names of the first one",
+            text_.refuse(begin, fmt::format("the record has {} of the {} names of the first record",
                                             count, width));
     }
 
     /// Adds a name of the first record; returns its index.
     std::size_t add_name(std::string_view key) {
         if (std::ranges::find(keys_, key) != keys_.end())
-            text_.refuse(key.data(), "a name for a second time");
+            text_.refuse(key.data(), "the name occurs twice");
         keys_.push_back(key);
         words_.push_back(nullptr);
         head.columns.push_back(
@@ -197,7 +197,7 @@ class Reader {
         if (place < keys_.size() && keys_[place] == key) return place;
         const auto it = std::ranges::find(keys_, key);
         if (it == keys_.end())
-            text_.refuse(key.data(), shown(key) + " is no name of the first record");
+            text_.refuse(key.data(), shown(key) + " is not a name of the first record");
         return static_cast<std::size_t>(it - keys_.begin());
     }
 
@@ -218,8 +218,7 @@ class Reader {
             expect(':', "':'");
             skip_blanks();
             if (key == "points" || key == "sets") {
-                if (!starts.empty())
-                    text_.refuse(p_, "points for a second time; expected them once");
+                if (!starts.empty()) text_.refuse(p_, "points occur twice; expected them once");
                 key == "points" ? read_points() : read_sets();
             } else {
                 const char* const at = p_;

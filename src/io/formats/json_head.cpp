@@ -88,10 +88,9 @@ Columns json_columns(const SourceText& text, JsonHead& head, std::size_t width,
         inner.all_columns = inner.densities = false;
         const Columns columns = choose_columns(head.columns, width, inner, text.source());
         if (columns.dimension != *head.dimension)
-            text.refuse(
-                head.dimension_at,
-                fmt::format("the dimension is said to be {}; the points have {} coordinates",
-                            *head.dimension, columns.dimension));
+            text.refuse(head.dimension_at,
+                        fmt::format("the dimension is {}, but the points have {} coordinates",
+                                    *head.dimension, columns.dimension));
     }
     Columns columns = choose_columns(head.columns, width, options, text.source());
     head.provenance.density_column = columns.density;
@@ -103,13 +102,13 @@ void check_counts(const SourceText& text, const JsonHead& head,
                   const std::vector<std::uint64_t>& found) {
     if (head.counts.empty()) return;
     if (head.counts.size() != 1 && head.counts.size() != found.size())
-        text.refuse(head.counts_at, fmt::format("the count is said of {} sets; {} follow",
+        text.refuse(head.counts_at, fmt::format("the count is given for {} sets, but {} follow",
                                                 head.counts.size(), found.size()));
     for (std::size_t s = 0; s < found.size(); ++s) {
         const std::uint64_t said = head.counts[head.counts.size() == 1 ? 0 : s];
         if (said != found[s])
-            text.refuse(head.counts_at, fmt::format("the count is said to be {}; {} points follow",
-                                                    said, found[s]));
+            text.refuse(head.counts_at,
+                        fmt::format("the count is {}, but {} points follow", said, found[s]));
     }
 }
 

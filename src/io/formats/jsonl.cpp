@@ -79,7 +79,7 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
 
 Format unit() {
     return {.name = "jsonl",
-            .summary = "A line of provenance, then a point [x,y] a line",
+            .summary = "A line of provenance, then one point [x,y] per line",
             .source = "https://jsonlines.org",
             .extensions = {".jsonl"},
             .traits = {.counts_first = true},

@@ -16,7 +16,7 @@ namespace {
 
 void head(const Layout& layout, std::string& out) {
     if (!layout.extras.empty())
-        fail(ErrorKind::usage, "--format: psa has no place for {}", join(layout.extras, ", "));
+        fail(ErrorKind::usage, "--format: psa cannot hold {}", join(layout.extras, ", "));
     out += std::to_string(layout.counts[0]) + "\n";
 }
 
@@ -38,8 +38,8 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     const std::size_t found = rows.numbers.size() / columns.dimension;
     if (!rows.marks.empty()) text.refuse(rows.marks[0].at, "'#' begins another set; psa holds one");
     if (found != *count || found == 0)
-        text.refuse(line.data(), fmt::format("the first line says {}, and points follow: {}; "
-                                             "expected as many, at least one",
+        text.refuse(line.data(), fmt::format("the first line is {}, but the number of points is "
+                                             "{}; expected as many, at least one",
                                              *count, found));
     return cut_sets(std::move(rows.numbers), columns.dimension, {0}, top.provenance);
 }
@@ -48,7 +48,7 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
 
 Format unit() {
     return {.name = "psa",
-            .summary = "The number of points, then 'x y' a line",
+            .summary = "The number of points, then one line 'x y' per point",
             .source = "PSA, the program by T. Schloemer",
             .extensions = {},
             .traits = {.many_sets = false,

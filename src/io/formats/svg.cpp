@@ -182,7 +182,7 @@ void tail(const Layout&, std::string& out) { out += "</g>\n</svg>\n"; }
 
 Format unit() {
     return {.name = "svg",
-            .summary = "A picture of the points, of every pair of their coordinates",
+            .summary = "A picture of the points, for every pair of coordinates",
             .source = "W3C, Scalable Vector Graphics 1.1",
             .extensions = {".svg"},
             .traits = {.many_sets = false,

@@ -30,7 +30,7 @@ void rows(const Layout& layout, std::size_t, std::uint64_t, std::span<const doub
 
 Format unit() {
     return {.name = "txt",
-            .summary = "A point a line, coordinates separated by blanks, sets by a line '#'",
+            .summary = "One point per line, coordinates separated by blanks, sets by a line '#'",
             .source = "UTK, gnuplot, numpy.loadtxt",
             .extensions = {".txt", ".dat"},
             .traits = {},

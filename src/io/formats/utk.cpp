@@ -48,7 +48,7 @@ RawShape shape_of(std::string_view bytes, const std::string& source) {
     };
     if (!bytes.starts_with("UTK!")) refuse(0, "not a file of UTK; expected the bytes UTK!");
     if (bytes.size() < head_size)
-        refuse(bytes.size(), fmt::format("the file ends in its first {} bytes", head_size));
+        refuse(bytes.size(), fmt::format("the file ends within its first {} bytes", head_size));
     constexpr std::array<RawType, 6> types = {{{RawType::integer, 4},
                                                {RawType::integer, 8},
                                                {RawType::natural, 4},

@@ -38,8 +38,7 @@ TEST(Bin, SingleNeverHoldsOne) {
 
 TEST(Bin, RefusesWithoutDimensionAndOtherSizes) {
     const std::string file = written("bin", {random_points(5, 2)});
-    EXPECT_EQ(refusal("bin", file),
-              "usage: p: raw numbers do not tell their dimension; say it with -d");
+    EXPECT_EQ(refusal("bin", file), "usage: p: raw numbers have no dimension; give it with -d");
     EXPECT_EQ(refusal("bin", file, {.dimension = 3}),
               "input: p: byte 80: the last point is cut off; expected whole points, 3 "
               "float64 each");

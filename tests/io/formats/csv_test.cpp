@@ -265,22 +265,21 @@ TEST(Csv, RefusesRaggedRows) {
 }
 
 TEST(Csv, RefusesWhatHoldsNoPoints) {
-    EXPECT_EQ(refused(""), "input: p.csv: the file is empty; expected points, one a line");
+    EXPECT_EQ(refused(""), "input: p.csv: the file is empty; expected points, one per line");
     EXPECT_EQ(refused("\n \r\n"),
-              "input: p.csv: the file holds only blank lines; expected points, one a line");
+              "input: p.csv: the file holds only blank lines; expected points, one per line");
     EXPECT_EQ(refused("# a\n\n# b"),
-              "input: p.csv: the file holds only comments; expected points, one a line");
-    EXPECT_EQ(
-        refused("# a\nx,y\n# b\n"),
-        "input: p.csv: the file holds only a header (line 2); expected points below it, one a "
-        "line");
+              "input: p.csv: the file holds only comments; expected points, one per line");
+    EXPECT_EQ(refused("# a\nx,y\n# b\n"),
+              "input: p.csv: the file holds only a header (line 2); expected points below it, one "
+              "per line");
     EXPECT_EQ(refused("pdf\n1\n"),
               "input: p.csv:1: no column holds coordinates; the columns are pdf | --column picks "
               "columns by name or number");
 }
 
 TEST(Csv, RefusesEmptySets) {
-    const char* message = "a set without points; a line such as this stands between two sets";
+    const char* message = "a set without points; a line such as this separates two sets";
     EXPECT_EQ(refused("0.5\n#\n#\n0.5\n"), std::string("input: p.csv:3:1: ") + message);
     EXPECT_EQ(refused("0.5\n#\n0.5\n# \n"), std::string("input: p.csv:4:1: ") + message);
 }
@@ -307,7 +306,7 @@ TEST(Csv, RefusesBytesThatAreNoText) {
 
 TEST(Csv, RefusesAnotherDimension) {
     EXPECT_EQ(refused("# c\n1,2,3\n", {.dimension = 2}),
-              "input: p.csv:2: points have 3 coordinates; --dimension says 2 | --column picks "
+              "input: p.csv:2: points have 3 coordinates; --dimension is 2 | --column picks "
               "columns by name or number");
     EXPECT_EQ(csv("1,2,3\n", {.dimension = 2, .columns = {"1", "3"}}).at(0), points_of({{1, 3}}));
 }
@@ -329,9 +328,9 @@ TEST(Csv, TakesDecimalCommas) {
     EXPECT_EQ(csv("age;income\n0,5;1\n-2,25;1e-3\n3;0,125\n").at(0), points);
     EXPECT_EQ(csv("3;1\n0,5;2\n").at(0), points_of({{3, 1}, {0.5, 2}}));
     EXPECT_EQ(csv("1;2\n0.5;0.25\n").at(0), points_of({{1, 2}, {0.5, 0.25}}));
-    EXPECT_EQ(
-        refused("0,5;1\n1.5;2\n"),
-        "input: p.csv:2:1: '1.5' has a point; expected a decimal comma, as in the rows above");
+    EXPECT_EQ(refused("0,5;1\n1.5;2\n"),
+              "input: p.csv:2:1: '1.5' has a decimal point; expected a decimal comma, as in the "
+              "rows above");
     EXPECT_EQ(refused("0.5;1\n1,5;2\n"),
               "input: p.csv:2:1: '1,5' is not a number; expected a decimal point, as in 0.5");
     EXPECT_EQ(refused("0,5;1\n1,5,0;2\n"),

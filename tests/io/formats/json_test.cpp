@@ -108,7 +108,7 @@ TEST(Json, RefusesWhatIsNoPoint) {
 }
 
 TEST(Json, RefusesWhatIsNoFileOfPoints) {
-    EXPECT_EQ(refused(""), "input: p: the file is empty; expected points, one a line");
+    EXPECT_EQ(refused(""), "input: p: the file is empty; expected points, one per line");
     EXPECT_EQ(refused("{}"),
               "input: p: the object has neither \"points\" nor \"sets\"; expected "
               "\"points\":[[0.1,0.2],...]");
@@ -121,22 +121,22 @@ TEST(Json, RefusesWhatIsNoFileOfPoints) {
     EXPECT_EQ(refused(with("\"format\":\"stipple.report\",")),
               "input: p:1:11: the format is \"stipple.report\"; expected \"stipple.points\"");
     const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
-    EXPECT_EQ(refused(with("\"format\":" + deep + ",")),
-              "input: p:1:31: lists in lists too deep; expected a value such as 1, \"word\" or {}");
-    EXPECT_EQ(refused(with("\"version\":" + deep + ",")),
-              "input: p:1:32: lists in lists too deep; expected a value such as 1, \"word\" or {}");
+    EXPECT_EQ(
+        refused(with("\"format\":" + deep + ",")),
+        "input: p:1:31: lists are nested too deeply; expected a value such as 1, \"word\" or {}");
+    EXPECT_EQ(
+        refused(with("\"version\":" + deep + ",")),
+        "input: p:1:32: lists are nested too deeply; expected a value such as 1, \"word\" or {}");
     EXPECT_EQ(refused(with("\"version\":2,")),
               "input: p:1:12: version 2 of stipple.points; expected 1");
-    EXPECT_EQ(refused(with("\"count\":3,")),
-              "input: p:1:10: the count is said to be 3; 2 points follow");
-    EXPECT_EQ(refused(with("\"count\":1,")),
-              "input: p:1:10: the count is said to be 1; 2 points follow");
+    EXPECT_EQ(refused(with("\"count\":3,")), "input: p:1:10: the count is 3, but 2 points follow");
+    EXPECT_EQ(refused(with("\"count\":1,")), "input: p:1:10: the count is 1, but 2 points follow");
     EXPECT_EQ(refused(with("\"count\":[2,2],")),
-              "input: p:1:10: the count is said of 2 sets; 1 follow");
+              "input: p:1:10: the count is given for 2 sets, but 1 follow");
     EXPECT_EQ(refused(with("\"count\":-1,")),
               "input: p:1:10: the count is not a number of points such as 1024");
     EXPECT_EQ(refused(with("\"dimension\":3,")),
-              "input: p:1:14: the dimension is said to be 3; the points have 2 coordinates");
+              "input: p:1:14: the dimension is 3, but the points have 2 coordinates");
     EXPECT_EQ(refused(with("\"dimension\":0,")),
               "input: p:1:14: the dimension is not a number such as 2");
     EXPECT_EQ(refused(with("\"columns\":[\"x\"],")),
@@ -144,11 +144,11 @@ TEST(Json, RefusesWhatIsNoFileOfPoints) {
     EXPECT_EQ(refused(with("\"meta\":{\"seed\":01},")),
               "input: p:1:18: not JSON; expected a value such as 1, \"word\" or {}");
     EXPECT_EQ(refused("{\"points\":[[1]],\"points\":[[1]]}"),
-              "input: p:1:26: points for a second time; expected them once");
+              "input: p:1:26: points occur twice; expected them once");
     EXPECT_EQ(refused(with("") + " x"),
               "input: p:1:35: 'x' follows the points; expected the end of the file");
     EXPECT_EQ(refused("[[1,2,3]]", {.dimension = 2}),
-              "input: p: points have 3 coordinates; --dimension says 2 | --column picks columns by "
+              "input: p: points have 3 coordinates; --dimension is 2 | --column picks columns by "
               "name or number");
     EXPECT_EQ(refused("[1,2]"), "input: p:1:2: found '1'; expected a point such as [0.1,0.2]");
     EXPECT_EQ(refused("hello"),
@@ -169,9 +169,10 @@ TEST(Json, SurvivesDeepNesting) {
     EXPECT_NE(refused(deep), "");
     EXPECT_NE(refused("{\"meta\":" + deep), "");
     // The parser copies a value where another key follows it.
-    EXPECT_EQ(refused(with("\"meta\":{\"options\":{\"a\":" + deep + std::string(100'000, ']') +
-                           ",\"b\":1},\"seed\":1},")),
-              "input: p:1:43: lists in lists too deep; expected a value such as 1, \"word\" or {}");
+    EXPECT_EQ(
+        refused(with("\"meta\":{\"options\":{\"a\":" + deep + std::string(100'000, ']') +
+                     ",\"b\":1},\"seed\":1},")),
+        "input: p:1:43: lists are nested too deeply; expected a value such as 1, \"word\" or {}");
 }
 
 TEST(Json, TakesRecords) {
@@ -187,13 +188,14 @@ TEST(Json, TakesRecords) {
     EXPECT_EQ(read(R"([{"x":1}])"), points_of({{1}}));
     EXPECT_EQ(io::format_of_bytes(R"([{"x":1}])").name, "json");
     EXPECT_EQ(refused(records),
-              "input: p:1:16: found '\"q\"'; expected a finite number, or --column "
-              "with the names of others");
-    EXPECT_EQ(refused(R"([{"a":1},{"b":1}])"), "input: p:1:12: 'b' is no name of the first record");
+              "input: p:1:16: found '\"q\"'; expected a finite number, or --column with the names "
+              "of other columns");
+    EXPECT_EQ(refused(R"([{"a":1},{"b":1}])"),
+              "input: p:1:12: 'b' is not a name of the first record");
     EXPECT_EQ(refused(R"([{"a":1,"b":2},{"b":1}])"),
-              "input: p:1:16: the record has 1 of the 2 names of the first one");
-    EXPECT_EQ(refused(R"([{"a":1,"a":2}])"), "input: p:1:10: a name for a second time");
-    EXPECT_EQ(refused(R"([{"a":1},{"a":1,"a":2}])"), "input: p:1:18: a name for a second time");
+              "input: p:1:16: the record has 1 of the 2 names of the first record");
+    EXPECT_EQ(refused(R"([{"a":1,"a":2}])"), "input: p:1:10: the name occurs twice");
+    EXPECT_EQ(refused(R"([{"a":1},{"a":1,"a":2}])"), "input: p:1:18: the name occurs twice");
     EXPECT_EQ(
         refused(R"([{"a":1e999}])"),
         "input: p:1:7: '1e999' is beyond the largest double, 1.8e308; expected a finite number");

@@ -67,11 +67,11 @@ TEST(Jsonl, RefusesWhatIsNoPoint) {
 TEST(Jsonl, RefusesObjectsThatSayOtherwise) {
     const auto refused = [](std::string_view bytes) { return refusal("jsonl", bytes); };
     EXPECT_EQ(refused("{\"count\":3}\n[0,1]\n"),
-              "input: p:1:1: the count is said to be 3; 1 points follow");
+              "input: p:1:1: the count is 3, but 1 points follow");
     EXPECT_EQ(refused("{}\n[0,1]\n{\"count\":2}\n[0,1]\n"),
-              "input: p:3:1: the count is said to be 2; 1 points follow");
+              "input: p:3:1: the count is 2, but 1 points follow");
     EXPECT_EQ(refused("{\"dimension\":3}\n[0,1]\n"),
-              "input: p:1:1: the dimension is said to be 3; the points have 2 coordinates");
+              "input: p:1:1: the dimension is 3, but the points have 2 coordinates");
     EXPECT_EQ(refused("{\"format\":\"other\"}\n[0,1]\n"),
               "input: p:1:1: the format is \"other\"; expected \"stipple.points\"");
     EXPECT_EQ(refused("{\"count\":}\n[0,1]\n"),
@@ -79,8 +79,8 @@ TEST(Jsonl, RefusesObjectsThatSayOtherwise) {
     EXPECT_EQ(refused("{}\n"),
               "input: p: the file holds no points; expected lines such as [0.1,0.2]");
     EXPECT_EQ(refused("{}\n[0,1]\n{}\n"),
-              "input: p:3:1: a set without points; a line such as this stands between two sets");
-    EXPECT_EQ(refused(""), "input: p: the file is empty; expected points, one a line");
+              "input: p:3:1: a set without points; a line such as this separates two sets");
+    EXPECT_EQ(refused(""), "input: p: the file is empty; expected points, one per line");
 }
 
 }  // namespace stipple::testing::jsonl_test

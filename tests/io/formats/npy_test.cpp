@@ -164,7 +164,7 @@ TEST(Npy, RefusesWhatHoldsNoPoints) {
               "input: p: byte 10: the header has no 'shape'");
     EXPECT_NE(refused(header("[('x', '<f8')]", "(1,)")), "");
     EXPECT_EQ(refused(numpy_file, {.dimension = 3}),
-              "input: p: points have 2 coordinates; --dimension says 3 | --column picks columns by "
+              "input: p: points have 2 coordinates; --dimension is 3 | --column picks columns by "
               "name or number");
 }
 

@@ -17,20 +17,20 @@ TEST(Psa, NumberOfPointsComesFirst) {
 
 TEST(Psa, RefusesAnotherNumber) {
     EXPECT_EQ(refusal("psa", "3\n0 0.5\n1 1\n"),
-              "input: p:1:1: the first line says 3, and points follow: 2; expected as many, at "
-              "least one");
+              "input: p:1:1: the first line is 3, but the number of points is 2; expected as many, "
+              "at least one");
     EXPECT_EQ(refusal("psa", "1\n0 0.5\n1 1\n"),
-              "input: p:1:1: the first line says 1, and points follow: 2; expected as many, at "
-              "least one");
+              "input: p:1:1: the first line is 1, but the number of points is 2; expected as many, "
+              "at least one");
     EXPECT_EQ(refusal("psa", "0\n"),
-              "input: p:1:1: the first line says 0, and points follow: 0; expected as many, at "
-              "least one");
+              "input: p:1:1: the first line is 0, but the number of points is 0; expected as many, "
+              "at least one");
     EXPECT_EQ(refusal("psa", "0.5 0.5\n1 1\n"),
               "input: p:1:1: '0.5 0.5' is not a number of points; psa begins with one");
     EXPECT_EQ(refusal("psa", "1\n0 0.5 1\n"), "input: p:2:7: the row has 3 fields; expected 2");
     EXPECT_EQ(refusal("psa", "2\n0 0\n#\n1 1\n"),
               "input: p:3:1: '#' begins another set; psa holds one");
-    EXPECT_EQ(refusal("psa", ""), "input: p: the file is empty; expected points, one a line");
+    EXPECT_EQ(refusal("psa", ""), "input: p: the file is empty; expected points, one per line");
 }
 
 TEST(Psa, HoldsOneSetOfTwoDimensions) {

@@ -54,7 +54,7 @@ TEST(Utk, RefusesWhatIsNoSuchFile) {
     const std::string file = written("utk", {random_points(5, 2)});
     EXPECT_EQ(refused("UTK?"), "input: p: byte 0: not a file of UTK; expected the bytes UTK!");
     EXPECT_EQ(refused(file.substr(0, 19)),
-              "input: p: byte 19: the file ends in its first 20 bytes");
+              "input: p: byte 19: the file ends within its first 20 bytes");
     EXPECT_EQ(refused(utk_head(6, 1, 1, 1)),
               "input: p: byte 4: numbers of type 6; expected 0 to 5");
     EXPECT_EQ(refused(utk_head(5, 1, 0, 2)),
