@@ -91,7 +91,7 @@ Cells read_cells(const std::string& path, bool invert, const RunContext& run) {
     else
         fail(ErrorKind::input, "{}: neither a PNG or PFM picture nor an NPY array", path);
     if (std::ranges::all_of(cells.values, [](double value) { return value == 0; }))
-        fail(ErrorKind::input, "{}: all values are 0{}; there is no place for a point", path,
+        fail(ErrorKind::input, "{}: all values are 0{}; no point can be placed", path,
              invert ? " when inverted" : "");
     return cells;
 }
@@ -235,7 +235,7 @@ DensityMap read_density(const std::string& path, bool invert, const RunContext& 
 PlaneValues read_lengths(const std::string& path, const RunContext& run) {
     const std::string bytes = read_file(path);
     if (!bytes.starts_with(npy_magic))
-        fail(ErrorKind::input, "{}: not an NPY array, which lengths have to be in", path);
+        fail(ErrorKind::input, "{}: not an NPY array; expected an NPY array of lengths", path);
     Cells cells = cells_of_array(bytes, path, run);
     check_values(
         cells, path, [](double value) { return value > 0 && std::isfinite(value); },

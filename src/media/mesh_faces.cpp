@@ -95,8 +95,8 @@ std::vector<std::array<std::uint32_t, 3>> MeshFaces::triangles(const std::vector
     }
     if (bent > 0)
         run.notify(
-            fmt::format("{}: {} of {} faces are not flat, the first is face {}; the surface "
-                        "is that of triangles between their corners",
+            fmt::format("{}: {} of {} faces are not flat, the first is face {}; they are replaced "
+                        "by triangles between their corners",
                         name, bent, ends_.size(), first_bent));
     return all;
 }

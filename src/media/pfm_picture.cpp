@@ -36,7 +36,7 @@ class Head {
     }
 
     double scale() {
-        constexpr auto what = "a scale that is not 0, below 0 for floats with the low byte first";
+        constexpr auto what = "a scale other than 0, below 0 for little-endian floats";
         const std::size_t from = at_;
         const auto value = parse_number(word(what));
         if (!value || *value == 0) refuse(from, what);

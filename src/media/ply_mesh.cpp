@@ -240,8 +240,8 @@ class Assembly {
     std::uint32_t place_of(double index) {
         const auto count = static_cast<double>(mesh_.vertices.size());
         if (!(index >= 0 && index < count && index == std::floor(index)))
-            body_.refuse(fmt::format("there is no vertex {} as in {}; there are {}, from 0", index,
-                                     body_.what(), mesh_.vertices.size()));
+            body_.refuse(fmt::format("there is no vertex {}, used in {}; there are {}, from 0",
+                                     index, body_.what(), mesh_.vertices.size()));
         return static_cast<std::uint32_t>(index);
     }
 
@@ -282,7 +282,7 @@ TriangleMesh parse_ply(std::string bytes, const std::string& name, const RunCont
     constexpr std::string_view last = "\nend_header";
     const auto found = bytes.find(last);
     if (found == std::string::npos)
-        fail(ErrorKind::input, "{}: no line end_header; the header is cut", name);
+        fail(ErrorKind::input, "{}: no line end_header; the header is cut off", name);
     const auto end = bytes.find('\n', found + last.size());
     const std::size_t begin = end == std::string::npos ? bytes.size() : end + 1;
     TokenFile head(bytes.substr(0, begin), name);

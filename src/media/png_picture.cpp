@@ -128,7 +128,7 @@ class Encoder : public ErrorText {
     static void take_bytes(png_structp png, png_bytep bytes, std::size_t size) {
         auto& self = *static_cast<Encoder*>(png_get_io_ptr(png));
         if (!self.append(reinterpret_cast<const char*>(bytes), size))
-            png_error(png, "there is no memory left");
+            png_error(png, "out of memory");
     }
 
     std::string bytes_;
@@ -152,10 +152,10 @@ bool chunks_fit(std::string_view png) {
 PngPicture read_png(std::string_view bytes, const std::string& source, const RunContext& run) {
     if (!bytes.starts_with(png_magic)) fail(ErrorKind::input, "{}: not a PNG picture", source);
     if (!chunks_fit(bytes))
-        fail(ErrorKind::input, "{}: no whole PNG picture: the file ends too soon", source);
+        fail(ErrorKind::input, "{}: not a whole PNG picture: the file ends too soon", source);
     Decoder decoder(bytes);
     if (!decoder.read_head())
-        fail(ErrorKind::input, "{}: no whole PNG picture: {}", source, decoder.error());
+        fail(ErrorKind::input, "{}: not a whole PNG picture: {}", source, decoder.error());
     PngPicture picture{
         .width = decoder.width(), .height = decoder.height(), .grey = {}, .opacity = {}};
     const std::size_t pixels = picture.width * picture.height;
@@ -167,7 +167,7 @@ PngPicture read_png(std::string_view bytes, const std::string& source, const Run
     for (std::size_t i = 0; i < rows.size(); ++i)
         rows[i] = reinterpret_cast<png_bytep>(&samples[i * channels * picture.width]);
     if (!decoder.read_rows(rows.data()))
-        fail(ErrorKind::input, "{}: no whole PNG picture: {}", source, decoder.error());
+        fail(ErrorKind::input, "{}: not a whole PNG picture: {}", source, decoder.error());
 
     constexpr double largest = 65535;
     picture.grey.resize(pixels);

@@ -106,7 +106,7 @@ void TokenFile::refuse_short(std::string_view what) const {
 void TokenFile::expect_line_end() const {
     if (at_line_end()) return;
     const Token token = peek();
-    refuse(token, fmt::format("{} is too much; expected the end of the line", shown(token.text)));
+    refuse(token, fmt::format("unexpected {}; expected the end of the line", shown(token.text)));
 }
 
 void TokenFile::skip_line() {

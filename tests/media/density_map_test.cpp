@@ -206,20 +206,21 @@ TEST(ReadDensity, RefusesBadFilesInOneLine) {
          "FILE: value nan in row 1, column 0; expected finite densities, none below 0"},
         {array({1, 2, 3, inf}, "(2, 2)"),
          "FILE: value inf in row 1, column 1; expected finite densities, none below 0"},
-        {array({0, 0}, "(1, 2)"), "FILE: all values are 0; there is no place for a point"},
+        {array({0, 0}, "(1, 2)"), "FILE: all values are 0; no point can be placed"},
         {array({1, 1}, "(2,)"), "FILE: an array of shape (2,); expected (rows, columns)"},
         {array({1, 1}, "(1, 1, 2)"), "FILE: an array of shape (1, 1, 2); expected (rows, columns)"},
         {array({1}, "()"), "FILE: an array of shape (); expected (rows, columns)"},
         {array({}, "(0, 4)"), "FILE: an array of shape (0, 4) is empty"},
         {array({1}, "(1, 2)"),
          "FILE: byte 136: the file ends too soon; expected 16 bytes of numbers, found 8"},
-        {png_of(2, 1, {0, 0}), "FILE: all values are 0; there is no place for a point"},
-        {png_of(2, 1, {3, 4}).substr(0, 50), "FILE: no whole PNG picture: the file ends too soon"}};
+        {png_of(2, 1, {0, 0}), "FILE: all values are 0; no point can be placed"},
+        {png_of(2, 1, {3, 4}).substr(0, 50),
+         "FILE: not a whole PNG picture: the file ends too soon"}};
     for (const auto& [bytes, message] : cases) EXPECT_EQ(refused(bytes), "input: " + message);
     EXPECT_EQ(refused(png_of(2, 1, {255, 255}), true),
-              "input: FILE: all values are 0 when inverted; there is no place for a point");
+              "input: FILE: all values are 0 when inverted; no point can be placed");
     EXPECT_EQ(refused(array({3, 3}, "(1, 2)"), true),
-              "input: FILE: all values are 0 when inverted; there is no place for a point");
+              "input: FILE: all values are 0 when inverted; no point can be placed");
 }
 
 TEST(ReadDensity, SaysWhyAFileCannotBeRead) {

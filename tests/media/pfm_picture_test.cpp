@@ -56,9 +56,8 @@ TEST(PfmPicture, SaysWhatIsWrongAndWhere) {
         {"Pf\n1 -1\n-1\n", "byte 5: expected the height, a whole number above 0"},
         {"Pf\n1 x\n-1\n", "byte 5: expected the height, a whole number above 0"},
         {"Pf\n1 1\n0\nabcd",
-         "byte 7: expected a scale that is not 0, below 0 for floats with the low byte first"},
-        {"Pf\n1 1\n",
-         "byte 7: expected a scale that is not 0, below 0 for floats with the low byte first"},
+         "byte 7: expected a scale other than 0, below 0 for little-endian floats"},
+        {"Pf\n1 1\n", "byte 7: expected a scale other than 0, below 0 for little-endian floats"},
         {"Pf\n999999999 999999999\n-1\n",
          "byte 26: expected 3999999992000000000 bytes of floats, found 0"}};
     for (const auto& [bytes, message] : cases)

@@ -90,7 +90,7 @@ TEST(PngPicture, RefusesEveryTruncationSilently) {
         for (std::size_t size = 0; size < whole.size(); ++size) {
             const std::string error = refused(whole.substr(0, size));
             EXPECT_TRUE(error.starts_with(size < 8 ? "input: p.png: not a PNG picture"
-                                                   : "input: p.png: no whole PNG picture: "))
+                                                   : "input: p.png: not a whole PNG picture: "))
                 << size << ": " << error;
             EXPECT_EQ(error.find('\n'), std::string::npos);
         }

@@ -47,7 +47,7 @@ TEST(TokenFile, KnowsWhatBelongsToALine) {
     file.skip_line();
     EXPECT_EQ(file.number("a"), 1U);
     EXPECT_EQ(error_of([&] { file.expect_line_end(); }),
-              "input: f:2:3: '2' is too much; expected the end of the line");
+              "input: f:2:3: unexpected '2'; expected the end of the line");
     EXPECT_EQ(file.number_on_line("b"), 2U);
     file.expect_line_end();
     EXPECT_EQ(error_of([&] { file.number_on_line("c", 1, 9); }),

@@ -117,8 +117,8 @@ TEST(TriangleMesh, ReadsBinaryPlyOfAllTypes) {
 
 TEST(TriangleMesh, RefusesBadPlyNamingThePlace) {
     EXPECT_EQ(ply_error(ascii_head + ascii_points + "3 0 1 4\n"),
-              "input: m.ply:16:7: '4': there is no vertex 4 as in vertex_indices of face 1 of 1; "
-              "there are 4, from 0");
+              "input: m.ply:16:7: '4': there is no vertex 4, used in vertex_indices of face 1 of "
+              "1; there are 4, from 0");
     EXPECT_NE(ply_error(ascii_head + ascii_points + "3 0 1 -1\n"), "");
     EXPECT_NE(ply_error(ascii_head + ascii_points + "3 0 1 1.5\n"), "");
     EXPECT_NE(ply_error(ascii_head + ascii_points + "2 0 1\n"), "");
@@ -137,7 +137,7 @@ TEST(TriangleMesh, RefusesBadPlyNamingThePlace) {
         ply_error("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n"),
         "input: m.ply: no property y of element vertex in the header");
     EXPECT_EQ(ply_error("ply\nformat ascii 1.0\n"),
-              "input: m.ply: no line end_header; the header is cut");
+              "input: m.ply: no line end_header; the header is cut off");
     EXPECT_NE(ply_error("ply\nformat ascii 1.0\nproperty float x\nend_header\n"), "");
     EXPECT_NE(ply_error("ply\nformat ascii 1.0\nelement vertex -1\nend_header\n"), "");
 }
@@ -221,9 +221,9 @@ TEST(TriangleMesh, RefusesPolygonsThatAreNotSimple) {
     RunContext run;
     run.warn = [&](const std::string& note) { notes.push_back(note); };
     parse_obj(square + "v 0 1 1\nf 1 2 3 4\nf 1 2 3 5\n", "m.obj", run);
-    EXPECT_EQ(notes, std::vector<std::string>{"m.obj: 1 of 2 faces are not flat, the first is face "
-                                              "2; the surface is that of triangles between their "
-                                              "corners"});
+    EXPECT_EQ(notes,
+              std::vector<std::string>{"m.obj: 1 of 2 faces are not flat, the first is face 2; "
+                                       "they are replaced by triangles between their corners"});
 }
 
 TEST(TriangleMesh, ReadMeshTellsKindsByTheirFirstLine) {
