@@ -113,7 +113,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
 Generator unit() {
     return {
         .name = "box-behnken",
-        .summary = "Three-level design without corners for quadratic models, by Box and Behnken",
+        .summary = "Three-level design without corners, for quadratic models, by Box and Behnken",
         .source = "Box, Behnken 1960, doi:10.1080/00401706.1960.10489912",
         .related = {"doe", "experiment", "response-surface", "rsm", "bbdesign", "quadratic"},
         .traits = {.min_dimension = 3, .max_dimension = 16, .prefix = false, .seeded = false},

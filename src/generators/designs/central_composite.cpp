@@ -46,8 +46,8 @@ constexpr Param<Choice> type{
 constexpr Param<Text> alpha{
     {.name = "alpha",
      .fallback = "rotatable",
-     .help = "Distance of the axial runs from the centre over the corners' coordinate: rotatable, "
-             "orthogonal or a number of at least 1"}};
+     .help = "Distance of the axial runs from the centre, divided by the corners' coordinate: "
+             "rotatable, orthogonal or a number of at least 1"}};
 
 constexpr Param<bool> fraction{.name = "fraction",
                                .help =

@@ -54,8 +54,8 @@ constexpr Param<std::int64_t> modulus_option{
         "irreducible one for the count"};
 constexpr Param<Numbers> vector_option{
     {.name = "vector",
-     .help = "Generating vector of polynomials, written like the modulus; as long as the "
-             "dimension, which it gives by default, or longer"}};
+     .help = "Generating vector of polynomials, written like the modulus; gives the dimension, or "
+             "has more of them than --dimension"}};
 
 bool gives_vector(const Values& options) {
     return options.given(vector_option) || options.given(vector_file);

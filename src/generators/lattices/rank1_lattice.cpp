@@ -64,8 +64,8 @@ constexpr Param<double> effort{.name = "effort",
                                    "Multipliers that the rule korobov tries, as a multiple of the "
                                    "default: about a second's work"};
 constexpr Param<Numbers> vector{{.name = "vector",
-                                 .help = "Generating vector, such as 1,182667,469891; as long as "
-                                         "the dimension, which it gives by default, or longer"}};
+                                 .help = "Generating vector, such as 1,182667,469891; gives the "
+                                         "dimension, or has more numbers than --dimension"}};
 /// Numbers that are updated side by side, those of a few points, so that none waits for the one
 /// before.
 constexpr std::size_t some_numbers = 64;
