@@ -248,27 +248,48 @@ Box box_around(const PointSet& points) {
     return box;
 }
 
-/// Looks at points the first of which is point `first`; a row may hold more than the box has
-/// coordinates. Makes points of the unit cube of them where the analyzer takes only those.
-/// @throws Error(input) for points outside
-void take_box(std::span<double> rows, std::size_t width, const Box& box, std::uint64_t first,
-              bool to_cube) {
-    const DomainPtr domain = box_domain(box);
-    const std::size_t d = box.dimension();
-    for (std::size_t i = 0; i < rows.size(); i += width)
-        if (!domain->contains(rows.subspan(i, d)))
-            fail(ErrorKind::input, "point {} is outside the bounds {}", first + i / width,
-                 format_box(box));
-    for (std::size_t i = 0; to_cube && i < rows.size(); i += width)
-        domain->to_cube(rows.subspan(i, d), rows.subspan(i, d));
+/// A box that points are in, and whether they become points of the unit cube.
+struct Bounds {
+    Box box;
+    bool to_cube = false;
+
+    [[nodiscard]] DomainPtr domain() const {
+        return to_cube ? unit_cube(box.dimension()) : box_domain(box);
+    }
+
+    /// Takes rows, the first of which is point `first`; they may hold more than the box has
+    /// coordinates. @throws Error(input) for points outside
+    void take(std::span<double> rows, std::size_t width, std::uint64_t first) const {
+        const DomainPtr around = box_domain(box);
+        const std::size_t d = box.dimension();
+        for (std::size_t i = 0; i < rows.size(); i += width)
+            if (!around->contains(rows.subspan(i, d)))
+                fail(ErrorKind::input, "point {} is outside the bounds {}", first + i / width,
+                     format_box(box));
+        for (std::size_t i = 0; to_cube && i < rows.size(); i += width)
+            around->to_cube(rows.subspan(i, d), rows.subspan(i, d));
+    }
+
+    [[nodiscard]] PointSet taken(PointSet points) const {
+        take(points.flat(), box.dimension(), 0);
+        if (to_cube)
+            for (double& density : points.densities) density *= volume_of(box);
+        points.domain = domain();
+        return points;
+    }
+};
+
+PointSet rescaled(PointSet points) {
+    const Bounds around{box_around(points), true};
+    return around.taken(std::move(points));
 }
 
-PointSet taken_box(PointSet points, const Box& box, bool to_cube) {
-    take_box(points.flat(), box.dimension(), box, 0, to_cube);
-    if (to_cube)
-        for (double& density : points.densities) density *= volume_of(box);
-    points.domain = to_cube ? unit_cube(points.dimension()) : box_domain(box);
-    return points;
+/// --bounds, for an analyzer of points of d coordinates.
+std::optional<Bounds> bounds_of(const Arguments& arguments, const Analyzer& analyzer,
+                                std::size_t d) {
+    const auto text = arguments.get("bounds");
+    if (!text) return std::nullopt;
+    return Bounds{parse_box(*text, d), analyzer.traits.unit_cube || arguments.has("rescale")};
 }
 
 }  // namespace
@@ -283,15 +304,6 @@ void require_width(const PointSet& points, const std::string& input) {
                  input.empty() ? "" : io::source_name(input) + ": ", k + 1,
                  format_number(box.low[k]), format_number(box.high[k]));
 }
-
-namespace {
-
-PointSet rescaled(PointSet points) {
-    const Box box = box_around(points);
-    return taken_box(std::move(points), box, true);
-}
-
-}  // namespace
 
 PointSet placed(PointSet points, const std::string& input, const Arguments& arguments) {
     require_width(points, input);
@@ -316,11 +328,8 @@ PointSet of_the_cube(PointSet points, const Analyzer& analyzer) {
 PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& arguments) {
     if (analyzer.traits.table && reads_tables(arguments)) return points;
     take_domain(points, arguments);
-    if (const auto bounds = arguments.get("bounds")) {
-        const Box box = parse_box(*bounds, points.dimension());
-        return taken_box(std::move(points), box,
-                         analyzer.traits.unit_cube || arguments.has("rescale"));
-    }
+    if (const auto bounds = bounds_of(arguments, analyzer, points.dimension()))
+        return bounds->taken(std::move(points));
     if (arguments.has("rescale")) {
         require_width(points);
         return rescaled(std::move(points));
@@ -332,8 +341,8 @@ Arrival arrival_of(const io::PointStream& stream, bool weighted, const Analyzer&
                    const Arguments& arguments, const RunContext& run) {
     const std::size_t d = stream.dimension() - (weighted ? 1 : 0);
     DomainPtr domain;
-    if (const auto bounds = arguments.get("bounds"))
-        domain = analyzer.traits.unit_cube ? unit_cube(d) : box_domain(parse_box(*bounds, d));
+    if (const auto bounds = bounds_of(arguments, analyzer, d))
+        domain = bounds->domain();
     else if (const auto named = arguments.get("domain"))
         domain = parse_domain(*named, d);
     else
@@ -343,13 +352,12 @@ Arrival arrival_of(const io::PointStream& stream, bool weighted, const Analyzer&
 
 NextRows within_bounds(NextRows next, const Arrival& arrival, std::uint64_t first,
                        const Analyzer& analyzer, const Arguments& arguments) {
-    const auto bounds = arguments.get("bounds");
+    const auto bounds = bounds_of(arguments, analyzer, arrival.dimension());
     if (!bounds) return next;
-    return [next = std::move(next), width = arrival.width(),
-            box = parse_box(*bounds, arrival.dimension()), to_cube = analyzer.traits.unit_cube,
+    return [next = std::move(next), width = arrival.width(), bounds = *bounds,
             at = first](std::span<double> rows) mutable {
         const std::size_t count = next(rows);
-        take_box(rows.first(count * width), width, box, at, to_cube);
+        bounds.take(rows.first(count * width), width, at);
         at += count;
         return count;
     };
