@@ -14,9 +14,8 @@
 #include "core/spec.hpp"
 #include "core/text.hpp"
 #include "pipeline/chain.hpp"
-#include "pipeline/generated.hpp"
 #include "pipeline/pipeline.hpp"
-#include "pipeline/set_writer.hpp"
+#include "pipeline/warping.hpp"
 #include "warps/parameters/parameter_file.hpp"
 
 namespace stipple::cli {
@@ -35,7 +34,7 @@ Shard parse_shard(const Arguments& arguments) {
 
 /// The box of --bounds, with a range for each coordinate, or one for all. How many there are is
 /// planned in the box itself: options are checked by it.
-Box bounds_of(const std::string& text, const Production& job) {
+Box bounds_of(const std::string& text, const SetsToMake& job) {
     const auto ranges = static_cast<std::size_t>(1 + std::ranges::count(text, ','));
     Request request = job.request;
     if (!job.warps.empty()) {  // of what these leave, or of all
@@ -48,7 +47,7 @@ Box bounds_of(const std::string& text, const Production& job) {
 }
 
 /// The command that makes these bytes: what was typed, less what cannot change them.
-std::string command_of(const Arguments& arguments, const Production& job, const Target& target) {
+std::string command_of(const Arguments& arguments, const SetsToMake& job, const Target& target) {
     const Generator& generator = *job.generator;
     const auto& options = generator.options.options();
     std::string text = "stipple generate " + arguments.unit;
@@ -188,9 +187,9 @@ Values settings_of(const Schema& schema, const Arguments& arguments) {
     return values;
 }
 
-Production production_of(const Arguments& arguments, Session& session) {
+SetsToMake sets_to_make(const Arguments& arguments, Session& session) {
     const Generator& generator = find_generator(arguments.unit);
-    Production job{sets_asked(generator, settings_of(generator.options, arguments), arguments)};
+    SetsToMake job = sets_asked(generator, settings_of(generator.options, arguments), arguments);
     job.request.seed = seed_of(arguments, largest_seed(generator, job.options), session);
     job.shard = parse_shard(arguments);
     if (const auto bounds = arguments.get("bounds")) job.request.bounds = bounds_of(*bounds, job);
@@ -198,7 +197,7 @@ Production production_of(const Arguments& arguments, Session& session) {
 }
 
 int generate(const Arguments& arguments, Session& session) {
-    Production job = production_of(arguments, session);
+    SetsToMake job = sets_to_make(arguments, session);
     const Target target = target_of(arguments);
     job.command = command_of(arguments, job, target);
     produce(job, target, session.run());
@@ -244,19 +243,16 @@ int warp(const Arguments& arguments, Session& session) {
     const bool densities = !stream->provenance().density_column.empty();
     const bool whole =
         densities || (!inverse && !at_points && takes_whole_sets(spec, stream->dimension(), run));
-    if (whole || !can_stream(*stream, target)) {
-        auto sets = read_all(*stream, arguments, run);
-        if (at_points)
-            write_density_at(std::move(sets), spec, target, run);
-        else
-            write_warped(std::move(sets), spec, inverse, target, run);
-        return 0;
-    }
-    const auto on = input_domain(stream->provenance(), stream->dimension(), arguments, run);
-    if (at_points)
-        write_density_at(*stream, on, spec, target, run);
+    Unwarped points;
+    if (whole || !can_stream(*stream, target))
+        points.sets = read_all(*stream, arguments, run);
     else
-        write_warped(*stream, on, spec, inverse, target, run);
+        points = {.stream = stream.get(),
+                  .on = input_domain(stream->provenance(), stream->dimension(), arguments, run)};
+    if (at_points)
+        write_density_at(points, spec, target, run);
+    else
+        write_warped(std::move(points), spec, inverse, target, run);
     return 0;
 }
 

@@ -99,7 +99,7 @@ Arguments typed_for(const Original& original) {
 /// What makes the file again, and how its numbers were written.
 struct Recipe {
     Arguments typed;
-    Production job;
+    SetsToMake job;
     std::vector<std::string> steps;  ///< warps of later runs
 };
 
@@ -130,8 +130,8 @@ Recipe recipe_of(const Original& original, Session& session) {
     std::erase_if(recipe.typed.settings, [&](const auto& setting) {
         return std::ranges::find(generator.writes, setting.first) != generator.writes.end();
     });
-    recipe.job = production_of(recipe.typed, session);
-    Production& job = recipe.job;
+    recipe.job = sets_to_make(recipe.typed, session);
+    SetsToMake& job = recipe.job;
     if (job.generator->name != generator.name)
         fail(ErrorKind::usage, "its command makes points by {}, its generator is {}",
              job.generator->name, generator.name);

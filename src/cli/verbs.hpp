@@ -45,7 +45,7 @@ std::string picture_in_letters(Verb verb, const UnitInfo& unit);
 std::string version_text();
 
 /// What `generate` was asked to make.
-Production production_of(const Arguments& arguments, Session& session);
+SetsToMake sets_to_make(const Arguments& arguments, Session& session);
 
 /// Where points go, as -o, -f, --dtype, --precision, --meta and --no-header say.
 Target target_of(const Arguments& arguments);

@@ -12,7 +12,7 @@
 namespace stipple {
 namespace {
 
-/// Puts the moments of a part in their place among those of the whole.
+/// Copies the moments of coordinates `at` into the moments of the whole.
 void place_moments(const Moments& part, std::span<const std::size_t> at, Moments& whole) {
     const std::size_t d = whole.dimension();
     for (std::size_t i = 0; i < at.size(); ++i) {
@@ -146,8 +146,8 @@ class ProductDomain final : public Domain {
     }
 
     std::vector<Factor> factors_;
-    /// Of the axes of the factors' cubes, one factor after the other: where each stands in the cube
-    /// of the whole, in the order of the coordinates that it is worked out from.
+    /// Position in the cube of each axis of the factors' cubes, listed factor by factor. The cube's
+    /// axes are ordered by the coordinates that they depend on.
     std::vector<std::size_t> places_;
 };
 

@@ -135,16 +135,21 @@ std::vector<std::string> kept_names(std::vector<std::string> names, bool table) 
     return names;
 }
 
+DensityColumns density_columns(const Provenance& provenance) {
+    const std::string& names = provenance.density_column;
+    return {.pdf = names.starts_with("pdf"), .weight = names.ends_with("weight")};
+}
+
 void take_densities(PointSet& set) {
     const std::string& column = set.provenance.density_column;
     if (column.empty() || !set.densities.empty()) return;
     const std::size_t d = set.dimension() - 1;
     PointSet points(set.count(), d);
     points.densities.reserve(set.count());
+    const bool pdf = density_columns(set.provenance).pdf;
     for (std::size_t i = 0; i < set.count(); ++i) {
         std::ranges::copy(set[i].first(d), points[i].begin());
         const double number = set[i][d];
-        const bool pdf = column.starts_with("pdf");
         if (!(pdf ? number > 0 : number >= 0))
             fail(ErrorKind::input, "point {}: its {} is {}; expected a number {} 0", i, column,
                  number, pdf ? "above" : "not below");

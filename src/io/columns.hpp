@@ -56,6 +56,13 @@ std::size_t find_column(const std::string& wanted, const std::vector<std::string
 Columns choose_columns(std::vector<std::string> names, std::size_t width,
                        const ReadOptions& options, const std::string& place);
 
+/// The density columns that follow the coordinates in a file, from the provenance of its points.
+struct DensityColumns {
+    bool pdf = false;
+    bool weight = false;
+};
+DensityColumns density_columns(const Provenance& provenance);
+
 /// If the last number of each row is a pdf or a weight = 1 / pdf, moves it from the rows to
 /// set.densities.
 /// @throws Error(input) naming the first point with an invalid value

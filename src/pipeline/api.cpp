@@ -13,6 +13,7 @@
 #include "pipeline/pipeline.hpp"
 #include "pipeline/produce.hpp"
 #include "pipeline/units.hpp"
+#include "pipeline/warping.hpp"
 #include "stipple/analyze.hpp"
 #include "stipple/generate.hpp"
 #include "stipple/io.hpp"

@@ -19,14 +19,6 @@
 namespace stipple {
 namespace {
 
-/// Coordinates of a row of `width` numbers that are not in `taken`, in order.
-std::vector<std::size_t> others(std::size_t width, std::span<const std::size_t> taken) {
-    std::vector<std::size_t> rest;
-    for (std::size_t k = 0; k < width; ++k)
-        if (std::ranges::find(taken, k) == taken.end()) rest.push_back(k);
-    return rest;
-}
-
 /// to[i] for the i with from[i] == k.
 std::size_t moved(std::size_t k, std::span<const std::size_t> from,
                   std::span<const std::size_t> to) {
@@ -70,37 +62,6 @@ void keep_rows(std::vector<double>& rows, std::size_t width, std::span<const std
     rows.resize(kept * width);
 }
 
-/// Where " x " parts a factor of a domain from the next; not in brackets, where a file's name may
-/// hold it.
-std::size_t end_of_factor(std::string_view text) {
-    int open = 0;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == '[' || text[i] == ']') open += text[i] == '[' ? 1 : -1;
-        if (open == 0 && text.substr(i).starts_with(" x ")) return i;
-    }
-    return std::string_view::npos;
-}
-
-/// The warp that a domain is the image of. @throws Error(usage)
-const Warp& warp_of_domain(const std::string& name) {
-    std::vector<std::string> names = {"unit-cube", "box"};
-    for (const Warp& warp : warps::all()) {
-        if (warp.name == name || std::ranges::count(warp.aliases, name) > 0) return warp;
-        names.push_back(warp.name);
-    }
-    const bool range = name.find("..") != std::string::npos;
-    fail_with_hint(
-        ErrorKind::usage,
-        range ? fmt::format("a box is written box:bounds=[{}]", name) : suggest(name, names),
-        "unknown domain '{}'", name);
-}
-
-std::vector<std::size_t> all_of(std::size_t dimension) {
-    std::vector<std::size_t> all(dimension);
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    return all;
-}
-
 /// What is said where a warp takes another number of coordinates than there are.
 /// @param width numbers of a row
 [[noreturn]] void refuse_coordinates(const Spec& spec, std::size_t takes, std::size_t width) {
@@ -113,58 +74,8 @@ std::vector<std::size_t> all_of(std::size_t dimension) {
     std::string hint;
     if (takes < width)
         hint = fmt::format("name the coordinates: {}@{}", spec.name,
-                           format_coordinates(all_of(takes)));
+                           format_coordinates(all_coordinates(takes)));
     fail_with_hint(ErrorKind::usage, hint, "{}; the points have {}", wants, width);
-}
-
-/// Multiplies by the density of each row's `coordinates`, which are on a domain: that of the mapping
-/// that made them or, where there is none, the domain's.
-void multiply_densities(std::span<double> densities, std::span<const double> rows,
-                        std::span<const std::size_t> coordinates, const Domain& domain,
-                        const Mapping* mapping) {
-    const std::size_t width = densities.empty() ? 0 : rows.size() / densities.size();
-    std::vector<double> point;
-    for (std::size_t i = 0; i < densities.size(); ++i) {
-        point.clear();
-        for (const std::size_t k : coordinates) point.push_back(rows[i * width + k]);
-        densities[i] *= mapping != nullptr ? mapping->density(point) : domain.density(point);
-    }
-}
-
-/// The product of factors and of the unit cube in all other coordinates.
-DomainPtr filled_up(std::vector<Factor> factors, std::size_t dimension) {
-    std::vector<std::size_t> taken;
-    for (const Factor& factor : factors)
-        taken.insert(taken.end(), factor.coordinates.begin(), factor.coordinates.end());
-    const auto rest = others(dimension, taken);
-    if (!rest.empty()) factors.push_back({unit_cube(rest.size()), rest});
-    const bool whole = factors.size() == 1 && factors[0].coordinates == all_of(dimension);
-    return whole ? factors[0].domain : product_domain(std::move(factors));
-}
-
-/// What parts of " x " mean, each of `dimension` coordinates where it names none.
-std::vector<Factor> parse_factors(std::string_view text, std::size_t dimension,
-                                  const RunContext& run) {
-    std::vector<Factor> factors;
-    while (!text.empty()) {
-        const auto times = end_of_factor(text);
-        Spec spec = parse_spec(text.substr(0, times));
-        text = times == std::string_view::npos ? std::string_view() : text.substr(times + 3);
-        const std::size_t given = spec.coordinates.empty() ? dimension : spec.coordinates.size();
-        DomainPtr domain;
-        if (spec.name == "unit-cube") {
-            domain = unit_cube(given);
-        } else if (spec.name == "box") {
-            if (spec.settings.size() != 1 || spec.settings[0].first != "bounds")
-                fail(ErrorKind::usage, "domain box: write box:bounds=[lo..hi,lo..hi]");
-            domain = box_domain(parse_box(spec.settings[0].second, given));
-        } else {
-            const Warp& warp = warp_of_domain(spec.name);
-            domain = warp.make(spec.values(warp.options), given, run)->domain();
-        }
-        factors.push_back({std::move(domain), named_or_all(spec, dimension)});
-    }
-    return factors;
 }
 
 }  // namespace
@@ -178,8 +89,11 @@ std::vector<double> gather(std::span<const double> rows, std::size_t width,
     return out;
 }
 
-std::vector<std::size_t> named_or_all(const Spec& spec, std::size_t dimension) {
-    return spec.coordinates.empty() ? all_of(dimension) : spec.coordinates;
+ChainSet chain_set(const Generator& generator, const Plan& plan, const Values& options) {
+    return {
+        .seed = plan.seed,
+        .count = plan.start + plan.count,
+        .bases = generator.bases ? generator.bases(plan, options) : std::vector<std::uint32_t>()};
 }
 
 WarpChain::WarpChain(std::span<const Spec> specs, std::size_t dimension, const ChainSet& set,
@@ -207,7 +121,7 @@ DomainPtr WarpChain::domain_of_steps() const {
 
 std::vector<std::pair<std::size_t, std::size_t>> WarpChain::kept() const {
     constexpr std::size_t taken = ~std::size_t{0};
-    std::vector<std::size_t> from = all_of(dimension_in_);
+    std::vector<std::size_t> from = all_coordinates(dimension_in_);
     for (const Step& step : steps_) {
         if (!step.mapping) continue;
         std::vector<std::size_t> after(step.width_out, taken);
@@ -281,7 +195,7 @@ void WarpChain::add_scramble(const Scramble& scramble, const Spec& spec, const C
               .width_out = dimension_out_};
     set_bases(values, scramble, step.coordinates, set.bases);
     step.at = step.coordinates;
-    step.rest = step.others = others(dimension_out_, step.at);
+    step.rest = step.others = other_coordinates(dimension_out_, step.at);
     std::uint64_t seed = set.seed;
     if (values.given(scramble_seed)) {
         const auto own = parse_unsigned(values[scramble_seed]);
@@ -308,8 +222,8 @@ void WarpChain::add_warp(const Warp& warp, const Spec& spec, const RunContext& r
     const std::size_t gives = step.domain->dimension();
     step.width_out = step.width_in - takes + gives;
     step.image = step.at = places(step.coordinates, gives);
-    step.rest = others(step.width_in, step.coordinates);
-    step.others = others(step.width_out, step.at);
+    step.rest = other_coordinates(step.width_in, step.coordinates);
+    step.others = other_coordinates(step.width_out, step.at);
     for (Step& earlier : steps_)
         for (std::size_t& k : earlier.image) k = moved(k, step.rest, step.others);
     remember(warp, spec, values);
@@ -317,8 +231,8 @@ void WarpChain::add_warp(const Warp& warp, const Spec& spec, const RunContext& r
     steps_.push_back(std::move(step));
 }
 
-DomainPtr WarpChain::domain_before(const DomainPtr& after, const RunContext& run) const {
-    std::vector<Factor> factors = warped_factors(after, {}, run);
+DomainPtr WarpChain::domain_before(const DomainPtr& after) const {
+    std::vector<Factor> factors = warped_factors(after);
     for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
         if (!step->mapping) continue;
         std::erase_if(factors, [&](const Factor& factor) {
@@ -421,7 +335,7 @@ std::vector<double> WarpChain::through(std::vector<double> rows, std::uint64_t f
     for (const Step& step : std::span(steps_).subspan(from, to - from)) {
         if (!step.mapping && !step.randomization) continue;
         const std::size_t count = rows.size() / step.width_in;
-        const bool whole = step.coordinates == all_of(step.width_in);
+        const bool whole = step.coordinates == all_coordinates(step.width_in);
         auto part = whole ? std::move(rows) : gather(rows, step.width_in, step.coordinates);
         const bool drops = step.mapping && step.mapping->drops();
         std::vector<std::uint8_t> keep(drops ? count : 0, 1);
@@ -557,7 +471,7 @@ PointSet WarpChain::preimage(const PointSet& points, const RunContext& run) cons
         fail(ErrorKind::input, "the points have {} coordinates; the warps give {}",
              points.dimension(), dimension_out_);
     PointSet before(mapped(points.flat(), true, 0, run), dimension_in_);
-    before.domain = domain_before(points.domain, run);
+    before.domain = domain_before(points.domain);
     before.provenance = points.provenance;
     before.provenance.columns = names(points.provenance.columns, true);
     return before;
@@ -605,108 +519,6 @@ std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const st
             file, kept ? format_fingerprint(file_fingerprint(file, run)) : std::string(not_kept));
     }
     return all;
-}
-
-DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunContext& run) {
-    auto factors = parse_factors(text, dimension, run);
-    std::vector<std::size_t> covered;
-    for (const auto& [domain, coordinates] : factors) {
-        if (domain->dimension() != coordinates.size())
-            fail(ErrorKind::input, "the domain {} has dimension {}; the points have {}",
-                 domain->title(), domain->dimension(), coordinates.size());
-        covered.insert(covered.end(), coordinates.begin(), coordinates.end());
-    }
-    std::ranges::sort(covered);
-    if (covered != all_of(dimension))
-        fail(ErrorKind::input, "the domain does not cover each of the {} coordinates once",
-             dimension);
-    return filled_up(std::move(factors), dimension);
-}
-
-namespace {
-
-/// What the points of a factor of a domain follow.
-struct FactorLaw {
-    Factor factor;
-    std::unique_ptr<Mapping> mapping = {};  ///< that made them; none: the factor's own density
-};
-
-bool may_be_biased(const std::string& step) {
-    return std::ranges::any_of(warps::all(), [&](const Warp& warp) {
-        return (warp.traits.biased || warp.traits.tabulated) &&
-               step.find(warp.name) != std::string::npos;
-    });
-}
-
-/// Which of the steps that may be biased made which factor of the domain. A biased step that made
-/// none, since others came behind it, or that went back to the cube, is told to the user.
-std::vector<FactorLaw> factor_laws(std::span<const std::string> steps, const DomainPtr& domain,
-                                   const RunContext& run) {
-    std::vector<FactorLaw> laws;
-    for (Factor& factor : warped_factors(domain, {}, run)) laws.push_back({std::move(factor)});
-    for (const std::string& step : steps) {
-        if (!may_be_biased(step)) continue;
-        constexpr std::string_view inverse = "inverse ";
-        const bool back = step.starts_with(inverse);
-        const Spec spec = parse_spec(std::string_view(step).substr(back ? inverse.size() : 0));
-        const Warp& warp = find_warp(spec.name);
-        auto mapping = warp.make(spec.values(warp.options), domain->dimension(), run);
-        const auto made = std::ranges::find_if(laws, [&](const FactorLaw& law) {
-            return !law.mapping && law.factor.domain->spec() == mapping->domain()->spec();
-        });
-        if (!back && made != laws.end())
-            made->mapping = std::move(mapping);
-        else if (mapping->biased())
-            run.notify(
-                fmt::format("the points come from {}, which is biased; their density on the domain "
-                            "{} is not known, and taken to be the domain's",
-                            step, domain->title()));
-    }
-    return laws;
-}
-
-}  // namespace
-
-std::vector<double> biased_densities(const PointSet& points, const RunContext& run) {
-    const auto& steps = points.provenance.warps;
-    if (std::ranges::none_of(steps, may_be_biased)) return {};
-    std::vector<FactorLaw> laws;
-    try {
-        laws = factor_laws(steps, points.domain, run);
-    } catch (const Error& e) {  // it is the file that is wrong, not the call
-        if (e.kind() != ErrorKind::usage) throw;
-        throw Error(ErrorKind::input, fmt::format("its warps: {}", e.what()), e.hint());
-    }
-    const auto biased = [](const FactorLaw& law) { return law.mapping && law.mapping->biased(); };
-    if (std::ranges::none_of(laws, biased)) return {};
-    std::vector<double> densities(points.count(), 1);
-    for (const auto& [factor, mapping] : laws)
-        multiply_densities(densities, points.flat(), factor.coordinates, *factor.domain,
-                           mapping.get());
-    return densities;
-}
-
-std::vector<Factor> warped_factors(const DomainPtr& domain, std::span<const std::size_t> boxless,
-                                   const RunContext& run) {
-    const std::size_t d = domain->dimension();
-    const std::string text = domain->spec();
-    const bool product = end_of_factor(text) != std::string_view::npos;
-    std::vector<Factor> warped;
-    for (Factor& factor :
-         product ? parse_factors(text, d, run) : std::vector<Factor>{{domain, all_of(d)}}) {
-        const std::string name = parse_spec(factor.domain->spec()).name;
-        if (name == "unit-cube") continue;
-        if (name != "box") {
-            warped.push_back(std::move(factor));
-            continue;
-        }
-        const Box box = factor.domain->bounding_box();
-        for (std::size_t k = 0; k < box.dimension(); ++k)
-            if (std::ranges::find(boxless, factor.coordinates[k]) == boxless.end())
-                warped.push_back(
-                    {box_domain({{box.low[k]}, {box.high[k]}}), {factor.coordinates[k]}});
-    }
-    return warped;
 }
 
 }  // namespace stipple

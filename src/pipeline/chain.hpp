@@ -18,6 +18,8 @@
 
 #include "core/point_set.hpp"
 #include "core/spec.hpp"
+#include "generators/generator.hpp"
+#include "pipeline/domains.hpp"
 #include "scrambles/scramble.hpp"
 #include "warps/warp.hpp"
 
@@ -30,6 +32,12 @@ struct ChainSet {
     /// Of the digits of each coordinate, or of all; empty: 2.
     std::vector<std::uint32_t> bases = {};
 };
+
+/// The same of the points of a plan.
+ChainSet chain_set(const Generator& generator, const Plan& plan, const Values& options);
+
+/// Begins the entry of a warp among the warps of a provenance, where points went back through it.
+inline constexpr std::string_view inverse_of = "inverse ";
 
 class WarpChain {
   public:
@@ -115,7 +123,7 @@ class WarpChain {
     void tell_kept(std::uint64_t count, std::uint64_t kept, const RunContext& run) const;
 
     /// What preimages of points on `after` are on.
-    [[nodiscard]] DomainPtr domain_before(const DomainPtr& after, const RunContext& run) const;
+    [[nodiscard]] DomainPtr domain_before(const DomainPtr& after) const;
 
     /// Tells the user, once, of the first row that forward() was given a finite image for though its
     /// own is infinitely far.
@@ -179,9 +187,6 @@ class WarpChain {
 std::vector<double> gather(std::span<const double> rows, std::size_t width,
                            std::span<const std::size_t> columns);
 
-/// The coordinates that a spec names, or all.
-std::vector<std::size_t> named_or_all(const Spec& spec, std::size_t dimension);
-
 /// Files that options name, for reading; in order.
 std::vector<std::string> files_of(const Schema& schema, const Values& values,
                                   std::span<const std::string> written = {});
@@ -192,18 +197,5 @@ inline constexpr std::string_view not_kept = "not kept";
 /// Files with the fingerprints of their bytes. @throws Error(io)
 std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const std::string> files,
                                                               const RunContext& run);
-
-/// The domain that a text means: unit-cube, box:bounds=[lo..hi,...], a warp's spec, or several with
-/// coordinates joined by " x ". @throws Error(usage)
-DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunContext& run = {});
-
-/// Density of each point where the set's provenance names a warp whose points do not have that of
-/// the domain; empty where it names none. Tells the user where it is not known.
-std::vector<double> biased_densities(const PointSet& points, const RunContext& run);
-
-/// What a domain is put together from, in the sense of parse_domain, less what is of the unit cube.
-/// The axes of a box are factors of their own, those `boxless` left out.
-std::vector<Factor> warped_factors(const DomainPtr& domain, std::span<const std::size_t> boxless,
-                                   const RunContext& run);
 
 }  // namespace stipple

@@ -20,8 +20,8 @@ constexpr const char* extend = "extend";
 constexpr const char* add = "add";
 constexpr const char* levels_of_factors = "levels";
 
-bool given(const SetsToMake& asked, const char* option) {
-    const auto* item = asked.options.try_find(option);
+bool given(const Values& options, const char* option) {
+    const auto* item = options.try_find(option);
     return item != nullptr && item->given;
 }
 
@@ -49,12 +49,12 @@ void spread(PointSet& cube, const std::vector<OutcomeAxis>& axes) {
     }
 }
 
-std::string file_of_runs(const SetsToMake& asked) {
-    return std::get<std::string>(asked.options.find(extend).value);
+std::string file_of_runs(const Values& options) {
+    return std::get<std::string>(options.find(extend).value);
 }
 
-PointSet read_runs(const SetsToMake& asked, const WarpChain& chain, const RunContext& run) {
-    const std::string path = file_of_runs(asked);
+PointSet read_runs(const Values& options, const WarpChain& chain, const RunContext& run) {
+    const std::string path = file_of_runs(options);
     PointSet runs = io::read_given(
         extend, path, {.expected = chain.names({}, false), .levels = chain.levels()}, run);
     if (runs.dimension() != chain.dimension_out())
@@ -63,55 +63,43 @@ PointSet read_runs(const SetsToMake& asked, const WarpChain& chain, const RunCon
     return runs;
 }
 
-/// The chain of a request whose dimension is known without its points.
-WarpChain chain_of(const SetsToMake& asked, const RunContext& run) {
-    const std::size_t d = asked.request.dimension
-                              ? *asked.request.dimension
-                              : plan_for(*asked.generator, asked.request, asked.options).dimension;
-    return WarpChain(asked.warps, d, {}, run);
-}
-
-SetsToMake with_count_of_runs(SetsToMake asked, const RunContext& run) {
-    const WarpChain chain = chain_of(asked, run);
-    if (!goes_on_from_runs(asked, chain)) return asked;
+void count_with_runs(const WarpChain& chain, Request& request, Values& options,
+                     const RunContext& run) {
+    if (!goes_on_from_runs(options, chain)) return;
     if (chain.reorders())
         fail(
             ErrorKind::usage,
             "--extend: the parameters of a whole set are reordered; earlier points would not stay");
-    asked.request.dimension = chain.dimension_in();
-    if (!given(asked, add)) return asked;
-    const auto more =
-        static_cast<std::uint64_t>(std::get<std::int64_t>(asked.options.find(add).value));
-    const std::uint64_t before = read_runs(asked, chain, run).count();
-    if (asked.request.count.value_or(before + more) != before + more)
+    request.dimension = chain.dimension_in();
+    if (!given(options, add)) return;
+    const auto more = static_cast<std::uint64_t>(std::get<std::int64_t>(options.find(add).value));
+    const std::uint64_t before = read_runs(options, chain, run).count();
+    if (request.count.value_or(before + more) != before + more)
         fail(ErrorKind::usage, "--count: {} is not {}, the {} points of {} and those of --add",
-             *asked.request.count, before + more, before, file_of_runs(asked));
-    asked.request.count = before + more;
-    asked.options.put(add, std::int64_t{0}, false);
-    return asked;
+             *request.count, before + more, before, file_of_runs(options));
+    request.count = before + more;
+    options.put(add, std::int64_t{0}, false);
 }
 
-SetsToMake with_levels(SetsToMake asked, const RunContext& run) {
-    const WarpChain chain = chain_of(asked, run);
+void take_levels(const WarpChain& chain, Values& options) {
     std::vector<double> levels;
     for (const OutcomeAxis& axis : chain.outcome_axes()) {
         const auto ends = generators::level_ends(axis);
         levels.push_back(ends.empty() ? 2 : static_cast<double>(ends.size() - 1));
     }
     if (std::ranges::any_of(levels, [](double m) { return m != 2; }))
-        asked.options.put(levels_of_factors, std::move(levels));
-    return asked;
+        options.put(levels_of_factors, std::move(levels));
 }
 
 }  // namespace
 
-bool goes_on_from_runs(const SetsToMake& asked, const WarpChain& chain) {
-    return given(asked, extend) && !chain.empty() && !chain.names({}, false).empty();
+bool goes_on_from_runs(const Values& options, const WarpChain& chain) {
+    return given(options, extend) && !chain.empty() && !chain.names({}, false).empty();
 }
 
-EarlierRuns earlier_runs(const SetsToMake& asked, const WarpChain& chain, const RunContext& run) {
+EarlierRuns earlier_runs(const Values& options, const WarpChain& chain, const RunContext& run) {
     const RunContext quiet = silent(run);
-    PointSet runs = read_runs(asked, chain, quiet);
+    PointSet runs = read_runs(options, chain, quiet);
     try {
         PointSet cube(chain.mapped(runs.flat(), true, 0, quiet), chain.dimension_in());
         spread(cube, chain.outcome_axes());
@@ -119,30 +107,36 @@ EarlierRuns earlier_runs(const SetsToMake& asked, const WarpChain& chain, const 
             fail(ErrorKind::input, "a point breaks the constraints");
         return {std::move(runs), std::move(cube)};
     } catch (const Error& e) {
-        throw Error(ErrorKind::input, fmt::format("{}: {}", file_of_runs(asked), e.what()),
+        throw Error(ErrorKind::input, fmt::format("{}: {}", file_of_runs(options), e.what()),
                     e.hint());
     }
 }
 
-SetsToMake for_parameters(SetsToMake asked, const RunContext& run) {
-    if (asked.warps.empty()) return asked;
-    if (given(asked, extend)) return with_count_of_runs(std::move(asked), run);
-    const auto* levels = asked.options.try_find(levels_of_factors);
-    const bool takes_levels = has_levels(*asked.generator) && levels != nullptr &&
-                              std::holds_alternative<std::vector<double>>(levels->value);
-    if (takes_levels && !levels->given && !asked.request.count)
-        return with_levels(std::move(asked), run);
-    return asked;
+void take_parameters(const Generator& generator, std::span<const Spec> warps, Request& request,
+                     Values& options, const RunContext& run) {
+    const auto* levels = options.try_find(levels_of_factors);
+    const bool extends = given(options, extend);
+    const bool takes_levels = has_levels(generator) && levels != nullptr &&
+                              std::holds_alternative<std::vector<double>>(levels->value) &&
+                              !levels->given && !request.count;
+    if (!extends && !takes_levels) return;
+    const std::size_t d =
+        request.dimension ? *request.dimension : plan_for(generator, request, options).dimension;
+    const WarpChain chain(warps, d, {}, run);
+    if (extends)
+        count_with_runs(chain, request, options, run);
+    else
+        take_levels(chain, options);
 }
 
-void tell_absent_levels(std::span<const double> rows, const SetsToMake& asked,
+void tell_absent_levels(std::span<const double> rows, const Generator& generator,
                         const WarpChain& chain, const RunContext& run) {
     const auto axes = chain.outcome_axes();
     const auto names = chain.names({}, false);
     const Levels words = chain.levels();
     if (names.size() != axes.size()) return;
     for (std::size_t k = 0; k < axes.size(); ++k) {
-        if (!axes[k].categories && !has_levels(*asked.generator)) continue;
+        if (!axes[k].categories && !has_levels(generator)) continue;
         const auto ends = generators::level_ends(axes[k]);
         std::set<double> outcomes;
         for (std::size_t l = 0; l + 1 < ends.size(); ++l) outcomes.insert(axes[k].outcome(ends[l]));

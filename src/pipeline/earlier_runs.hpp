@@ -8,8 +8,8 @@
 #include <span>
 
 #include "core/point_set.hpp"
+#include "generators/generator.hpp"
 #include "pipeline/chain.hpp"
-#include "pipeline/sets_to_make.hpp"
 
 namespace stipple {
 
@@ -20,18 +20,19 @@ struct EarlierRuns {
 };
 
 /// Whether a generator goes on from points of a file in the units of named parameters.
-bool goes_on_from_runs(const SetsToMake& asked, const WarpChain& chain);
+bool goes_on_from_runs(const Values& options, const WarpChain& chain);
 
 /// Those points. Of parameters with outcomes, points of one are spread over its interval.
 /// @throws Error(input) for columns that are missing, and for points that are none of the parameters
-EarlierRuns earlier_runs(const SetsToMake& asked, const WarpChain& chain, const RunContext& run);
+EarlierRuns earlier_runs(const Values& options, const WarpChain& chain, const RunContext& run);
 
-/// The same request with what the parameters decide: how many points there will be behind earlier
-/// ones, and the levels of a factorial design that names none.
-SetsToMake for_parameters(SetsToMake asked, const RunContext& run);
+/// Puts what the parameters decide into a request: how many points there will be behind earlier ones,
+/// and the levels of a factorial design that names none.
+void take_parameters(const Generator& generator, std::span<const Spec> warps, Request& request,
+                     Values& options, const RunContext& run);
 
 /// Tells the user which words, and of a design of levels which outcomes, none of some points has.
-void tell_absent_levels(std::span<const double> rows, const SetsToMake& asked,
+void tell_absent_levels(std::span<const double> rows, const Generator& generator,
                         const WarpChain& chain, const RunContext& run);
 
 }  // namespace stipple

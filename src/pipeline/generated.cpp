@@ -2,7 +2,6 @@
 #include "pipeline/generated.hpp"
 
 #include <algorithm>
-#include <future>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -47,38 +46,6 @@ void fill_rows(const Sequence& sequence, std::uint64_t first, const WarpChain& c
     });
     chain.tell_infinite(run);
 }
-
-}  // namespace
-
-NextRows rows_of(const PointSet& points, std::uint64_t first) {
-    const std::size_t d = points.dimension();
-    return [rest = points.flat().subspan(static_cast<std::size_t>(first) * d),
-            d](std::span<double> rows) mutable {
-        const auto some = rest.first(std::min(rest.size(), rows.size() / d * d));
-        std::ranges::copy(some, rows.begin());
-        rest = rest.subspan(some.size());
-        return some.size() / d;
-    };
-}
-
-bool in_batches(const NextRows& next, std::size_t batch, std::size_t width, const RunContext& run,
-                const std::function<bool(std::span<const double>)>& take) {
-    constexpr std::size_t few = 65536;  // numbers, sooner made than a thread is started
-    std::vector<double> rows(batch * width);
-    std::vector<double> ahead(rows.size());
-    const auto policy = run.thread_count() > 1 && rows.size() > few
-                            ? std::launch::async | std::launch::deferred
-                            : std::launch::deferred;  // where none starts, too
-    for (std::size_t count = next(rows); count > 0; rows.swap(ahead)) {
-        run.check_stop();
-        auto fetched = std::async(policy, [&] { return next(ahead); });
-        if (!take(std::span(rows).first(count * width))) return false;
-        count = fetched.get();
-    }
-    return true;
-}
-
-namespace {
 
 void need_memory_of(const Plan& plan, const RunContext& run) {
     run.need_memory(8 * static_cast<double>(plan.count) * static_cast<double>(plan.dimension),
@@ -125,9 +92,11 @@ void Scaling::apply(std::span<double> rows, std::size_t width) const {
 
 namespace {
 
-/// The same with a range for each coordinate of the generator's points, [0, 1) for those that warps
-/// take. @throws Error(usage)
-SetsToMake with_all_bounds(SetsToMake asked) {
+/// The same with what named parameters decide, and with a range for each coordinate of the
+/// generator's points, [0, 1) for those that warps take. @throws Error(usage)
+SetsToMake completed(SetsToMake asked, const RunContext& run) {
+    if (!asked.warps.empty())
+        take_parameters(*asked.generator, asked.warps, asked.request, asked.options, run);
     auto& bounds = asked.request.bounds;
     if (!bounds || asked.warps.empty()) return asked;
     Request request = asked.request;
@@ -160,7 +129,7 @@ SetsToMake with_all_bounds(SetsToMake asked) {
 }  // namespace
 
 GeneratedSets::GeneratedSets(SetsToMake asked, const RunContext& run)
-    : asked_(with_all_bounds(for_parameters(std::move(asked), run))),
+    : asked_(completed(std::move(asked), run)),
       generator_(*asked_.generator),
       plan_(plan_for(generator_, asked_.request, asked_.options)),
       chain_(make_chain({}, run)),
@@ -207,7 +176,7 @@ std::shared_ptr<const WarpChain> GeneratedSets::make_chain(const ChainSet& set,
     ChainSet in_bases = set;
     const bool scrambled = std::ranges::any_of(
         asked_.warps, [](const Spec& spec) { return scramble_named(spec.name) != nullptr; });
-    if (generator_.bases && scrambled) in_bases.bases = generator_.bases(plan_, asked_.options);
+    if (scrambled) in_bases.bases = chain_set(generator_, plan_, asked_.options).bases;
     auto chain = std::make_shared<WarpChain>(asked_.warps, plan_.dimension, in_bases, run);
     const auto& bounds = asked_.request.bounds;
     if (!bounds || chain->empty()) return chain;
@@ -244,8 +213,8 @@ std::unique_ptr<Sequence> GeneratedSets::new_sequence(Plan plan, std::uint64_t s
         (whole || std::ranges::any_of(chain_->outcome_axes(), &OutcomeAxis::discrete))) {
         const auto chain = chain_for(set, run);
         auto destination = destination_of(chain);
-        if (goes_on_from_runs(asked_, *chain))
-            destination->given = earlier_runs(asked_, *chain, run).cube;
+        if (goes_on_from_runs(asked_.options, *chain))
+            destination->given = earlier_runs(asked_.options, *chain, run).cube;
         plan.destination = std::move(destination);
     }
     return generator_.sequence(plan, asked_.options, run);
@@ -287,8 +256,8 @@ bool GeneratedSets::goes_on() const {
 }
 
 void GeneratedSets::keep_runs(PointSet& points, const RunContext& run) const {
-    if (!goes_on_from_runs(asked_, *chain_)) return;
-    const PointSet runs = earlier_runs(asked_, *chain_, run).runs;
+    if (!goes_on_from_runs(asked_.options, *chain_)) return;
+    const PointSet runs = earlier_runs(asked_.options, *chain_, run).runs;
     if (runs.count() <= points.count()) std::ranges::copy(runs.flat(), points.flat().begin());
 }
 
@@ -298,7 +267,7 @@ void GeneratedSets::tell_absent_levels(const RunContext& run) const {
     if (std::ranges::none_of(chain_->outcome_axes(), &OutcomeAxis::discrete)) return;
     std::vector<double> rows(static_cast<std::size_t>(plan_.count) * dimension());
     stream(0, silent(run))(rows);
-    stipple::tell_absent_levels(rows, asked_, *chain_, run);
+    stipple::tell_absent_levels(rows, generator_, *chain_, run);
 }
 
 PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
@@ -324,7 +293,7 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
         }
         efficiency = points.provenance.efficiency;
         keep_runs(points, rest);
-        if (set == 0) stipple::tell_absent_levels(points.flat(), asked_, *chain_, run);
+        if (set == 0) stipple::tell_absent_levels(points.flat(), generator_, *chain_, run);
     }
     if (scaling_) scaling_->apply(points.flat(), points.dimension());
     points.domain = domain_;

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,22 +15,28 @@
 #include "core/spec.hpp"
 #include "generators/generator.hpp"
 #include "pipeline/chain.hpp"
-#include "pipeline/sets_to_make.hpp"
+#include "pipeline/stream.hpp"
 
 namespace stipple {
 
-/// Gives a set's next points, as many as fit; fewer only at its end.
-using NextRows = std::function<std::size_t(std::span<double> rows)>;
+/// Part `index` of `of` contiguous parts.
+struct Shard {
+    std::uint64_t index = 0;
+    std::uint64_t of = 1;
+};
 
-/// The points of a set in memory, from one on; the set must stay.
-NextRows rows_of(const PointSet& points, std::uint64_t first = 0);
-
-/// Calls take(rows) with all that comes, as long as it gives true, the next batch being fetched
-/// meanwhile: batches of so many rows, but for the last, on which sums by blocks rely. False: it gave
-/// false.
-/// @param batch rows at a time @param width numbers of a row
-bool in_batches(const NextRows& next, std::size_t batch, std::size_t width, const RunContext& run,
-                const std::function<bool(std::span<const double>)>& take);
+/// Sets to make, or a part of one.
+struct SetsToMake {
+    const Generator* generator = nullptr;
+    Values options = {};
+    /// Its seed is that of the first set; the next ones have seed + 1, ... Bounds may be those of the
+    /// coordinates that no warp takes.
+    Request request = {};
+    std::uint64_t sets = 1;
+    std::vector<Spec> warps = {};
+    Shard shard = {};          ///< that is written
+    std::string command = {};  ///< for the provenance
+};
 
 /// All points of a request, in memory, without notes, bounds and provenance.
 PointSet make_points(const Generator& generator, const Request& request, const Values& options,

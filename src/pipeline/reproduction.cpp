@@ -10,7 +10,7 @@
 #include "core/text.hpp"
 #include "io/decimal.hpp"
 #include "pipeline/chain.hpp"
-#include "pipeline/pipeline.hpp"
+#include "pipeline/warping.hpp"
 
 namespace stipple {
 namespace {
@@ -19,14 +19,14 @@ std::string name_of_set(std::size_t set) { return set > 0 ? fmt::format("set {}"
 
 /// Calls take(rows) with the rows of a set, as long as it gives true: as the numbers that come back
 /// when they were written and read. False: it gave false.
-bool each_batch(const SetsToWrite& job, std::size_t set, const Target& written,
+bool each_batch(const SetStream& stream, const OpenSet& open, const Target& written,
                 const RunContext& run, const std::function<bool(std::span<const double>)>& take) {
-    const RunContext part = part_of_run(run, set, job.sets).rising();
-    const std::size_t batch = std::max<std::size_t>(1, (std::size_t{1} << 18) / job.dimension());
+    const std::size_t width = stream.dimension();
+    const std::size_t batch = std::max<std::size_t>(1, (std::size_t{1} << 18) / width);
     std::uint64_t done = 0;
     std::string text;
-    return in_batches(job.source(set, part), batch, job.dimension(), part, [&](auto rows) {
-        auto numbers = written.columns.any() ? with_columns(rows, written.columns, job)
+    return in_batches(open.next, batch, width, run, [&](std::span<const double> rows) {
+        auto numbers = written.columns.any() ? with_columns(rows, {}, written.columns, stream)
                                              : std::vector<double>(rows.begin(), rows.end());
         for (double& number : numbers) {
             if (written.single) number = to_single(number);
@@ -35,7 +35,7 @@ bool each_batch(const SetsToWrite& job, std::size_t set, const Target& written,
             io::append_number(text, number, written.precision);
             io::read_number(text.data(), text.data() + text.size(), number);
         }
-        part.tick(done += rows.size() / job.dimension(), job.counts[set]);
+        run.tick(done += rows.size() / width, open.count);
         return take(numbers);
     });
 }
@@ -43,18 +43,21 @@ bool each_batch(const SetsToWrite& job, std::size_t set, const Target& written,
 /// All sets, in memory.
 std::vector<PointSet> collect(const Making& making, Target written, const RunContext& run) {
     std::vector<PointSet> sets;
-    written.take = [&](const SetsToWrite& job) {
-        const Provenance meta = job.provenance(0);
-        for (std::size_t set = 0; set < job.sets; ++set) {
+    written.take = [&](const SetStream& stream) {
+        const Provenance meta = stream.head(0, stream.sets).provenance;
+        const std::size_t d = stream.dimension();
+        for (std::size_t set = 0; set < stream.sets; ++set) {
+            const RunContext part = part_of_run(run, set, stream.sets).rising();
             std::vector<double> numbers;
-            each_batch(job, set, written, run, [&](std::span<const double> rows) {
-                run.need_memory(8 * static_cast<double>(numbers.size() + rows.size()),
-                                "the points before their last warp");
-                numbers.insert(numbers.end(), rows.begin(), rows.end());
-                return true;
-            });
-            sets.emplace_back(std::move(numbers), job.dimension());
-            sets.back().domain = meta.domain.empty() ? unit_cube(job.dimension()) : job.domain;
+            each_batch(stream, stream.open(set, part), written, part,
+                       [&](std::span<const double> rows) {
+                           run.need_memory(8 * static_cast<double>(numbers.size() + rows.size()),
+                                           "the points before their last warp");
+                           numbers.insert(numbers.end(), rows.begin(), rows.end());
+                           return true;
+                       });
+            sets.emplace_back(std::move(numbers), d);
+            sets.back().domain = meta.domain.empty() ? unit_cube(d) : stream.domain;
             sets.back().provenance = meta;
         }
     };
@@ -63,12 +66,14 @@ std::vector<PointSet> collect(const Making& making, Target written, const RunCon
 }
 
 /// Whether the points of a set, made again, are those of the file's; else tells how they differ.
-bool same_points(const SetsToWrite& job, std::size_t set, const Target& written,
+bool same_points(const SetStream& stream, std::size_t set, const Target& written,
                  io::PointStream& file, Comparison& result, const RunContext& run) {
     const std::size_t width = file.dimension();
+    const RunContext part = part_of_run(run, set, stream.sets).rising();
+    const OpenSet open = stream.open(set, part);
     std::uint64_t at = 0;
     std::vector<double> found;
-    return each_batch(job, set, written, run, [&](std::span<const double> made) {
+    return each_batch(stream, open, written, part, [&](std::span<const double> made) {
         found.resize(made.size());
         const std::size_t got = file.read(found) * width;
         const auto differs = std::ranges::mismatch(made.first(got), std::span(found).first(got));
@@ -85,30 +90,32 @@ bool same_points(const SetsToWrite& job, std::size_t set, const Target& written,
         at += got / width;
         if (got < made.size())
             result.mismatch = fmt::format("{} has {} points; made again it has {}",
-                                          name_of_set(set), at, job.counts[set]);
+                                          name_of_set(set), at, open.count);
         return got == made.size();
     });
 }
 
-Comparison compared(const SetsToWrite& job, const Target& written, io::PointStream& file,
+Comparison compared(const SetStream& stream, const Target& written, io::PointStream& file,
                     bool unmarked, const RunContext& run) {
-    Comparison result{.made = job.provenance(0)};
-    const std::size_t width = job.dimension() + written.columns.names().size();
+    const SetsHead head = stream.head(0, stream.sets);
+    Comparison result{.made = head.provenance};
+    const std::size_t width = stream.dimension() + written.columns.names().size();
     if (file.dimension() != width)
         result.mismatch = fmt::format("its points have {} numbers; made again they have {}",
                                       file.dimension(), width);
     std::vector<double> more(file.dimension());
-    for (std::size_t set = 0; set < job.sets && result.mismatch.empty(); ++set) {
+    for (std::size_t set = 0; set < stream.sets && result.mismatch.empty(); ++set) {
         const bool there = (unmarked && set > 0) || file.next_set();
         // A file of one set may be one of many that were written together.
         if (!there && set > 1)
-            result.mismatch = fmt::format("it has {} sets; made again there are {}", set, job.sets);
+            result.mismatch =
+                fmt::format("it has {} sets; made again there are {}", set, stream.sets);
         if (!there) return result;
         ++result.sets;
-        if (!same_points(job, set, written, file, result, run)) return result;
-        if ((!unmarked || set + 1 == job.sets) && file.read(more) > 0)
+        if (!same_points(stream, set, written, file, result, run)) return result;
+        if ((!unmarked || set + 1 == stream.sets) && file.read(more) > 0)
             result.mismatch = fmt::format("{} has more than {} points, which are made again",
-                                          name_of_set(set), job.counts[set]);
+                                          name_of_set(set), head.counts[set]);
     }
     if (result.mismatch.empty() && file.next_set())
         result.mismatch =
@@ -128,12 +135,11 @@ Making after_step(Making before, const std::string& step, std::uint64_t sets, st
         }
         return [=](const Target& target) { write_sets(collect(before, cut, run), target, run); };
     }
-    constexpr std::string_view inverse = "inverse ";
-    const bool back = step.starts_with(inverse);
-    Spec spec = parse_spec(std::string_view(step).substr(back ? inverse.size() : 0));
+    const bool back = step.starts_with(inverse_of);
+    Spec spec = parse_spec(std::string_view(step).substr(back ? inverse_of.size() : 0));
     if (scramble_named(spec.name) == nullptr)
         return [=](const Target& target) {
-            write_warped(collect(before, {}, run), spec, back, target, run);
+            write_warped({.sets = collect(before, {}, run)}, spec, back, target, run);
         };
     std::uint64_t seed = 1;
     for (const auto& [name, text] : spec.settings)
@@ -148,12 +154,10 @@ Making after_step(Making before, const std::string& step, std::uint64_t sets, st
 
 }  // namespace
 
-Making made_again(Production production, const std::vector<std::string>& steps, std::uint64_t sets,
+Making made_again(SetsToMake job, const std::vector<std::string>& steps, std::uint64_t sets,
                   const RunContext& run) {
-    std::uint64_t have = production.sets;
-    Making all = [job = std::move(production), run](const Target& target) {
-        produce(job, target, run);
-    };
+    std::uint64_t have = job.sets;
+    Making all = [job = std::move(job), run](const Target& target) { produce(job, target, run); };
     for (const std::string& step : steps) all = after_step(std::move(all), step, sets, have, run);
     return all;
 }
@@ -161,8 +165,8 @@ Making made_again(Production production, const std::vector<std::string>& steps, 
 Comparison compare(const Making& making, Target written, io::PointStream& file, bool unmarked,
                    const RunContext& run) {
     Comparison result;
-    written.take = [&](const SetsToWrite& job) {
-        result = compared(job, written, file, unmarked, run);
+    written.take = [&](const SetStream& stream) {
+        result = compared(stream, written, file, unmarked, run);
     };
     making(written);
     return result;

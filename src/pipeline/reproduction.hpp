@@ -23,7 +23,7 @@ using Making = std::function<void(const Target&)>;
 /// own: warps, inverses, scrambles with their seed, cuts.
 /// @param sets how many there are in the end, which tells how often a scramble took each
 /// @throws Error(usage) for a step that is none of these
-Making made_again(Production production, const std::vector<std::string>& steps, std::uint64_t sets,
+Making made_again(SetsToMake job, const std::vector<std::string>& steps, std::uint64_t sets,
                   const RunContext& run);
 
 struct Difference {

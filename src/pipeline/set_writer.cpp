@@ -10,7 +10,9 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
+#include "generators/generator.hpp"
 #include "io/carried_meta.hpp"
+#include "io/output.hpp"
 
 namespace stipple {
 namespace {
@@ -26,26 +28,30 @@ double finite(const char* column, double value, std::span<const double> point, b
 
 /// The rows of one set as bytes of the output, a batch of blocks at a time; `set` is its number in
 /// the file. False: the pipe was closed.
-bool write_rows(const NextRows& next, const SetsToWrite& job, const Layout& layout,
+bool write_rows(const OpenSet& open, const SetStream& stream, const Layout& layout,
                 const Target& target, std::size_t set, io::Output& output, const RunContext& run) {
-    const std::size_t d = job.width();
+    const std::size_t d = stream.dimension();
     const std::uint64_t block = std::max<std::uint64_t>(1, 16384 / d);
-    const std::uint64_t count = layout.counts[set];
     std::uint64_t written = 0;
     std::vector<std::string> texts;
+    const auto densities = [&](const Block& b) {
+        return open.densities.empty() ? open.densities
+                                      : open.densities.subspan(written + b.first, b.last - b.first);
+    };
     const auto write = [&](std::span<const double> rows) {
         texts.resize(block_count(rows.size() / d, block));
         for_each_block(silent(run), rows.size() / d, block, [&](const Block& b) {
             auto part = rows.subspan(b.first * d, (b.last - b.first) * d);
             std::vector<double> wide;
-            if (target.columns.any()) part = wide = with_columns(part, target.columns, job);
+            if (target.columns.any())
+                part = wide = with_columns(part, densities(b), target.columns, stream);
             texts[b.index].clear();
             target.format->rows(layout, set, written + b.first, part, texts[b.index]);
         });
         for (const std::string& text : texts)
             if (!output.write(text)) return false;
         written += rows.size() / d;
-        if (count > 0) run.tick(written, count);
+        if (open.count > 0) run.tick(written, open.count);
         return true;
     };
     // Two batches of rows and the text of one are in memory; no more threads than that leaves room for.
@@ -55,9 +61,9 @@ bool write_rows(const NextRows& next, const SetsToWrite& job, const Layout& layo
     const double threads = std::clamp(static_cast<double>(run.memory_left()) / (4 * share), 1.0,
                                       static_cast<double>(run.thread_count()));
     const auto batch = static_cast<std::uint64_t>(blocks * std::floor(threads)) * block;
-    const std::uint64_t all = count > 0 ? count : job.expected;
-    const auto at_once = static_cast<std::size_t>(all > 0 ? std::min(batch, all) : batch);
-    return in_batches(next, at_once, d, run, write);
+    const auto at_once =
+        static_cast<std::size_t>(open.count > 0 ? std::min(batch, open.count) : batch);
+    return in_batches(open.next, at_once, d, run, write);
 }
 
 std::string span_text(std::size_t low, std::size_t high) {
@@ -79,48 +85,21 @@ void check_format(const Format& format, const Layout& layout) {
                        "--format: {} holds sets of equal size only; these are not", format.name);
 }
 
-Layout layout_of(const SetsToWrite& job, std::size_t first, std::size_t last,
-                 const Target& target) {
-    Layout layout{.dimension = job.dimension(),
+Layout layout_of(SetsHead head, const SetStream& stream, const Target& target) {
+    Layout layout{.dimension = stream.dimension(),
+                  .extras = target.columns.names(),
+                  .counts = std::move(head.counts),
                   .header = target.header,
                   .meta = target.meta,
                   .single = target.single,
                   .precision = target.precision,
-                  .provenance = job.provenance(first),
-                  .extent = job.extent ? job.extent(first) : job.domain->bounding_box()};
+                  .provenance = std::move(head.provenance),
+                  .extent = head.extent ? head.extent : stream.domain->bounding_box()};
     Provenance& meta = layout.provenance;
     if (target.precision && !target.format->traits.binary)
         meta.precision = std::min(meta.precision.value_or(*target.precision), *target.precision);
     meta.single |= target.single && target.format->traits.binary;
-    layout.extras = target.columns.names();
-    layout.counts = job.counts.part(first, last);
     return layout;
-}
-
-/// One file with sets [first, last) of the job.
-bool write_points(const SetsToWrite& job, const Layout& layout, std::size_t first, std::size_t last,
-                  const std::string& path, const Target& target, io::Outputs& outputs,
-                  const RunContext& run) {
-    const Format& format = *target.format;
-    check_format(format, layout);
-    // What is wrong with the first source shall be known before anything is written.
-    RunContext part = part_of_run(run, first, job.sets).rising();
-    NextRows next = job.source(first, part);
-    io::Output& output = target.sink ? outputs.add(target.sink) : outputs.add(path, run.stop);
-    std::string bytes;
-    if (format.head) format.head(layout, bytes);
-    for (std::size_t set = first; set < last; ++set) {
-        if (set > first) {
-            part = part_of_run(run, set, job.sets).rising();
-            next = job.source(set, part);
-        }
-        if (format.begin_set) format.begin_set(layout, set - first, bytes);
-        if (!output.write(bytes)) return false;
-        bytes.clear();
-        if (!write_rows(next, job, layout, target, set - first, output, part)) return false;
-    }
-    if (format.tail) format.tail(layout, bytes);
-    return output.write(bytes);
 }
 
 /// Provenance for a file beside the points, where the format has no place for it; else nothing.
@@ -137,56 +116,108 @@ std::string meta_beside(const Layout& layout, const std::string& path, const Tar
            "\n";
 }
 
-std::uint64_t seed_of_set(const SetsToWrite& job, std::size_t set) {
-    return job.first_seed ? *job.first_seed + set : job.provenance(set).seed;
-}
-
-/// Seeds that files tell may be the same. @throws Error(usage) where two sets would be one file
-void check_seeds(const SetsToWrite& job, const Target& target) {
-    if (job.first_seed || target.path.find("{set}") != std::string::npos) return;
+/// @throws Error(usage) where two sets would be one file, as sets of files may have the same seed
+void check_seeds(const SetStream& stream, const Target& target) {
+    if (target.path.find("{set}") != std::string::npos) return;
     std::unordered_map<std::uint64_t, std::size_t> taken;
-    for (std::size_t set = 0; set < job.sets; ++set) {
-        const auto [there, is_new] = taken.try_emplace(seed_of_set(job, set), set);
+    for (std::size_t set = 0; set < stream.sets; ++set) {
+        const auto [there, is_new] = taken.try_emplace(stream.seed(set), set);
         if (!is_new)
             fail_with_hint(ErrorKind::usage, "use {set}",
                            "--output: sets {} and {} both have the seed {}, and would be one file",
-                           job.first_set + there->second, job.first_set + set, there->first);
+                           there->second, set, there->first);
     }
 }
 
-/// The points and their provenance. Who closes the pipe has seen enough of the points, but did not
-/// say so of the other file.
-bool write_file(const SetsToWrite& job, std::size_t first, std::size_t last,
+void write_side_files(const std::vector<SideFile>& files, io::Outputs& outputs,
+                      const RunContext& run) {
+    for (const SideFile& file : files) outputs.add(file.path, run.stop).write(file.bytes);
+}
+
+bool was_interrupted(const Provenance& meta) {
+    return std::ranges::count(meta.found, std::pair<std::string, std::string>(interrupted)) > 0;
+}
+
+/// The sets [first, last), of which the first is open; in the end the last is.
+/// @param part of the run, for the first set
+/// False: the pipe was closed.
+bool write_points(const SetStream& stream, OpenSet& open, std::size_t first, std::size_t last,
+                  const Layout& layout, const Target& target, io::Output& output,
+                  const RunContext& run, RunContext part) {
+    const Format& format = *target.format;
+    std::string bytes;
+    if (format.head) format.head(layout, bytes);
+    for (std::size_t set = first; set < last; ++set) {
+        if (set > first) {
+            part = part_of_run(run, set, stream.sets).rising();
+            open = stream.open(set, part);
+        }
+        if (format.begin_set) format.begin_set(layout, set - first, bytes);
+        if (!output.write(bytes)) return false;
+        bytes.clear();
+        if (!write_rows(open, stream, layout, target, set - first, output, part)) return false;
+    }
+    if (format.tail) format.tail(layout, bytes);
+    return output.write(bytes);
+}
+
+/// One file with the sets [first, last), and what comes with it. False: the pipe was closed, by
+/// somebody who has seen enough of the points, but did not say so of other files.
+bool write_file(const SetStream& stream, std::size_t first, std::size_t last,
                 const std::string& path, const Target& target, io::Outputs& outputs,
-                const RunContext& run) {
-    const Layout layout = layout_of(job, first, last, target);
-    if (const auto meta = meta_beside(layout, path, target, run); !meta.empty())
-        outputs.add(io::meta_path(path), run.stop).write(meta);
-    return write_points(job, layout, first, last, path, target, outputs, run);
+                RunContext run) {
+    const Layout layout = layout_of(stream.head(first, last), stream, target);
+    const std::string meta = meta_beside(layout, path, target, run);
+    check_format(*target.format, layout);
+    if (stream.one_at_a_time && last - first == 1 && was_interrupted(layout.provenance))
+        run = unstopped(run);  // the best that a search had when it was stopped
+    // What is wrong with the first set shall be known before anything is written.
+    const RunContext part = part_of_run(run, first, stream.sets).rising();
+    OpenSet open = stream.open(first, part);
+    write_side_files(open.side_files, outputs, run);
+    if (!meta.empty()) outputs.add(io::meta_path(path), run.stop).write(meta);
+    io::Output& output = target.sink ? outputs.add(target.sink) : outputs.add(path, run.stop);
+    const bool wanted = write_points(stream, open, first, last, layout, target, output, run, part);
+    // Sets of a sequence have one for all, with the last of them.
+    if (last - first > 1) write_side_files(open.side_files, outputs, run);
+    return wanted;
+}
+
+/// Whether a file of several sets begins with what is known when all of them are made, or has files
+/// beside it, which are written before it is begun.
+bool waits_for_all(const SetStream& stream, const Target& target) {
+    const FormatTraits& traits = target.format->traits;
+    const bool first_tells = traits.counts_first || traits.equal_sets || target.meta;
+    return stream.sets > 1 && (stream.side_files || (stream.one_at_a_time && first_tells));
 }
 
 }  // namespace
 
-std::vector<double> with_columns(std::span<const double> rows, const Columns& columns,
-                                 const SetsToWrite& job) {
-    const std::size_t d = job.dimension();
-    const auto density = job.densities ? std::vector<double>() : job.chain->density(rows);
-    // Without warps, what the points are on is the unit cube, or what it was scaled to.
-    const double volume = job.chain->empty() && !job.densities ? job.domain->measure() : 1;
+std::vector<double> with_columns(std::span<const double> rows, std::span<const double> densities,
+                                 const Columns& columns, const SetStream& stream) {
+    const std::size_t d = stream.dimension();
+    const std::size_t count = rows.size() / d;
+    double volume = 1;
+    std::vector<double> own;
+    if (densities.empty()) {
+        const bool warped = stream.chain != nullptr && !stream.chain->empty();
+        own = warped ? stream.chain->density(rows) : std::vector<double>(count, 1);
+        // Without warps, what the points are on is the unit cube, or what it was scaled to.
+        if (!warped) volume = stream.domain->measure();
+        densities = own;
+    }
     std::vector<double> wide;
-    const std::size_t count = rows.size() / job.width();
     wide.reserve(rows.size() + 2 * count);
     for (std::size_t i = 0; i < count; ++i) {
-        const auto row = rows.subspan(i * job.width(), d);
+        const auto row = rows.subspan(i * d, d);
         wide.insert(wide.end(), row.begin(), row.end());
-        const double told = job.densities ? rows[i * job.width() + d] : density[i];
-        const bool off = columns.anywhere && !job.chain->domain()->contains(row);
-        const double pdf = off ? 0 : told / volume;
-        const double weight = volume / told;
+        const bool off = columns.anywhere && !stream.chain->domain()->contains(row);
+        const double pdf = off ? 0 : densities[i] / volume;
+        const double weight = volume / densities[i];
         if (columns.pdf)
             wide.push_back(
-                finite(columns.anywhere ? "density-at" : "with-pdf", pdf, row, job.starts));
-        if (columns.weight) wide.push_back(finite("with-weight", weight, row, job.starts));
+                finite(columns.anywhere ? "density-at" : "with-pdf", pdf, row, stream.starts));
+        if (columns.weight) wide.push_back(finite("with-weight", weight, row, stream.starts));
     }
     return wide;
 }
@@ -213,31 +244,28 @@ std::string path_of_set(std::string path, std::size_t set, std::uint64_t seed) {
     return path;
 }
 
-void write_files(const SetsToWrite& job, const Target& asked, const RunContext& run) {
-    io::Outputs outputs;
-    write_files(job, asked, outputs, run);
-    outputs.commit();
-}
-
-void write_files(const SetsToWrite& job, const Target& asked, io::Outputs& outputs,
-                 const RunContext& run) {
-    if (asked.take) return asked.take(job);
+void write_sets(const SetStream& stream, const Target& asked, const RunContext& run) {
+    if (asked.take)
+        return asked.take(stream.one_at_a_time && stream.sets > 1
+                              ? waiting(stream, run, [](const auto&) {})
+                              : stream);
     Target target = asked;
     target.format = &format_of(asked);
-    if (!file_per_set(target.path)) {
-        write_file(job, 0, job.sets, target.path, target, outputs, run);
-        return;
+    io::Outputs outputs;
+    const std::size_t sets = stream.sets;
+    if (file_per_set(target.path)) {
+        check_seeds(stream, target);
+        for (std::size_t set = 0; set < sets; ++set)
+            if (!write_file(stream, set, set + 1, path_of_set(target.path, set, stream.seed(set)),
+                            target, outputs, run))
+                break;
+    } else if (waits_for_all(stream, target)) {
+        const auto beside = [&](const auto& files) { write_side_files(files, outputs, run); };
+        write_file(waiting(stream, run, beside), 0, sets, target.path, target, outputs, run);
+    } else {
+        write_file(stream, 0, sets, target.path, target, outputs, run);
     }
-    check_seeds(job, target);
-    for (std::size_t set = 0; set < job.sets; ++set) {
-        const auto path = path_of_set(target.path, job.first_set + set, seed_of_set(job, set));
-        if (!write_file(job, set, set + 1, path, target, outputs, run)) return;
-    }
-}
-
-RunContext part_of_run(const RunContext& run, std::size_t set, std::size_t sets) {
-    const auto all = static_cast<double>(sets);
-    return run.stage(static_cast<double>(set) / all, static_cast<double>(set + 1) / all);
+    outputs.commit();
 }
 
 std::vector<std::string> Columns::names() const {

@@ -16,7 +16,7 @@
 #include "pipeline/chain.hpp"
 #include "pipeline/generated.hpp"
 #include "pipeline/pipeline.hpp"
-#include "pipeline/produce.hpp"
+#include "pipeline/warping.hpp"
 #include "plot/points_picture.hpp"
 #include "plot/report_charts.hpp"
 #include "python/conversion.hpp"

@@ -163,9 +163,9 @@ void l2(Bytes bytes) {
 }
 
 /// Any generator with any of its options, and few points.
-Production production(FuzzedDataProvider& input) {
+SetsToMake production(FuzzedDataProvider& input) {
     const auto& all = generators::all();
-    Production made;
+    SetsToMake made;
     made.generator = &all[input.ConsumeIntegralInRange<std::size_t>(0, all.size() - 1)];
     made.options = quick_options(*made.generator);
     made.request.count = input.ConsumeIntegralInRange<std::uint64_t>(1, 70);
@@ -189,7 +189,7 @@ Production production(FuzzedDataProvider& input) {
 }
 
 /// The numbers that are written, as csv; what a run may cost is limited.
-std::string text_of(const Production& production, unsigned threads) {
+std::string text_of(const SetsToMake& production, unsigned threads) {
     RunContext run = small_run();
     run.threads = threads;
     const auto make = [&](const stipple::Target& target) { produce(production, target, run); };
@@ -198,7 +198,7 @@ std::string text_of(const Production& production, unsigned threads) {
 
 void shards(Bytes bytes) {
     FuzzedDataProvider input = provider(bytes);
-    Production made = production(input);
+    SetsToMake made = production(input);
     const std::string whole = text_of(made, 1);
     require(text_of(made, 3) == whole, "other points on several threads");
     made.sets = 1;

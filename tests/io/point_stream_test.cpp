@@ -25,7 +25,7 @@ class PointStreams : public ::testing::Test {
 
     /// A file with sets of n points.
     std::string file(const std::string& name, std::uint64_t n, std::uint64_t sets = 1) {
-        Production job;
+        SetsToMake job;
         job.generator = &find_generator("random");
         job.options = job.generator->options.defaults();
         job.request = {.count = n};

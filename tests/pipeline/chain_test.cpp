@@ -66,7 +66,7 @@ TEST(WarpChain, RimsComeBackBelowOne) {
 TEST(WarpChain, TheWayBackLeavesTheDomainsOfOtherCoordinates) {
     const auto sphere = chain({"sphere@1,2"}, 5);
     const auto before = [&](const std::string& after) {
-        return sphere.domain_before(parse_domain(after, 6), {})->spec();
+        return sphere.domain_before(parse_domain(after, 6))->spec();
     };
     EXPECT_EQ(before("sphere@1,2,3 x disk@5,6 x unit-cube@4"), "disk@4,5 x unit-cube@1,2,3");
     EXPECT_EQ(before("sphere@1,2,3 x unit-cube@4,5,6"), "unit-cube");

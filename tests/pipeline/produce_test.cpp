@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/produce.hpp"
+#include "pipeline/warping.hpp"
 
 #include <gtest/gtest.h>
 
@@ -66,7 +67,7 @@ TEST(WriteWarped, DropsPointsOfAStreamAsOfASetInMemory) {
         return true;
     };
     const Spec spec = parse_spec("disk:method=rejection");
-    write_warped(*stream, unit_cube(2), spec, false, target, {.threads = 3});
+    write_warped({.stream = stream.get(), .on = unit_cube(2)}, spec, false, target, {.threads = 3});
     const PointSet image = warp("disk:method=rejection", points);
     EXPECT_LT(image.count(), points.count());
     ASSERT_EQ(bytes.size(), image.flat().size_bytes());

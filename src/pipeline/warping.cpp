@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/warping.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "io/columns.hpp"
+#include "pipeline/chain.hpp"
+#include "pipeline/pipeline.hpp"
+#include "pipeline/units.hpp"
+
+namespace stipple {
+namespace {
+
+/// Writes down that the set went through a warp. What was cut in writing was so before it.
+void record_warp(PointSet& set, const WarpChain& chain, bool inverse,
+                 const std::vector<std::pair<std::string, std::string>>& inputs) {
+    Provenance& meta = set.provenance;
+    if (meta.single) meta.warps.emplace_back(cut_to_single);
+    if (meta.precision) meta.warps.push_back(fmt::format("{}{}", cut_to_digits, *meta.precision));
+    meta.single = false;
+    meta.precision.reset();
+    const std::string warp = std::string(inverse ? inverse_of : "") + chain.specs().front();
+    for (const auto& input : inputs)
+        if (std::ranges::find(meta.inputs, input) == meta.inputs.end())
+            meta.inputs.push_back(input);
+    for (const auto& version : chain.stream_versions())
+        if (std::ranges::find(meta.stream_versions, version) == meta.stream_versions.end())
+            meta.stream_versions.push_back(version);
+    meta.dimension = set.dimension();
+    meta.count = set.count();
+    meta.domain = set.domain->spec();
+    meta.warps.push_back(warp);
+}
+
+/// Numbers of a row that the warp makes into one of `after` numbers.
+std::size_t dimension_before(const Spec& spec, std::size_t after, const RunContext& run) {
+    const Warp& warp = find_warp(spec.name);
+    const std::size_t given = spec.coordinates.empty() ? after : spec.coordinates.size();
+    const auto mapping = warp.make(spec.values(warp.options), given, run);
+    const std::size_t gives = mapping->domain()->dimension();
+    if (gives > after || (spec.coordinates.empty() && gives != after))
+        fail(ErrorKind::input, "the images of {} are points of {} numbers; these have {}",
+             spec.name, gives, after);
+    return after - gives + mapping->cube_dimension();
+}
+
+/// Whether all coordinates that are neither taken nor warped before are in the unit cube, on which
+/// they are said to be.
+bool others_in_cube(const PointSet& points, std::span<const std::size_t> taken,
+                    const std::vector<Factor>& warped) {
+    std::vector<bool> known(points.dimension());
+    for (const std::size_t k : taken) known[k] = true;
+    for (const Factor& factor : warped)
+        for (const std::size_t k : factor.coordinates) known[k] = true;
+    for (std::size_t k = 0; k < known.size(); ++k)
+        for (std::size_t i = 0; i < points.count() && !known[k]; ++i)
+            if (!(points[i][k] >= 0 && points[i][k] <= 1)) return false;
+    return true;
+}
+
+/// A text whose number of sets was not known when the first was begun must have no more.
+void refuse_second_set(io::PointStream& stream) {
+    if (stream.sets() || !stream.next_set()) return;
+    fail_with_hint(ErrorKind::input, "give each set in a file of its own",
+                   "a second set begins in a text that is too large to be read as a whole");
+}
+
+/// A warp, or the way back through it, for points on a domain.
+struct Warping {
+    /// @param densities whether points tell their own
+    Warping(const Spec& spec, bool back, const DomainPtr& on, const Target& target,
+            const RunContext& run, const ChainSet& set = {}, bool densities = false)
+        : inverse(back), taken(named_or_all(spec, on->dimension())) {
+        const std::size_t d = on->dimension();
+        if (inverse && !find_warp(spec.name).traits.invertible)
+            fail(ErrorKind::usage, "--inverse: the warp {} has no inverse", spec.name);
+        if (!inverse) before = warped_factors(on, taken);
+        chain = std::make_shared<WarpChain>(
+            std::span(&spec, 1), inverse ? dimension_before(spec, d, run) : d, set, run, before);
+        if (densities) find_stretch(spec, set, run);
+        if (inverse && target.columns.any() && !densities)
+            fail(ErrorKind::usage,
+                 "--with-{}: the inverse gives points of the unit cube, density 1",
+                 target.columns.names().front());
+        inputs = fingerprints(chain->files(), run);
+        cube = fmt::format("the unit cube [0, 1]^{}", taken.size());
+        if (!spec.coordinates.empty()) cube += " in coordinates " + format_coordinates(taken);
+    }
+
+    /// The points of a stream before these are in the cube; so must these be.
+    void require_in_cube(std::span<const double> rows, std::size_t d, std::uint64_t first) const {
+        for (std::size_t i = 0; i < rows.size(); i += d)
+            if (const auto row = rows.subspan(i, d); !in_cube(row, taken))
+                fail(ErrorKind::input, "point {} is outside {}: ({})", first + i / d, cube,
+                     fmt::join(gather(row, d, taken), ", "));
+    }
+
+    /// The warp alone, without what points are on besides the unit cube.
+    void find_stretch(const Spec& spec, const ChainSet& set, const RunContext& run) {
+        if (!inverse && (chain->drops() || chain->reorders()))
+            fail_with_hint(ErrorKind::input,
+                           "--column picks the coordinates, which are then taken to be uniform",
+                           "the points have a column of densities; how the warp {} changes these "
+                           "is not known, for it {}",
+                           spec.name, chain->drops() ? "leaves points out" : "reorders points");
+        stretch = before.empty() ? chain
+                                 : std::make_shared<WarpChain>(std::span(&spec, 1),
+                                                               chain->dimension_in(), set, run);
+    }
+
+    /// Densities of the images of points that tell their own: p / |J|, on the way back p |J|.
+    [[nodiscard]] std::vector<double> densities(const PointSet& from, const PointSet& to) const {
+        auto factors = stretch->density((inverse ? from : to).flat());
+        for (std::size_t i = 0; i < factors.size(); ++i)
+            factors[i] = inverse ? from.densities[i] / factors[i] : from.densities[i] * factors[i];
+        return factors;
+    }
+
+    bool inverse;
+    std::vector<std::size_t> taken;  ///< coordinates; no others need be in the unit cube
+    std::string cube;                ///< of these, for messages
+    std::vector<Factor> before;      ///< what the points are on besides the unit cube
+    std::shared_ptr<const WarpChain> chain;
+    std::vector<std::pair<std::string, std::string>> inputs = {};
+    std::shared_ptr<const WarpChain> stretch = {};  ///< what densities are divided by
+};
+
+/// Bases of the digits of points that a generator made, and scrambles alone have changed; empty: 2,
+/// or not known.
+std::vector<std::uint32_t> digit_bases(const Provenance& meta) {
+    const Generator* generator = generator_named(meta.generator);
+    if (generator == nullptr || !generator->bases || !meta.bounds.empty()) return {};
+    const auto keeps_digits = [](const std::string& step) {
+        return step == cut_to_single || step.starts_with(cut_to_digits) ||
+               (!step.starts_with(inverse_of) && scramble_named(parse_spec(step).name) != nullptr);
+    };
+    if (!std::ranges::all_of(meta.warps, keeps_digits)) return {};
+    Values options = generator->options.defaults();
+    const auto& known = generator->options.options();
+    for (const auto& [name, text] : meta.options)
+        if (std::ranges::find(known, name, &Option::name) != known.end())
+            generator->options.set(options, name, text);
+    return chain_set(*generator, {.count = meta.count, .dimension = meta.dimension}, options).bases;
+}
+
+/// The image of a set, as its provenance tells it.
+PointSet warped(const PointSet& set, const Warping& warping, const RunContext& run) {
+    const auto& [inverse, taken, cube, before, chain, inputs, stretch] = warping;
+    if (!inverse) require_in_cube(set, taken, cube);
+    const bool said = inverse || others_in_cube(set, taken, before);
+    PointSet image = inverse ? chain->preimage(set, run) : chain->image(set, run);
+    record_warp(image, *chain, inverse, inputs);
+    if (!said) image.provenance.domain.clear();
+    if (!set.densities.empty()) image.densities = warping.densities(set, image);
+    return image;
+}
+
+/// The images of the points of a stream, each of `wide` numbers.
+NextRows warped_rows(io::PointStream& stream, const Warping& warping, std::size_t wide,
+                     const RunContext& run) {
+    return [&stream, &warping, wide, quiet = silent(run), taken = std::vector<double>(),
+            came = std::uint64_t{0},
+            kept = std::uint64_t{0}](std::span<double> rows) mutable -> std::size_t {
+        const std::size_t d = stream.dimension();
+        for (;;) {  // until some have an image
+            taken.resize(rows.size() / wide * d);
+            const std::size_t count = stream.read(taken);
+            if (count == 0) break;
+            const auto points = std::span(taken).first(count * d);
+            if (!warping.inverse) warping.require_in_cube(points, d, came);
+            const auto images = warping.chain->mapped(points, warping.inverse, came, quiet);
+            std::ranges::copy(images, rows.begin());
+            came += count;
+            kept += images.size() / wide;
+            if (!images.empty()) return images.size() / wide;
+        }
+        refuse_second_set(stream);
+        if (!warping.inverse) warping.chain->tell_kept(came, kept, quiet);
+        return 0;
+    };
+}
+
+/// One set or more, as they are read.
+SetStream stream_of(io::PointStream& points, const DomainPtr& on) {
+    const auto next = [&points](std::span<double> rows) {
+        const std::size_t count = points.read(rows);
+        if (count == 0) refuse_second_set(points);
+        return count;
+    };
+    return {.sets = points.sets().value_or(1),
+            .domain = on,
+            .open =
+                [&points, next](std::size_t, const RunContext&) {
+                    points.next_set();
+                    return OpenSet{.next = next};
+                },
+            .head =
+                [&points](std::size_t first, std::size_t last) {
+                    return SetsHead{.provenance = points.provenance(),
+                                    .counts = Counts::equal(last - first, 0)};
+                }};
+}
+
+/// What is known of points that have a column which nothing of their making tells of.
+Provenance without_making(const Provenance& meta) {
+    Provenance known;
+    known.columns = meta.columns;
+    known.levels = meta.levels;
+    known.count = meta.count;
+    known.dimension = meta.dimension;
+    known.domain = meta.domain;
+    return known;
+}
+
+}  // namespace
+
+bool takes_whole_sets(const Spec& warp, std::size_t dimension, const RunContext& run) {
+    const Warp& unit = find_warp(warp.name);
+    const std::size_t given = warp.coordinates.empty() ? dimension : warp.coordinates.size();
+    return unit.traits.reorders && unit.make(warp.values(unit.options), given, run)->reorders();
+}
+
+PointSet warped_set(const PointSet& set, const Spec& warp, bool inverse, const RunContext& run) {
+    const bool densities = !set.densities.empty();
+    const ChainSet of{.bases = digit_bases(set.provenance)};
+    return warped(set, Warping(warp, inverse, set.domain, {}, run, of, densities), run);
+}
+
+bool can_stream(const io::PointStream& stream, const Target& target) {
+    const bool sets_known = stream.sets() || stream.looks_like_one_set();
+    return sets_known && !stream.held() && !target.format->traits.counts_first && !target.meta &&
+           !file_per_set(target.path);
+}
+
+void write_warped(Unwarped from, const Spec& warp, bool inverse, const Target& target,
+                  const RunContext& run) {
+    const bool densities = !from.stream && !from.sets.front().densities.empty();
+    const Warping warping(warp, inverse, from.domain(), target, run, {}, densities);
+    const WarpChain& chain = *warping.chain;
+    if (!from.stream) {
+        Target wider = target;
+        if (densities) {
+            const auto there = io::density_columns(from.sets.front().provenance);
+            wider.columns.pdf |= there.pdf;
+            wider.columns.weight |= there.weight;
+        }
+        for (PointSet& set : from.sets) set = warped(set, warping, run);
+        return write_sets(stream_of(from.sets, &chain), wider, run);
+    }
+    SetStream images = stream_of(*from.stream, from.on);
+    images.domain = inverse ? chain.domain_before(from.on) : chain.domain();
+    images.chain = &chain;
+    images.open = [&](std::size_t, const RunContext&) {
+        from.stream->next_set();
+        return OpenSet{.next = warped_rows(*from.stream, warping, images.dimension(), run)};
+    };
+    images.head = [&, head = images.head](std::size_t first, std::size_t last) {
+        SetsHead changed = head(first, last);
+        Provenance& meta = changed.provenance;
+        meta.columns = chain.names(std::move(meta.columns), inverse);
+        if (!inverse) std::ranges::move(chain.levels(), std::back_inserter(meta.levels));
+        return changed;
+    };
+    write_sets(images, target, run);
+}
+
+void write_density_at(const Unwarped& at, const Spec& warp, Target target, const RunContext& run) {
+    const DomainPtr& on = at.domain();
+    const std::size_t d = dimension_before(warp, on->dimension(), run);
+    auto chain = std::make_unique<WarpChain>(std::span(&warp, 1), d, ChainSet{}, run);
+    // Coordinates that the warp does not give are on what they are said to be on.
+    auto others = warped_factors(chain->domain_before(on), named_or_all(warp, d));
+    if (!others.empty())
+        chain =
+            std::make_unique<WarpChain>(std::span(&warp, 1), d, ChainSet{}, run, std::move(others));
+    target.columns = {.pdf = true, .anywhere = true};
+    SetStream points = at.stream ? stream_of(*at.stream, on) : stream_of(at.sets);
+    points.chain = chain.get();
+    points.head = [head = points.head](std::size_t first, std::size_t last) {
+        SetsHead known = head(first, last);
+        known.provenance = without_making(known.provenance);
+        return known;
+    };
+    write_sets(points, target, run);
+}
+
+void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, std::uint64_t seed,
+                     std::uint64_t replications, const Target& target, const RunContext& run) {
+    if (replications * sets.size() - 1 > ~seed)
+        fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed", seed,
+             replications * sets.size());
+    if (!sets.front().densities.empty())
+        fail_with_hint(ErrorKind::input,
+                       "--column picks the coordinates, which are then taken to be uniform",
+                       "the points have a column of densities; a scramble keeps no density but 1");
+    const auto scrambled = [&](std::size_t set) {
+        const PointSet& points = sets[set / replications];
+        Spec spec = scramble;
+        spec.settings.emplace_back(scramble_seed.name, std::to_string(seed + set));
+        const Warping scrambling(
+            spec, false, points.domain, {}, run,
+            {.count = points.count(), .bases = digit_bases(points.provenance)});
+        return warped(points, scrambling, run);
+    };
+    write_sets(stream_of(sets.size() * replications, scrambled, seed), target, run);
+}
+
+}  // namespace stipple
