@@ -49,31 +49,31 @@ struct SetsHead {
 struct SetStream {
     std::size_t sets = 1;
     DomainPtr domain;                  ///< of the points
-    const WarpChain* chain = nullptr;  ///< gave the rows, with a density; null: no warps did
+    const WarpChain* chain = nullptr;  ///< warps that made the rows, for their density; null: none
     /// Begins a set; called once for each, in order.
     std::function<OpenSet(std::size_t set, const RunContext&)> open = {};
     /// Metadata of a file of the sets [first, last); called before these are opened.
     std::function<SetsHead(std::size_t first, std::size_t last)> head = {};
     std::function<std::uint64_t(std::size_t set)> seed = {};  ///< of {seed} in file names
-    bool one_at_a_time = false;  ///< a set is made when its head is asked for, and then replaced
-    bool side_files = false;     ///< some come with the sets
-    bool starts = false;         ///< a set's first point can be left out by --start
+    bool one_at_a_time = false;  ///< head and open make a set in place of the one before
+    bool side_files = false;     ///< some sets have side files
+    bool starts = false;         ///< --start can leave out a set's first point
 
-    /// Numbers of a row.
+    /// Coordinates of a point.
     [[nodiscard]] std::size_t dimension() const { return domain->dimension(); }
 };
 
 /// Sets in memory, which must stay.
-/// @param chain gave them, for columns of their density where they have none themselves
+/// @param chain warps that made them, for their density if they have none of their own
 SetStream stream_of(const std::vector<PointSet>& sets, const WarpChain* chain = nullptr);
 
-/// Sets made by make(0), make(1), ..., each when the one before is done with.
+/// Sets made by make(0), make(1), ..., one in memory at a time.
 /// @param seed of the first set in file names; the next ones have seed + 1, ...
 SetStream stream_of(std::size_t sets, std::function<PointSet(std::size_t set)> make,
                     std::uint64_t seed, const WarpChain* chain = nullptr);
 
-/// The same sets, all made and waiting on disk, so that their counts and what their metadata have in
-/// common are known. Calls take(files) with the side files of each set.
+/// The same sets, all made and kept on disk, with their counts and common metadata known. Calls
+/// take(files) with the side files of each set.
 SetStream waiting(const SetStream& made, const RunContext& run,
                   const std::function<void(const std::vector<SideFile>&)>& take);
 

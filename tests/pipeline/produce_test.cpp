@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/produce.hpp"
-#include "pipeline/warping.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 
 #include "pipeline/pipeline.hpp"
+#include "pipeline/warping.hpp"
 #include "stipple/warp.hpp"
 #include "support/temporary_file.hpp"
 #include "support/units.hpp"
@@ -51,6 +51,36 @@ TEST(WriteSets, TakesPointsWithoutADomainForThoseOfTheCube) {
     PointSet more = generate("random", {.count = 100, .dimension = 2});
     more.domain = nullptr;
     EXPECT_GT(analyze("chi-square", more).number("p_value"), 0);
+}
+
+// Sets made one at a time: on disk they are the same, and what all of them have is known.
+TEST(SetStream, WaitsOnDiskWithCountsAndCommonOptions) {
+    const auto make = [](std::size_t set) {
+        PointSet points(std::vector<double>(2 * (set + 1), 0.25 * static_cast<double>(set)), 2);
+        points.domain = unit_cube(2);
+        points.provenance.options = {{"method", "fast"}, {"radius", std::to_string(set)}};
+        points.side_files = {{.path = "p" + std::to_string(set), .bytes = {}}};
+        return points;
+    };
+    std::string beside;
+    const SetStream sets = waiting(stream_of(3, make, 7), {}, [&](const auto& files) {
+        for (const SideFile& file : files) beside += file.path;
+    });
+    EXPECT_EQ(beside, "p0p1p2");
+    EXPECT_EQ(sets.seed(2), 9U);
+    const SetsHead head = sets.head(0, 3);
+    EXPECT_EQ(head.provenance.options,
+              (std::vector<std::pair<std::string, std::string>>{{"method", "fast"}}));
+    for (std::size_t set = 0; set < 3; ++set) {
+        const OpenSet open = sets.open(set, {});
+        std::vector<double> rows(100);
+        EXPECT_EQ(open.count, set + 1);
+        EXPECT_EQ(head.counts[set], set + 1);
+        ASSERT_EQ(open.next(rows), set + 1);
+        rows.resize(2 * (set + 1));
+        EXPECT_TRUE(std::ranges::equal(rows, make(set).flat()));
+        EXPECT_EQ(open.next(rows), 0U);
+    }
 }
 
 // Blocks that are warped side by side lose points each; those that are left stand together, in order.
