@@ -36,9 +36,6 @@ struct ChainSet {
 /// The same of the points of a plan.
 ChainSet chain_set(const Generator& generator, const Plan& plan, const Values& options);
 
-/// Begins the entry of a warp among the warps of a provenance, where points went back through it.
-inline constexpr std::string_view inverse_of = "inverse ";
-
 class WarpChain {
   public:
     /// @param warped coordinates that are on domains of their own already, and stay as they are

@@ -15,6 +15,9 @@
 
 namespace stipple {
 
+/// Prefix of a provenance's entry for a warp whose inverse was applied.
+inline constexpr std::string_view inverse_of = "inverse ";
+
 /// The coordinates 0, 1, ... of a row.
 std::vector<std::size_t> all_coordinates(std::size_t dimension);
 

@@ -10,6 +10,7 @@
 #include "core/text.hpp"
 #include "io/decimal.hpp"
 #include "pipeline/chain.hpp"
+#include "pipeline/units.hpp"
 #include "pipeline/warping.hpp"
 
 namespace stipple {
