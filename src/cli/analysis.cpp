@@ -25,20 +25,21 @@
 namespace stipple::cli {
 namespace {
 
-/// An option of an analyzer that names a file to be written beside its report.
+/// Option of an analyzer that names a file to write beside its report.
 struct FileOption {
     const char* option;
-    const char* extension;  ///< of the one format that is written; empty: any
+    const char* extension;  ///< if the file has only one format; otherwise empty
 };
 constexpr std::array<FileOption, 3> file_options = {
     {{"grid", ".npy"}, {"image", ".png"}, {"wisdom", ""}}};
 
-// Sets wait to be measured side by side, a few megabytes at a time.
-constexpr std::size_t large = std::size_t{1} << 18;     // coordinates of a set that does not
-constexpr std::size_t together = std::size_t{1} << 20;  // of all that wait
+// Small sets are collected and measured in parallel, a few megabytes at a time.
+constexpr std::size_t large = std::size_t{1}
+                              << 18;  // coordinates of a set that is measured immediately
+constexpr std::size_t together = std::size_t{1} << 20;  // coordinates of all collected sets
 constexpr std::size_t most_waiting = std::size_t{1} << 12;
 
-/// Adds to what a mean says of its sets.
+/// Updates the counts, times and sources of a mean for another set.
 void add_to(Measurement& mean, const Measurement& m) {
     mean.seconds += m.seconds;
     if (mean.source != m.source) mean.source += ", " + m.source;
@@ -48,7 +49,7 @@ void add_to(Measurement& mean, const Measurement& m) {
     if (mean.count != largest) mean.largest_count = largest;
 }
 
-/// How the options say that a grid is drawn.
+/// Options for drawing a grid.
 PowerPicture picture_of(const Report& results, const Values& options) {
     PowerPicture picture;
     if (const auto* reach = results.find("max_distance"))
@@ -62,7 +63,7 @@ PowerPicture picture_of(const Report& results, const Values& options) {
     return picture;
 }
 
-/// The shortest and the longest side, of those that have a length; both 0: none has.
+/// Shortest and longest of the box's positive side lengths; both 0 if there are none.
 std::pair<double, double> sides_of(const Box& box) {
     std::vector<double> sides;
     for (std::size_t k = 0; k < box.dimension(); ++k)
@@ -79,7 +80,7 @@ std::string kind_of(const Provenance& made, std::uint64_t count) {
     std::string kind = made.generator;
     for (const auto& [name, value] : made.options) kind += fmt::format(" {}={}", name, value);
     for (const std::string& warp : made.warps) kind += " -w " + warp;
-    // A count that was not asked for may differ from seed to seed.
+    // Without --count, the count may differ from seed to seed.
     if (made.command.find(" --count ") != std::string::npos)
         kind += fmt::format(" -n {}", made.count);
     return fmt::format("{} {} {} {}", kind, made.start, made.shard, made.bounds);
@@ -102,7 +103,7 @@ std::optional<std::string> Analysis::text_of(std::string_view name) const {
     return format_value(option->value);
 }
 
-// ---------------------------------------------------------------- what was asked for
+// ---------------------------------------------------------------- arguments
 
 void Analysis::check_arguments(const std::string& output) const {
     check_domain();
@@ -138,8 +139,8 @@ void Analysis::check_side_files(const std::string& output) const {
     }
 }
 
-/// Distances in a box whose sides measure different things mean little, nor do those across the faces
-/// of a box that the points themselves gave.
+/// Distances mix units in a box whose sides have different units, and depend on the outermost
+/// points across the faces of a box that was computed from the points.
 void Analysis::warn_of_metric() const {
     const auto* metric = asked_.try_find("metric");
     if (metric == nullptr) return;
@@ -168,7 +169,7 @@ void Analysis::warn_of_prefixes(const Provenance& made) {
     session_.warn(sentence);
 }
 
-/// Distances between the points of a file whose columns measure different things.
+/// Warns if the distances between points of a file mix columns of very different ranges.
 void Analysis::warn_of_ranges(const PointSet& points) {
     if (told_of_ranges_ || !asked_.try_find("metric") || arguments_.has("bounds") ||
         arguments_.has("generate"))
@@ -191,7 +192,7 @@ void Analysis::add(PointSet points, SetOrigin origin) {
     warn_of_prefixes(points.provenance);
     warn_of_ranges(points);
     const std::size_t numbers = points.flat().size();
-    // The first set of a kind may decide how the others are measured.
+    // The first set of a kind may determine options for the others.
     const bool decides = averaged_ && analyzer_.follow && is_first(origin.kind, points.dimension());
     if (numbers >= large || decides) measure_waiting();
     waiting_.push_back({std::move(points), std::move(origin)});
@@ -231,10 +232,10 @@ void Analysis::measure_waiting() {
     const std::vector<Waiting> sets = std::exchange(waiting_, {});
     const RunContext& run = session_.run();
     const std::size_t threads = run.thread_count();
-    // The last ones, too few for a thread each, are measured by all threads one after the other.
+    // The last sets, fewer than threads, are measured one by one with all threads.
     const std::size_t spread = threads > 1 ? sets.size() - sets.size() % threads : 0;
     std::vector<Outcome> outcomes(spread);
-    // A set that has begun may come to a result when a stop is requested.
+    // After a stop request, analyses that have begun may still return a result.
     for_each_block(unstopped(run), spread, 1, [&](const Block& block) {
         if (!interrupted())
             outcomes[block.index] = measured_alone(sets[block.index], run.share_of_memory(threads));
@@ -252,7 +253,7 @@ void Analysis::measure_waiting() {
     }
 }
 
-/// Measures a set by one thread, beside others.
+/// Measures a set with one thread, while other threads measure other sets.
 Analysis::Outcome Analysis::measured_alone(const Waiting& set, RunContext one) const {
     Outcome outcome;
     one.threads = 1;
@@ -288,11 +289,12 @@ Measurement Analysis::measured(const Waiting& set, const RunContext& run) const 
             throw Error(e.kind(), fmt::format("{}: {}", analyzer_.name, what), e.hint());
         }
     });
-    if (analyzer_.traits.table) m.domain = set.points.provenance.domain;  // of some of its columns
+    if (analyzer_.traits.table)
+        m.domain = set.points.provenance.domain;  // domain of the inputs, not of all columns
     return m;
 }
 
-/// The run, its warnings with the set in front where there are others.
+/// The run, with the set's name in front of warnings if there are several sets.
 RunContext Analysis::naming_set(const SetOrigin& origin, const RunContext& run) const {
     RunContext named = run;
     if (!origin.several) return named;
@@ -306,7 +308,7 @@ RunContext Analysis::naming_set(const SetOrigin& origin, const RunContext& run) 
 
 // ---------------------------------------------------------------- means
 
-/// What the group of a kind is called; sets of different dimensions are never of one kind.
+/// Key of a kind's group; sets of different dimensions are never of the same kind.
 std::string Analysis::group_name(const std::string& kind, std::size_t dimension) const {
     return pooled_ ? "" : fmt::format("{} {}", dimension, kind);
 }
@@ -315,13 +317,13 @@ bool Analysis::is_first(const std::string& kind, std::size_t dimension) const {
     return !group_indices_.contains(group_name(kind, dimension));
 }
 
-/// What the next set is measured with: where others of its kind came before it, as these.
+/// Options for the next set: those of its group if earlier sets of its kind exist.
 Values Analysis::options_for(const std::string& kind, std::size_t dimension) const {
     const auto it = group_indices_.find(group_name(kind, dimension));
     return it == group_indices_.end() ? asked_ : groups_[it->second].options;
 }
 
-/// The group of a kind, which begins where there is none.
+/// Index of a kind's group, which is created if necessary.
 std::size_t Analysis::group_of(const std::string& kind, std::size_t dimension) {
     const auto [it, is_new] = group_indices_.emplace(group_name(kind, dimension), groups_.size());
     if (is_new) groups_.push_back({asked_});
@@ -347,7 +349,7 @@ void Analysis::keep(Measurement m, const SetOrigin& origin) {
 }
 
 void Analysis::warn_of_sizes(const Group& group) const {
-    std::vector<std::string> followed;  // options that the first set decided
+    std::vector<std::string> followed;  // options determined by the first set
     for (const auto& item : group.options.items())
         if (item != asked_.find(item.name))
             followed.push_back(fmt::format("--{} {}", item.name, format_value(item.value)));
@@ -391,13 +393,13 @@ void Analysis::save_grid(const Report& results, std::size_t number, bool several
     }
 }
 
-/// Files that come with the report are put in their places with it.
+/// Writes a file that is moved to its path together with the report.
 void Analysis::save_beside(const std::string& path, const std::string& bytes) {
     files_.add(path, session_.run().stop).write(bytes);
 }
 
 std::optional<std::string> Analysis::broken(const Check& check, const Report& results) const {
-    // What averaged sets disagree on is not in their mean, and holds for none of it.
+    // Results on which averaged sets disagree are missing from the mean; a condition on one fails.
     if (averaged_ && !results.find(check.key) && find_result(analyzer_, check.key))
         return "not the same for all sets";
     if (check.holds(results)) return std::nullopt;
@@ -406,7 +408,7 @@ std::optional<std::string> Analysis::broken(const Check& check, const Report& re
 
 namespace {
 
-/// Whether a result is the mean as it was, but for rounding.
+/// Whether a result equals the mean, apart from rounding.
 bool is_mean(const Report& means, const Report& results, const std::string& key) {
     const auto alike = [](double a, double b) {
         return a == b || !(std::abs(a - b) > 1e-9 * std::abs(b));
@@ -419,7 +421,7 @@ bool is_mean(const Report& means, const Report& results, const std::string& key)
     return !was || !is || alike(*was, *is);
 }
 
-/// Less those of what is no mean: combined of the sets in another way.
+/// Standard errors of plain means only, without results that were combined in another way.
 Report errors_of_means(const Report& errors, const Report& means, const Report& results,
                        const std::string& group = {}) {
     Report kept;

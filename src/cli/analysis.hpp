@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// One analyzer of an `analyze` call: sets come in, one after the other; their measurements, or the
-// means of these, stay.
+// One analyzer of an `analyze` call: receives sets one after the other, and keeps their
+// measurements or the means of these.
 #pragma once
 
 #include <cstdint>
@@ -22,69 +22,69 @@
 
 namespace stipple::cli {
 
-/// Where a set comes from.
+/// Origin of a set.
 struct SetOrigin {
-    std::string source;                      ///< a file, or the spec of a generator
-    std::optional<std::size_t> number = {};  ///< of several there
-    std::string kind = {};                   ///< sets of one kind have a mean; empty: not known yet
-    std::vector<std::string> columns = {};   ///< names of the coordinates, where they have any
-    bool several = false;                    ///< there are other sets
+    std::string source;                      ///< file, or spec of a generator
+    std::optional<std::size_t> number = {};  ///< index, if the source has several sets
+    std::string kind = {};  ///< sets of the same kind are averaged; empty if not yet known
+    std::vector<std::string> columns = {};  ///< names of the coordinates, if known
+    bool several = false;                   ///< whether there are other sets
 };
 
-/// What sets that may be averaged have in common: how they were made, but for the seed, as far as it
-/// is known; else their number of points.
-/// @param count of this set, or of the first in its file
+/// Key for averaging: how the set was made, except for the seed, as far as known; otherwise the
+/// number of points.
+/// @param count of this set, or of the first one in its file
 std::string kind_of(const Provenance& made, std::uint64_t count);
 
 class Analysis {
   public:
-    /// @param files what is written beside the report goes there
-    /// @param one_of_several so that errors name the analyzer
+    /// @param files receives the files that are written beside the report
+    /// @param one_of_several makes errors name the analyzer
     Analysis(const Analyzer& analyzer, Values options, const Arguments& arguments, Session& session,
              io::Outputs& files, bool one_of_several);
 
     [[nodiscard]] const Analyzer& analyzer() const { return analyzer_; }
-    /// Those that were asked for.
+    /// Options as given.
     [[nodiscard]] const Values& options() const { return asked_; }
-    /// The text of an option of the analyzer, where it is given.
+    /// Text of an option of the analyzer; nullopt if not given.
     [[nodiscard]] std::optional<std::string> text_of(std::string_view name) const;
     [[nodiscard]] std::vector<Measurement>& measurements() { return measurements_; }
 
-    /// @throws Error(usage) for a domain that is given twice, or that the analyzer would not heed,
-    /// and for the name of a file that promises another format, or that is given twice
+    /// @throws Error(usage) if a domain is given twice or the analyzer would ignore it, or if the
+    /// name of a file has the extension of another format or is given twice
     void check_arguments(const std::string& output) const;
 
-    /// Takes a set, and measures those that wait when they have become many. Large sets do not
-    /// wait: they get all threads, and the memory, for themselves.
+    /// Adds a set, and measures the collected ones if there are many. Large sets are measured
+    /// immediately, with all threads and all memory.
     void add(PointSet points, SetOrigin origin);
 
-    /// Measures a set that comes in blocks; its kind is known afterwards.
+    /// Measures a set that arrives in blocks, and sets its kind.
     void add(const Arrival& arrival, const NextRows& next, SetOrigin& origin,
              const Provenance& made, const RunContext& run);
 
-    /// Takes what was measured elsewhere.
+    /// Adds an existing measurement.
     void keep(Measurement m, const SetOrigin& origin);
 
-    /// What work() finds of a set on the domain, with the time that it takes.
+    /// Runs work() on a set of the domain, and measures its time.
     [[nodiscard]] Measurement timed(const SetOrigin& origin, const DomainPtr& domain,
                                     const Values& options,
                                     const std::function<Found()>& work) const;
 
-    /// Measures the sets that wait side by side. What comes of them is kept in their order, as if they
-    /// had been measured one after the other: up to the first error or, where a stop is requested,
-    /// of those that had begun and were measured nevertheless.
+    /// Measures the collected sets in parallel. Results are kept in the order of the sets, as if
+    /// they had been measured one after the other, up to the first error. After a stop request,
+    /// only sets that have begun and succeed are kept.
     void measure_waiting();
 
-    /// Works out the means, and writes what is to stand beside the report.
+    /// Computes the means, and writes the files that belong beside the report.
     void finish();
 
-    /// Means that there are.
+    /// Number of means.
     [[nodiscard]] std::size_t kinds() const { return groups_.size(); }
 
-    /// The set that came last was the only one of its source.
+    /// Clears the index of the last set, which was the only one of its source.
     void forget_number() { measurements_.back().set.reset(); }
 
-    /// What is found where a check does not hold; nothing where it does.
+    /// Found value if a check fails; nullopt if it holds.
     [[nodiscard]] std::optional<std::string> broken(const Check& check,
                                                     const Report& results) const;
 
@@ -94,19 +94,19 @@ class Analysis {
         SetOrigin origin;
     };
 
-    /// What became of a set that was measured beside others; nothing where a stop came before it.
+    /// Outcome for a set measured in parallel with others; empty if a stop came first.
     struct Outcome {
         std::optional<Measurement> measurement;
         std::exception_ptr error;
-        bool over_limit = false;  ///< it would need more than its share of the memory, say
+        bool over_limit = false;  ///< exceeded a thread's share of the memory
         std::vector<std::string> warnings;
     };
 
-    /// The sets of one kind, for their mean.
+    /// Sets of one kind, to be averaged.
     struct Group {
-        Values options;  ///< those asked for, and what the first set decides
+        Values options;  ///< given options, with those determined by the first set
         ReportAverage average = {};
-        std::vector<Report> singles = {};  ///< what was averaged, where it is needed
+        std::vector<Report> singles = {};  ///< averaged reports, if needed
     };
 
     void check_domain() const;
@@ -136,15 +136,15 @@ class Analysis {
     io::Outputs& files_;
     bool one_of_several_;
     Values asked_;
-    bool pooled_;  ///< sets of all kinds have one mean
+    bool pooled_;  ///< averages sets of all kinds together
     bool averaged_;
     bool told_of_prefixes_ = false;
     bool told_of_ranges_ = false;
     std::vector<Measurement> measurements_;
-    std::vector<Group> groups_;  ///< of a measurement each, where these are means
+    std::vector<Group> groups_;  ///< one per measurement, if averaging
     std::map<std::string, std::size_t> group_indices_;
     std::vector<Waiting> waiting_;
-    std::size_t numbers_ = 0;  ///< coordinates of these
+    std::size_t numbers_ = 0;  ///< coordinates of the collected sets
 };
 
 }  // namespace stipple::cli

@@ -24,7 +24,7 @@
 namespace stipple::cli {
 namespace {
 
-/// text, json or csv
+/// Returns text, json or csv.
 std::string report_format(const Arguments& arguments, const std::string& path) {
     if (const auto format = arguments.get("format")) return *format;
     static const std::vector<std::string> known = {".json", ".csv", ".txt"};
@@ -41,12 +41,12 @@ std::vector<std::string> result_keys(const Analyzer& analyzer) {
     return keys;
 }
 
-/// A set's number, where there are several.
+/// Index of a set; nullopt if it is the only one.
 std::optional<std::size_t> number_of(std::size_t set, std::size_t of) {
     return of > 1 ? std::optional(set) : std::nullopt;
 }
 
-/// One call: its analyses, checks and outputs.
+/// One `analyze` call: its analyses, checks and outputs.
 class AnalyzeCall {
   public:
     AnalyzeCall(const Arguments& arguments, Session& session, Ranks& ranks)
@@ -74,7 +74,7 @@ class AnalyzeCall {
             add_generated();
         }
         measure_waiting();
-        if (ranks_.rank() > 0) return 0;  // rank 0 speaks
+        if (ranks_.rank() > 0) return 0;  // only rank 0 prints
         if (interrupted()) return print_what_is_known();
         for (const auto& analysis : analyses_) analysis->finish();
         warn_of_kinds();
@@ -85,7 +85,7 @@ class AnalyzeCall {
     }
 
   private:
-    // ---------------------------------------------------------------- what was asked for
+    // ---------------------------------------------------------------- arguments
 
     void add_analyses() {
         const auto add = [this](const Analyzer& analyzer, Values options) {
@@ -104,10 +104,10 @@ class AnalyzeCall {
     }
 
     [[nodiscard]] bool several_analyzers() const { return !arguments_.specs.empty(); }
-    /// The first analysis, often the only one.
+    /// First analysis, often the only one.
     [[nodiscard]] Analysis& only() const { return *analyses_.front(); }
 
-    /// The column of strengths that was asked for; empty: none.
+    /// Column of weights from the options; empty if none.
     [[nodiscard]] std::string strengths() const {
         for (const auto& analysis : analyses_) {
             const auto column = analysis->text_of(analysis->analyzer().strengths);
@@ -118,12 +118,12 @@ class AnalyzeCall {
         return {};
     }
 
-    /// Whether sets may be measured as they come.
+    /// Whether sets can be measured in blocks while they are read.
     [[nodiscard]] bool in_blocks() const {
         return !several_analyzers() && only().analyzer().accumulate && !arguments_.has("rescale");
     }
 
-    /// @throws Error(usage) for options that the sources of points do not have
+    /// @throws Error(usage) for options that do not apply to the given sources of points
     void require_sources() const {
         require_options_of_sources(arguments_);
         if (strengths().empty()) return;
@@ -150,7 +150,7 @@ class AnalyzeCall {
         }
     }
 
-    /// Gives a set to every analysis, in the unit cube where that measures there.
+    /// Adds a set to every analysis, mapped to the unit cube if the analyzer needs that.
     void add_to_all(PointSet points, const SetOrigin& origin) {
         for (const auto& analysis : analyses_) {
             PointSet own = analysis == analyses_.back() ? std::move(points) : points;
@@ -162,7 +162,7 @@ class AnalyzeCall {
         }
     }
 
-    /// Errors of an input are reported after the sets before it have been measured.
+    /// Measures all previous sets before an error of this input is thrown.
     template <class Work>
     void before_errors(const Work& work) {
         try {
@@ -173,7 +173,7 @@ class AnalyzeCall {
         }
     }
 
-    /// Files may hold sets of several kinds unknown to those who average them.
+    /// Files may contain sets of several kinds without the user knowing.
     void warn_of_kinds() const {
         if (inputs_.empty() || only().kinds() < 2) return;
         session_.warn(
@@ -186,7 +186,7 @@ class AnalyzeCall {
         for (const auto& analysis : analyses_) analysis->measure_waiting();
     }
 
-    /// Sets of any size, in blocks.
+    /// Adds sets of any size, read in blocks.
     void add_stream(const std::string& input) {
         const RunContext& run = session_.run();
         Analysis& analysis = only();
@@ -219,7 +219,7 @@ class AnalyzeCall {
     }
 
     void add_generated(const std::string& text, const GeneratedSets& generated) {
-        // Copies of one set are no evidence.
+        // Identical sets add no information to a mean.
         const std::uint64_t sets = averaged_ ? generated.different_sets() : generated.sets();
         const auto count = generated.streamed();
         RunContext quiet = session_.run();
@@ -296,7 +296,7 @@ class AnalyzeCall {
                 .from = [=](std::uint64_t first) { return generated->stream(0, run, first); }};
     }
 
-    /// This rank's part of the run: nothing that the others say, too.
+    /// This rank's run; only rank 0 reports progress and warnings.
     [[nodiscard]] RunContext own_run() const {
         RunContext run = session_.run();
         run.threads = threads_of(ranks_, run);
@@ -306,7 +306,7 @@ class AnalyzeCall {
         return run;
     }
 
-    /// All ranks have all points.
+    /// Runs an analyzer for which every rank holds all points.
     [[nodiscard]] Report searched_together(const SharedSet& set) const {
         const RunContext run = own_run();
         const Analyzer& analyzer = only().analyzer();
@@ -333,8 +333,8 @@ class AnalyzeCall {
         const Analysis* analysis;
     };
 
-    /// Adds a condition, whose key may begin with an analyzer's name, and must where there are
-    /// several. Without a result behind it, the name stands for its value.
+    /// Adds a condition. Its key may start with an analyzer's name, and must if there are several.
+    /// The name alone stands for the analyzer's value.
     void add_check(const std::string& text) {
         if (text == bare_check) return add_bare_check();
         Check check = parse_check(text);
@@ -361,7 +361,7 @@ class AnalyzeCall {
                        check.key);
     }
 
-    /// --check alone asks whether the set is valid.
+    /// Adds the condition of --check without a text: the set is valid.
     void add_bare_check() {
         const std::size_t before = checks_.size();
         for (const auto& analysis : analyses_)
@@ -376,7 +376,7 @@ class AnalyzeCall {
             first.name);
     }
 
-    /// Whether all checks and expectations hold; says which do not.
+    /// Whether all checks and expectations hold; reports those that fail.
     bool verdict() {
         bool fine = true;
         const auto complain = [&fine](const std::string& sentence) {
@@ -404,7 +404,7 @@ class AnalyzeCall {
 
     using Taken = std::pair<Measurement*, const Analysis*>;
 
-    /// All measurements, those of one set together.
+    /// All measurements, grouped by set.
     [[nodiscard]] std::vector<Taken> in_order() const {
         std::vector<Taken> all;
         for (std::size_t i = 0;; ++i) {
@@ -418,8 +418,8 @@ class AnalyzeCall {
 
     [[nodiscard]] bool interrupted() const { return session_.run().stop.stop_requested(); }
 
-    /// Results that came back although a stop was requested are as good as was possible till then;
-    /// a mean of some sets would not be what was asked for, nor would a file.
+    /// Prints the results that analyses returned after a stop request: the best found so far. Not
+    /// for means, which would lack sets, nor for files.
     int print_what_is_known() {
         if (averaged_ || path_ != "-" || ranks_.size() > 1) session_.run().check_stop();
         print();
@@ -457,11 +457,11 @@ class AnalyzeCall {
     Session& session_;
     Ranks& ranks_;
     std::vector<std::string> inputs_;
-    std::vector<std::string> generators_;  ///< specs
+    std::vector<std::string> generators_;  ///< specs of --generate
     std::string path_;
     std::string format_;
     bool averaged_;
-    io::Outputs files_;  ///< the report, and what comes with it
+    io::Outputs files_;  ///< the report and the files beside it
     std::vector<std::unique_ptr<Analysis>> analyses_;
     std::vector<NamedCheck> checks_;
 };

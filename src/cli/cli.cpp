@@ -17,13 +17,13 @@
 namespace stipple::cli {
 namespace {
 
-/// The contract's exit codes.
+/// Exit code for a kind of error.
 int exit_code(ErrorKind kind) {
     constexpr std::array codes = {2, 3, 4, 5, 130};  // usage, input, io, limit, cancelled
     return codes.at(static_cast<std::size_t>(kind));
 }
 
-/// The verb's unit must be named.
+/// @throws Error(usage) if the verb needs a unit and none is named
 void require_unit(const Arguments& arguments) {
     const VerbInfo& info = info_of(*arguments.verb);
     const Kind* kind = units_for(info.name);
@@ -57,13 +57,13 @@ int dispatch(const Arguments& arguments) {
     const int code = work.at(*arguments.verb)(arguments, session);
     try {
         session.tell_warnings();
-    } catch (const std::bad_alloc&) {  // the files are in place
+    } catch (const std::bad_alloc&) {  // output files are already in place
         say("stipple: out of memory for its warnings\n");
     }
     return code;
 }
 
-/// Says in one line what ended the program, unless another process does; the exit code.
+/// Prints the final error in one line, unless another process does. Returns the exit code.
 int end_with(std::string_view verb, const Error& error) {
     const Error cause = shared_failure(error);
     const std::string what = cause.what();
@@ -71,7 +71,7 @@ int end_with(std::string_view verb, const Error& error) {
     return exit_code(cause.kind());
 }
 
-/// The exit code, once what went wrong is said.
+/// Runs the verb and reports its error; returns the exit code.
 int run_verb(int argc, char** argv) {
     const std::string_view verb = argc > 1 ? argv[1] : "";
     try {
@@ -86,7 +86,8 @@ int run_verb(int argc, char** argv) {
     }
 }
 
-/// Memory can be out where nothing may be thrown: while that is said, and in destructors of JSON.
+/// Handles out of memory where exceptions cannot be caught: while an error is reported, and in
+/// destructors of JSON.
 [[noreturn]] void end_terminated() {
     try {
         if (const auto caught = std::current_exception()) std::rethrow_exception(caught);

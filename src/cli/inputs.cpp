@@ -21,13 +21,13 @@ namespace stipple::cli {
 
 namespace {
 
-/// How an input is to be read.
+/// Options for reading an input.
 struct Reading {
     ReadOptions options;
-    const Format* format = nullptr;  ///< as named; else by its name or its bytes
+    const Format* format = nullptr;  ///< given by name; nullptr: from the file's name or bytes
 };
 
-/// Those that `analyze` names; of other verbs none.
+/// Analyzers named on an `analyze` command line; empty for other verbs.
 std::vector<const Analyzer*> analyzers_of(const Arguments& arguments) {
     std::vector<const Analyzer*> named;
     if (arguments.verb != Verb::analyze) return named;
@@ -37,7 +37,7 @@ std::vector<const Analyzer*> analyzers_of(const Arguments& arguments) {
     return named;
 }
 
-/// Whether it is rows of tables that are read, for all analyzers.
+/// Whether inputs are read as rows of tables, which is so if all analyzers need tables.
 bool reads_tables(const Arguments& arguments) {
     const auto analyzers = analyzers_of(arguments);
     return !analyzers.empty() &&
@@ -53,7 +53,7 @@ Reading reading_of(const std::string& path, const Arguments& arguments) {
                         std::ranges::any_of(analyzers, [](const Analyzer* analyzer) {
                             return analyzer->traits.densities;
                         });
-    // Plots and reports leave out rows with gaps.
+    // Plots and reports skip rows with gaps.
     options.gaps =
         arguments.verb == Verb::plot || arguments.verb == Verb::report || reads_tables(arguments);
     auto type = arguments.get("input-dtype");
@@ -72,7 +72,7 @@ Reading reading_of(const std::string& path, const Arguments& arguments) {
     return {std::move(options), from.empty() ? nullptr : &io::format_named(from)};
 }
 
-/// The files that are named, or standard input.
+/// Files named on the command line, or standard input.
 std::vector<std::string> named_files(const Arguments& arguments) {
     if (arguments.inputs.empty()) return {"-"};
     if (std::ranges::count(arguments.inputs, "-") > 1)
@@ -80,7 +80,7 @@ std::vector<std::string> named_files(const Arguments& arguments) {
     return arguments.inputs;
 }
 
-/// One file in blocks.
+/// Opens one file to be read in blocks.
 std::unique_ptr<io::PointStream> open_file(const std::string& path, const Arguments& arguments,
                                            const std::string& strengths, const RunContext& run) {
     auto [options, format] = reading_of(path, arguments);
@@ -89,7 +89,7 @@ std::unique_ptr<io::PointStream> open_file(const std::string& path, const Argume
 }
 
 /// Records the domain of the table's inputs, from --parameters, --bounds or --domain; the analyzer
-/// finds out which columns these are.
+/// identifies the input columns.
 void take_told(PointSet& table, const Arguments& arguments, const RunContext& run) {
     if (arguments.has("rescale"))
         fail(ErrorKind::usage, "--rescale: these are rows of a table, not points");
@@ -113,7 +113,7 @@ void take_told(PointSet& table, const Arguments& arguments, const RunContext& ru
     table.domain = unit_cube(table.dimension());
 }
 
-/// Domain and provenance as the program knows them.
+/// Completes the domain and provenance of the sets from the command line and their files.
 std::vector<PointSet> named(std::vector<PointSet> sets, const Arguments& arguments,
                             const RunContext& run) {
     for (PointSet& set : sets) {
@@ -154,12 +154,12 @@ DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
     const std::string domain = file && arguments.verb != Verb::warp
                                    ? parameters::read_parameters(*file, run).domain
                                    : provenance.domain;
-    // Columns picked by hand are not what the file's domain speaks of.
+    // The file's domain does not describe columns selected by --column.
     if (arguments.has("column") || domain == "unit-cube" || domain.empty())
         return unit_cube(dimension);
     try {
         return parse_domain(domain, dimension, run);
-    } catch (const Error& e) {  // it is the file that is wrong, not the call
+    } catch (const Error& e) {  // the file is at fault, not the command line
         if (e.kind() != ErrorKind::usage) throw;
         throw Error(ErrorKind::input, fmt::format("its domain {}: {}", shown(domain), e.what()),
                     e.hint());
@@ -167,14 +167,15 @@ DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
 }
 
 Error named_error(const Error& e, const std::string& input, const std::string& hint) {
-    // A limit is met by what a file holds as well; of stdin there is nothing to tell apart.
+    // The contents of a file can exceed a limit, too; standard input needs no name.
     const bool of_file =
         e.kind() == ErrorKind::input || (e.kind() == ErrorKind::limit && input != "-");
     if (!of_file) return e;
     const std::string name = io::source_name(input);
     const std::string what = e.what();
     bool named = what.starts_with(name + ":");
-    for (const auto part : split(name, ','))  // what is wrong with one of joined files names it
+    for (const auto part :
+         split(name, ','))  // errors in one of several joined files already name it
         named = named || what.starts_with(std::string(trim(part)) + ":");
     return {e.kind(), named ? what : fmt::format("{}: {}", name, what),
             hint.empty() ? e.hint() : hint};
@@ -240,7 +241,7 @@ std::vector<PointSet> read_all(io::PointStream& stream, const Arguments& argumen
 
 namespace {
 
-/// The box of the points' extremes, with a direction that has no extent made as wide as 1.
+/// Bounding box of the points; sides of length 0 become 1.
 Box box_around(const PointSet& points) {
     Box box = bounding_box(points.flat(), points.dimension());
     for (std::size_t k = 0; k < box.dimension(); ++k)
@@ -248,7 +249,7 @@ Box box_around(const PointSet& points) {
     return box;
 }
 
-/// A box that points are in, and whether they become points of the unit cube.
+/// A box that contains the points, and whether they are mapped from it to the unit cube.
 struct Bounds {
     Box box;
     bool to_cube = false;
@@ -257,8 +258,10 @@ struct Bounds {
         return to_cube ? unit_cube(box.dimension()) : box_domain(box);
     }
 
-    /// Takes rows, the first of which is point `first`; they may hold more than the box has
-    /// coordinates. @throws Error(input) for points outside
+    /// Checks that rows are in the box and, if `to_cube`, maps them. Rows may have more numbers than
+    /// the box has coordinates.
+    /// @param first index of the first point, for messages
+    /// @throws Error(input) for points outside
     void take(std::span<double> rows, std::size_t width, std::uint64_t first) const {
         const DomainPtr around = box_domain(box);
         const std::size_t d = box.dimension();
@@ -295,7 +298,7 @@ std::optional<Bounds> bounds_of(const Arguments& arguments, const Analyzer& anal
 }  // namespace
 
 void require_width(const PointSet& points, const std::string& input) {
-    constexpr double most = 1e307;  // and room for margins around
+    constexpr double most = 1e307;  // leaves room for margins
     const Box box = bounding_box(points.flat(), points.dimension());
     for (std::size_t k = 0; k < box.dimension(); ++k)
         if (box.low[k] < -most || box.high[k] > most)
@@ -317,7 +320,7 @@ PointSet of_the_cube(PointSet points, const Analyzer& analyzer) {
     if (!analyzer.traits.unit_cube || domain == "unit-cube" ||
         (domain.starts_with("box") &&
          points.domain->bounding_box() == unit_cube(points.dimension())->bounding_box()) ||
-        std::ranges::any_of(points.flat(), outside))  // which is said with the first of them
+        std::ranges::any_of(points.flat(), outside))  // reported later, with the first such point
         return points;
     fail_with_hint(ErrorKind::input,
                    way_to_cube(points) + "; --domain unit-cube takes them as they are",
@@ -384,7 +387,7 @@ namespace {
 std::uint64_t drawn_seed(std::uint64_t largest) {
     std::random_device device;
     const std::uint64_t bits = (static_cast<std::uint64_t>(device()) << 32) | device();
-    // 53 bits at most, so that the seed survives every program that reads numbers as doubles.
+    // At most 53 bits, so that programs that read numbers as doubles preserve the seed.
     return bits % (std::min(largest, (std::uint64_t{1} << 53) - 1) + 1);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Points that a verb is given: from files, as --from, -d, --column, --dtype, --domain, --bounds and
-// --rescale say, or straight from a generator, for --generate.
+// Input points of a verb: from files, with --from, -d, --column, --dtype, --domain, --bounds and
+// --rescale, or from a generator, with --generate.
 #pragma once
 
 #include <memory>
@@ -18,45 +18,44 @@
 
 namespace stipple::cli {
 
-/// The inputs that are named or, without --generate, standard input; those that --concat joins are
-/// one.
-/// @throws Error(usage) when standard input is named twice
+/// Inputs from the command line, by default standard input unless --generate is given; files joined
+/// by --concat are one input. @throws Error(usage) if standard input is named twice
 std::vector<std::string> input_names(const Arguments& arguments);
 
-/// The one input of a verb that takes no more. @throws Error(usage)
+/// The input of a verb that takes exactly one. @throws Error(usage) if there are more
 std::string only_input(const Arguments& arguments, const std::string& hint = {});
 
-/// The sets of an input, with their domain; with --concat it is all files as one set.
+/// Sets of an input, with their domain; with --concat, all files as one set.
 std::vector<PointSet> read_input(const std::string& path, const Arguments& arguments,
                                  const RunContext& run);
 
-/// The same of the bytes of a file that was read already.
+/// Like read_input(), for the bytes of a file that has been read.
 std::vector<PointSet> read_input(std::string_view bytes, const std::string& path,
                                  const Arguments& arguments, const RunContext& run);
 
-/// The same in blocks, where they are many; their domain is input_domain.
-/// `strengths` names a column that comes behind the coordinates.
+/// Opens an input to be read in blocks; its domain is input_domain().
+/// @param strengths name of a column of weights, read after the coordinates; empty if none
 std::unique_ptr<io::PointStream> open_input(const std::string& path, const Arguments& arguments,
                                             const RunContext& run,
                                             const std::string& strengths = {});
 
-/// All sets of a stream, with their domain.
+/// Reads all sets of a stream, with their domain.
 std::vector<PointSet> read_all(io::PointStream& stream, const Arguments& arguments,
                                const RunContext& run);
 
-/// Leaves out rows with a missing number (NaN), as runs that failed have it; notes and returns how many.
-/// @throws Error(input) where none remains
+/// Removes rows with a missing number (NaN), such as failed runs; notes and returns how many.
+/// @throws Error(input) if none remain
 std::size_t leave_out_gaps(PointSet& set, const std::string& input, const RunContext& run);
 
-/// What points of a file live on, as the file says.
+/// Domain of a file's points, from --parameters or from the file.
 DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
                        const Arguments& arguments, const RunContext& run);
 
-/// An error in points with the input that they are from in front, where it does not name it itself.
-/// @param hint in place of its own; empty: that
+/// An error in points with the name of their input in front, if not there yet.
+/// @param hint replaces the error's own hint; empty: keeps it
 Error named_error(const Error& e, const std::string& input, const std::string& hint);
 
-/// Works on an input; errors in its points name it.
+/// Runs work() on an input; errors in its points name the input.
 template <class Work>
 auto naming(const std::string& input, const Work& work, const std::string& hint = {}) {
     try {
@@ -66,30 +65,30 @@ auto naming(const std::string& input, const Work& work, const std::string& hint 
     }
 }
 
-/// Puts the set on the domain that --domain names, if it does.
+/// Sets the domain from --domain, if given.
 void take_domain(PointSet& set, const Arguments& arguments);
 
-/// @throws Error(input) for coordinates so large that a box around them is too wide for float64.
-/// @param input names them in the message; empty: the caller does
+/// @throws Error(input) if the bounding box is too wide for float64
+/// @param input named in the message; empty if the caller adds the name
 void require_width(const PointSet& points, const std::string& input = {});
 
-/// The points of a file where they are looked at as they are: on the domain that --domain names, or
-/// their bounding box mapped to the unit cube for --rescale. @throws as the two above
+/// Points of a file in their own coordinates, in the domain of --domain; or their bounding box
+/// mapped to the unit cube for --rescale. @throws like take_domain() and require_width()
 PointSet placed(PointSet points, const std::string& input, const Arguments& arguments);
 
-/// Points of another domain may lie in the cube and be no sample of it.
-/// @throws Error(input) where the set says that it has another domain.
+/// Checks points for an analyzer of the unit cube: points of another domain may be in the cube
+/// without being a sample of it. @throws Error(input) if the set has another domain
 PointSet of_the_cube(PointSet points, const Analyzer& analyzer);
 
-/// --bounds says what box the points live on. Analyzers of the unit cube get them mapped to it; the
-/// others measure them where they are, distances and integrals in the box.
+/// Applies --domain, --bounds and --rescale. Analyzers of the unit cube get points mapped to it;
+/// others measure in the original coordinates, with distances and integrals in the box.
 PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& arguments);
 
-/// What the points of a stream are on, and how many there are, prepared in the same way.
+/// Domain and number of a stream's points, prepared like prepared().
 Arrival arrival_of(const io::PointStream& stream, bool weighted, const Analyzer& analyzer,
                    const Arguments& arguments, const RunContext& run);
 
-/// The rows that `next` gives, mapped as --bounds says; the first one is point `first`.
+/// Rows from `next`, mapped as --bounds requires. @param first index of the first point
 NextRows within_bounds(NextRows next, const Arrival& arrival, std::uint64_t first,
                        const Analyzer& analyzer, const Arguments& arguments);
 
@@ -97,25 +96,25 @@ NextRows within_bounds(NextRows next, const Arrival& arrival, std::uint64_t firs
 SharedSet shared_files(const Arguments& arguments, const Analyzer& analyzer,
                        const std::string& strengths, Ranks& ranks, const RunContext& run);
 
-/// --seed, or one that is drawn and reported, at most `largest`. @throws Error(usage)
+/// The seed of --seed, or a random one, at most `largest`, which is reported. @throws Error(usage)
 std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session& session);
 
-/// The largest seed that the generator takes.
+/// Largest seed that the generator accepts.
 std::uint64_t largest_seed(const Generator& generator, const Values& values);
 
-/// --seed, one that the generators of all specs take.
+/// The seed of --seed, or a random one, which the generators of all specs accept.
 std::uint64_t seed_for(const Arguments& arguments, std::span<const std::string> specs,
                        Session& session);
 
-/// What -n, -d, --start, --sets, --warp and --parameters ask of a generator; without seed and bounds.
+/// Sets requested by -n, -d, --start, --sets, --warp and --parameters; without seed and bounds.
 SetsToMake sets_asked(const Generator& generator, Values options, const Arguments& arguments);
 
-/// What --generate names, with -n, -d, --start and --warp.
+/// Sets of a --generate spec, with -n, -d, --start and --warp.
 GeneratedSets generated_sets(const std::string& spec, std::uint64_t seed,
                              const Arguments& arguments, const RunContext& run);
 
-/// @throws Error(usage) for options of --generate where it is not given, and for those of files where
-/// only it is
+/// @throws Error(usage) for options of --generate without it, and for options of files without
+/// files
 void require_options_of_sources(const Arguments& arguments);
 
 }  // namespace stipple::cli

@@ -12,7 +12,7 @@
 namespace stipple::cli {
 namespace {
 
-/// The largest of the numbers that the environment has for them; else nothing.
+/// Largest number among these environment variables; nullopt if none is set.
 std::optional<std::uint64_t> environment(std::initializer_list<const char*> names) {
     std::optional<std::uint64_t> most;
     for (const char* name : names)
@@ -22,12 +22,12 @@ std::optional<std::uint64_t> environment(std::initializer_list<const char*> name
     return most;
 }
 
-/// Processes that mpirun started, as far as it says so.
+/// Number of processes from mpirun's environment; nullopt if not started by mpirun.
 std::optional<std::uint64_t> started_by_mpirun() {
     return environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"});
 }
 
-/// Those that this process has joined.
+/// Ranks that this process has joined; nullptr before.
 std::unique_ptr<Ranks>& joined() {
     static std::unique_ptr<Ranks> ranks;
     return ranks;
@@ -37,7 +37,7 @@ std::unique_ptr<Ranks>& joined() {
 
 std::uint64_t launched_ranks() {
     auto ranks = started_by_mpirun();
-    // Slurm's own launcher with PMIx names the number of processes nowhere else.
+    // Slurm's launcher with PMIx only sets this variable.
     if (!ranks) ranks = environment({"SLURM_STEP_NUM_TASKS"});
     return std::max<std::uint64_t>(1, ranks.value_or(1));
 }

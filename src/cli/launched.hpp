@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What an MPI launcher started.
+// Processes started by an MPI launcher.
 #pragma once
 
 #include <cstdint>
@@ -10,26 +10,26 @@
 
 namespace stipple::cli {
 
-/// Processes that an MPI launcher started, 1 if none did.
+/// Number of processes that an MPI launcher started; 1 without a launcher.
 std::uint64_t launched_ranks();
 
-/// Whether an MPI launcher started this process, which gives it a terminal of its own where its
-/// output goes into a file.
+/// Whether mpirun started this process. It then has a terminal of its own even if the output is
+/// redirected to a file.
 bool is_launched();
 
-/// Whether another of them reports errors for all: where a launcher started several processes for
-/// this verb. Verbs that ranks do not share speak for themselves, wherever they run.
+/// Whether another process reports errors for this one: if a launcher started several processes for
+/// a verb that ranks share. Processes of other verbs report their own errors.
 bool is_mute(std::string_view verb);
 
-/// Joins the others, until leave_ranks(). @throws Error(usage) where there are others and MPI does
-/// not find them, or the build has none
+/// Joins the other processes, until leave_ranks().
+/// @throws Error(usage) if there are others but MPI does not connect them or is not built in
 Ranks& launched(std::string_view verb, const RunContext& run);
 
-/// What ends this process: its own error, which the others are told, or that of one that failed
-/// before.
+/// The error that ends this process: its own, which the other ranks receive, or that of a rank that
+/// failed before.
 Error shared_failure(const Error& error);
 
-/// To be called when everything is said: a launcher ends all processes as soon as one has failed.
+/// Leaves the ranks. Call it after all messages: a launcher ends all processes when one fails.
 void leave_ranks();
 
 }  // namespace stipple::cli

@@ -24,7 +24,7 @@ namespace {
                    "{}: it does not say how its points were made", original.name);
 }
 
-/// A row of a study, its sums, or what compares them.
+/// Whether a file begins like a table of a study, its summary or its comparison.
 bool is_study(std::string_view front) {
     const auto line = front.substr(0, front.find('\n'));
     for (const TableStyle style : {TableStyle::csv, TableStyle::jsonl})
@@ -32,8 +32,9 @@ bool is_study(std::string_view front) {
     return line.starts_with("table,generator,") || line.starts_with("table,dimension,");
 }
 
-/// Refuses files that stipple writes about points, and that hold none, saying what can be made again
-/// from them. @param front the first bytes of the file, some hundred at least where it has them
+/// @throws Error(input) for stipple's files without points, such as reports, with a hint about what
+/// can be made again from them
+/// @param front first bytes of the file, at least a few hundred if it has so many
 void refuse_without_points(const std::string& name, std::string_view front) {
     const auto top = front.substr(0, 1000);
     const auto has = [top](std::string_view words) {
@@ -67,7 +68,7 @@ void refuse_without_points(const std::string& name, std::string_view front) {
         if (is_it) fail_with_hint(ErrorKind::input, hint, "{}: {}", name, what);
 }
 
-/// A pipe's bytes, on disk.
+/// A pipe's bytes in a temporary file.
 std::shared_ptr<Spool> spooled(const std::string& pipe, const RunContext& run) {
     auto spool = std::make_shared<Spool>();
     spool->write(io::read_bytes(pipe, run));
@@ -75,8 +76,7 @@ std::shared_ptr<Spool> spooled(const std::string& pipe, const RunContext& run) {
     return spool;
 }
 
-/// A picture by `stipple plot`, with the provenance of its set. False: no such
-/// picture.
+/// Reads the provenance from a picture by `stipple plot`; false if it is not one.
 bool take_plot(Original& original, std::string_view picture) {
     const Json note = try_parse_json(io::picture_note(picture).value_or(""));
     if (!note.is_object() || note.contains("format") || !note.contains("command")) return false;
@@ -88,7 +88,7 @@ bool take_plot(Original& original, std::string_view picture) {
     return true;
 }
 
-/// Sets what carries its provenance where no reader of points looks. False: not such a file.
+/// Reads the provenance of files that are not read as points; false if it is not such a file.
 bool take_carried(Original& original, std::string_view front, const RunContext& run) {
     std::optional<io::CarriedMeta> carried;
     const std::string beside = io::meta_path(original.path);
@@ -120,7 +120,7 @@ std::unique_ptr<io::PointStream> open_original(const Original& original, ReadOpt
     RunContext reading = run;
     reading.threads = 1;
     options.source = original.name;
-    options.any_count = true;  // what is too many or too few is told by who compares them
+    options.any_count = true;  // differences in the count are reported by the comparison
     options.single = original.meta.single;
     if (original.width) options.dimension = original.width;
     return io::open_points(original.path, options, reading, original.format);
@@ -139,7 +139,7 @@ Original read_original(const std::string& input, const RunContext& run) {
     refuse_without_points(original.name, feed.front());
     const bool carried = take_carried(original, feed.front(), run);
     if (!carried && io::format_of_extension(original.path) == &io::format_named("bin"))
-        refuse_without_provenance(original);  // it has no place for one
+        refuse_without_provenance(original);  // the format cannot store one
     if (!carried) original.meta = open_original(original, {}, run)->provenance();
     if (original.meta.generator.empty()) refuse_without_provenance(original);
     return original;

@@ -12,26 +12,26 @@
 
 namespace stipple::cli {
 
-/// A file whose provenance is known.
+/// A file with known provenance.
 struct Original {
-    std::string name;                   ///< for messages
-    std::string path;                   ///< where it can be opened more than once
-    std::shared_ptr<Spool> spool = {};  ///< that it is, where it came from a pipe
+    std::string name;                   ///< name for messages
+    std::string path;                   ///< path that can be opened repeatedly
+    std::shared_ptr<Spool> spool = {};  ///< owns the copy of a pipe
     Provenance meta = {};
-    const Format* format = nullptr;         ///< where its name and bytes leave it open
-    std::optional<std::size_t> width = {};  ///< numbers of a point, where the bytes leave it open
-    std::size_t sets = 0;                   ///< in the file; 0: as its bytes say
-    std::string picture = {};               ///< option of the generator that made it, if it is one
-    bool drawn = false;                     ///< svg or ply, which are not read
-    std::string plotted = {};               ///< command that drew it, if it is a picture of points
+    const Format* format = nullptr;         ///< if not determined by the file's name and bytes
+    std::optional<std::size_t> width = {};  ///< numbers per point, if not determined by the bytes
+    std::size_t sets = 0;                   ///< sets in the file; 0: determined by the bytes
+    std::string picture = {};  ///< option of the generator that wrote it, if it is a picture
+    bool drawn = false;        ///< SVG or PLY, which cannot be read back
+    std::string plotted = {};  ///< command that drew it, if it is a picture of points
 };
 
-/// @throws Error(input) for a file that does not say how its points were made, or holds none: says
-/// what it is and what can be made again from it
+/// @throws Error(input) for a file without points or without a record of how they were made; the
+/// message names its type and what can be made again from it
 Original read_original(const std::string& input, const RunContext& run);
 
-/// Its points, by one thread: on the others they are made again.
-/// @param options which columns are read
+/// Opens its points, read by one thread: the others make the points again.
+/// @param options columns to read
 std::unique_ptr<io::PointStream> open_original(const Original& original, ReadOptions options,
                                                const RunContext& run);
 

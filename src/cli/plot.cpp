@@ -44,10 +44,10 @@ namespace {
 
 enum class Medium { svg, pdf, png, text };
 
-constexpr std::size_t most_overlaid = 7;  ///< sets in one frame: as many as there are colours
-constexpr std::size_t most_frames = 12;   ///< of sets, on one sheet
+constexpr std::size_t most_overlaid = 7;  ///< sets in one frame, one per colour
+constexpr std::size_t most_frames = 12;   ///< frames on one sheet
 
-/// Width that a bar of colours adds to the last frame of a row.
+/// Extra width of the last frame of a row, for the bar of colours.
 constexpr double room_of_bar = plot::colour_bar_room - plot::picture_margin / 2;
 
 Medium medium_of(const Arguments& arguments, const std::string& path) {
@@ -76,18 +76,18 @@ std::optional<bool> scale_of(const Arguments& arguments, const char* name) {
     return text ? std::optional(*text == "log") : std::nullopt;
 }
 
-/// A set of points with the file that it is from.
+/// A set of points with its source.
 struct Loaded {
     PointSet points;
     std::string source;
-    std::optional<std::size_t> number;  ///< in its file, of several
-    bool npy;                           ///< so that it may be a table that --grid saved
-    std::string title;                  ///< of the points, by where they come from
-    std::size_t left_out = 0;           ///< rows with missing numbers
+    std::optional<std::size_t> number;  ///< index in the file, if it has several sets
+    bool npy;                           ///< read from NPY, so possibly a table saved by --grid
+    std::string title;                  ///< from the provenance or the source
+    std::size_t left_out = 0;           ///< number of rows with missing numbers
 };
 
-/// What a picture of points is called: "halton", "sobol, disk"; the file's name, where no generator is
-/// known; else "points".
+/// Title for a picture of points: "halton", "sobol, disk"; without a generator the file's name, or
+/// "points".
 std::string title_of_points(const Provenance& from, const std::string& source) {
     if (from.generator.empty())
         return source == "-" || source.empty() ? "points" : source.substr(source.rfind('/') + 1);
@@ -98,7 +98,7 @@ std::string title_of_points(const Provenance& from, const std::string& source) {
 }
 
 bool seed_matters(const Generator& generator, const Provenance& from) {
-    // "owen", "owen:depth=3": random, unlike a warp.
+    // Scrambles, such as "owen" or "owen:depth=3", are random, unlike warps.
     for (const std::string& warp : from.warps)
         if (scramble_named(warp.substr(0, warp.find_first_of(":@"))) != nullptr) return true;
     try {
@@ -106,11 +106,11 @@ bool seed_matters(const Generator& generator, const Provenance& from) {
         for (const auto& [name, text] : from.options) generator.options.set(values, name, text);
         return uses_seed(generator, values);
     } catch (const Error&) {
-        return generator.traits.seeded;  // options of another version
+        return generator.traits.seeded;  // options of another version of stipple
     }
 }
 
-/// "scramble=owen": options that are not what they are by default.
+/// Options that differ from their defaults, such as "scramble=owen".
 std::vector<std::string> options_in(const Provenance& from, const Generator& generator) {
     std::vector<std::string> changed;
     const auto defaults = typed_settings(generator.options.defaults(), generator.options);
@@ -126,7 +126,7 @@ std::vector<std::string> options_in(const Provenance& from, const Generator& gen
     return changed;
 }
 
-/// "sobol:scramble=owen, disk": with the options, where no subtitle has them.
+/// Title with options, such as "sobol:scramble=owen, disk", for pictures without a subtitle.
 std::string full_title(const Loaded& set) {
     const Provenance& from = set.points.provenance;
     const Generator* generator = generator_named(from.generator);
@@ -137,7 +137,8 @@ std::string full_title(const Loaded& set) {
                        set.title.substr(from.generator.size()));
 }
 
-/// "1024 points, seed 3, scramble=owen (set 2)": with options, and the seed where it matters.
+/// "1024 points, seed 3, scramble=owen": with the options that differ from defaults, and the seed
+/// if it affects the points.
 std::string subtitle_of(const Loaded& set) {
     const Provenance& from = set.points.provenance;
     const std::size_t n = set.points.count();
@@ -153,12 +154,12 @@ std::string subtitle_of(const Loaded& set) {
     return text;
 }
 
-/// " (set 2)" of several.
+/// " (set 2)", or empty if the source has only one set.
 std::string number_of(const Loaded& set) {
     return set.number ? fmt::format(" (set {})", *set.number) : "";
 }
 
-/// One call: the sets or reports that were read, and their picture.
+/// One `plot` call: the sets or reports read, and their picture.
 class Plot {
   public:
     Plot(const Arguments& arguments, Session& session)
@@ -190,7 +191,7 @@ class Plot {
     }
 
   private:
-    /// The names that an option has between its commas.
+    /// Names in an option's list, separated by commas.
     [[nodiscard]] std::vector<std::string> names_in_list(const char* option) const {
         const std::string text = arguments_.get(option).value_or("");
         std::vector<std::string> names;
@@ -217,7 +218,7 @@ class Plot {
             if (height) room_.rows = *height;
             return;
         }
-        // Text keeps its size in small pictures, and grows with large ones.
+        // Text keeps its size in small pictures, and grows in large ones.
         constexpr double usual = 800;
         const double wide = static_cast<double>(width.value_or(0));
         const double high = static_cast<double>(height.value_or(0));
@@ -277,7 +278,8 @@ class Plot {
         }
     }
 
-    /// Generators of several studies are told apart by their files.
+    /// Adds the rows of a study. If there are several studies, the names of generators start with
+    /// the file's name.
     void add_study(std::vector<MeanRow> means, const std::string& input) {
         if (means.empty()) fail(ErrorKind::input, "{}: the study has no rows", input);
         if (input_names(arguments_).size() > 1)
@@ -286,7 +288,7 @@ class Plot {
         std::ranges::move(means, std::back_inserter(means_));
     }
 
-    /// --set: one of several, from 0 as the files number them.
+    /// Keeps only the set of --set, numbered from 0 as in the files.
     void pick_set() {
         if (!means_.empty()) return;
         const std::size_t there = std::max(sets_.size(), reports_.size());
@@ -300,7 +302,8 @@ class Plot {
         reports_.empty() ? pick(sets_) : pick(reports_);
     }
 
-    /// --labels and --axes of what has them before it is drawn: sets of points, generators of studies.
+    /// Applies --labels and --axes where names are needed before drawing: in sets of points and
+    /// generators of studies.
     void rename_sources() {
         for (Loaded& set : sets_) rename_columns(set);
         if (labels_.empty()) return;
@@ -349,7 +352,7 @@ class Plot {
         fail(ErrorKind::usage, "--labels: {} names; the {}", labels_.size(), there);
     }
 
-    /// --labels and --axes of a chart of reports.
+    /// Applies --labels and --axes to a chart of reports.
     void rename(plot::Chart& chart) const {
         std::vector<std::string> names;
         const auto each = [&](const auto& work) {
@@ -438,7 +441,7 @@ class Plot {
         return finished(plot::draw_points(picture, style_, session_.run()));
     }
 
-    /// Adds what --draw names to the picture of one set.
+    /// Adds the overlays of --draw to the picture of one set.
     void add_overlays(plot::PointsPicture& picture, const Loaded& set) {
         const auto text = arguments_.get("draw");
         if (!text) return;
@@ -461,7 +464,7 @@ class Plot {
         }
     }
 
-    /// A frame for each set.
+    /// Draws each set in a frame of its own.
     std::string sheet_of_points() {
         const auto frame_of = [this](std::size_t i) {
             plot::PointsPicture picture = points_picture();
@@ -487,8 +490,8 @@ class Plot {
         std::function<plot::Drawing(std::size_t part, const plot::PictureStyle&, bool last_in_row)>;
     using WritePart = std::function<std::string(std::size_t part, const plot::TextRoom&)>;
 
-    /// Parts beside and below each other, under the title that was given.
-    /// @param more width of the last in each row
+    /// Arranges parts in rows and columns below the title of --title.
+    /// @param more additional width of the last part in each row
     std::string on_sheet(std::size_t parts, double more, const DrawPart& draw) {
         const std::size_t columns = columns_of(parts);
         const double usual = columns <= 2 ? 400 : columns == 3 ? 330 : 280;
@@ -518,12 +521,12 @@ class Plot {
         return plot::sheet_columns(parts, both ? style_.width / style_.height : 0);
     }
 
-    /// Chooses the scale so that a sheet has so many units in the size that is asked for.
+    /// Chooses the scale so that a sheet of this size, in units, fits the requested size.
     void fit_to(double width, double height) {
         const double across = style_.width * style_.scale;
         const double upward = style_.height * style_.scale;
         if (!(across > 0 || upward > 0)) return;
-        constexpr double least = 0.6;  // what letters can be read at
+        constexpr double least = 0.6;  // the smallest at which letters are legible
         const double scale = std::min(across > 0 ? across / width : HUGE_VAL,
                                       upward > 0 ? upward / height : HUGE_VAL);
         style_.scale = std::max(least, scale);
@@ -531,7 +534,7 @@ class Plot {
         style_.height = upward / style_.scale;
     }
 
-    /// @throws Error(usage) where frames of that width, in so many rows, hold no points
+    /// @throws Error(usage) if frames of that width, in so many rows, are too small to draw points
     void require_room(double columns, double width, double more, double rows, double top) const {
         constexpr double least_width = 150;
         constexpr double least_height = 200;
@@ -551,7 +554,7 @@ class Plot {
         return (title.empty() ? "" : printable(title) + "\n") + plot::side_by_side(written, room_);
     }
 
-    /// @throws Error(usage) for a logarithmic axis of what lies where it is
+    /// @throws Error(usage) if a logarithmic axis is requested for a picture that cannot have one
     void refuse_scales(const char* what) const {
         for (const auto& [name, log] :
              {std::pair{"x-scale", style_.log_x}, {"y-scale", style_.log_y}})
@@ -569,7 +572,7 @@ class Plot {
 
     std::string finished(plot::Drawing drawing) {
         plot::fill_height(drawing, style_.height);
-        constexpr double pixel_bytes = 14;  // of colours, of marks, and twice on the way to libpng
+        constexpr double pixel_bytes = 14;  // colours, marks, and two copies on the way to libpng
         if (medium_ == Medium::png)
             session_.run().need_memory(
                 pixel_bytes * drawing.width * drawing.height * style_.scale * style_.scale,
@@ -580,7 +583,7 @@ class Plot {
                                         : plot::png_bytes_of(drawing, style_.scale, notes);
     }
 
-    /// The table that --grid saved, if the input is one.
+    /// The table saved by --grid, if the input is one.
     [[nodiscard]] std::optional<plot::SpectralTable> saved_table() const {
         std::vector<const PointSet*> sets;
         for (const Loaded& set : sets_) {
@@ -590,7 +593,7 @@ class Plot {
         return plot::spectral_table(sets);
     }
 
-    /// Of a table of differences, with the side of its pixels where that is known.
+    /// Axis names for a table of differences. @param pixel side of a pixel, if known
     [[nodiscard]] plot::TableNames names_of(std::optional<double> pixel) const {
         if (!pixel) return renamed({.x = "Δx (pixels)", .y = "Δy (pixels)", .shade = "density"});
         return renamed({.x = "Δx / mean distance",
@@ -599,7 +602,7 @@ class Plot {
                         .cell = *pixel});
     }
 
-    /// With the names that --axes has.
+    /// Replaces the names by those of --axes.
     [[nodiscard]] plot::TableNames renamed(plot::TableNames names) const {
         if (axes_.empty()) return names;
         if (axes_.size() != 2)
@@ -637,7 +640,7 @@ class Plot {
         return chart_ == "differential" ? names_of(m.results.number("pixel")) : renamed({});
     }
 
-    /// A frame for each, and a bar for the shades of all at the end of each row.
+    /// Draws each table in a frame, with one bar for all shades at the end of each row.
     std::string sheet_of_tables(const std::vector<Measurement>& found) {
         const std::vector<std::size_t> firsts = firsts_of_inputs();
         if (medium_ == Medium::text)
@@ -665,7 +668,7 @@ class Plot {
         return finished(plot::draw_spectrum(table, title, subtitle, style_, names));
     }
 
-    /// What an analyzer finds of each input, a table among it.
+    /// Measurements with a table, one for each input.
     std::vector<Measurement> analyzed_tables() {
         auto found = analyzed(chart_ == "differential" ? "differential" : "periodogram");
         if (found.size() > most_frames) {
@@ -682,7 +685,7 @@ class Plot {
         return found;
     }
 
-    /// A frame for each set, in the same colours for all, whose bar stands at the end of each row.
+    /// Draws each set in a frame, all with the same colours and a bar at the end of each row.
     std::string local_discrepancies() {
         arguments_.refuse({"overlay", "draw"}, "is not for the local discrepancy");
         refuse_scales("a local discrepancy");
@@ -728,7 +731,7 @@ class Plot {
         return drawn(chart);
     }
 
-    /// The analyzer's results, by its default options: one for each input, the mean of its sets.
+    /// Measurements by the analyzer with default options: one for each input, the mean of its sets.
     std::vector<Measurement> analyzed(const char* name) {
         const Analyzer& analyzer = find_analyzer(name);
         const Values options = analyzer.options.defaults();
@@ -740,7 +743,7 @@ class Plot {
         return found;
     }
 
-    /// Where the sets of each input begin.
+    /// Index of the first set of each input.
     [[nodiscard]] std::vector<std::size_t> firsts_of_inputs() const {
         std::vector<std::size_t> firsts;
         for (std::size_t i = 0; i < sets_.size(); ++i)
@@ -773,7 +776,7 @@ class Plot {
         return m;
     }
 
-    /// Whether each set of points is drawn in a frame of its own.
+    /// Whether each set of points has a frame of its own.
     [[nodiscard]] bool has_frames() const {
         return sets_.size() > 1 && chart_ != "histogram" && chart_ != "distances" &&
                !arguments_.has("overlay") && std::ranges::any_of(sets_, [](const Loaded& set) {
@@ -833,7 +836,7 @@ class Plot {
         return found;
     }
 
-    // ---------------------------------------------------------------- where it comes from
+    // ---------------------------------------------------------------- provenance
 
     [[nodiscard]] std::string command() const {
         std::string text = "stipple plot" + command_text(arguments_, {"seed"});
@@ -841,7 +844,7 @@ class Plot {
         return text;
     }
 
-    /// With the command that draws this, less what cannot change it.
+    /// Notes with the command that draws this picture, without options that do not affect it.
     [[nodiscard]] plot::PictureNotes notes_of() const {
         Json note = {{"tool", "stipple"}, {"version", STIPPLE_VERSION}, {"command", command()}};
         if (sets_.size() == 1 && !sets_[0].points.provenance.generator.empty())
@@ -862,7 +865,7 @@ class Plot {
     std::vector<Loaded> sets_;
     std::vector<Measurement> reports_;
     std::vector<MeanRow> means_;
-    std::uint64_t seed_ = 1;  ///< of --generate
+    std::uint64_t seed_ = 1;  ///< seed of --generate
 };
 
 }  // namespace

@@ -32,12 +32,12 @@ Shard parse_shard(const Arguments& arguments) {
     return {*index, *of};
 }
 
-/// The box of --bounds, with a range for each coordinate, or one for all. How many there are is
-/// planned in the box itself: options are checked by it.
+/// The box of --bounds, from one range per coordinate or a single one for all. The box may
+/// determine the dimension; options are checked against it.
 Box bounds_of(const std::string& text, const SetsToMake& job) {
     const auto ranges = static_cast<std::size_t>(1 + std::ranges::count(text, ','));
     Request request = job.request;
-    if (!job.warps.empty()) {  // of what these leave, or of all
+    if (!job.warps.empty()) {  // bounds of the coordinates that the warps leave, or of all
         const std::size_t d = plan_for(*job.generator, request, job.options).dimension;
         const std::size_t kept = WarpChain(job.warps, d).kept().size();
         return parse_box(text, ranges == d ? d : std::max<std::size_t>(kept, 1));
@@ -46,7 +46,7 @@ Box bounds_of(const std::string& text, const SetsToMake& job) {
     return parse_box(text, plan_for(*job.generator, request, job.options).dimension);
 }
 
-/// The command that makes these bytes: what was typed, less what cannot change them.
+/// Command that reproduces these bytes, without options that do not affect them.
 std::string command_of(const Arguments& arguments, const SetsToMake& job, const Target& target) {
     const Generator& generator = *job.generator;
     const auto& options = generator.options.options();
@@ -64,8 +64,8 @@ std::string command_of(const Arguments& arguments, const SetsToMake& job, const 
     return text;
 }
 
-/// The files that --vector-output asks for, of the lattice that the provenance tells of: with what a
-/// search found, where one was made.
+/// Files for --vector-output with the lattice in the provenance, using the results of its search if
+/// there was one.
 std::vector<SideFile> vector_files(const Provenance& meta, const Arguments& arguments,
                                    const RunContext& run) {
     const Generator* generator = generator_named(meta.generator);
@@ -92,9 +92,9 @@ std::vector<SideFile> vector_files(const Provenance& meta, const Arguments& argu
     return sets.side_files();
 }
 
-/// The coordinates of a table that a warp takes or, with `back`, has given, by the names that its
-/// domain has, where the table has them in another order or among others.
-/// @throws Error(input) for a table that has some of them, or with `back` any other names
+/// Positions of a warp's coordinates (or of its image, if `back`) among the columns, matched by the
+/// names in its domain. Used if a table has them in another order or among other columns.
+/// @throws Error(input) if the table has only some of them, or with `back` any other names
 std::vector<std::size_t> coordinates_by_name(const Spec& spec,
                                              const std::vector<std::string>& columns, bool back,
                                              const RunContext& run) {

@@ -27,17 +27,18 @@
 namespace stipple::cli {
 namespace {
 
-/// A set that is not measured yet.
+/// A set that has not been measured yet.
 struct PendingSet {
     PointSet points;
     page::Set set;
     page::Input input;
-    std::shared_ptr<const GeneratedSets> others = {};  ///< of which it is the first
+    std::shared_ptr<const GeneratedSets> others =
+        {};  ///< all generated sets; this is the first of them
 };
 
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
-/// Keys under which a measure's results may be.
+/// Possible keys of a measure's results.
 std::vector<std::string> keys_of(const std::string& measure, const Analyzer& analyzer) {
     std::vector<std::string> keys;
     const auto any_name = [](char c) { return c >= 'A' && c <= 'Z'; };
@@ -50,8 +51,8 @@ std::vector<std::string> keys_of(const std::string& measure, const Analyzer& ana
     return keys;
 }
 
-/// A condition with its whole key: the name of a measure alone is its value.
-/// @throws Error(usage) for what no page has, and for what can never hold
+/// Parses a condition and completes its key: a measure alone stands for its value.
+/// @throws Error(usage) for a key that no page has, or a condition that never holds
 Check condition_of(const std::string& text, const std::string& option) {
     Check check = parse_check(text, option);
     const std::string measure = check.key.substr(0, check.key.find_first_of(".["));
@@ -74,7 +75,7 @@ Check condition_of(const std::string& text, const std::string& option) {
     return check;
 }
 
-/// The condition that holds where this one does not.
+/// Negation of a condition.
 Check opposite_of(const Check& check) {
     static const std::map<std::string, std::string> opposites = {
         {"<", ">="}, {"<=", ">"}, {">", "<="}, {">=", "<"}, {"==", "!="}, {"!=", "=="}};
@@ -120,7 +121,7 @@ class Reporter {
         for (std::size_t i = 0; i < pending_.size(); ++i) whole.sets.push_back(finished(i));
         whole.title = title_of(whole.sets);
         const bool fine = judge(whole.sets);
-        if (fine)  // an error says alone what is wrong
+        if (fine)  // if something failed, that message is enough
             for (const page::Set& set : whole.sets) warn_of_nothing(set);
         session_.run().check_stop();
         if (output.write(json_ ? page::to_json(whole) : page::to_html(whole))) output.commit();
@@ -130,7 +131,7 @@ class Reporter {
   private:
     // ---------------------------------------------------------------- sets
 
-    /// A page must not overwrite the points that it is about.
+    /// Ensures that the page does not overwrite its input.
     void keep_inputs() const {
         std::error_code none;
         for (const std::string& input : arguments_.inputs)
@@ -155,7 +156,7 @@ class Reporter {
             next.set.source = input;
             next.set.provenance = sets[i].provenance;
             next.set.command = sets[i].provenance.command;
-            // No command leaves out rows.
+            // No command can reproduce a set with rows left out.
             if (next.set.left_out == 0) next.input.words = words_of_file(input);
             next.input.bounds = !arguments_.has("domain");
             if (sets.size() > 1) {
@@ -167,7 +168,7 @@ class Reporter {
         }
     }
 
-    /// How the file is named to 'stipple analyze'.
+    /// The file as an argument of 'stipple analyze'.
     [[nodiscard]] std::string words_of_file(const std::string& input) const {
         std::string words = shell_word(input);
         for (const char* name :
@@ -191,7 +192,7 @@ class Reporter {
         pending_.push_back(std::move(next));
     }
 
-    /// The options that all generated sets share, as they are typed for the first of each.
+    /// Options shared by all generated sets, as typed for the first set of each generator.
     [[nodiscard]] std::string of_generated() const {
         std::string words;
         for (const char* name : {"count", "dimension", "start", "warp", "parameters"})
@@ -201,7 +202,7 @@ class Reporter {
         return words;
     }
 
-    /// @throws Error for sets that do not go on one page
+    /// @throws Error if the sets cannot be on one page
     void check_sets() const {
         if (pending_.size() > page::most_sets)
             fail_with_hint(ErrorKind::usage, "'stipple study' compares more, as tables",
@@ -217,7 +218,7 @@ class Reporter {
                                io::source_name(first.set.source), first.points.dimension());
     }
 
-    /// Short, distinct names.
+    /// Gives the sets short, distinct names.
     void name_sets() {
         std::map<std::string, int> seen;
         for (auto& [points, set, input, others] : pending_) {
@@ -244,7 +245,7 @@ class Reporter {
 
     // ---------------------------------------------------------------- measures and conditions
 
-    /// Measures a set and draws it; its points are not needed any more then.
+    /// Measures and draws a set, and frees its points.
     page::Set finished(std::size_t i) {
         auto [points, set, input, others] = std::move(pending_[i]);
         pending_[i].points = {};
@@ -261,7 +262,7 @@ class Reporter {
         return whole;
     }
 
-    /// The report less its grids and long lists: what conditions and means are of.
+    /// Report without grids and long lists: the values for conditions and means.
     static Report without_curves(const Report& report) {
         constexpr std::size_t few = 64;
         Report kept;
@@ -275,11 +276,11 @@ class Reporter {
         return kept;
     }
 
-    /// A page on points that nothing was measured of is a mistake, mostly.
+    /// Warns if nothing could be measured of a set of the inputs, which is usually a mistake.
     void warn_of_nothing(const page::Set& set) const {
         const auto inputs = input_names(arguments_);
         if (std::ranges::find(inputs, set.source) == inputs.end() ||
-            page::is_experiment(set.domain) ||  // the page says why of each
+            page::is_experiment(set.domain) ||  // its page explains why each measure is missing
             std::ranges::any_of(set.measures, [](const auto& m) { return m.results.has_value(); }))
             return;
         session_.warn(fmt::format(
@@ -288,7 +289,7 @@ class Reporter {
             set.name, set.measures.front().left_out));
     }
 
-    /// Whether all conditions are certain to hold, also of sets that were not measured.
+    /// Whether all conditions certainly hold; a missing value counts as a failure.
     bool judge(const std::vector<page::Set>& sets) const {
         bool fine = true;
         for (const Check& check : conditions_) {
@@ -313,7 +314,7 @@ class Reporter {
         return false;
     }
 
-    /// A value may be known by its bounds alone.
+    /// Whether the report has the value, or at least its bounds.
     static bool has(const Report& all, const std::string& key) {
         const std::string path = key.substr(0, key.find('['));
         const Report::Item* item = all.find(path);
@@ -322,7 +323,7 @@ class Reporter {
         return item != nullptr && !std::holds_alternative<Report>(*item);
     }
 
-    /// The measure that a key is of.
+    /// Measure that a key belongs to.
     static const page::Measure& measure_of(const page::Set& set, const std::string& key) {
         return *std::ranges::find(set.measures, key.substr(0, key.find('.')), &page::Measure::name);
     }
@@ -332,7 +333,7 @@ class Reporter {
         return measure.results ? "no result" : fmt::format("not known ({})", measure.left_out);
     }
 
-    /// @throws Error(usage) for a key that the measure does not have
+    /// @throws Error(usage) if the measure does not have the key
     static void require_known(const Check& check, const std::vector<page::Set>& sets) {
         const std::string& key = check.key;
         std::string hint;
@@ -344,7 +345,7 @@ class Reporter {
         fail_with_hint(ErrorKind::usage, hint, "{}: no set has '{}'", check.option, key);
     }
 
-    /// The command that makes this page, less what cannot change it.
+    /// Command that makes this page, without options that do not affect it.
     [[nodiscard]] std::string command() const {
         std::string text =
             "stipple report" + command_text(arguments_, {"format", "check", "fail-on", "seed"});

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The verb `reproduce`: a file's points made again from its own provenance. What was asked for is
-// in the provenance's command; its options also hold what was worked out, such as a radius.
+// The verb `reproduce`: makes a file's points again from its own provenance. The command in the
+// provenance has the options as typed; the provenance's options also have computed values, such as
+// a radius.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,8 +29,7 @@
 namespace stipple::cli {
 namespace {
 
-/// The words of a command as a shell would take them: blanks part them, 'quotes' hold them together,
-/// \' stands for itself.
+/// Splits a command into words like a shell: at blanks, except inside 'quotes'; \' is a quote.
 std::vector<std::string> shell_words(std::string_view command) {
     std::vector<std::string> words;
     bool quoted = false;
@@ -53,7 +53,7 @@ std::vector<std::string> shell_words(std::string_view command) {
     return words;
 }
 
-/// What the provenance says was typed, where it holds no command.
+/// Arguments reconstructed from a provenance without a command.
 Arguments arguments_of(const Provenance& meta, const std::string& name) {
     if (!meta.shard.empty() || meta.efficiency < 1)
         fail(ErrorKind::input, "{}: its provenance has no command, which a part of a set needs",
@@ -70,7 +70,7 @@ Arguments arguments_of(const Provenance& meta, const std::string& name) {
     return typed;
 }
 
-/// Puts the warp that the provenance holds in place of the parameter file that was typed.
+/// Replaces --parameters by the warp in the provenance, which has the contents of that file.
 void take_parameters(Arguments& typed, const Provenance& meta) {
     if (!typed.has("parameters")) return;
     const std::size_t before = typed.all("warp").size();
@@ -84,7 +84,7 @@ void take_parameters(Arguments& typed, const Provenance& meta) {
         typed.common.emplace_back("dimension", std::to_string(meta.dimension));
 }
 
-/// What was typed, as the provenance's command says.
+/// Arguments of the provenance's command.
 Arguments typed_for(const Original& original) {
     const auto words = shell_words(original.meta.command);
     if (words.size() < 3 || words[1] != "generate")
@@ -96,14 +96,14 @@ Arguments typed_for(const Original& original) {
     return typed;
 }
 
-/// What makes the file again, and how its numbers were written.
+/// Everything needed to make the file again.
 struct Recipe {
     Arguments typed;
     SetsToMake job;
     std::vector<std::string> steps;  ///< warps of later runs
 };
 
-/// What is wrong with a provenance is wrong with the file, whatever it would be on a command line.
+/// Runs work() on the provenance; its usage errors become errors of the file.
 template <class Work>
 auto reading_provenance(const Original& original, const Work& work) {
     try {
@@ -123,7 +123,7 @@ Recipe recipe_of(const Original& original, Session& session) {
     Recipe recipe;
     if (!meta.flaw.empty()) fail(ErrorKind::usage, "{}", meta.flaw);
     recipe.typed = typed_for(original);
-    // As strictly as a command line, though what they say was worked out.
+    // The options in the provenance are checked as on a command line.
     Values known = generator.options.defaults();
     for (const auto& [name, text] : meta.options) generator.options.set(known, name, text);
     // Options that only write side files do not affect the points.
@@ -135,7 +135,7 @@ Recipe recipe_of(const Original& original, Session& session) {
     if (job.generator->name != generator.name)
         fail(ErrorKind::usage, "its command makes points by {}, its generator is {}",
              job.generator->name, generator.name);
-    // Of sets in files of their own, each tells its own seed.
+    // Sets of one command in separate files have consecutive seeds.
     if (meta.seed - job.request.seed >= job.sets)
         fail(ErrorKind::usage, "its command makes {} of seed {}, its seed is {}",
              job.sets > 1 ? fmt::format("{} sets from one", job.sets) : "a set", job.request.seed,
@@ -151,7 +151,7 @@ Recipe recipe_of(const Original& original, Session& session) {
     return recipe;
 }
 
-/// The stream version of a unit that makes or moves points.
+/// Stream version of a unit that makes or moves points.
 std::uint64_t stream_version_of(const std::string& name) {
     const auto of = [&name](const auto& units) {
         const auto it = std::ranges::find_if(units, [&](const auto& u) { return u.name == name; });
@@ -161,7 +161,7 @@ std::uint64_t stream_version_of(const std::string& name) {
     return scramble ? scramble->stream_version : std::max(of(warps::all()), of(generators::all()));
 }
 
-/// A sentence about the first unit whose rules are not those that made the file; or nothing.
+/// Sentence about the first unit whose stream version has changed; empty if none has.
 std::string changed_rules(const Provenance& meta) {
     std::vector<std::string> units = {find_generator(meta.generator).name};
     for (std::string warp : meta.warps) {
@@ -183,8 +183,8 @@ std::string changed_rules(const Provenance& meta) {
     return {};
 }
 
-/// Files that may be opened while a provenance is followed: those that the command line names. A file
-/// that the points were made from may stand there under another name.
+/// Files that the recipe may read: only those named on the command line. Inputs are identified by
+/// their fingerprints, so they may have been renamed.
 std::unique_ptr<FileRules> rules_for(const Original& original, const Arguments& arguments,
                                      const RunContext& run) {
     std::map<std::string, std::string> readable = {{original.path, original.path}};
@@ -214,14 +214,14 @@ std::unique_ptr<FileRules> rules_for(const Original& original, const Arguments& 
                                        std::vector{output, io::meta_path(output)});
 }
 
-/// What happened, for people and for programs.
+/// Result, for people and for programs.
 struct Verdict {
     bool identical = false;
     std::string sentence;
     Json details = Json::object();
 };
 
-/// " in 3 sets", " with 5 digits after the point".
+/// Remarks such as " in 3 sets, with 5 digits after the point".
 std::string remarks_on(const Comparison& found, const Target& written) {
     std::string text;
     if (found.sets > 1) text += fmt::format(" in {} sets", found.sets);
@@ -235,7 +235,7 @@ class Reproducer {
   public:
     Reproducer(const Original& original, Recipe recipe, Session& session)
         : original_(original), recipe_(std::move(recipe)), session_(session), run_(session.run()) {
-        run_.warn = nullptr;  // what there is to say was said when the points were made
+        run_.warn = nullptr;  // these warnings were shown when the points were first made
         written_.precision = original.meta.precision;
         written_.single = original.meta.single;
     }
@@ -246,7 +246,7 @@ class Reproducer {
         return original_.drawn ? compare_bytes() : compare_points();
     }
 
-    /// The points in a file of their own.
+    /// Writes the points to a file.
     void write(const std::string& path) {
         Arguments typed = recipe_.typed;
         typed.common.emplace_back("output", path);
@@ -260,7 +260,7 @@ class Reproducer {
     }
 
   private:
-    /// Everything that was done to make the points; `sets` are in the file, where that is known.
+    /// All steps that make the points. @param sets number of sets in the file
     [[nodiscard]] Making making(std::size_t sets) const {
         return made_again(recipe_.job, recipe_.steps, sets, run_);
     }
@@ -268,7 +268,7 @@ class Reproducer {
     Verdict compare_points() {
         const auto stream = open_original(original_, {.all_columns = true}, run_);
         written_.columns = columns_behind(stream->dimension());
-        // Raw numbers do not tell their sets.
+        // The reader of raw numbers cannot tell how many sets there are.
         const bool raw = original_.format != nullptr && original_.format->name == "bin";
         const std::size_t sets = raw ? original_.sets : stream->sets().value_or(0);
         if (sets == 1) recipe_.job.sets = 1;
@@ -284,14 +284,14 @@ class Reproducer {
         return verdict;
     }
 
-    /// Those of coordinates, and what stands behind them.
+    /// Names of coordinates and extra columns.
     [[nodiscard]] std::vector<std::string> column_names(std::size_t dimension) const {
         auto names = coordinate_names(dimension, original_.meta);
         for (const auto& extra : written_.columns.names()) names.push_back(extra);
         return names;
     }
 
-    /// What stands behind the coordinates, where a point has so many numbers.
+    /// Extra columns after the coordinates, deduced from the numbers per point.
     [[nodiscard]] Columns columns_behind(std::size_t width) const {
         const std::size_t d = original_.meta.dimension;
         if (width == d + 2) return {.pdf = true, .weight = true};
@@ -310,7 +310,8 @@ class Reproducer {
         return true;
     }
 
-    /// Options in the provenance that are not what is worked out today, though the points are.
+    /// Warns of options in the provenance that would have other values today, although the points
+    /// may be equal.
     void tell_differences(const Provenance& made) const {
         if (!recipe_.steps.empty() || made.options.empty()) return;
         for (const auto& option : original_.meta.options)
@@ -321,7 +322,7 @@ class Reproducer {
                                 original_.name, option.first, option.second));
     }
 
-    /// What the provenance says otherwise than the same points' would today; or nothing.
+    /// Message if the points are equal but the provenance is wrong; empty if it is right.
     [[nodiscard]] std::string contradiction(const Provenance& made) const {
         const Provenance& told = original_.meta;
         const auto text = [](std::uint64_t number) { return std::to_string(number); };
@@ -339,7 +340,7 @@ class Reproducer {
         return {};
     }
 
-    /// "50 points of 3 coordinates and pdf"
+    /// Size in words, such as "50 points of 3 coordinates and pdf".
     [[nodiscard]] std::string size_of(const Comparison& found, std::size_t width) const {
         const auto extra = written_.columns.names();
         const std::size_t d = width - extra.size();
@@ -372,7 +373,7 @@ class Reproducer {
         return verdict;
     }
 
-    /// Files that are written only, as their bytes.
+    /// Compares formats that cannot be read back, byte by byte.
     Verdict compare_bytes() {
         const std::string bytes = io::read_bytes(original_.path, run_);
         const std::string found = io::without_meta(bytes);
@@ -400,7 +401,7 @@ class Reproducer {
             .details = {{"byte", byte}}};
     }
 
-    /// A picture that was made with the points, pixel by pixel.
+    /// Compares a picture that a generator wrote beside its points, pixel by pixel.
     Verdict compare_picture() {
         const auto& generator = *recipe_.job.generator;
         Values options = recipe_.job.options;
@@ -430,7 +431,7 @@ class Reproducer {
     Recipe recipe_;
     Session& session_;
     RunContext run_;
-    Target written_;  ///< how the numbers were
+    Target written_;  ///< format of the numbers in the file
 };
 
 int say(const Original& original, const Verdict& verdict, const std::string& changed,
@@ -451,7 +452,7 @@ int say(const Original& original, const Verdict& verdict, const std::string& cha
         out["command"] = original.meta.command;
         text = json_text(out, 2) + "\n";
     }
-    // Where the points go to standard output, the verdict does not.
+    // The verdict must not be mixed with points on standard output.
     if (arguments.get("output") == "-")
         cli::say(text);
     else
@@ -459,7 +460,7 @@ int say(const Original& original, const Verdict& verdict, const std::string& cha
     return verdict.identical ? 0 : 1;
 }
 
-/// A picture has no numbers to compare; but the points that it shows can be made.
+/// Makes the points of a picture by `plot` again; there are no numbers to compare.
 int remake_plotted(const Original& original, Reproducer& reproducer, const Arguments& arguments) {
     const Provenance& meta = original.meta;
     const std::string made =

@@ -26,25 +26,27 @@
 namespace stipple::cli {
 namespace {
 
-/// Bytes that the program has allocated and not freed, libraries' included; 0 where the system's
-/// allocator does not tell.
+/// Bytes that the program and its libraries have allocated and not freed; 0 if the system's
+/// allocator does not report them.
 std::uint64_t allocated_bytes() {
 #ifdef STIPPLE_MALLINFO
     const auto heap = ::mallinfo2();
-    return heap.uordblks + heap.hblkhd;  // small blocks of all arenas, and large ones
+    return heap.uordblks + heap.hblkhd;  // small blocks of all arenas + large blocks
 #else
     return 0;
 #endif
 }
 
 std::stop_source& interrupts() {
-    static auto* const source = new std::stop_source;  // signals may come when statics are gone
+    static auto* const source =
+        new std::stop_source;  // never destroyed, since signals may arrive after statics are
     return *source;
 }
 
 pthread_t main_thread;  // NOLINT: read by the signal handler
 
-volatile std::sig_atomic_t interrupted_at = 0;  ///< milliseconds on the clock, of the first signal
+volatile std::sig_atomic_t interrupted_at =
+    0;  ///< time of the first signal in milliseconds; 0 if there was none
 
 std::sig_atomic_t milliseconds() {
     timespec now{};
@@ -53,23 +55,23 @@ std::sig_atomic_t milliseconds() {
         (now.tv_sec * 1000 + now.tv_nsec / 1'000'000) % 1'000'000'000 + 1);
 }
 
-/// Lock-free, since nothing registers callbacks at this stop source. A later second
-/// signal is final; one that comes at once is the first, sent to the process and its group.
+/// Requests a stop; lock-free, because this stop source has no callbacks. A second signal ends the
+/// program, except within 200 ms: then it is the first one, sent to both the process and its group.
 extern "C" void on_interrupt(int signal) {
     constexpr std::sig_atomic_t at_once = 200;
     if (interrupted_at == 0) {
         interrupted_at = milliseconds();
     } else if (std::abs(milliseconds() - interrupted_at) > at_once) {
         std::signal(signal, SIG_DFL);
-        std::raise(signal);  // delivered on return
+        std::raise(signal);  // delivered when the handler returns
     }
     interrupts().request_stop();
-    // Only a blocked call of the main thread must be woken.
+    // Only the main thread may be in a blocking call, which must be woken.
     if (!pthread_equal(pthread_self(), main_thread)) pthread_kill(main_thread, signal);
 }
 
-/// Bytes of memory that this process may use: the machine's, or those of Linux's control group; more
-/// than any has where the system does not tell.
+/// Bytes of memory that this process may use: the machine's, or the limit of Linux's control group;
+/// 2^60 if the system reports neither.
 double memory_of_machine() {
     double bytes = 0x1p60;
 #ifdef _SC_PHYS_PAGES
@@ -143,7 +145,7 @@ Session::Session(const Arguments& arguments)
     : quiet_(arguments.has("quiet")), bar_(progress_mode(arguments)) {
     run_.threads = static_cast<unsigned>(arguments.integer("threads").value_or(0));
     run_.max_memory = memory_limit(arguments);
-    limit_whole_files(run_.max_memory / 3);  // what is made of a file takes twice its bytes
+    limit_whole_files(run_.max_memory / 3);  // processing a file takes twice its bytes
     run_.memory_in_use = [before = allocated_bytes()] {
         const std::uint64_t now = allocated_bytes();
         return now - std::min(before, now);
@@ -187,13 +189,13 @@ void catch_interrupts() {
     interrupts();
     struct sigaction action = {};
     action.sa_handler = on_interrupt;
-    action.sa_flags = 0;  // no SA_RESTART: a blocked read or write must come back
+    action.sa_flags = 0;  // without SA_RESTART, so that blocked reads and writes return
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
     struct sigaction before = {};
     sigaction(SIGHUP, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // not under nohup
-    // A closed pipe and a file over the limit are errors of the write.
+    if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // unless run by nohup
+    // Writes to a closed pipe or beyond a file size limit return errors instead.
     std::signal(SIGPIPE, SIG_IGN);
     std::signal(SIGXFSZ, SIG_IGN);
 }

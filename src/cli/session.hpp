@@ -13,7 +13,8 @@
 
 namespace stipple::cli {
 
-/// A bar on stderr: "[####      ]  41 %  3 s left", or a note in place of the time.
+/// Progress bar on stderr: "[####      ]  41 %  3 s left", with a note in place of the time if
+/// there is one.
 class ProgressBar {
   public:
     enum class Mode { automatic, always, never };
@@ -24,9 +25,9 @@ class ProgressBar {
     ~ProgressBar() { clear(); }
 
     void show(double fraction);
-    /// Words to stand in place of the time left when the bar is shown next.
+    /// Sets the note that is shown in place of the time left.
     void note(const std::string& words) { words_ = words; }
-    /// Takes the bar off the line.
+    /// Erases the bar.
     void clear();
 
   private:
@@ -47,14 +48,14 @@ class Session {
 
     [[nodiscard]] const RunContext& run() const { return run_; }
 
-    /// A note on stderr, unless --quiet. It is said when the work is done, or takes long: an error says
-    /// alone what is wrong.
+    /// Prints a note to stderr, unless --quiet. It is delayed until the work is done or takes long,
+    /// so that an error is printed without notes.
     void warn(const std::string& sentence);
 
-    /// The same for what was asked for.
+    /// Like warn(), without "note: ": for messages that an option asks for.
     void tell(const std::string& sentence);
 
-    /// Says what there is to say.
+    /// Prints the delayed notes.
     void tell_warnings();
 
   private:
@@ -64,16 +65,17 @@ class Session {
     ProgressBar bar_;
 };
 
-/// Text on stderr; a closed or full stderr is no error.
+/// Prints text to stderr; ignores a closed or full stderr.
 void say(std::string_view text);
 
-/// A line "stipple: SENTENCE" on stderr, whoever's words are in it.
+/// Prints "stipple: SENTENCE" to stderr, escaped and truncated.
 void say_line(std::string_view sentence);
 
-/// Stops the runs of all sessions, as Ctrl-C does.
+/// Stops the runs of all sessions, like Ctrl-C.
 void request_stop();
 
-/// From now on Ctrl-C, SIGTERM and SIGHUP stop a Session's run; a second one ends the program at once.
+/// Makes Ctrl-C, SIGTERM and SIGHUP stop a Session's run; a second one ends the program
+/// immediately.
 void catch_interrupts();
 
 }  // namespace stipple::cli

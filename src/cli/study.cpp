@@ -26,9 +26,9 @@
 namespace stipple::cli {
 namespace {
 
-constexpr std::uint64_t most_units = 10'000'000;  // started without --yes
+constexpr std::uint64_t most_units = 10'000'000;  // above it, --yes is needed
 
-/// What was typed, with what the configuration says where nothing was typed.
+/// Arguments completed by the configuration file; typed options take precedence.
 Arguments with_config(const Arguments& typed, std::uint64_t ranks, const RunContext& run) {
     Arguments all = typed;
     const auto path = typed.get("config");
@@ -40,7 +40,7 @@ Arguments with_config(const Arguments& typed, std::uint64_t ranks, const RunCont
     return all;
 }
 
-/// What the command line refuses, said of the key of the configuration that it stands under.
+/// Rethrows an error; if its option is from the configuration, the message names the file and key.
 [[noreturn]] void refuse_setting(const Error& e, const Arguments& typed) {
     const std::string_view what = e.what();
     const auto end = what.find(": ");
@@ -118,7 +118,7 @@ SummaryOptions summary_options(const Arguments& arguments, std::uint64_t seed) {
     return options;
 }
 
-/// ".csv" of study.csv, nothing of files without one, and of devices.
+/// Extension, such as ".csv" of study.csv; empty if there is none, and for devices.
 std::string extension_of(const std::string& path) {
     if (path == "-" || path.starts_with("/dev/")) return "";
     return std::filesystem::path(path).extension().string();
@@ -134,7 +134,7 @@ TableStyle table_style(const Arguments& arguments, const std::string& path) {
     return (format ? *format == "jsonl" : lines) ? TableStyle::jsonl : TableStyle::csv;
 }
 
-/// study.csv -> study.summary.csv
+/// Path beside the table: study.csv -> study.summary.csv.
 std::string beside(const std::string& path, const std::string& what) {
     const std::string extension = std::filesystem::path(path).extension().string();
     return path.substr(0, path.size() - extension.size()) + "." + what + extension;
@@ -231,7 +231,7 @@ class Study {
         write_text(beside(path_, "comparisons"), pairs);
     }
 
-    /// Takes the summary of the study that was there away: it would be taken for one of the new.
+    /// Removes the previous summary, which could be mistaken for one of the new study.
     void remove_old_summary() const {
         for (const auto& path : {beside(path_, "summary"), beside(path_, "comparisons")}) {
             std::ifstream in(path, std::ios::binary);
@@ -242,7 +242,7 @@ class Study {
         }
     }
 
-    /// A study of months is probably a mistake.
+    /// @throws Error(limit) for a huge study without --yes: one of months is probably a mistake
     void refuse_too_much() const {
         if (arguments_.has("yes") || sweep_.units() <= most_units) return;
         const StudyRow row = row_of(sweep_, sweep_.unit(0));
@@ -252,7 +252,7 @@ class Study {
             threads_of(ranks_, session_.run()) * static_cast<unsigned>(ranks_.size());
         const SweepRequest& r = sweep_.request();
         std::string takes = "about " + format_bytes(units * bytes);
-        constexpr std::uint64_t most_cells = 1'000'000;  // that are looked at in a moment
+        constexpr std::uint64_t most_cells = 1'000'000;  // quick to estimate
         if (sweep_.cells() <= most_cells)
             takes += fmt::format(" and {} on {} {}", long_time(WorkLeft(sweep_).seconds() / cores),
                                  cores, cores == 1 ? "core" : "cores");
@@ -273,9 +273,9 @@ class Study {
     SummaryOptions summary_options_;
     bool summarized_;
     bool began_ = false;
-    std::uint64_t failed_ = 0;  ///< measurements
+    std::uint64_t failed_ = 0;  ///< failed measurements
     StudyRow first_failed_;
-    bool met_limit_ = false;  ///< one of them
+    bool met_limit_ = false;  ///< whether one of them failed due to a limit
     StudySummary summary_;
 };
 

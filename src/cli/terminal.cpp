@@ -12,7 +12,7 @@
 namespace stipple::cli {
 namespace {
 
-/// Letters that the mark of an item takes at the front of a line: "- ", "* " or "12. "; else 0.
+/// Length of a list marker at the front of a line: "- ", "* " or "12. "; 0 if there is none.
 std::size_t mark_of_item(std::string_view line) {
     if (line.starts_with("- ") || line.starts_with("* ")) return 2;
     const auto digits = std::min(line.find_first_not_of("0123456789"), line.size());
@@ -50,10 +50,10 @@ std::size_t text_columns() {
 std::string filled(std::string_view text, std::size_t columns, std::size_t indent) {
     std::string out;
     std::size_t used = indent;
-    bool blank = false;  // in front of the word
+    bool blank = false;  // before the next word
     for (std::size_t at = 0; (at = text.find_first_not_of(" \n", at)) != text.npos;) {
         std::size_t end = std::min(text.find_first_of(" \n|", at), text.size());
-        if (end < text.size() && text[end] == '|') ++end;  // a line may end behind it
+        if (end < text.size() && text[end] == '|') ++end;  // a line may end after it
         const auto word = text.substr(at, end - at);
         const std::size_t letters = code_points(word).size() + (blank ? 1 : 0);
         if (!out.empty() && used + letters > columns) {
@@ -83,7 +83,7 @@ std::string beside(std::string_view tag, std::string_view text, std::size_t colu
 
 std::string filled_page(std::string_view text, std::size_t columns) {
     std::string out;
-    std::string part;  // lines that are filled together
+    std::string part;  // lines of one paragraph or item
     const auto end_part = [&] {
         const std::size_t mark = mark_of_item(part);
         if (!part.empty())

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The terminal that standard output is, and texts that fit it.
+// Size of the terminal, and text wrapped to it.
 #pragma once
 
 #include <cstddef>
@@ -14,27 +14,27 @@ struct TerminalSize {
     std::size_t rows = 40;
 };
 
-/// The size of the terminal in letters; the defaults where standard output is none.
+/// Size of the terminal in letters; the defaults if standard output is not a terminal.
 TerminalSize terminal_size();
 
-/// Whether the environment lets programs write in colours: NO_COLOR is not set.
+/// Whether the environment allows colours: NO_COLOR is not set and TERM is not "dumb".
 bool colours_wanted();
 
-/// Columns of running text: the terminal's, but no more than can be read well.
+/// Columns of running text: the terminal's, up to a readable maximum.
 std::size_t text_columns();
 
-/// The words of a text in lines of `columns` letters, none broken but behind a '|', its own ends of
-/// lines gone. All lines but the first begin with `indent` blanks, which the first is taken to have before it.
-/// Without an end of line.
+/// Wraps text to `columns` letters, at blanks, line ends and after '|'. All lines except the first
+/// are indented by `indent` blanks; the first is assumed to be indented already. No newline at the
+/// end.
 std::string filled(std::string_view text, std::size_t columns, std::size_t indent = 0);
 
-/// A tag with its text beside it, filled, which begins in the column `indent`; on the next line
-/// where the tag is longer. With an end of line.
+/// A tag with wrapped text beside it, which starts at column `indent`; on the next line if the tag
+/// is longer. Ends with a newline.
 std::string beside(std::string_view tag, std::string_view text, std::size_t columns,
                    std::size_t indent);
 
-/// The paragraphs of a text, filled each by itself, and the items of its lists; lines that begin
-/// with four blanks, headings and tables stand as they are.
+/// Wraps each paragraph and list item of a text; lines indented by four blanks, headings and tables
+/// are unchanged.
 std::string filled_page(std::string_view text, std::size_t columns);
 
 }  // namespace stipple::cli

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the verbs do; each returns the exit code.
+// Functions of the verbs; each returns the exit code.
 #pragma once
 
 #include <initializer_list>
@@ -16,7 +16,7 @@
 
 namespace stipple::cli {
 
-/// The whole program: parses, works, prints; returns the exit code of the contract.
+/// Runs the whole program; returns the exit code.
 int run(int argc, char** argv);
 
 int generate(const Arguments& arguments, Session& session);
@@ -31,50 +31,51 @@ int reproduce(const Arguments& arguments, Session& session);
 int help(const Arguments& arguments);
 int completions(const Arguments& arguments);
 
-/// What may stand for the last of the words, and why, a candidate a line; "@files" where a file's
-/// name may. For the scripts of `completions`.
+/// Candidates for the last of the words, with explanations, one per line; "@files" where a file
+/// name is possible. Called by the scripts of `completions`.
 std::string complete(std::vector<std::string> words);
 
-/// What --help says for the program, a verb, or a unit of a verb; made from the records.
+/// Text of --help for the program, a verb, or a unit of a verb; made from the records.
 std::string help_text(const Arguments& arguments);
 
-/// Points of a generator, or of the image of a warp, in letters; empty where there are none to show.
+/// Points of a generator, or the image of a warp, drawn with characters; empty if options are
+/// missing.
 std::string picture_in_letters(Verb verb, const UnitInfo& unit);
 
-/// stipple and the libraries it is linked with.
+/// Versions of stipple and the libraries it is linked with.
 std::string version_text();
 
-/// What `generate` was asked to make.
+/// The sets requested of `generate`.
 SetsToMake sets_to_make(const Arguments& arguments, Session& session);
 
-/// Where points go, as -o, -f, --dtype, --precision, --meta and --no-header say.
+/// Output as requested by -o, -f, --dtype, --precision, --meta and --no-header.
 Target target_of(const Arguments& arguments);
 
-/// Where a verb writes its one file. @throws Error(usage) for a name with {set} or {seed}
+/// Path of a verb's single output file. @throws Error(usage) for a name with {set} or {seed}
 std::string output_of(const Arguments& arguments);
 
-/// Whether this is standard output, and a terminal.
+/// Whether the path is standard output, and that is a terminal.
 bool is_terminal(const std::string& path);
 
-/// A word as a shell takes it, in quotes where it must be.
+/// A word quoted for a shell if necessary.
 std::string shell_word(const std::string& word);
 
-/// " --name value", as a shell takes it.
+/// " --name value", quoted for a shell.
 std::string typed_option(const std::string& name, const std::string& value, bool flag);
 
-/// What was typed of a verb's inputs and common options, as a shell takes it; less what is left
-/// out, and what never changes a result.
+/// A verb's inputs and common options as typed, quoted for a shell; without those in `left_out`,
+/// and those that never affect a result.
 std::string command_text(const Arguments& arguments,
                          std::initializer_list<std::string_view> left_out = {});
 
-/// The unit's options as typed. @throws Error(usage)
+/// Values of the unit's options. @throws Error(usage)
 Values settings_of(const Schema& schema, const Arguments& arguments);
 
-/// Puts the mean of an analyzer's results on several sets into a measurement.
+/// Stores the mean of an analyzer's results on several sets in a measurement.
 void take_mean(Measurement& m, const ReportAverage& average, std::span<const Report> sets,
                const Analyzer& analyzer, const Values& options);
 
-/// Writes text to a file or standard output, whole or not at all.
+/// Writes text to a file or standard output, completely or not at all.
 void write_text(const std::string& path, const std::string& text);
 
 }  // namespace stipple::cli

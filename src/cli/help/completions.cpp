@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What shells offer behind a word: their scripts ask `stipple complete WORDS...`, which answers
-// from the records, a candidate a line, or @files where a file's name may stand.
+// Completions of a command line. The shells' scripts call `stipple complete WORDS...`, which prints
+// one candidate per line from the records, or @files where a file name is possible.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,14 +15,14 @@
 
 namespace stipple::cli {
 
-// completion.bash, completion.zsh and completion.fish beside this file
+// Contents of completion.bash, completion.zsh and completion.fish in this folder.
 const char* bash_completion();
 const char* zsh_completion();
 const char* fish_completion();
 
 namespace {
 
-/// A word that may stand here, and what it is.
+/// A possible word with its explanation.
 struct Candidate {
     std::string word;
     std::string help = {};
@@ -55,13 +55,13 @@ Candidates joined(Candidates one, const Candidates& two) {
     return one;
 }
 
-/// What may stand behind an option.
+/// Candidates for the value of a unit's option.
 Candidates values_of(const Option& option) {
     if (option.type == "file") return {files};
     return words_of(option.choices);
 }
 
-/// What may stand at the end of a spec, or of a list of these: "halton,sobol:scramble=ow".
+/// Candidates for the end of a spec, or of a list of specs such as "halton,sobol:scramble=ow".
 Candidates in_spec(const std::vector<UnitInfo>& units, const std::string& current, bool list) {
     const auto cut = current.find_last_of(",;:=");
     if (cut == std::string::npos) return with_summaries(units);
@@ -87,7 +87,8 @@ Candidates in_spec(const std::vector<UnitInfo>& units, const std::string& curren
     return found;
 }
 
-/// @param current what is typed of the value
+/// Candidates for the value of a common option.
+/// @param current typed part of the value
 Candidates values_of(const CommonOption& common, const std::string& current) {
     const std::string_view value = common.value;
     const auto spec = [&](std::string_view kind) {
@@ -102,7 +103,7 @@ Candidates values_of(const CommonOption& common, const std::string& current) {
     return values_of(common.option);
 }
 
-/// What a verb takes that is not a unit: words, or files.
+/// Candidates for arguments that are not units: words, or files.
 Candidates operands_of(Verb verb) {
     Candidates found;
     switch (verb) {
@@ -135,7 +136,7 @@ Candidates option_names(Verb verb, const UnitInfo* unit) {
     return found;
 }
 
-/// The values of the option that stands before; nothing where that is none, or a flag.
+/// Candidates for the value of the preceding option; nullopt if that is not an option, or a flag.
 std::optional<Candidates> values_behind(const std::string& before, const std::string& current,
                                         Verb verb, const UnitInfo* unit) {
     if (const CommonOption* common = find_common(before, verb)) {
@@ -148,8 +149,9 @@ std::optional<Candidates> values_behind(const std::string& before, const std::st
     return std::nullopt;
 }
 
-/// Candidates for the last of the words, or `current` in it; `before` is the option that it may
-/// belong to.
+/// Candidates for the last of the words.
+/// @param current typed part of that word
+/// @param before preceding option, which may need a value
 Candidates candidates(const std::vector<std::string>& words, const std::string& before,
                       const std::string& current) {
     if (words.size() < 2) return joined(with_summaries(verbs()), words_of({"--help", "--version"}));

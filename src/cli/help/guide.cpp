@@ -19,7 +19,7 @@ std::string heading_of(std::string_view page) {
 
 std::string trimmed(std::string_view text) { return std::string(trim(text)); }
 
-/// The page of other packages, a table each.
+/// Page about other packages, with one table each.
 constexpr std::string_view peers_page = "coming-from";
 
 std::string_view text_of(std::string_view name) {
@@ -27,7 +27,7 @@ std::string_view text_of(std::string_view name) {
         ->text;
 }
 
-/// Whether `word` stands in the text with no letter, digit or underscore beside it.
+/// Whether the text contains `word`, not next to a letter, digit or underscore.
 bool has_word(std::string_view text, std::string_view word) {
     const auto joins = [&](std::size_t at) {
         return at < text.size() &&
@@ -38,7 +38,7 @@ bool has_word(std::string_view text, std::string_view word) {
     return false;
 }
 
-/// A row `| THEIRS | OURS | NOTE |` of a table as lines of their own.
+/// Turns a table row `| THEIRS | OURS | NOTE |` into one line per cell.
 std::string row_as_text(std::string row) {
     replace_all(row, "\\|", "\1");
     std::string out;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The pages of data/guide, which are embedded in the program: a topic in each file, and what
-// --help says of a verb in verbs/VERB.md.
+// Pages of data/guide, embedded in the program: one file per topic, and verbs/VERB.md for --help.
 #pragma once
 
 #include <string>
@@ -11,33 +10,33 @@
 namespace stipple::cli {
 
 struct GuidePage {
-    const char* name;  ///< "formats", "verbs/plot"
+    const char* name;  ///< such as "formats" or "verbs/plot"
     const char* text;
 };
 
 /// All pages, sorted by name.
 const std::vector<GuidePage>& guide();
 
-/// What `stipple help TOPIC` explains.
+/// A topic of `stipple help TOPIC`.
 struct Topic {
     std::string name;
-    std::string summary;  ///< the page's heading
-    std::string text;     ///< the page; lines of four blanks and `stipple` run in their order
+    std::string summary;  ///< heading of the page
+    std::string text;     ///< the page; its indented `stipple` lines can be run in their order
 };
 
 const std::vector<Topic>& topics();
 
-/// What the page coming-from tells of another package (scipy), of what it calls something
-/// (latinhypercube, qmc.Halton), or, for its own name, of all; whatever the case. Empty where that is
-/// nothing.
+/// Equivalents for another package (scipy) or for one of its names (latinhypercube, qmc.Halton),
+/// from the page coming-from; all rows for the package's own name. Ignores case; empty if nothing
+/// is found.
 std::string coming_from(std::string_view name);
 
-/// What a verb's page says: its heading, the command, paragraphs, and "## Examples".
+/// Page of a verb: heading, command, paragraphs, and "## Examples".
 struct VerbPage {
     std::string summary;
     std::string usage;
     std::string text;
-    std::string examples;  ///< a command a line
+    std::string examples;  ///< one command per line
 };
 
 VerbPage verb_page(const std::string& verb);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// --help, the verb `help`, and the manual: the same pages, made from the records.
+// --help, the verb `help`, and the manual: the same pages, from the records.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 namespace stipple::cli {
 namespace {
 
-/// A text as roff takes it: backslashes and dashes as they stand, no line taken for a request.
+/// Escapes text for roff: backslashes and dashes literally, no line as a request.
 std::string escaped(std::string_view text) {
     std::string out(text);
     for (const auto& [plain, roff] : {std::pair{"\\", "\\e"},
@@ -27,7 +27,7 @@ std::string escaped(std::string_view text) {
                                       {"`", "\\(ga"},
                                       {"^", "\\(ha"},
                                       {"~", "\\(ti"},
-                                      {"|", "|\\:"},  // a line may end there
+                                      {"|", "|\\:"},  // allows a line break
                                       {"\n.", "\n\\&."}})
         replace_all(out, plain, roff);
     return out.starts_with('.') ? "\\&" + out : out;
@@ -38,7 +38,7 @@ std::string upper(std::string text) {
     return text;
 }
 
-/// A page of help in one of two styles: plain text for terminals, or man(7) for man.
+/// A help page in one of two styles: plain text for terminals, or man(7).
 class HelpPage {
   public:
     enum class Style { text, man };
@@ -48,7 +48,7 @@ class HelpPage {
     [[nodiscard]] bool for_man() const { return style_ == Style::man; }
     [[nodiscard]] const std::string& text() const { return text_; }
 
-    /// What the page is about; `number` is the section of the manual.
+    /// Starts the page. @param number section of the manual
     void title(const std::string& name, int number, const std::string& summary,
                const std::string& usage = {}) {
         if (!for_man()) {
@@ -71,7 +71,7 @@ class HelpPage {
                            : fmt::format("\n{}:\n", name);
     }
 
-    /// In the manual only.
+    /// Only in the manual.
     void subsection(const std::string& name) { text_ += fmt::format(".SS {}\n", escaped(name)); }
 
     void paragraph(const std::string& text) {
@@ -79,26 +79,26 @@ class HelpPage {
             for_man() ? fmt::format(".P\n{}\n", escaped(text)) : "\n" + filled_page(text, columns_);
     }
 
-    /// Sentences, each on lines of its own.
+    /// Adds sentences, each on its own line.
     void facts(const std::vector<std::string>& sentences) {
         text_ += "\n";
         for (const std::string& sentence : sentences) text_ += filled(sentence, columns_, 2) + "\n";
     }
 
-    /// An option, a verb or a result with what it is.
+    /// Adds an option, verb or result with its explanation.
     void entry(const std::string& tag, const std::string& help) {
         constexpr std::size_t tags = 28;  // columns
         text_ += for_man() ? fmt::format(".TP\n.B {}\n{}\n", escaped(trim(tag)), escaped(help))
                            : beside("  " + tag, help, columns_, tags);
     }
 
-    /// Lines as they stand.
+    /// Adds lines unchanged.
     void lines(std::string_view text) {
         const std::string ended = std::string(text) + (text.ends_with('\n') ? "" : "\n");
         text_ += for_man() ? ".nf\n" + escaped(ended) + ".fi\n" : ended;
     }
 
-    /// The pages of all verbs and topics but this one; in the manual only.
+    /// Refers to the pages of all verbs and topics except this one; only in the manual.
     void see_also(const std::string& but) {
         if (!for_man()) return;
         std::vector<std::string> pages;
@@ -141,7 +141,7 @@ void add_results(HelpPage& page, const UnitInfo& unit) {
     for (const auto& [key, help] : unit.results) page.entry(key, help);
 }
 
-/// What a unit is, less its options: sentences.
+/// Facts about a unit, without its options, as sentences.
 std::vector<std::string> facts_of(const UnitInfo& unit) {
     std::vector<std::string> facts = {"Source: " + unit.source + ".",
                                       capitalised(join(unit.remarks, "; ")) + "."};
@@ -178,7 +178,7 @@ HelpPage page_of_program(HelpPage::Style style) {
     return page;
 }
 
-/// A unit in the manual page of its verb.
+/// Adds a unit to the manual page of its verb.
 void add_unit(HelpPage& page, Verb verb, const UnitInfo& unit) {
     page.subsection(unit.name);
     page.paragraph(capitalised(unit.summary) + ".\n" + join(facts_of(unit), "\n"));
@@ -214,7 +214,7 @@ HelpPage page_of_unit(const VerbInfo& info, const UnitInfo& unit) {
     std::string usage = info.usage;
     const auto word = usage.find(' ', sizeof "stipple");
     const auto end = usage.find(' ', word + 1);
-    // "GENERATOR" is its name, "ANALYZER[,ANALYZER...]" may go on with others.
+    // Only the part before '[' of "ANALYZER[,ANALYZER...]" is replaced by the unit's name.
     const std::string wanted = usage.substr(word + 1, end - word - 1);
     const std::string others = wanted.substr(std::min(wanted.find('['), wanted.size()));
     usage.replace(word + 1, wanted.size(), unit.name + others);
@@ -235,7 +235,7 @@ HelpPage page_of_unit(const VerbInfo& info, const UnitInfo& unit) {
     return page;
 }
 
-/// The Markdown of a topic as a manual page.
+/// Converts the Markdown of a topic to a manual page.
 HelpPage page_of_topic(const Topic& topic) {
     HelpPage page(HelpPage::Style::man);
     page.title("stipple-" + topic.name, 7, topic.summary);
@@ -273,13 +273,14 @@ const Topic* find_topic(const std::string& name) {
                    "help: unknown topic, verb or unit '{}'", name);
 }
 
-/// A unit by its name alone.
+/// Help for a unit named without its verb.
 std::string help_of_unit(const std::string& name) {
     for (const Kind& kind : catalog()) {
         const UnitInfo* unit = find_unit(kind, name);
         if (unit == nullptr) continue;
         if (const VerbInfo* info = find_verb(kind.verb)) return page_of_unit(*info, *unit).text();
-        if (const Topic* topic = find_topic(kind.name))  // csv: formats
+        if (const Topic* topic =
+                find_topic(kind.name))  // formats have a topic instead, csv for example
             return filled_page(topic->text, text_columns());
     }
     if (std::string lines = coming_from(name); !lines.empty()) return lines;
@@ -301,7 +302,7 @@ std::string help_on(const std::vector<std::string>& words) {
     return help_text(asked);
 }
 
-/// The manual page of the program (an empty name), a verb or a topic, for man. @throws Error(usage)
+/// Manual page of the program (empty name), a verb or a topic. @throws Error(usage)
 std::string manual_page(const std::string& name) {
     if (name.empty()) return page_of_program(HelpPage::Style::man).text();
     if (const Topic* topic = find_topic(name)) return page_of_topic(*topic).text();
@@ -310,7 +311,7 @@ std::string manual_page(const std::string& name) {
     refuse_name(name);
 }
 
-/// Every manual page in a folder, under the names that man knows them by.
+/// Writes all manual pages into a folder, with the file names that man expects.
 void write_manual(const std::string& folder) {
     write_text(folder + "/stipple.1", manual_page(""));
     for (const VerbInfo& info : verbs())

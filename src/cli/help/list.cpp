@@ -14,9 +14,9 @@
 namespace stipple::cli {
 namespace {
 
-/// Each unit in a line or two, by families.
+/// One or two lines per unit, by families.
 std::string list_text(const std::vector<Kind>& kinds) {
-    constexpr std::size_t names = 24;  // columns, blanks around them, too
+    constexpr std::size_t names = 24;  // width in columns, with surrounding blanks
     const std::size_t columns = text_columns();
     std::string text;
     for (const Kind& kind : kinds) {
@@ -32,7 +32,7 @@ std::string list_text(const std::vector<Kind>& kinds) {
 
 /// Each unit with its traits and options.
 std::string list_long(const std::vector<Kind>& kinds) {
-    constexpr std::size_t options = 27;  // columns in front of what an option does
+    constexpr std::size_t options = 27;  // columns before an option's explanation
     const std::size_t columns = text_columns();
     std::string text;
     for (const Kind& kind : kinds) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What help shows of a unit: points in letters.
+// Picture of a unit's points for its help, drawn with characters.
 #include <optional>
 
 #include "cli/verbs.hpp"
@@ -12,8 +12,8 @@
 namespace stipple::cli {
 namespace {
 
-/// What a generator makes by default, or the image of it under a warp; nothing where options without
-/// a default are needed.
+/// Points of a generator with default options, or their image under a warp; nullopt if an option
+/// without a default is needed.
 std::optional<PointSet> sample_of(const char* generator, std::uint64_t count, std::size_t dimension,
                                   std::vector<Spec> warps) {
     const Generator& made_by = find_generator(generator);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The command line as data: the verbs, the options that mean the same for all units, and what was
-// typed.
+// The command line as data: verbs, options that all units share, and the parsed arguments.
 #pragma once
 
 #include <initializer_list>
@@ -31,7 +30,7 @@ enum class Verb : unsigned {
     completions = 1024,
 };
 
-/// A set of verbs.
+/// Union of sets of verbs.
 constexpr Verb operator|(Verb a, Verb b) {
     return static_cast<Verb>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
 }
@@ -43,71 +42,71 @@ struct VerbInfo : VerbPage {
 
 const std::vector<VerbInfo>& verbs();
 
-/// The verb of that name; nullptr: there is none.
+/// Verb of that name; nullptr if there is none.
 const VerbInfo* find_verb(std::string_view name);
 
 const VerbInfo& info_of(Verb verb);
 
-/// An option that a verb takes whatever the unit.
+/// An option that verbs accept for every unit.
 struct CommonOption {
-    /// @param placeholder its type: empty: a flag; words with | between: all that it may be
-    /// @param high above 0: it is a whole number up to it
+    /// @param placeholder type of the value; empty for a flag; alternatives separated by |
+    /// @param high above 0: the value is an integer up to this
     CommonOption(std::string_view all_names, std::string_view placeholder,
                  const char* shown_default, const char* help, Verb of_verbs, bool several = false,
                  double low = 0, double high = 0);
 
-    std::string names;     ///< "-n,--count", the long name last
-    std::string value;     ///< placeholder; empty: a flag
-    std::string fallback;  ///< as help states it; empty: nothing to state
+    std::string names;     ///< such as "-n,--count", with the long name last
+    std::string value;     ///< placeholder; empty for a flag
+    std::string fallback;  ///< default as shown in help; may be empty
     Option option;         ///< long name, type, range and help
-    Verb verbs;            ///< that take it
+    Verb verbs;            ///< verbs that accept it
     bool repeatable;
 };
 
-/// All common options that the verb takes.
+/// All common options that the verb accepts.
 std::vector<const CommonOption*> options_of(Verb verb);
 
-/// The option of that name ("-n" or "--count") that the verb takes; nullptr: there is none.
+/// Common option of the verb by name ("-n" or "--count"); nullptr if there is none.
 const CommonOption* find_common(std::string_view name, Verb verb);
 
-/// A unit's options less those that the verb takes for all units.
+/// A unit's options without those that the verb accepts for all units.
 std::vector<Option> own_options(Verb verb, const UnitInfo& unit);
 
-/// What `--check` without a condition stands for.
+/// Condition of `--check` without a text.
 inline constexpr std::string_view bare_check = "valid";
 
 struct Arguments {
     std::optional<Verb> verb;
-    std::string unit;                     ///< empty: none named
-    std::vector<std::string> specs = {};  ///< of analyzers, where several are named
+    std::string unit;                     ///< empty if none
+    std::vector<std::string> specs = {};  ///< analyzers, if several are named
     std::vector<std::string> inputs;
-    std::vector<std::pair<std::string, std::string>> common;    ///< long name, text
-    std::vector<std::pair<std::string, std::string>> settings;  ///< the unit's own
+    std::vector<std::pair<std::string, std::string>> common;    ///< long name and text
+    std::vector<std::pair<std::string, std::string>> settings;  ///< the unit's own options
     bool help = false;
     bool version = false;
 
     [[nodiscard]] bool has(std::string_view name) const;
-    /// The text of a common option, the last one if it was given several times.
+    /// Text of a common option, the last one if repeated; nullopt if not given.
     [[nodiscard]] std::optional<std::string> get(std::string_view name) const;
     [[nodiscard]] std::vector<std::string> all(std::string_view name) const;
 
-    /// @throws Error(usage) "--NAME: WHY" for the first of the common options that is given
+    /// @throws Error(usage) "--NAME: WHY" for the first of these common options that is given
     void refuse(std::initializer_list<std::string_view> names, std::string_view why) const;
 
-    /// As a number in [low, high]. @throws Error(usage)
+    /// Value as an integer in [low, high]; nullopt if not given. @throws Error(usage)
     [[nodiscard]] std::optional<std::uint64_t> integer(std::string_view name, std::uint64_t low,
                                                        std::uint64_t high) const;
-    /// As a number in the range of the verb's option. @throws Error(usage)
+    /// Value as an integer in the range of the verb's option. @throws Error(usage)
     [[nodiscard]] std::optional<std::uint64_t> integer(std::string_view name) const;
 };
 
-/// @throws Error(usage) for a common option whose text is none of its choices
+/// @throws Error(usage) if the text of a common option is not one of its choices
 void check_choices(const Arguments& arguments);
 
-/// @throws Error(usage) naming what is unknown and what is nearest to it.
+/// @throws Error(usage) naming the unknown word and the most similar known one
 Arguments parse_arguments(int argc, const char* const* argv);
 
-/// The word that names a unit of the kind, alone or in a spec; nullptr: none does.
+/// Word that names a unit of the kind, alone or in a spec; nullptr if there is none.
 const std::string* word_of_unit(const std::vector<std::string>& words, const Kind& kind, Verb verb);
 
 }  // namespace stipple::cli

@@ -38,7 +38,7 @@ std::shared_ptr<const Json> shared(Json json) {
     return std::make_shared<const Json>(std::move(json));
 }
 
-/// What the records of all kinds have, as far as this one has it.
+/// Fields that records of several kinds share, as far as Unit has them.
 template <class Unit>
 UnitInfo base_info(const Unit& unit) {
     UnitInfo out{.name = unit.name, .summary = unit.summary, .source = unit.source};

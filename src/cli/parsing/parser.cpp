@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The words of a command line into Arguments. The one source that sees CLI11, whose headers take
-// long to compile.
+// Parses a command line into Arguments. The only source that includes CLI11, whose headers are slow
+// to compile.
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
@@ -19,9 +19,9 @@
 namespace stipple::cli {
 namespace {
 
-using Texts = std::vector<std::pair<std::string, std::string>>;  ///< long name, text
+using Texts = std::vector<std::pair<std::string, std::string>>;  ///< long names with texts
 
-/// @param names "-n,--count" @param texts where what is typed goes
+/// @param names such as "-n,--count" @param texts receives the texts
 void add(CLI::App& app, const std::string& names, const Option& option, bool repeatable,
          Texts& texts) {
     if (option.type == "flag") {
@@ -52,7 +52,7 @@ void add_inputs(CLI::App& app, Arguments& arguments) {
         ->allow_extra_args();
 }
 
-/// Only the unit that the words name is a subcommand, so that a file may be called like another.
+/// Only the unit that is named becomes a subcommand, so that files may have names of other units.
 CLI::App& add_unit(CLI::App& parent, const UnitInfo& unit, Arguments& arguments) {
     CLI::App& app = *parent.add_subcommand(unit.name);
     for (const std::string& alias : unit.aliases) app.alias(alias);
@@ -73,7 +73,7 @@ CLI::App& add_unit(CLI::App& parent, const UnitInfo& unit, Arguments& arguments)
     fail(ErrorKind::usage, "{}", text);
 }
 
-/// Takes the words behind a verb; gives those that were not understood.
+/// Parses the words after a verb; returns those that were not understood.
 std::vector<std::string> take_words(std::vector<std::string> words, bool takes_units,
                                     const UnitInfo* unit, Arguments& arguments) {
     CLI::App app("stipple");
@@ -97,7 +97,7 @@ std::vector<std::string> take_words(std::vector<std::string> words, bool takes_u
     return app.remaining(true);
 }
 
-/// Options that may stand here, for suggestions.
+/// Options of the verb and unit, for suggestions.
 std::vector<std::string> known_options(Verb verb, const UnitInfo* unit) {
     std::vector<std::string> names = {"--help"};
     for (const CommonOption* option : options_of(verb)) names.push_back("--" + option->option.name);
@@ -115,7 +115,7 @@ std::vector<std::string> known_options(Verb verb, const UnitInfo* unit) {
     fail_with_hint(ErrorKind::usage, hint, "unknown {} '{}'", what, word);
 }
 
-/// `--check` takes the next word only if that is a condition, not a file.
+/// `--check` consumes the next word only if that is a condition, not a file.
 void complete_checks(std::vector<std::string>& words) {
     const auto condition = [](const std::string& word) {
         return !word.starts_with('-') && word.find_first_of("<>=") != std::string::npos;
@@ -130,7 +130,7 @@ void complete_checks(std::vector<std::string>& words) {
 void check_rest(const std::vector<std::string>& rest, const VerbInfo& verb, const Kind* kind,
                 const UnitInfo* unit) {
     if (rest.empty()) return;
-    // A misspelt unit is the likelier reason for whatever else was not understood.
+    // A misspelt unit is the most likely reason for words that were not understood.
     if (kind != nullptr && unit == nullptr && rest.front()[0] != '-')
         unit_of(verb.name, rest.front());
     for (const std::string& word : rest)
@@ -139,7 +139,7 @@ void check_rest(const std::vector<std::string>& rest, const VerbInfo& verb, cons
     fail(ErrorKind::usage, "unexpected argument '{}'", rest.front());
 }
 
-/// "star-discrepancy,periodogram:window=hann": the specs of several analyzers; of one, nothing.
+/// Specs of several analyzers, "star-discrepancy,periodogram:window=hann"; empty if there is one.
 std::vector<std::string> several_specs(const std::string& word, Verb verb) {
     if (verb != Verb::analyze || word.find('@') != std::string::npos) return {};
     auto specs = split_specs(word, "analyze");
@@ -147,7 +147,7 @@ std::vector<std::string> several_specs(const std::string& word, Verb verb) {
     return specs;
 }
 
-/// @throws Error(usage) for an option of one of several analyzers that stands alone
+/// @throws Error(usage) if an option of one of several analyzers is not in its spec
 void refuse_loose_options(const std::vector<std::string>& rest, const Arguments& arguments,
                           const Kind& kind) {
     for (const std::string& word : rest)
@@ -163,7 +163,7 @@ void refuse_loose_options(const std::vector<std::string>& rest, const Arguments&
         }
 }
 
-/// @throws Error(usage) for an analyzer where an input stands, unless a file has its name
+/// @throws Error(usage) for an analyzer in the position of an input, unless such a file exists
 void refuse_second_unit(const Arguments& arguments, const Kind& kind) {
     for (const std::string& word : arguments.inputs) {
         const std::string name = word.substr(0, word.find_first_of(",:"));
@@ -180,7 +180,7 @@ void refuse_second_unit(const Arguments& arguments, const Kind& kind) {
     }
 }
 
-/// --json and --markdown are short for --format.
+/// Replaces --json and --markdown by --format.
 void settle_format(Arguments& arguments) {
     for (const char* name : {"json", "markdown"}) {
         if (!arguments.has(name)) continue;
@@ -192,9 +192,9 @@ void settle_format(Arguments& arguments) {
     }
 }
 
-/// Adds what the unit's own word sets: `warp disk@4,5` means `warp disk --coordinates 4,5`,
-/// `generate sobol:scramble=owen` the same as with --scramble owen. @throws Error(usage) where an
-/// option sets it, too
+/// Adds the options in a unit's spec: `warp disk@4,5` means `warp disk --coordinates 4,5`, and
+/// `generate sobol:scramble=owen` is the same as with --scramble owen. @throws Error(usage) if an
+/// option is given twice
 void take_spec(const Spec& spec, const UnitInfo& unit, Arguments& arguments) {
     if (!spec.coordinates.empty()) {
         if (arguments.verb != Verb::warp)
@@ -216,7 +216,7 @@ void take_spec(const Spec& spec, const UnitInfo& unit, Arguments& arguments) {
     }
 }
 
-/// Words in place of a verb.
+/// Parses a command line without a verb.
 Arguments parse_without_verb(const std::vector<std::string>& words) {
     Arguments arguments;
     if (words.empty()) return arguments;
@@ -237,7 +237,7 @@ const std::string* word_of_unit(const std::vector<std::string>& words, const Kin
     for (std::size_t i = 0; i < words.size(); ++i) {
         const CommonOption* common = find_common(words[i], verb);
         if (common != nullptr && common->option.type != "flag")
-            ++i;  // to its value
+            ++i;  // skips the value
         else if (find_unit(kind, words[i].substr(0, words[i].find_first_of("@:,;"))) != nullptr)
             return &words[i];
     }
@@ -249,7 +249,7 @@ Arguments parse_arguments(int argc, const char* const* argv) {
     const VerbInfo* info = words.empty() ? nullptr : find_verb(words.front());
     if (info == nullptr) return parse_without_verb(words);
     words.erase(words.begin());
-    const auto mark = std::ranges::find(words, "--");  // behind it all words are inputs
+    const auto mark = std::ranges::find(words, "--");  // everything after it is an input
     std::vector<std::string> inputs(mark, words.end());
     words.erase(mark, words.end());
     const Verb verb = info->verb;
