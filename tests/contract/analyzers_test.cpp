@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What every registered analyzer promises, with its default options.
+// Promises of every registered analyzer, with default options.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,10 +19,10 @@ class EveryAnalyzer : public ::testing::TestWithParam<std::string> {
     const std::size_t dimension =
         std::clamp<std::size_t>(2, unit.traits.min_dimension, unit.traits.max_dimension);
 
-    /// Counts are powers of two, which every analyzer takes.
+    /// Report on powers of two, which every analyzer accepts.
     Report report(std::uint64_t count, const RunContext& run = {}) const {
         PointSet set = make("random", points(count, dimension));
-        set.provenance = {};  // of independent points, some results have standard errors
+        set.provenance = {};  // for independent points, some results have standard errors
         return analyze(unit, set, unit.options.defaults(), run);
     }
 };
@@ -71,9 +71,9 @@ TEST_P(EveryAnalyzer, GivesTheKeysOfItsRecord) {
 TEST_P(EveryAnalyzer, GivesNoWordThatItsRecordDoesNotTell) {
     for (const std::size_t d : {1, 2, 3}) {
         if (d < unit.traits.min_dimension || d > unit.traits.max_dimension) continue;
-        if (unit.traits.table && d == 1) continue;  // has no inputs beside the output
+        if (unit.traits.table && d == 1) continue;  // no input besides the output
         PointSet set = make("random", points(256, d));
-        if (unit.traits.table) set.provenance = {};  // which knows no outputs
+        if (unit.traits.table) set.provenance = {};  // which lists no outputs
         const Report found = analyze(unit, set, unit.options.defaults(), {});
         for (const auto& key : found.keys()) {
             const std::string_view words = find_result(unit, key)->words;
@@ -130,7 +130,7 @@ TEST_P(EveryAnalyzer, TakesTheDomainsThatItsRecordTells) {
     const std::string on_disk = error_on("disk");
     const std::string refused =
         "input: " + unit.name + " requires points of the unit cube or a box; their domain is disk";
-    // One with a choice of kernels may take other domains by another one.
+    // An analyzer with a choice of kernels may support other domains with another kernel.
     const bool taken = !unit.traits.boxed && on_disk.empty();
     EXPECT_TRUE(taken || on_disk.starts_with(refused)) << on_disk;
 }
@@ -150,7 +150,7 @@ TEST_P(EveryAnalyzer, ProgressRisesToTheEnd) {
 TEST_P(EveryAnalyzer, StopsAtOnce) {
     expect_to_stop_at_once([&](const RunContext& run) {
         const Report known = report(1 << 18, run);
-        // Bounds that are certain till then are an answer, too.
+        // Instead of throwing, a search may return the bounds found so far.
         if (known.find("lower") && known.number("lower") < known.number("upper")) run.check_stop();
     });
 }

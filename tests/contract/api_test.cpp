@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The public API: headers on the standard library alone, and calls that throw where they cannot do
-// what they were asked for.
+// The public API: headers that need only the standard library, and functions that throw if they
+// cannot do what was requested.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -123,7 +123,7 @@ TEST(Api, StudiesHaveAllNumbersOfAnAnalyzer) {
     EXPECT_EQ(keys, (std::vector<std::string>{"owen.estimate", "owen.exact", "owen.error"}));
 }
 
-// Worked by hand: the mean of four values, and its interval of 3.182 standard errors.
+// By hand: the mean of four values, and its interval of 3.182 standard errors.
 TEST(Api, MeansOfAStudyHaveStudentsInterval) {
     std::vector<StudyValue> values;
     for (const double x : {1.0, 2.0, 3.0, 4.0})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What every registered file format promises.
+// Promises of every registered file format.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -18,7 +18,7 @@ class EveryFormat : public ::testing::TestWithParam<std::string> {
   protected:
     const Format& unit = io::format_named(GetParam());
 
-    /// The bytes of a file with these sets, rows formatted in blocks of `block`.
+    /// A file with these sets, with rows formatted in blocks of `block`.
     std::string written(const std::vector<PointSet>& sets, std::size_t block = 7) const {
         Layout layout{.dimension = sets.front().dimension()};
         for (const PointSet& set : sets) layout.counts.push_back(set.count());
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryFormat, ::testing::ValuesIn(names_of(io:
 
 }  // namespace
 
-// Whatever finite doubles a set holds, text and binary give them back, also in several sets.
+// Text and binary formats preserve all finite doubles, also in several sets.
 TEST(AnyPoints, SurviveEveryFormatThatIsRead) {
     const auto survives = [](const Format& format, const std::vector<std::vector<double>>& rows) {
         Layout layout{.dimension = rows.front().size(), .counts = {rows.size()}};

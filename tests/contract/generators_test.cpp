@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What every registered generator promises.
+// Promises of every registered generator.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ class EveryGenerator : public ::testing::TestWithParam<std::string> {
     }
 };
 
-// 400 = 20^2: a count that grids can make, too.
+// 400 = 20^2, a count that grids support, too.
 TEST_P(EveryGenerator, StaysInTheHalfOpenCube) {
     for (const std::uint64_t seed : {1, 2, 3}) {
         const PointSet set = make(few, {.seed = seed});
@@ -72,7 +72,7 @@ TEST_P(EveryGenerator, StartDropsThatManyPoints) {
     EXPECT_TRUE(std::ranges::equal(tail.flat(), whole.flat().last(tail.flat().size())));
 }
 
-// A sequence's blocks, asked for in any sizes, join to the same points.
+// Blocks of a sequence, requested in any sizes, join to the same points.
 TEST_P(EveryGenerator, FillsAnyPiecesToTheSameWhole) {
     if (!unit.traits.sequence) GTEST_SKIP() << "made as a whole";
     const PointSet whole = make(few);
@@ -96,7 +96,7 @@ TEST_P(EveryGenerator, RefusesAnEmptySet) {
     EXPECT_NE(error_of([&] { make(0); }).find("usage: --count: 0"), std::string::npos);
 }
 
-// One, unless settings.txt says otherwise.
+// The least count is 1, unless settings.txt lists counts.
 TEST_P(EveryGenerator, MakesItsLeastCount) {
     EXPECT_EQ(make(count_of(unit.name, 1)).count(), count_of(unit.name, 1));
 }
@@ -140,7 +140,7 @@ TEST_P(EveryGenerator, HasACompleteRecord) {
     EXPECT_EQ(static_cast<bool>(unit.sequence), unit.traits.sequence);
     EXPECT_EQ(static_cast<bool>(unit.set), !unit.traits.sequence);
     EXPECT_TRUE(unit.traits.seeded || !unit.uses_seed);
-    // The name of a file, and what belongs to it.
+    // The first of these options names a file; the others may only affect its contents.
     const auto& options = unit.options.options();
     for (const std::string& written : unit.writes) {
         const auto option = std::ranges::find(options, written, &Option::name);
@@ -161,7 +161,7 @@ TEST(Registry, HoldsTheUnitsByTheirNamesInOrder) {
         EXPECT_EQ(std::ranges::count(list, name), 1) << name;
 }
 
-// A name means one unit, among generators and among what `warp` takes.
+// A name means one unit, among generators and among the units that `warp` accepts.
 TEST(Registry, EveryNameMeansOneUnit) {
     std::set<std::string> names;
     for (const Generator& unit : generators::all()) {

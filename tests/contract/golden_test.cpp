@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// The points that every unit makes, or moves, for given options and seeds: their fingerprints stand
-// in golden.txt, so that no change alters anyone's points unnoticed. A deliberate change raises the
-// unit's stream_version; `scripts/golden` writes the table anew. So do the densities, ways back and
-// moments of warps, and the reports of analyzers, which have no version: they may become better.
+// Fingerprints in golden.txt of the points that every unit makes, or moves, for given options and
+// seeds, so that no change alters users' points unnoticed. A deliberate change raises the unit's
+// stream_version; `scripts/golden` rewrites the table. Densities, inverses and moments of warps,
+// and reports of analyzers, have fingerprints without a version: they may improve.
 //
 //     generators halton scramble=owen n=1000 d=2 seed=1 version=1 0123456789abcdef
 //     warps disk - n=10000 d=2 seed=1 inverse 0123456789abcdef
 //
-// Each unit is there as it is by default, and once for each flag and each word of its options.
-// Warps and scrambles move points that are made here, by whole numbers alone. The table is the same
-// on every machine: scripts/machines.
+// Each unit has lines for its default options, and for each flag and each choice of its options.
+// Warps and scrambles move points made here by integer arithmetic. The table is the same on every
+// machine: scripts/machines.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ namespace {
 
 constexpr const char* table_path = STIPPLE_SOURCE_DIR "/tests/contract/golden.txt";
 
-/// Settings as a spec has them; of a file, only that it is one.
+/// Settings as in a spec, with file names replaced by "...".
 std::string label(const Schema& schema, const Settings& settings) {
     std::vector<std::string> words;
     for (const auto& [name, text] : settings) {
@@ -43,7 +43,7 @@ std::string label(const Schema& schema, const Settings& settings) {
     return words.empty() ? "-" : join(words, ",");
 }
 
-/// The settings without which a unit does not go, and with each flag and each word besides.
+/// The settings that a unit needs, alone and with each flag and each choice added.
 std::vector<Settings> variants(const Schema& schema, const Settings& needed) {
     std::vector<Settings> all = {needed};
     for (const Option& option : schema.options()) {
@@ -65,7 +65,7 @@ std::uint64_t fingerprint_of(const std::vector<double>& numbers) {
 }
 std::uint64_t fingerprint_of(const std::string& text) { return fingerprint(text); }
 
-/// One line of the table, with what `work` gives; a refusal is kept, too.
+/// One line of the table with the fingerprint of work()'s result, or "refused".
 template <class Work>
 std::string line_of(const std::string& key, const Work& work) {
     try {
@@ -104,10 +104,10 @@ std::vector<std::string> lines_of(const Generator& unit) {
     const std::uint64_t some = count_of(unit.name, std::min<std::uint64_t>(many, 1024));
     add(needed, many, 2, 1);
     add(needed, some, 2, 987654321);
-    // 729 = 9^3 = 27^2: grids and arrays have as many.
+    // 729 = 9^3 = 27^2, a count that grids and arrays support.
     if (traits.max_dimension > 2)
         add(needed, traits.sequence ? count_of(unit.name, 729) : 200, 3, 1);
-    // Sets that are made fast: enough for what they do in tiles of space.
+    // Larger sets of fast generators, enough to fill several tiles of space.
     if (traits.max_dimension > 2 && !traits.sequence && many_of(unit.name) > 5000)
         add(needed, 5000, 3, 1);
     for (const Settings& settings : variants(unit.options, needed))
@@ -120,7 +120,7 @@ std::vector<std::string> lines_of(const Generator& unit) {
     return lines;
 }
 
-/// Points that no unit makes: multiples of odd numbers modulo 2^53.
+/// Points independent of all units: multiples of odd numbers modulo 2^53.
 std::vector<double> plain_points(std::size_t n, std::size_t d) {
     std::vector<double> rows(n * d);
     for (std::size_t i = 0; i < n; ++i)
@@ -204,7 +204,7 @@ std::vector<std::string> lines_of(const Analyzer& unit) {
         std::clamp<std::size_t>(2, unit.traits.min_dimension, unit.traits.max_dimension);
     const PointSet set = make("random", points(256, d));
     Settings needed = needed_options(unit.name);
-    // What FFTW rounds in a fast transform depends on the processor.
+    // FFTW's rounding in fast transforms depends on the processor.
     if (unit.name == "periodogram") needed.emplace_back("method", "direct");
     for (const Settings& settings : variants(unit.options, needed)) {
         const std::string key =
@@ -217,7 +217,7 @@ std::vector<std::string> lines_of(const Analyzer& unit) {
     return lines;
 }
 
-/// All units, "generators/halton".
+/// All units, such as "generators/halton".
 std::vector<std::string> all_units() {
     std::vector<std::string> names;
     for (const auto& name : names_of(generators::all())) names.push_back("generators/" + name);
@@ -236,7 +236,7 @@ std::vector<std::string> lines_of(const std::string& unit) {
     return lines_of(find_warp(name));
 }
 
-/// "generators/halton" of a line.
+/// Unit of a line, such as "generators/halton".
 std::string unit_in(const std::string& line) {
     std::istringstream words(line);
     std::string kind;
@@ -253,7 +253,7 @@ std::vector<std::string> table() {
     return lines;
 }
 
-/// A line without its fingerprint: what was made, and by which rules.
+/// A line without its fingerprint: the unit, options and version.
 std::string rules_of(const std::string& line) { return line.substr(0, line.rfind(' ')); }
 
 class Golden : public ::testing::TestWithParam<std::string> {};
@@ -283,7 +283,7 @@ TEST(GoldenTable, HoldsNoUnitThatIsGone) {
         EXPECT_TRUE(std::ranges::find(units, unit_in(line)) != units.end()) << line;
 }
 
-// The fingerprint must see any bit of any number.
+// The fingerprint depends on every bit of every number.
 TEST(GoldenTable, TellsPointsApartByOneBit) {
     std::vector<double> rows = moved("owen", {}, 1000, 2, 1);
     const auto before = fingerprint(std::span<const double>(rows));
@@ -291,7 +291,7 @@ TEST(GoldenTable, TellsPointsApartByOneBit) {
     EXPECT_NE(fingerprint(std::span<const double>(rows)), before);
 }
 
-// Not a test of anything: what scripts/golden runs.
+// Not a test: run by scripts/golden.
 TEST(GoldenTable, IsWrittenOnDemand) {
     const char* const mode = std::getenv("STIPPLE_GOLDEN");
     if (mode == nullptr) GTEST_SKIP() << "scripts/golden writes the table";

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Data moves in one direction along the folders of src/; a folder includes only those to its left,
-// and engines do not see each other. No two sources need each other, and none knows a unit's name.
+// Data moves in one direction along the folders of src/: a folder includes only those to its left,
+// and engines do not include each other. No two sources include each other's headers, and none
+// names a unit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +22,7 @@
 namespace stipple::testing::layering_test {
 namespace {
 
-/// The names of all units but formats, whose extensions are known everywhere.
+/// Names of all units except formats, whose extensions are used everywhere.
 std::set<std::string> names_of_units() {
     std::set<std::string> all;
     for (const auto& names : {names_of(generators::all()), names_of(scrambles::all()),
@@ -30,8 +31,8 @@ std::set<std::string> names_of_units() {
     return all;
 }
 
-/// The folders of src/ in their order; those on one line do not include each other. The public API
-/// comes first: its headers include nothing else.
+/// Folders of src/ in their order; those in one row do not include each other. The public API is
+/// first: its headers include nothing else.
 const std::vector<std::vector<std::string>> line = {
     {"stipple"},  {"core"},   {"math"},
     {"media"},    {"io"},     {"generators", "scrambles", "warps", "analyzers"},
@@ -39,23 +40,24 @@ const std::vector<std::vector<std::string>> line = {
     {"plot"},     {"page"},   {"cli"},
     {"python"}};
 
-/// Folders whose folders are engines, which do not see each other.
+/// Folders whose subfolders are engines, which do not include each other.
 const std::set<std::string> of_engines = {"generators", "warps", "analyzers"};
 
-/// Where on the line a folder stands.
+/// Position of a folder in that order.
 std::size_t place_of(const std::string& folder) {
     for (std::size_t i = 0; i < line.size(); ++i)
         if (std::ranges::find(line[i], folder) != line[i].end()) return i;
     return line.size();
 }
 
-/// "core" and "" of core/rng.hpp, "warps" and "planar" of warps/planar/disk.cpp.
+/// Top folder and subfolder: "core" and "" for core/rng.hpp, "warps" and "planar" for
+/// warps/planar/disk.cpp.
 std::pair<std::string, std::string> folders_of(const std::filesystem::path& path) {
     const std::vector<std::string> parts(path.begin(), path.end());
     return {parts.front(), parts.size() > 2 ? parts[1] : ""};
 }
 
-/// Whether a file below src/ may include another one.
+/// Whether a file of src/ may include another one.
 bool may_include(const std::filesystem::path& file, const std::filesystem::path& included) {
     const auto [folder, engine] = folders_of(file);
     const auto [left, other] = folders_of(included);
@@ -65,7 +67,7 @@ bool may_include(const std::filesystem::path& file, const std::filesystem::path&
 
 const std::filesystem::path src = STIPPLE_SOURCE_DIR "/src";
 
-/// The sources and headers of a folder of src/.
+/// Sources and headers of a folder of src/.
 std::vector<std::filesystem::path> files_of(const std::string& folder) {
     std::vector<std::filesystem::path> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(src / folder)) {
@@ -75,7 +77,7 @@ std::vector<std::filesystem::path> files_of(const std::string& folder) {
     return files;
 }
 
-/// The headers of src/ that a file includes.
+/// Headers of src/ that a file includes.
 std::vector<std::filesystem::path> includes_of(const std::filesystem::path& file) {
     static const std::regex include(R"re(^\s*#\s*include\s*"([^"]+)")re");
     std::vector<std::filesystem::path> included;
@@ -86,10 +88,10 @@ std::vector<std::filesystem::path> includes_of(const std::filesystem::path& file
     return included;
 }
 
-/// The path below src/ that a source and its header share.
+/// Path without extension, the same for a source and its header.
 std::string source_of(std::filesystem::path path) { return path.replace_extension(); }
 
-/// Which sources each source, with its header, includes.
+/// For each source with its header, the sources whose headers it includes.
 std::map<std::string, std::set<std::string>> source_graph() {
     std::map<std::string, std::set<std::string>> graph;
     for (const auto& place : line)
@@ -103,8 +105,8 @@ std::map<std::string, std::set<std::string>> source_graph() {
     return graph;
 }
 
-/// Sources that include each other, and what lies between two cycles: what is left after taking away
-/// those that include none that is left, or that none includes.
+/// Sources in cycles of inclusion or between two cycles: those that remain after repeatedly
+/// removing sources that include no remaining source or are included by none.
 std::set<std::string> sources_in_cycles(std::map<std::string, std::set<std::string>> graph) {
     for (std::size_t before = 0; before != graph.size();) {
         before = graph.size();
@@ -122,8 +124,8 @@ std::set<std::string> sources_in_cycles(std::map<std::string, std::set<std::stri
     return left;
 }
 
-/// Units whose names are ordinary words, which also name results, options and their values, or
-/// distributions.
+/// Units with ordinary words as names, which are also names of results, options and their values,
+/// or distributions.
 const std::set<std::string> ordinary = {
     "beta",        "binomial",    "design",    "digital-shift", "disk",        "dispersion",
     "empirical",   "exponential", "fast",      "faure",         "gamma",       "grid",
@@ -133,26 +135,26 @@ const std::set<std::string> ordinary = {
     "sensitivity", "simplex",     "student-t", "triangular",    "truncated",   "uniform",
     "weibull"};
 
-/// Files that know units of other files, and which.
+/// Files that name units of other files, with these units.
 const std::map<std::string, std::set<std::string>> exceptions = {
-    // The page shows chosen measures, each in a way of its own.
+    // The page shows a selection of measures, each in its own form.
     {"page/content.cpp", {"chi-square", "kolmogorov-smirnov"}},
     {"page/figures.cpp", {"pair-correlation", "periodogram", "star-discrepancy"}},
     {"page/html.cpp", {"chi-square", "kolmogorov-smirnov"}},
     {"page/measures.cpp",
      {"chi-square", "integration", "kolmogorov-smirnov", "l2-discrepancy", "nearest-neighbor",
       "pair-correlation", "periodogram", "star-discrepancy", "t-value"}},
-    // Charts of reports are chosen by the analyzer that wrote them.
+    // Charts of reports depend on the analyzer that wrote them.
     {"plot/report_charts.cpp", {"differential", "hyperuniformity", "sensitivity"}},
     {"plot/spectral_table.cpp", {"periodogram"}},
     {"cli/plot.cpp", {"coverage", "differential", "pair-correlation", "periodogram"}},
-    // Designs are judged beside what is taken unless there is a better one.
+    // Designs are compared with the usual choice.
     {"analyzers/distances/design.cpp", {"latin-hypercube"}},
-    // An entry of a report, whose name is compared.
+    // "grid" is also an entry of a report.
     {"cli/analysis.cpp", {"grid"}},
 };
 
-/// The names of units that stand in a file's strings, other than the file's own unit.
+/// Names of units in a file's strings, except the file's own unit.
 std::set<std::string> units_named_in(const std::filesystem::path& file) {
     static const std::set<std::string> names = names_of_units();
     static const std::regex string(R"re((name|generator|warp|analyzer)?(?: [!=]= )?"([^"]*)")re");
@@ -199,7 +201,7 @@ TEST(Layering, NoTwoSourcesIncludeEachOther) {
     EXPECT_EQ(sources_in_cycles(source_graph()), std::set<std::string>{});
 }
 
-// What is special about a unit stands in its record, so that a new one needs no change elsewhere.
+// Special properties of a unit belong in its record, so that new units need no change elsewhere.
 TEST(Layering, NoUnitIsNamedOutsideItsOwnFile) {
     for (const auto& place : line)
         for (const auto& folder : place)
@@ -218,7 +220,7 @@ TEST(Layering, NoFolderIsLeftOut) {
             << entry.path();
 }
 
-// What the rule "only cli/ prints" means in code.
+// Checks the rule "only cli/ prints" in the code.
 TEST(Layering, OnlyTheCommandLinePrintsOrExits) {
     const std::regex forbidden(
         R"(\b(std::cout|std::cerr|std::clog|printf\(|fmt::print|std::exit|std::abort|std::getenv)\b)");
@@ -227,8 +229,8 @@ TEST(Layering, OnlyTheCommandLinePrintsOrExits) {
             if (folder != "cli") expect_nowhere(forbidden, folder);
 }
 
-// Names differ between libraries and machines; clocks and engines make points that nobody can
-// repeat.
+// Standard distributions differ between libraries; clocks and engines make points that cannot be
+// reproduced.
 TEST(Layering, PointsComeFromNoClockAndNoStandardDistribution) {
     const std::regex forbidden(
         R"(std::(uniform_\w+_distribution|normal_distribution|random_device|default_random_engine)|std::chrono|\btime\(|\bclock\()");
@@ -237,8 +239,8 @@ TEST(Layering, PointsComeFromNoClockAndNoStandardDistribution) {
         expect_nowhere(forbidden, folder);
 }
 
-// Text of strangers reaches nobody raw: messages leave by say_line(), which makes it printable, and no
-// file but these writes anything.
+// Untrusted text is never printed raw: messages are printed by say_line(), which escapes them, and
+// only these files write anything.
 TEST(Layering, MessagesLeaveInOnePlace) {
     const std::regex prints(
         R"re(std::c(out|err|log)\b|\b(puts|f?printf|fputs|fwrite|perror)\(|::write\(\w)re");

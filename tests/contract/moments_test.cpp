@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The exact moments that domains know, against integrals over the cube through their warps.
+// Exact moments of domains, compared with integrals over the cube through their warps.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@
 namespace stipple::testing::moments_test {
 namespace {
 
-/// The midpoint rule on an axis of the cube, its nodes drawn to both ends, where warps may have
+/// Midpoint rule on an axis of the cube, with nodes concentrated at both ends, where warps may have
 /// roots, logarithms and poles: u = t - sin(2 pi t) / (2 pi).
 struct Nodes {
     std::vector<double> at;
@@ -29,7 +29,7 @@ struct Nodes {
     }
 };
 
-/// Rows of the cube with their weights: all combinations of nodes.
+/// Tensor product of the nodes, as rows with weights.
 struct Rule {
     std::vector<double> rows;
     std::vector<double> weights;
@@ -70,7 +70,7 @@ Moments integrated(const Mapping& map, std::size_t n) {
     return m;
 }
 
-/// Holds that they agree within a share of the standard deviations.
+/// Expects both moments to agree within a fraction of the standard deviations.
 void expect_same(const Moments& exact, const Moments& found, double tolerance) {
     const std::size_t d = exact.dimension();
     ASSERT_EQ(found.dimension(), d);
@@ -96,7 +96,7 @@ TEST_P(ExactMoments, AreTheIntegrals) {
     expect_same(*exact, integrated(*map, d == 1 ? 20'000 : (d == 2 ? 600 : 80)), 2e-5);
 }
 
-// Shapes at no special place, of no special size and turned, so that nothing cancels by chance.
+// Shapes in general position, with arbitrary sizes and rotations, so that no errors cancel.
 INSTANTIATE_TEST_SUITE_P(
     Laws, ExactMoments,
     ::testing::Values(
@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(
         "von-mises-fisher:kappa=300,axis=[1,2,3]", "von-mises-fisher:kappa=0"),
     [](const auto& test) { return "Case" + std::to_string(test.index); });
 
-// Sectors, sides, pieces and parts, where the map has kinks and jumps that the rule crosses.
+// Sectors, sides, pieces and parts, whose maps have kinks and jumps inside the cube.
 TEST(MomentsOfParts, AreTheIntegralsToo) {
     for (const char* spec :
          {"sector:inner=0.5,radius=2,angles=[20,100],center=[1,1]", "sector:angles=[0,300]",
@@ -144,13 +144,13 @@ TEST(MomentsOfParts, AreTheIntegralsToo) {
     }
 }
 
-// Three faces of area 1/2 in the planes of the axes, and one of area sqrt(3) / 2.
+// Three faces of area 1/2 in the coordinate planes, and one of area sqrt(3) / 2.
 TEST(MomentsOfParts, OfATetrahedronsFacesByHand) {
     const auto map = mapping("mesh:file=" STIPPLE_SOURCE_DIR "/tests/support/tetrahedron.obj");
     const auto exact = map->domain()->moments();
     ASSERT_TRUE(exact.has_value());
     const double slant = std::sqrt(3) / 2;
-    // On a right triangle E x^2 is 1/6 and E x y 1/12; on the slanted one as well.
+    // On a right triangle E x^2 is 1/6 and E x y 1/12; also on the slanted one.
     const double mean = (1 + slant) / 3 / (1.5 + slant);
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(exact->mean[k], mean, 1e-15);
     EXPECT_NEAR(exact->covariance[0], (1 + slant) / 6 / (1.5 + slant) - mean * mean, 1e-15);
@@ -172,7 +172,7 @@ TEST(MomentsOfParts, OfAPictureAndOfOutcomesByHand) {
     const TemporaryFile smooth(npy_of<double>("<f8", "(4, 3)", values));
     const auto map = mapping("image:interpolation=bilinear,file=" + smooth.path());
     expect_same(*map->domain()->moments(), integrated(*map, 600), 1e-4);
-    // 0 and 1 with 3/4 and 1/4: variance 3/16, skewness (1 - 2 p) / sqrt(p q).
+    // Values 0 and 1 with probabilities 3/4 and 1/4: variance 3/16, skewness (1 - 2 p) / sqrt(p q).
     const auto coin =
         mapping("discrete:probabilities=[0.75,0.25],values=[0,1]")->domain()->moments();
     ASSERT_TRUE(coin.has_value());
@@ -181,8 +181,8 @@ TEST(MomentsOfParts, OfAPictureAndOfOutcomesByHand) {
     EXPECT_NEAR(coin->skewness[0], 0.5 / std::sqrt(3 / 16.), 1e-15);
 }
 
-// Normals are level on each triangle and barycentrics straight: E of a barycentric is 1/3, its
-// variance 1/18.
+// On each triangle, normals are constant and barycentric coordinates linear: a barycentric
+// coordinate has mean 1/3 and variance 1/18.
 TEST(MomentsOfParts, OfMeshesGoWithTheirAttributes) {
     const std::string file = STIPPLE_SOURCE_DIR "/tests/support/tetrahedron.obj";
     const auto rich = mapping("mesh:attributes=barycentric,file=" + file);
@@ -195,17 +195,17 @@ TEST(MomentsOfParts, OfMeshesGoWithTheirAttributes) {
     const Moments plain = *mapping("mesh:file=" + file)->domain()->moments();
     const Moments normals = *mapping("mesh:attributes=normal,file=" + file)->domain()->moments();
     EXPECT_NEAR(normals.mean[2], plain.mean[2], 1e-12);
-    // Of a closed surface, normals times areas sum to 0.
+    // Normals times areas of a closed surface sum to 0.
     for (std::size_t k = 3; k < 6; ++k) EXPECT_NEAR(normals.mean[k], 0, 1e-12);
 }
 
 TEST(MomentsOfParts, KeepTheirDigitsWhereLawsAreThin) {
     const auto of = [](const char* spec) { return *mapping(spec)->domain()->moments(); };
-    // What does not vary is not skew.
+    // A constant coordinate has skewness 0.
     const Moments level = of("triangle:vertices=[0,0,1 1,0,1 0,1,1]");
     EXPECT_EQ(level.covariance[8], 0);
     EXPECT_EQ(level.skewness[2], 0);
-    // Nearly normal about the axis, of variance 1 / kappa; 1 - z is nearly exponential.
+    // Nearly normal about the axis, with variance 1 / kappa; 1 - z is nearly exponential.
     const Moments thin = of("von-mises-fisher:kappa=1e8");
     EXPECT_NEAR(thin.covariance[0] * 1e8, 1, 1e-7);
     EXPECT_NEAR(thin.covariance[8] * 1e16, 1, 1e-12);
@@ -213,7 +213,7 @@ TEST(MomentsOfParts, KeepTheirDigitsWhereLawsAreThin) {
     const double drop = std::pow(std::numbers::pi / 180 * 1e-3, 2) / 2;
     EXPECT_NEAR(of("cone:half-angle=1e-3").covariance[8] / (drop * drop / 12), 1, 1e-9);
     EXPECT_NEAR(of("power:exponent=5,range=[1,1.000001]").covariance[0] * 12e12, 1, 1e-9);
-    // x^1000: 1 - x is nearly exponential.
+    // Density x^999: 1 - x is nearly exponential.
     EXPECT_NEAR(of("power:exponent=999").covariance[0] * 1001 * 1001 * 1002 / 1000, 1, 1e-9);
 }
 

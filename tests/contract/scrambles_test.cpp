@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What every registered scramble promises, with its default options.
+// Promises of every registered scramble, with default options.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ class EveryScramble : public ::testing::TestWithParam<std::string> {
     const Scramble& unit = *scramble_named(GetParam());
 };
 
-/// Random points, and all pairs of edges, 1 among them.
+/// Random points, and all pairs of edge values, including 1.
 PointSet closed_cube() {
     std::vector<double> rows(2000);
     Rng(5).fill(0, rows);
@@ -49,7 +49,7 @@ TEST_P(EveryScramble, DependsOnTheSeedAndTheCoordinate) {
 
 namespace {
 
-/// Kolmogorov's distance of a coordinate from uniformity, and chi-square in 31 cells.
+/// Kolmogorov-Smirnov distance of a coordinate from uniformity, and chi-square in 31 cells.
 struct Marginal {
     double distance = 0;
     double statistic = 0;
@@ -71,7 +71,7 @@ Marginal marginal(const PointSet& set, std::size_t k) {
     return found;
 }
 
-/// At a level of 1e-7 each; 400 of both kinds make a false alarm of 1e-4 for random points.
+/// Level 1e-7 for each test; about 400 tests of each kind give a false alarm of 1e-4.
 bool is_uniform(const Marginal& found, std::size_t count) {
     return found.distance < 2.9 / std::sqrt(static_cast<double>(count)) && found.statistic < 88;
 }
@@ -91,8 +91,8 @@ TEST_P(EveryScramble, EveryReplicationHasUniformMarginals) {
         }
 }
 
-// A point's image over many seeds is uniform in the cube. (The set has one point, so that to
-// micro-jitter the whole cube is one cell.) Chi-square with 48 degrees of freedom, level 1e-6.
+// The image of a point is uniform in the cube over many seeds. (With a single point, the cell of
+// micro-jitter is the whole cube.) Chi-square with 48 degrees of freedom, level 1e-6.
 TEST_P(EveryScramble, ImagesOfOnePointAreUniform) {
     for (const double x : {0.0, 0.3, 0.75}) {
         std::vector<double> cells(49);
@@ -122,7 +122,7 @@ TEST_P(EveryScramble, MovesPiecesAsTheWhole) {
     }
 }
 
-// owen@3,1 does to those coordinates what owen does to all.
+// owen@3,1 scrambles these coordinates as owen scrambles all.
 TEST_P(EveryScramble, NamedCoordinatesKeepTheirNumbers) {
     PointSet points(100, 3);
     Rng(9).fill(0, points.flat());

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Every registered warp, with each of its methods, before the tests that judge it: random points
-// are uniform on its domain, strata are not taken for faults, and what is wrong is found: methods
-// that are biased, a tilt of 1 %, a missing corner, coordinates that changed places or sides, a
-// density that is off by 2 %, a point outside.
+// Every registered warp, with each of its methods, under the tests of uniformity: random points are
+// uniform on its domain, stratified points are not rejected, and faults are found: biased methods,
+// a tilt of 1 %, a missing corner, swapped or reflected coordinates, a density that is off by 2 %,
+// a point outside.
 //
 // Seeds are fixed. False alarm: fewer than 300 tests at levels of 1e-6 or 5 standard deviations:
 // 5e-4 in all.
@@ -27,7 +27,7 @@ const std::size_t many = std::size_t{1} << (sanitized() ? 17 : 20);
 
 const Settings strict = {{"level", "1e-6"}};
 
-/// The same sets for all warps of a dimension.
+/// Caches sets, which are the same for all warps of a dimension.
 const PointSet& cube_points(const std::string& generator, std::size_t n, std::size_t d) {
     static std::map<std::tuple<std::string, std::size_t, std::size_t>, PointSet> made;
     auto& set = made[{generator, n, d}];
@@ -39,7 +39,7 @@ std::string verdict(const PointSet& points, const Settings& settings = strict) {
     return analyze("chi-square", points, settings).text("verdict");
 }
 
-/// Non-uniform, or off the domain.
+/// Whether the points are found non-uniform, or outside the domain.
 bool rejected(const PointSet& points, const Settings& settings = strict) {
     std::string found = "outside";
     const auto error = error_of([&] { found = verdict(points, settings); });
@@ -47,7 +47,7 @@ bool rejected(const PointSet& points, const Settings& settings = strict) {
     return found == "non-uniform" || !error.empty();
 }
 
-/// Whether the method makes its domain's density, by what it says of itself.
+/// Whether the method's own density equals that of its domain.
 bool is_right(const Mapping& map) {
     const PointSet image = warped(map, cube_points("random", 100, map.cube_dimension()));
     const DomainPtr domain = map.domain();
@@ -56,7 +56,7 @@ bool is_right(const Mapping& map) {
     return true;
 }
 
-/// The warp with each choice of its option `method`, or as it is.
+/// The warp with each choice of its option `method`, or with default options.
 std::vector<std::string> specs_of(const Warp& warp) {
     std::vector<std::string> specs;
     for (const Option& option : warp.options.options())
@@ -101,7 +101,7 @@ class Uniformity : public ::testing::TestWithParam<std::string> {
     std::size_t in_ = 0;
 };
 
-/// As many as a grid of the same number of cells along each axis has, near n.
+/// Number near n that is a d-th power, as for a grid with equally many cells along each axis.
 std::size_t power_near(std::size_t n, std::size_t d) {
     const double side = std::pow(static_cast<double>(n), 1 / static_cast<double>(d)) + 1e-9;
     return static_cast<std::size_t>(std::pow(std::floor(side), static_cast<double>(d)) + 0.5);
@@ -122,9 +122,8 @@ TEST_P(Uniformity, StrataAreNoFault) {
 }
 
 // All coordinates of the cube tilted by 1 %: noncentrality 0.3 n t^2 = 31 for each on three cells,
-// against a threshold of 24 for one axis and 38 for two: one axis, and those that lose points, get
-// twice as many.
-// Sanitizers make points slow: there, 3 % and fewer of them.
+// against a threshold of 24 for one axis and 38 for two. So one axis, and warps that drop points,
+// get twice as many. Sanitizers make points slow: with them, 3 % and fewer points.
 TEST_P(Uniformity, ATiltOfOnePercentIsFound) {
     if (!is_right(map())) GTEST_SKIP();
     const double tilt = sanitized() ? 0.03 : 0.01;
@@ -133,11 +132,12 @@ TEST_P(Uniformity, ATiltOfOnePercentIsFound) {
     EXPECT_TRUE(rejected(warped(map(), cube), {{"level", "1e-5"}, {"cells", "3"}}));
 }
 
-// A corner of 1 % of the cube; of methods that drop corners anyway, as much beside its middle.
+// Removes a corner with 1 % of the cube; for methods that drop corners anyway, a block beside its
+// middle.
 TEST_P(Uniformity, AMissingCornerIsFound) {
     if (!is_right(map())) GTEST_SKIP();
     const PointSet& whole = cube_points("random", 100'000, in());
-    // More of it, where other coordinates of the cube fill up what is missing.
+    // A larger block if other coordinates of the cube partly fill the gap.
     const double share = in() > map().domain()->cube_dimension() ? 0.03 : 0.01;
     const double side = std::pow(share, 1 / static_cast<double>(in()));
     const double low = map().drops() ? 0.6 : 1 - side;
@@ -149,7 +149,7 @@ TEST_P(Uniformity, AMissingCornerIsFound) {
     EXPECT_TRUE(rejected(warped(map(), PointSet(std::move(flat), in()))));
 }
 
-/// Whether a change of points takes the density to another one for many of them.
+/// Whether moving the points changes the density by more than 20 % for many of them.
 template <class Change>
 bool changes_density(const PointSet& before, const Change& change) {
     std::size_t different = 0;
@@ -179,8 +179,8 @@ TEST_P(Uniformity, CoordinatesInTheWrongPlaceOrOnTheWrongSideAreFound) {
              fmt::format("reflected {}", k));
 }
 
-/// The last point outside the domain on the way from there to a point inside, next to a point that
-/// is still inside.
+/// Bisects from an outside point to an inside point; returns an outside point next to an inside
+/// one.
 std::vector<double> just_outside(const Domain& domain, std::vector<double> in,
                                  std::vector<double> out) {
     for (int step = 0; step < 2200; ++step) {
@@ -226,8 +226,8 @@ Mean mean_of(std::size_t n, const F& f) {
     return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean) / count)};
 }
 
-/// How much of the domain is where the density is at least `least`: the mean of 1 / pdf there over
-/// points of that pdf, and the share of the box's uniform points that are there.
+/// Measure of the part of the domain whose density is at least `least`: the mean of 1 / pdf there
+/// over points with that pdf, and the fraction of the box's uniform points that are there.
 std::pair<Mean, Mean> measures_above(const Mapping& map, const PointSet& image, double least,
                                      double factor) {
     const Box box = map.domain()->bounding_box();
@@ -250,8 +250,9 @@ std::pair<Mean, Mean> measures_above(const Mapping& map, const PointSet& image, 
 
 }  // namespace
 
-// On domains of as many numbers as coordinates: the integral of 1 over the places of high density,
-// in two ways. On curves and surfaces: the density times what the map stretches is 1.
+// For domains with as many numbers per point as coordinates: the integral of 1 over regions of high
+// density, computed in two ways. For curves and surfaces: the density times the map's Jacobian is
+// 1.
 TEST_P(Uniformity, DensityIsRightWithinTwoPercent) {
     const std::size_t d = map().domain()->dimension();
     const PointSet points = image("random", 200'000);

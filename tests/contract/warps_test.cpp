@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What every registered warp promises, with its default options.
+// Promises of every registered warp, with default options.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace stipple::testing::warps_test {
 namespace {
 
-/// Default options and, where there is no default, an example.
+/// Default options, and example values for options without a default.
 Values options_of(const Warp& unit) {
     return Spec{.name = unit.name, .coordinates = {}, .settings = needed_options(unit.name)}.values(
         unit.options);
@@ -29,7 +29,7 @@ class EveryWarp : public ::testing::TestWithParam<std::string> {
     const std::size_t in = mapping->cube_dimension();
     const std::size_t out = mapping->domain()->dimension();
 
-    /// Random points, and all combinations of the cube's edges.
+    /// Random points, and all combinations of edge values of the cube.
     std::vector<double> cube() const {
         std::vector<double> rows(3000 * in);
         Rng(5).fill(0, rows);
@@ -53,7 +53,7 @@ TEST_P(EveryWarp, MapsTheWholeCubeIntoItsDomain) {
         if (!keep[i]) continue;
         const auto point = std::span<const double>(image).subspan(i * out, out);
         EXPECT_TRUE(mapping->domain()->contains(point)) << "point " << i;
-        // A density may fall to 0 on the rim, which edges of the cube are taken to.
+        // The density may be 0 on the rim, the image of the cube's edges.
         const auto unit_point = std::span<const double>(rows).subspan(i * in, in);
         const bool edge = std::ranges::count(unit_point, 0.0) > 0;
         const double density = mapping->density(point);
@@ -79,12 +79,13 @@ TEST_P(EveryWarp, StandsAHundredThousandHostilePoints) {
     }
 }
 
-/// A number in place of another: of any size, a small integer, or next to one that was there.
+/// Replaces numbers: by one of any size, a small integer, or one next to the original.
 class HostileOptions {
   public:
     explicit HostileOptions(std::uint64_t seed) : rng_(seed) {}
 
-    /// Settings for all options of numbers and words; those that name files or formulas stay.
+    /// Settings for all options with numbers and words; options with file names or formulas are
+    /// unchanged.
     Settings settings(const Schema& schema) {
         Settings chosen;
         for (const Option& option : schema.options()) {
@@ -151,8 +152,8 @@ double density_of_image(const Mapping& map, std::span<const double> cube) {
     return map.density(image_of(map, {cube.begin(), cube.end()}));
 }
 
-/// Holds that images of hostile points are in the domain and have a density, above 0 and finite; next
-/// to rims and the middle, at least the points beside them. Of a biased method it may be infinite.
+/// Expects images of hostile points to be in the domain with a positive, finite density; at rims
+/// and the middle, at least points beside them. Biased methods may have an infinite density.
 void expect_keeps_points(const Mapping& map, bool biased, std::size_t count) {
     const PointSet cube = hostile_points(count, map.cube_dimension());
     const std::size_t d = map.domain()->dimension();
@@ -177,7 +178,7 @@ void expect_keeps_points(const Mapping& map, bool biased, std::size_t count) {
     }
 }
 
-// Of random options, those that the warp takes.
+// Tries random options, and skips those that the warp rejects.
 TEST_P(EveryWarp, KeepsItsPointsWhateverItsOptions) {
     const Settings needed = needed_options(unit.name);
     HostileOptions hostile(3);
@@ -205,12 +206,11 @@ TEST_P(EveryWarp, ComesBackWithinRounding) {
     std::vector<double> again(image.size());
     for (const double x : back) EXPECT_TRUE(x >= 0 && x <= 1) << x;
     mapping->forward(back, again, keep);
-    // Where an edge of the cube is one point of the domain the way back may differ; its image may
-    // not.
+    // If an edge of the cube is mapped to one point, the inverse may differ, but its image may not.
     for (std::size_t k = 0; k < image.size(); ++k) EXPECT_NEAR(again[k], image[k], 1e-14) << k;
 }
 
-// The contract of parse_domain: a domain's spec is the domain.
+// The contract of parse_domain: parsing a domain's spec gives that domain.
 TEST_P(EveryWarp, DomainSpecParsesBack) {
     const std::string spec = mapping->domain()->spec();
     EXPECT_EQ(parse_domain(spec, out)->spec(), spec);

@@ -35,7 +35,7 @@ TEST(Domain, OneRangeStandsForAllCoordinates) {
         EXPECT_TRUE(error_of([&] { parse_box(text, 3); }).starts_with("usage: --bounds")) << text;
 }
 
-// The upper face is not part of a half-open box, whatever rounding does.
+// The upper face is not part of a half-open box, even after rounding.
 TEST(Domain, ScalingStaysBelowTheUpperFace) {
     const Box box = parse_box("1e15..1000000000000001", 1);
     std::vector<double> rows = {0, 0.5, one_minus_ulp};
@@ -56,7 +56,7 @@ TEST(Domain, ProductsTakeTheirCoordinates) {
     EXPECT_TRUE(error_of([] { parse_domain("dsik", 2); }).find("disk") != std::string::npos);
 }
 
-// The cube of a product stands in the order of the row's coordinates, whatever that of the factors.
+// The axes of a product's cube have the order of the row's coordinates, not that of the factors.
 TEST(Domain, AxesOfAProductStandInTheOrderOfTheCoordinates) {
     const auto product =
         parse_domain("power@4:exponent=1 x unit-cube@1,3 x power@2:exponent=3,range=[0,2]", 4);
@@ -71,7 +71,8 @@ TEST(Domain, AxesOfAProductStandInTheOrderOfTheCoordinates) {
     EXPECT_EQ(product->cube_axes()[2], "x3");
 }
 
-// A sphere has three coordinates and two axes; cells are the product of its cells and the others'.
+// A sphere has three coordinates and two axes; cells are products of its cells and those of the
+// others.
 TEST(Domain, ProbabilitiesOfAProductAreThoseOfTheFactors) {
     const auto product = parse_domain(
         "sphere@2,3,5 x rejection@4:density=2*x,bounds=0..1 x "

@@ -41,7 +41,7 @@ TEST(JsonText, WhatIsNoJsonIsRefusedWithItsPlace) {
     EXPECT_EQ(refused("[1,1e999]"), "3: the number '1e999' is out of the range of a double");
 }
 
-// The parser copies a value where another key follows it, by recursion.
+// The parser copies a value recursively if another key follows it.
 TEST(JsonText, WhatIsTooDeepIsRefusedBeforeItIsParsed) {
     EXPECT_EQ(refused(brackets(21)), "20: lists are nested too deeply");
     EXPECT_EQ(refused("{\"a\":{\"b\":" + brackets(200'000) + ",\"c\":2}}"),

@@ -132,7 +132,7 @@ TEST(Spec, WritesWhatDiffersAndReadsItBack) {
     EXPECT_EQ(back[radius], values[radius]);
 }
 
-// -0 equals 0, but atan2 and 1/x tell them apart.
+// -0 equals 0, but atan2 and 1/x distinguish them.
 TEST(Spec, ZerosKeepTheirSigns) {
     const std::string fallback = format_value(schema.defaults().find("center").value);
     ASSERT_EQ(fallback, "0,0");
@@ -141,7 +141,7 @@ TEST(Spec, ZerosKeepTheirSigns) {
     EXPECT_EQ(format_spec("unit", values, schema), "unit:center=[-0,0]");
 }
 
-// A value in brackets ends at the bracket that closes it, so that specs can hold specs.
+// A value in brackets ends at the matching bracket, so that specs can contain specs.
 TEST(Spec, BracketsNest) {
     const Spec spec = parse_spec("mixture:components=[cone:axis=[1,0,0]|disk],weights=[1,2]");
     ASSERT_EQ(spec.settings.size(), 2U);

@@ -8,7 +8,7 @@
 
 namespace stipple::testing::rng_test {
 
-// The known-answer vectors that Random123 publishes for philox4x32 with 10 rounds (kat_vectors).
+// Known-answer vectors published by Random123 for philox4x32 with 10 rounds (kat_vectors).
 TEST(Rng, PhiloxMatchesThePublishedKnownAnswers) {
     using Words = std::array<std::uint32_t, 4>;
     struct Case {
@@ -37,10 +37,10 @@ TEST(Rng, NumberIsHalfABlockOfSeedStreamAndIndex) {
     EXPECT_EQ(rng.bits(2 * pair + 1), block[2] | static_cast<std::uint64_t>(block[3]) << 32);
 }
 
-// Many numbers are made together, a few at the ends one by one: every length and start of a
-// stretch, where the counter's low word overflows inside of it, and with key and stream of 64 bits.
+// Most numbers are computed in groups, those at the ends one by one. Tests ranges of every length
+// and start, one in which the counter's low word overflows, with 64-bit key and stream.
 TEST(Rng, FillGivesTheNumbersOneByOne) {
-    constexpr std::uint64_t overflow = std::uint64_t{1} << 33;  // two numbers a count
+    constexpr std::uint64_t overflow = std::uint64_t{1} << 33;  // two numbers per counter value
     for (const Rng& rng : {Rng(7, 3), Rng(0xfedcba9876543210, 0xf123456789abcdef)})
         for (const std::uint64_t start : {std::uint64_t{0}, overflow - 40, 3 * overflow - 64})
             for (std::uint64_t first = start; first < start + 18; ++first)

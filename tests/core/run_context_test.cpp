@@ -10,7 +10,7 @@
 
 namespace stipple::testing::run_context_test {
 
-// Stages lie one behind the other, and what goes beyond its own end stays at it.
+// Stages follow each other; progress beyond a stage's end is clamped.
 TEST(RunContext, StageIsAPartOfTheProgress) {
     std::vector<double> seen;
     RunContext run;
@@ -19,10 +19,10 @@ TEST(RunContext, StageIsAPartOfTheProgress) {
     run.stage(0.25, 1).tick(0, 3);
     run.stage(0.25, 1).tick(3, 3);
     EXPECT_EQ(seen, (std::vector<double>{0.125, 0.25, 1}));
-    RunContext{}.stage(0, 1).tick(1, 1);  // nobody listens
+    RunContext{}.stage(0, 1).tick(1, 1);  // without a progress function
 }
 
-// Words go with the progress that they are for, and nowhere where that is not asked for.
+// Words accompany their progress, and are ignored without a function for them.
 TEST(RunContext, TicksWithWordsForWhereItStands) {
     std::vector<std::string> seen;
     RunContext run;
@@ -34,7 +34,7 @@ TEST(RunContext, TicksWithWordsForWhereItStands) {
     EXPECT_EQ(seen, (std::vector<std::string>{"between 1 and 2", "part", "all"}));
 }
 
-// What is held already counts, and workers share what is left.
+// Memory in use counts towards the limit, and workers share the rest.
 TEST(RunContext, MemoryInUseCountsTowardsTheLimit) {
     RunContext run{.max_memory = 1000, .memory_in_use = [] { return std::uint64_t{600}; }};
     EXPECT_EQ(error_of([&] { run.need_memory(400, "it"); }), "");

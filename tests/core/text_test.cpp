@@ -17,7 +17,7 @@ TEST(Text, WholeNumbersInManyWays) {
     EXPECT_EQ(parse_integer("1.5e3"), 1500);
     EXPECT_EQ(parse_integer("2^20"), 1'048'576);
     EXPECT_EQ(parse_integer("3^0"), 1);
-    EXPECT_EQ(parse_integer("1^2147483647"), 1);  // at once
+    EXPECT_EQ(parse_integer("1^2147483647"), 1);  // fast
     EXPECT_EQ(parse_integer("-1^2147483647"), -1);
     EXPECT_EQ(parse_integer("-1^2147483646"), 1);
     EXPECT_EQ(parse_integer("0^2147483647"), 0);
@@ -67,12 +67,12 @@ TEST(Text, NearestWordsAreThoseThatCouldBeMeant) {
     EXPECT_THAT(nearest_words("Halton", known), ElementsAre("halton"));
     EXPECT_THAT(nearest_words("hamm", known), ElementsAre("hammersley"));
     EXPECT_THAT(nearest_words("xyz", known), IsEmpty());
-    // Two letters in the wrong order are one slip.
+    // Two swapped letters count as one error.
     EXPECT_THAT(nearest_words("owne", std::vector<std::string>{"none", "owen"}),
                 ElementsAre("owen"));
     EXPECT_THAT(nearest_words("sedes", std::vector<std::string>{"seed", "seeds"}),
                 ElementsAre("seeds"));
-    // Three at most, all as near.
+    // At most three words, all equally near.
     EXPECT_THAT(nearest_words("ab", std::vector<std::string>{"axe", "abd", "abc", "abe", "abf"}),
                 ElementsAre("abd", "abc", "abe"));
     EXPECT_EQ(suggest("hal", known), "did you mean 'halton'?");

@@ -9,11 +9,11 @@ TEST(Utf8, GoesApartAndTogether) {
     const std::string text = "xé−…😀";
     EXPECT_EQ(code_points(text), U"xé−…😀");
     EXPECT_EQ(utf8_of(code_points(text)), text);
-    // Overlong, a surrogate, a letter cut short: none of them is one.
+    // Overlong, a surrogate, a truncated letter: all invalid.
     EXPECT_EQ(code_points("\xC0\xAF\xED\xA0\x80\xE2\x88"), std::u32string(7, U'\uFFFD'));
 }
 
-// Nothing that a terminal obeys comes through, and letters of all languages do.
+// Control sequences for terminals are removed, letters of all languages are kept.
 TEST(Utf8, PrintableTextObeysNobody) {
     EXPECT_EQ(printable("größe ≤ 3 点"), "größe ≤ 3 点");
     EXPECT_EQ(printable("\x1b[31mred\x1b]0;title\x07"), "\\x1b[31mred\\x1b]0;title\\x07");
@@ -32,7 +32,7 @@ TEST(Utf8, ShowsTheFrontOfLongText) {
     EXPECT_EQ(shown(letters), "'" + letters.substr(0, 160) + "...' (162 bytes)");
 }
 
-// Words that somebody gave stand in messages; those of usual length, and many of them, stay whole.
+// Words from users appear in messages; words of usual length, and many of them, are not truncated.
 TEST(Utf8, MessagesOfLongWordsAreCutShort) {
     const std::string usual = "no 'generator': known are " + std::string(900, 'b') + " and c";
     EXPECT_EQ(cut_short(usual), usual);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Whole commands, put together from what the registry says of verbs, units and options; they read
-// the one file of the input, and write nothing.
+// Whole commands, composed from the registry's verbs, units and options; they read only the file of
+// the input, and write nothing.
 #include "cli/verbs.hpp"
 #include "fuzz.hpp"
 
@@ -29,13 +29,13 @@ std::string any_value(FuzzedDataProvider& input, const Option& option) {
 }
 
 void add_option(Words& words, FuzzedDataProvider& input, const Option& option) {
-    // Studies write their table past the rules of files, and --output is not for the input to say.
+    // Studies write their table without checking file rules, so inputs must not set --output.
     if (option.name == "output") return;
     words.push_back("--" + option.name);
     if (option.type != "flag") words.push_back(any_value(input, option));
 }
 
-/// A verb, a unit, and options; what is left is the file.
+/// A verb, a unit, and options; the rest of the input is the file.
 Words any_words(FuzzedDataProvider& input) {
     const cli::VerbInfo& verb = any_of(input, cli::verbs());
     Words words = {verb.name};
@@ -57,7 +57,7 @@ Words any_words(FuzzedDataProvider& input) {
     return words;
 }
 
-/// What stipple does with parsed words, in little memory and for a short time.
+/// Runs parsed arguments, with little memory and for a short time.
 void work_on(const cli::Arguments& arguments) {
     using cli::Verb;
     constexpr std::pair<Verb, int (*)(const cli::Arguments&, cli::Session&)> verbs[] = {
@@ -97,7 +97,7 @@ void command(std::string_view bytes) {
     if (!arguments.help && !arguments.version && arguments.verb) work_on(arguments);
 }
 
-/// Words as they are, one a line.
+/// Arguments from the input, one per line.
 void arguments(std::string_view bytes) {
     Words words;
     for (std::size_t at = 0; at <= bytes.size(); at = bytes.find('\n', at) + 1) {

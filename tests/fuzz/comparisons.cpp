@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Results against their definitions, and against the same made in another way: in shards, by
-// several threads.
+// Compares results with their definitions, and with the same computed in shards or by several
+// threads.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -22,7 +22,8 @@ FuzzedDataProvider provider(Bytes bytes) {
     return {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
 }
 
-constexpr std::int64_t steps = 64;  // coordinates are multiples of 1/64: ties, 0 and 1 are common
+constexpr std::int64_t steps =
+    64;  // coordinates are multiples of 1/64, so that ties, 0 and 1 are common
 
 /// Up to `most[d]` points of d coordinates.
 PointSet lattice_points(FuzzedDataProvider& input, const std::vector<std::size_t>& most) {
@@ -54,7 +55,7 @@ InBox count(const PointSet& points, const std::vector<double>& corner) {
     return inside;
 }
 
-/// The largest n steps^d |share - volume| over all corners made of coordinates and 1, whole numbers.
+/// Largest n steps^d |fraction - volume| over all corners made of coordinates and 1, in integers.
 std::int64_t worst_box(const PointSet& points, std::vector<double>& corner) {
     if (corner.size() == points.dimension()) {
         std::int64_t volume = static_cast<std::int64_t>(points.count());
@@ -88,8 +89,8 @@ void star(Bytes bytes) {
     require(found.number("value") == expected, "another star discrepancy");
 }
 
-/// Factors of a pair, of a point and of no point in the square of an L2 discrepancy, which is
-/// product of none - 2/n sum product of points + 1/n^2 sum product of pairs.
+/// Factors of one axis in a squared L2 discrepancy: prod none - 2/n sum prod point + 1/n^2 sum prod
+/// pair.
 struct Kernel {
     const char* name;
     long double (*pair)(long double, long double);
@@ -188,7 +189,7 @@ SetsToMake production(FuzzedDataProvider& input) {
     return made;
 }
 
-/// The numbers that are written, as csv; what a run may cost is limited.
+/// The points as CSV, made with limited resources.
 std::string text_of(const SetsToMake& production, unsigned threads) {
     RunContext run = small_run();
     run.threads = threads;
@@ -211,18 +212,18 @@ void shards(Bytes bytes) {
     require(joined == first || empty > 0, "other points in shards");
 }
 
-/// Any analyzer on few points: the same on several threads and, where it takes them so, in blocks.
+/// Runs any analyzer on few points; several threads must give the same report as one.
 void threads(Bytes bytes) {
     FuzzedDataProvider input = provider(bytes);
     const auto& all = analyzers::all();
     const Analyzer& analyzer = all[input.ConsumeIntegralInRange<std::size_t>(0, all.size() - 1)];
     const PointSet points = lattice_points(input, {40, 40, 20, 9, 9});
-    if (analyzer.name == "periodogram" && points.dimension() > 2) return;  // long
+    if (analyzer.name == "periodogram" && points.dimension() > 2) return;  // slow
     RunContext run = small_run();
     const Report one = analyze(analyzer.name, points, {}, run);
     run.threads = 3;
     const Report several = analyze(analyzer.name, points, {}, run);
-    if (run.stop.stop_requested()) return;  // searches end early then, with bounds
+    if (run.stop.stop_requested()) return;  // searches then return bounds
     require(to_text(several) == to_text(one),
             analyzer.name + ": another report on several threads");
 }

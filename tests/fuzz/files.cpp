@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Files that units and commands read besides points: pictures, meshes, tables, matrices, reports,
-// studies.
+// Files other than points that units and commands read: pictures, meshes, tables, matrices,
+// reports, studies.
 #include <unistd.h>
 
 #include <cmath>
@@ -55,7 +55,7 @@ void npy_header(std::string_view bytes) {
     npy_numbers(header, bytes.size());
 }
 
-/// Forward, and back where there is a way.
+/// Maps points forward, and back if there is an inverse.
 void warp(const std::string& spec, std::size_t dimension) {
     const Warper warper(spec, dimension);
     std::vector<double> cube(5 * warper.dimension_in());
@@ -89,7 +89,7 @@ void generator(const char* spec, std::string_view bytes) {
         });
 }
 
-/// A table of runs and what came of them, for each method that takes any.
+/// A table of inputs and outputs of runs, for each method that accepts any.
 void sensitivity(std::string_view bytes) {
     const PointSet table = read(as_file(bytes), {}, small_run());
     for (const char* spec : {"sensitivity", "sensitivity:method=ranks", "moments"})
@@ -131,7 +131,7 @@ void study_config(std::string_view bytes) {
         row_of(sweep, sweep.unit(unit));
 }
 
-/// A table and its journal, of a small study that is gone on with: in the end, all rows are there.
+/// Resumes a small study from a table and its journal; in the end all rows must exist.
 void study_journal(std::string_view bytes) {
     static const std::string path = std::filesystem::temp_directory_path() /
                                     ("stipple-fuzz-" + std::to_string(::getpid()) + ".csv");

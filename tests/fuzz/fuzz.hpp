@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a fuzz target is, and what several share.
+// Definition of a fuzz target, and shared functions.
 #pragma once
 
 #include <FuzzedDataProvider.h>
@@ -16,9 +16,9 @@
 
 namespace stipple::fuzz {
 
-/// A name, which is also that of its folder of seeds, and what is done with an input. An Error is
-/// how inputs are refused; any other exception, a failed require() and what a sanitizer sees is a
-/// defect.
+/// A fuzz target: a name, which is also that of its folder of seeds, and a function that processes
+/// an input. Inputs may be rejected by an Error; any other exception, a failed require() and
+/// reports of sanitizers are defects.
 struct Target {
     std::string name;
     std::function<void(std::string_view)> work;
@@ -27,19 +27,19 @@ struct Target {
 std::vector<Target> point_targets();       ///< formats of points, provenance
 std::vector<Target> file_targets();        ///< all other files
 std::vector<Target> text_targets();        ///< numbers, options, specs, formulas, JSON, letters
-std::vector<Target> comparison_targets();  ///< results against definitions, and in other ways
+std::vector<Target> comparison_targets();  ///< results against definitions and alternatives
 std::vector<Target> command_targets();     ///< whole commands
 
-/// One thread, and so little memory that a count in a header must be refused.
+/// One thread, and so little memory that a large count in a header is rejected.
 RunContext small_run();
 
-/// @throws std::logic_error, which is a defect
+/// @throws std::logic_error, a defect, if `holds` is false
 void require(bool holds, const std::string& what);
 
-/// The bytes as a file, under one name that stays.
+/// Writes the bytes to a file; always the same path.
 const std::string& as_file(std::string_view bytes);
 
-/// Whether work was done; false where it was refused.
+/// Whether the work succeeded; false if it threw an Error.
 template <class Work>
 bool accepted(const Work& work) {
     try {
@@ -50,14 +50,14 @@ bool accepted(const Work& work) {
     }
 }
 
-/// An input as text with numbers behind it.
+/// An input split into a text and trailing numbers.
 struct TextInput {
     explicit TextInput(std::string_view bytes, std::size_t numbers)
         : numbers_(reinterpret_cast<const std::uint8_t*>(bytes.data()) + text_size(bytes, numbers),
                    bytes.size() - text_size(bytes, numbers)),
           text(bytes.substr(0, text_size(bytes, numbers))) {}
 
-    /// The next of the numbers, below `count`; 0 where there is none left.
+    /// Next number, below `count`; 0 if there are no more.
     std::size_t below(std::size_t count) {
         return numbers_.ConsumeIntegral<std::uint8_t>() % count;
     }

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// One program for all targets: STIPPLE_FUZZ names the one to run. Without it, the program lists
-// them.
+// One program for all targets: runs the target that STIPPLE_FUZZ names, or without it lists all.
 //
-// The project is compiled with GCC, which calls a function at every edge of the program instead of
-// counting by itself as Clang does. These calls are counted in a table that libFuzzer reads, by the
+// The project is compiled with GCC, which calls a function at every edge of the control flow, while
+// Clang counts inline. These calls are counted here in a table that libFuzzer reads, indexed by the
 // edges' addresses.
 #include <sys/mman.h>
 #include <unistd.h>
@@ -38,7 +37,7 @@ UNCOUNTED void __wrap___sanitizer_cov_trace_pc() {
     counter = static_cast<unsigned char>(counter + (counter < 255));
 }
 
-// Comparisons of floating-point numbers, of which libFuzzer makes no use.
+// Comparisons of floating-point numbers, which libFuzzer does not use.
 UNCOUNTED void __sanitizer_cov_trace_cmpf(float, float) {}
 UNCOUNTED void __sanitizer_cov_trace_cmpd(double, double) {}
 
@@ -48,8 +47,8 @@ namespace stipple::fuzz {
 
 namespace {
 
-/// Asks the runs of an input to stop after a while, so that what is slow by what it was asked is no
-/// hang.
+/// Requests a stop some time after an input begins, so that expensive requests are not reported as
+/// hangs.
 class Deadline {
   public:
     Deadline() {
@@ -140,10 +139,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
     limit_whole_files(std::uint64_t{32} << 20);
     fuzz::deadline().begin();
     try {
-        // Whatever files an input names, none is opened but the one that holds an input itself.
+        // Inputs may name any files; only the file that holds the input itself can be opened.
         const FileRules rules({{file, file}}, {"/dev/null", "-"});
         fuzz::chosen().work({reinterpret_cast<const char*>(bytes), size});
-    } catch (const Error&) {  // refused
+    } catch (const Error&) {  // rejected
     } catch (const std::exception& error) {
         std::fprintf(stderr, "\ndefect: %s\n", error.what());
         std::abort();

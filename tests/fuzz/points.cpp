@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Formats of points: what is read as a whole is read the same in blocks, and comes back from every
-// format that can hold it.
+// Formats of points: reading in blocks equals reading a whole file, and writing to any suitable
+// format and reading back preserves the points.
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -20,7 +20,7 @@ namespace {
 
 using Sets = std::vector<PointSet>;
 
-/// All sets of a stream, some points at a time; nothing where blocks cannot be read.
+/// All sets of a stream, read in blocks; nullopt if the format cannot be read in blocks.
 std::optional<Sets> in_blocks(const Format& format, std::string_view bytes,
                               const ReadOptions& options) {
     auto feed = std::make_unique<io::Feed>(bytes);
@@ -33,7 +33,8 @@ std::optional<Sets> in_blocks(const Format& format, std::string_view bytes,
         while (const std::size_t got = stream->read(block))
             rows.insert(rows.end(), block.begin(),
                         block.begin() + static_cast<std::ptrdiff_t>(got * stream->dimension()));
-        if (rows.empty()) fail(ErrorKind::input, "a set without points");  // as whole files say
+        if (rows.empty())
+            fail(ErrorKind::input, "a set without points");  // like readers of whole files
         sets.emplace_back(std::move(rows), stream->dimension());
     }
     return sets;
@@ -43,7 +44,7 @@ bool can_hold(const Format& format, const Sets& sets) {
     const std::size_t d = sets[0].dimension();
     bool equal = true;
     for (const PointSet& set : sets) equal = equal && set.count() == sets[0].count();
-    const bool marked = format.name != "bin";  // else all points are one set
+    const bool marked = format.name != "bin";  // bin merges all sets into one
     return format.read && d >= format.traits.min_dimension && d <= format.traits.max_dimension &&
            (equal || !format.traits.equal_sets) &&
            (sets.size() == 1 || (format.traits.many_sets && marked));
@@ -78,7 +79,7 @@ void read_points(const Format& format, std::string_view bytes) {
     std::optional<Sets> sets;
     std::optional<Sets> blocks;
     accepted([&] { sets = format.read(input.text, options, small_run()); });
-    const bool streamed =  // seldom: blocks are large
+    const bool streamed =  // rarely, because blocks are large
         !format.stream || choice < 224 ||
         accepted([&] { blocks = in_blocks(format, input.text, options); });
     if (blocks || !streamed)
@@ -92,7 +93,7 @@ void read_points(const Format& format, std::string_view bytes) {
     const Sets back = other.read(again, plain, {.threads = 1});
     require(back == *sets, "other points from " + other.name);
     const Provenance& meta = sets->front().provenance;
-    // Strengths are read behind the coordinates, which alone have names.
+    // With weights, the last column is not a coordinate and its name is lost.
     if (other.name == "json" && options.strengths.empty() && meta.flaw.empty() &&
         !meta.version.empty())
         require(io::to_json(back[0].provenance) == io::to_json(meta), "other provenance");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Texts that people type: numbers, specs, options, formulas, JSON, letters; against the standard
-// library where it knows the answer.
+// Texts that people type: numbers, specs, options, formulas, JSON, letters; checked against the
+// standard library if it has the function.
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -29,7 +29,7 @@ bool same(double a, double b) {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) || (a != a && b != b);
 }
 
-/// A number at the front of a text, against strtod.
+/// Parses a number at the front of a text, compared with strtod.
 void read_decimal(std::string_view text) {
     double value = 0;
     const char* const last = text.data() + text.size();
@@ -47,7 +47,8 @@ void read_decimal(std::string_view text) {
     if (end != last && begins) require(std::isdigit(*end) == 0, "not all digits");
 }
 
-/// A double as text: the way back, and digits cut as printf's exact digits say.
+/// Writes a double: reading back gives the same number, and truncated digits equal printf's exact
+/// ones.
 void write_decimal(double value, int precision) {
     std::string text;
     io::append_number(text, value);
@@ -88,7 +89,7 @@ void numbers(std::string_view bytes) {
     if (const auto size = parse_bytes(text)) format_bytes(static_cast<double>(*size));
 }
 
-/// A text of strangers, as it is shown; what is valid, nlohmann's library says.
+/// Untrusted text as it is displayed; nlohmann's library decides if it is valid UTF-8.
 void letters(std::string_view bytes) {
     bool valid = true;
     try {
@@ -135,7 +136,7 @@ void json(std::string_view bytes) {
     if (value.is_structured()) require(json_extent(text).size == text.size(), "another extent");
 }
 
-/// Values that a unit takes, as a spec that means the same.
+/// A unit's option values as a spec; parsing it must give the same values.
 template <class Unit>
 void settings(const std::vector<Unit>& units, const Spec& spec) {
     for (const Unit& unit : units) {

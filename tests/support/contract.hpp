@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the contract tests of all kinds of units share.
+// Checks shared by the contract tests of all kinds of units.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,14 +22,14 @@ std::vector<std::string> names_of(const std::vector<Unit>& units) {
     return names;
 }
 
-/// poisson_disk: a unit's name as GoogleTest takes it.
+/// A unit's name as a test name for GoogleTest, such as poisson_disk.
 inline std::string case_name(const ::testing::TestParamInfo<std::string>& info) {
     std::string name = info.param;
     std::ranges::replace(name, '-', '_');
     return name;
 }
 
-/// The work's progress rises from 0 to exactly 1.
+/// Expects the work's progress to rise from 0 to exactly 1.
 inline void expect_progress_to_the_end(const std::function<void(const RunContext&)>& work) {
     double last = 0;
     RunContext run;
@@ -41,8 +41,8 @@ inline void expect_progress_to_the_end(const std::function<void(const RunContext
     EXPECT_EQ(last, 1);
 }
 
-/// Asked to stop when this much is done, the work reports at most once more from each of its two
-/// threads, and then gives up. (How soon that is, in seconds, is for benchmarks to tell.)
+/// Requests a stop when the work's progress reaches `when`. Expects at most one more report from
+/// each of its two threads, then Error(cancelled). (Seconds until then are measured by benchmarks.)
 inline void expect_to_stop_at_once(const std::function<void(const RunContext&)>& work,
                                    double when = 0) {
     std::stop_source source;
@@ -56,7 +56,7 @@ inline void expect_to_stop_at_once(const std::function<void(const RunContext&)>&
     EXPECT_LE(later, 2);
 }
 
-/// The record says what it is, where it is from, and what its options do.
+/// Expects a summary, a source, and help for every option.
 template <class Unit>
 void expect_complete_record(const Unit& unit) {
     EXPECT_FALSE(unit.summary.empty());

@@ -12,14 +12,14 @@
 
 namespace stipple::testing {
 
-/// What the generator's search found under that name; empty: nothing.
+/// Result of the generator's search under that name; empty if there is none.
 inline std::string found_in(const PointSet& points, std::string_view name) {
     for (const auto& [key, value] : points.provenance.found)
         if (key == name) return value;
     return {};
 }
 
-/// The design in its coded levels, by the box that its provenance tells.
+/// The design in coded levels, mapped to the box in its provenance.
 inline PointSet coded_design(std::string_view generator, Request request,
                              const Settings& settings = {}) {
     const PointSet cube = make(generator, request, settings);
@@ -28,7 +28,7 @@ inline PointSet coded_design(std::string_view generator, Request request,
     return generate(generator, request, settings);
 }
 
-/// Runs as one writes them: "+-+ ---", with 0 for the middle.
+/// Runs in the usual notation, "+-+ ---", with 0 for the middle level.
 inline std::vector<std::string> signs_of(const PointSet& coded) {
     std::vector<std::string> rows;
     for (std::size_t i = 0; i < coded.count(); ++i) {

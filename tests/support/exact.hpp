@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Exact arithmetic for oracles: doubles as fractions of whole numbers.
+// Exact arithmetic for oracles: doubles as fractions of integers.
 #pragma once
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -10,7 +10,7 @@ namespace stipple::testing {
 
 using Fraction = boost::multiprecision::cpp_rational;
 
-/// The number that a double is.
+/// Exact value of a double.
 inline Fraction exactly(double x) {
     int exponent = 0;
     const double mantissa = std::frexp(x, &exponent);
@@ -21,8 +21,7 @@ inline Fraction exactly(double x) {
     return shift < 0 ? Fraction(whole / two_power) : Fraction(whole * two_power);
 }
 
-/// Whether no double is nearer to the fraction than x, nor as near with an even last bit when x has
-/// an odd one.
+/// Whether x is the double nearest to the fraction, with ties rounded to even.
 inline bool is_nearest_double(double x, const Fraction& value) {
     const Fraction error = abs(exactly(x) - value);
     for (const double other : {std::nextafter(x, -1.0), std::nextafter(x, 2.0)}) {

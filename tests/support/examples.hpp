@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Runs the programs of data/examples, wherever they were built.
+// Runs the programs of data/examples, in whichever folder they were built.
 #pragma once
 
 #include <gmock/gmock.h>

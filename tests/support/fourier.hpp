@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Fourier sums of points that are all there, fast and plainly.
+// Fourier sums of complete point sets, by the fast method and directly.
 #pragma once
 
 #include <span>
@@ -25,7 +25,7 @@ inline FourierSums fourier_sums_directly(std::span<const double> rows, std::size
     return sums.finish();
 }
 
-/// The weight of the j-th grid point by the table's polynomials.
+/// Weight of the j-th grid point by the table's polynomials, at u in [0, 1).
 inline double weight_of(const WeightTable& table, std::size_t j, double u) {
     const double scaled = u * static_cast<double>(table.pieces());
     const auto piece = static_cast<std::size_t>(scaled);

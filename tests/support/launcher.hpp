@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// How tests start ranks: more than there are cores, as root, and without shared memory between
-// processes, which containers forbid.
+// Options of mpirun for tests: more ranks than cores, run by root, and without shared memory
+// between processes, which containers forbid.
 #pragma once
 
 #include <cstdlib>
@@ -16,7 +16,7 @@ inline const std::string mpirun =
     "OMPI_MCA_rmaps_base_oversubscribe=1 "
     "OMPI_MCA_btl=self,vader OMPI_MCA_btl_vader_single_copy_mechanism=none mpirun ";
 
-/// Whether there are ranks to start: this build has MPI, and there is a launcher.
+/// Whether the tests can start ranks: this build has MPI, and mpirun is installed.
 inline bool can_launch() { return has_mpi() && std::system("command -v mpirun > /dev/null") == 0; }
 
 }  // namespace stipple::testing

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The (t,m,s)-net property in base b, by its definition: every elementary interval
+// The (t,m,s)-net property in base b by its definition: every elementary interval
 //
 //     [a_1 / b^k_1, (a_1 + 1) / b^k_1) x ... ,    k_1 + ... + k_s = m - t,
 //
-// holds exactly b^t of the b^m points. Counted in whole numbers: the cell of a coordinate is the
-// last one whose lower edge, as the nearest double, is not above it. That is the true cell of every
-// number a / b^m that was rounded correctly, where floor(x b^m) may fall short by one.
+// holds exactly b^t of the b^m points. Counted in integers: a coordinate is in the last cell whose
+// lower edge, rounded to the nearest double, is not above it. That is the true cell of every
+// correctly rounded number a / b^m, while floor(x b^m) may be too small by one.
 #pragma once
 
 #include <algorithm>
@@ -23,14 +23,14 @@ inline std::uint64_t whole_power(std::uint64_t base, std::size_t exponent) {
     return power;
 }
 
-/// m with base^m == count; fails a test by never being right otherwise.
+/// Returns m with base^m == count; the largest std::size_t if there is none.
 inline std::size_t whole_logarithm(std::uint64_t count, std::uint64_t base) {
     std::size_t m = 0;
     while (whole_power(base, m) < count) ++m;
     return whole_power(base, m) == count ? m : ~std::size_t{0};
 }
 
-/// The cell of width 1 / parts in which x is; parts < 2^53.
+/// Index of the cell of width 1 / parts that contains x; parts < 2^53.
 inline std::uint64_t cell_of(double x, std::uint64_t parts) {
     const auto edge = [&](std::uint64_t k) {
         return static_cast<double>(k) / static_cast<double>(parts);
@@ -43,8 +43,9 @@ inline std::uint64_t cell_of(double x, std::uint64_t parts) {
 
 namespace detail {
 
-/// Whether all elementary intervals with `digits` more digits to give out, to coordinates from `k`
-/// on, hold as many points each. `interval` is the number of each point's interval so far.
+/// Whether all elementary intervals contain equally many points if `digits` more digits are
+/// distributed over the coordinates from `k` on.
+/// @param interval index of each point's interval so far
 inline bool evenly_filled(const std::vector<std::vector<std::uint64_t>>& cells, std::uint64_t base,
                           std::size_t m, std::size_t digits, std::size_t k,
                           const std::vector<std::uint64_t>& interval, std::uint64_t intervals) {
@@ -78,7 +79,7 @@ inline std::vector<std::vector<std::uint64_t>> cells_of(const PointSet& points, 
 
 }  // namespace detail
 
-/// Whether the points are a (t,m,s)-net in `base`; false where their number is not base^m, m >= t.
+/// Whether the points are a (t,m,s)-net in `base`; false if their number is not base^m with m >= t.
 inline bool is_net(const PointSet& points, std::uint64_t base, std::size_t t) {
     const std::size_t m = whole_logarithm(points.count(), base);
     if (m == ~std::size_t{0} || t > m) return false;
@@ -86,14 +87,14 @@ inline bool is_net(const PointSet& points, std::uint64_t base, std::size_t t) {
                                  std::vector<std::uint64_t>(points.count()), 1);
 }
 
-/// The smallest t for which base^m points are a (t,m,s)-net; any points are one for t = m.
+/// Smallest t for which base^m points are a (t,m,s)-net; every set is one for t = m.
 inline std::size_t exact_t(const PointSet& points, std::uint64_t base) {
     std::size_t t = 0;
     while (!is_net(points, base, t) && t < 64) ++t;
     return t;
 }
 
-/// Points first, ..., first + count - 1 of a set, and of those the coordinates listed.
+/// Points first, ..., first + count - 1 of a set, restricted to some coordinates.
 inline PointSet part_of(const PointSet& points, std::size_t first, std::size_t count,
                         const std::vector<std::size_t>& coordinates) {
     std::vector<double> rows;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The checkers that other tests trust.
+// Tests of the checkers that other tests use.
 #include "support/nets.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 namespace stipple::testing::nets_test {
 
-// 1/3 and 2/3 in base 3 round down; x * 3 does not tell.
+// 1/3 and 2/3 in base 3 are rounded down, which x * 3 does not reveal.
 TEST(Nets, CellsAreExactAtTheirEdges) {
     for (const std::uint64_t parts : {3U, 9U, 729U, 5U, 125U, 7U, 49U, 1U << 20})
         for (std::uint64_t k = 0; k < parts; k += 1 + parts / 300) {
@@ -23,7 +23,8 @@ TEST(Nets, CellsAreExactAtTheirEdges) {
 }
 
 TEST(Nets, TellsTheExactT) {
-    // Hammersley's four points; then the diagonal, whose quarters are even in one direction only.
+    // Hammersley's four points; then the diagonal, whose quarters are balanced in one direction
+    // only.
     EXPECT_EQ(exact_t(points_of({{0, 0}, {0.25, 0.5}, {0.5, 0.25}, {0.75, 0.75}}), 2), 0U);
     EXPECT_EQ(exact_t(points_of({{0, 0}, {0.25, 0.25}, {0.5, 0.5}, {0.75, 0.75}}), 2), 1U);
     EXPECT_EQ(exact_t(points_of({{0, 0}, {0.25, 0}, {0.5, 0}, {0.75, 0}}), 2), 2U);

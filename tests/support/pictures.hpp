@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Files for tests: pictures and arrays, written by hand or by libpng.
+// Pictures and arrays as files for tests, written directly or by libpng.
 #pragma once
 
 #include <png.h>
@@ -18,7 +18,7 @@
 
 namespace stipple::testing {
 
-/// An NPY file: the type as NumPy names it ("<f8"), the shape as Python writes it ("(2, 3)").
+/// An NPY file; the type in NumPy's notation ("<f8"), the shape in Python's ("(2, 3)").
 inline std::string npy_of(const std::string& type, const std::string& shape,
                           std::string_view numbers, bool columns_first = false) {
     std::string head = "{'descr': '" + type +
@@ -28,7 +28,7 @@ inline std::string npy_of(const std::string& type, const std::string& shape,
     return std::string("\x93NUMPY\x01\0v\0", 10) + head + "\n" + std::string(numbers);
 }
 
-/// An NPY file of numbers of type T, which `type` must name.
+/// An NPY file with numbers of type T, which must match `type`.
 template <class T>
 std::string npy_of(const std::string& type, const std::string& shape, const std::vector<T>& numbers,
                    bool columns_first = false) {
@@ -50,7 +50,7 @@ inline std::string pfm_of(const std::string& kind, std::size_t width, std::size_
     return bytes;
 }
 
-/// How a picture is stored.
+/// Pixel format of a PNG.
 struct PngKind {
     int colour = PNG_COLOR_TYPE_GRAY;
     int bits = 8;
@@ -59,8 +59,8 @@ struct PngKind {
     std::vector<png_byte> palette_alpha = {};
 };
 
-/// The bytes of a PNG file; `samples` as the kind stores them, row after row from the top, channels
-/// of a pixel together. Fewer than 8 bits are packed here.
+/// Bytes of a PNG file. `samples` are row after row from the top, with the channels of a pixel
+/// together; they are packed here if they have fewer than 8 bits.
 inline std::string png_of(std::size_t width, std::size_t height,
                           const std::vector<std::uint16_t>& samples, const PngKind& kind = {}) {
     std::string out;

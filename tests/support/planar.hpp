@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Checks of warps of the unit square that all of them stand: hostile points, the Jacobian, areas,
-// and the test of uniformity, which must also see what is wrong.
+// Checks that all warps of the unit square pass: hostile points, the Jacobian, areas, and
+// uniformity, with a check that deviations are detected.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@
 
 namespace stipple::testing {
 
-/// A number of [0, 1] that warps may stumble over: an end, next to one at any scale, next to a
-/// simple fraction, or any.
+/// A number in [0, 1] that is difficult for warps: an end, a number near an end at any scale, near
+/// a simple fraction, or any.
 inline double hostile_number(std::uint64_t bits) {
     const double any = to_unit(bits);
     const auto pick = static_cast<int>(bits % 8);
@@ -23,7 +23,7 @@ inline double hostile_number(std::uint64_t bits) {
     const double fraction = static_cast<double>(bits / 8 % 13) / 12;
     if (pick == 0) return scale < 32 ? 0 : 1;
     if (pick == 1) return std::ldexp(any, -scale);
-    if (pick == 2) return std::ldexp(any, -17 * scale);  // down to denormals
+    if (pick == 2) return std::ldexp(any, -17 * scale);  // including denormals
     if (pick == 3) return 1 - std::ldexp(any, -scale);
     if (pick == 4) return std::nextafter(fraction, 0);
     if (pick == 5) return std::min(fraction, one_minus_ulp);
@@ -38,8 +38,8 @@ inline PointSet hostile_points(std::size_t count, std::size_t dimension) {
     return {std::move(flat), dimension};
 }
 
-/// Holds that all images of hostile points are in the domain, have a density, and come back into
-/// the cube to a point with the same image within `tolerance`.
+/// Expects all images of hostile points to be in the domain, to have a density, and to be mapped
+/// back into the cube to a point with the same image within `tolerance`.
 inline void expect_stands_hostile_points(const Mapping& map, double tolerance,
                                          std::size_t count = 100'000) {
     const PointSet cube = hostile_points(count, map.cube_dimension());
@@ -61,8 +61,8 @@ inline void expect_stands_hostile_points(const Mapping& map, double tolerance,
             << cube[k / image.dimension()][0] << ", " << cube[k / image.dimension()][1];
 }
 
-/// Holds that xi itself comes back within `tolerance` where the images of xi and of what came back
-/// are not one point.
+/// Expects xi itself to come back within `tolerance`. With `least_first`, the second coordinate is
+/// only checked if the first is at least that, because smaller ones may be mapped to one point.
 inline void expect_unit_coordinates_back(const Mapping& map, double tolerance,
                                          double least_first = 0) {
     const PointSet cube = telling_points();
@@ -72,13 +72,13 @@ inline void expect_unit_coordinates_back(const Mapping& map, double tolerance,
     for (std::size_t i = 0; i < cube.count(); ++i) {
         EXPECT_NEAR(back[i][0], cube[i][0], tolerance) << cube[i][1];
         if (cube[i][0] < least_first) continue;
-        // A whole turn is none.
+        // A full turn is the same as no turn.
         const bool turn = cube[i][1] == 1 && back[i][1] < tolerance;
         EXPECT_NEAR(back[i][1] + (turn ? 1 : 0), cube[i][1], tolerance) << cube[i][0];
     }
 }
 
-/// Holds that the density is 1 over the stretch of area, away from the lines where maps bend.
+/// Expects the density to be 1 over the Jacobian, except near the rim of the square.
 inline void expect_density_is_one_over_jacobian(const Mapping& map) {
     const Rng rng(5);
     for (std::uint64_t i = 0; i < 200; ++i) {
@@ -89,8 +89,8 @@ inline void expect_density_is_one_over_jacobian(const Mapping& map) {
     }
 }
 
-/// Holds that the domain takes the share of its box that its measure says. Random points of the
-/// box: 5 standard deviations, a false alarm of 6e-7.
+/// Expects the domain to fill the fraction of its bounding box that follows from its measure.
+/// Random points in the box; 5 standard deviations, false alarm 6e-7.
 inline void expect_measure_is_share_of_box(const Domain& domain) {
     const Box box = domain.bounding_box();
     PointSet points = make("random", testing::points(100'000, 2), {}, {.seed = 3});
@@ -105,8 +105,8 @@ inline void expect_measure_is_share_of_box(const Domain& domain) {
         << domain.spec();
 }
 
-/// Holds that images of random points pass the test of uniformity, and those of points with a tilt
-/// of 10 % in either coordinate don't. False alarm 1e-6; the tilt's noncentrality is 333 over some
+/// Expects images of random points to pass the chi-square test, and those of points with a tilt of
+/// 10 % in either coordinate to fail. False alarm 1e-6; the tilt's noncentrality is 333 with about
 /// 200 degrees of freedom.
 inline void expect_chi_square_can_tell(const Mapping& map) {
     const PointSet even = make("random", points(100'000, map.cube_dimension()), {}, {.seed = 2});

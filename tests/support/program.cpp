@@ -21,7 +21,7 @@
 namespace stipple::testing {
 namespace {
 
-/// Runs a program in `directory`: input through a file, output through pipes.
+/// Runs a program in `directory`: input from a file, output to pipes.
 Outcome execute(const std::vector<std::string>& words, const std::filesystem::path& directory,
                 const std::string& input) {
     const auto stdin_file = directory / ".stdin";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Runs the stipple program, or a shell line that uses it, and keeps all that comes out.
+// Runs the stipple program, or a shell command that uses it, and captures all output.
 #pragma once
 
 #include <filesystem>
@@ -9,18 +9,18 @@
 
 namespace stipple::testing {
 
-/// Shell words that wait until a process handles an interrupt (bit 1 of its caught signals).
+/// Shell command that waits until a process handles SIGINT (bit 1 of its caught signals).
 inline std::string caught(const std::string& pid) {
     return "until grep -Eq '^SigCgt:.*[2367abef]$' /proc/" + pid + "/status; do sleep 0.01; done; ";
 }
 
 struct Outcome {
-    int code = 0;  ///< exit code; 128 + signal if it was killed
+    int code = 0;  ///< exit code; 128 + signal if killed
     std::string out;
     std::string err;
 };
 
-/// A directory of its own for a test, removed at the end; the working directory of its commands.
+/// Temporary directory of a test, the working directory of its commands.
 class Sandbox {
   public:
     Sandbox();
@@ -32,14 +32,14 @@ class Sandbox {
     [[nodiscard]] Outcome run(std::vector<std::string> arguments,
                               const std::string& input = {}) const;
 
-    /// Runs a line of bash in which `stipple` is the program; with pipefail.
+    /// Runs a line of bash in which `stipple` is the program, with pipefail.
     [[nodiscard]] Outcome shell(const std::string& line, const std::string& input = {}) const;
 
     void write(const std::string& name, const std::string& bytes) const;
     [[nodiscard]] std::string read(const std::string& name) const;
     [[nodiscard]] bool exists(const std::string& name) const;
 
-    /// Names of what is in the directory, sorted.
+    /// Names of the directory's entries, sorted.
     [[nodiscard]] std::vector<std::string> files() const;
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -48,11 +48,11 @@ class Sandbox {
     std::filesystem::path path_;
 };
 
-/// The standard output of a run that must go well, and say nothing besides.
+/// Standard output of a run; expects success and no output to stderr.
 std::string good(const Outcome& outcome);
 
-/// Expects of a run that it refuses: with this exit code and one line of error with these words,
-/// that starts with the program's name; and no output.
+/// Expects a run to fail: with this exit code, no output, and one line of error that contains
+/// `words` and starts with the program's name.
 void expect_refusal(const Outcome& outcome, int code, const std::string& words,
                     const std::string& program = "stipple");
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Short ways for tests to scramble point sets.
+// Shorthands for scrambling point sets.
 #pragma once
 
 #include <numeric>
@@ -11,7 +11,7 @@
 
 namespace stipple::testing {
 
-/// Points of a set from `start` on, scrambled as a spec says: "owen:base=3".
+/// Scrambles points by a spec such as "owen:base=3"; the first has index `start`.
 inline PointSet scrambled(PointSet points, std::string_view spec, std::uint64_t seed = 1,
                           std::uint64_t start = 0) {
     const Spec parsed = parse_spec(spec);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What tests of sequences have in common.
+// Shared checks of sequences.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace stipple::testing {
 
-/// A generator's sequence, to be filled as the test likes.
+/// Sequence of a generator.
 inline std::unique_ptr<Sequence> sequence_of(std::string_view name, const Request& request,
                                              const Settings& settings = {}) {
     const Generator& generator = find_generator(name);
@@ -20,7 +20,7 @@ inline std::unique_ptr<Sequence> sequence_of(std::string_view name, const Reques
     return generator.sequence(plan_for(generator, request, values), values, {});
 }
 
-/// Points first ... first + count - 1 of a sequence.
+/// Points first, ..., first + count - 1 of a sequence.
 inline PointSet stretch(Sequence& sequence, std::size_t dimension, std::uint64_t first,
                         std::size_t count) {
     PointSet points(count, dimension);
@@ -28,7 +28,7 @@ inline PointSet stretch(Sequence& sequence, std::size_t dimension, std::uint64_t
     return points;
 }
 
-/// Whether any stretch of a request's points, asked for in any order, is the same as in the whole.
+/// Whether any ranges of points, requested in any order, equal those of the whole set.
 inline bool stretches_agree(std::string_view name, const Request& request,
                             const Settings& settings = {}) {
     const auto sequence = sequence_of(name, request, settings);

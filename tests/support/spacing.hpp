@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Distances in a box by their definition, for sets that keep some.
+// Distances in a box by their definition, for sets with a minimum distance.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -25,7 +25,8 @@ struct Space {
     }
 };
 
-/// Squares, cubes and lines, odd proportions, thin, far from the origin; torus and bounded.
+/// Squares, cubes and lines, odd proportions, thin boxes, boxes far from the origin; torus and
+/// bounded.
 inline std::vector<Space> some_spaces() {
     std::vector<Space> all;
     for (const bool torus : {true, false})
@@ -45,7 +46,7 @@ PointSet make_in(const std::string& generator, const Space& space,
                  std::optional<std::uint64_t> count, const Settings& settings = {},
                  std::uint64_t seed = 1);
 
-/// Oracle: the distance as a user would work it out.
+/// Oracle: the distance by its definition.
 inline double distance(std::span<const double> p, std::span<const double> q, const Space& space) {
     double sum = 0;
     for (std::size_t k = 0; k < p.size(); ++k) {
@@ -56,7 +57,7 @@ inline double distance(std::span<const double> p, std::span<const double> q, con
     return std::sqrt(sum);
 }
 
-/// Distance of point i to the nearest of those before it.
+/// Distance from point i to the nearest point with a lower index.
 inline double distance_to_earlier(const PointSet& set, std::size_t i, const Space& space) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t j = 0; j < i; ++j) least = std::min(least, distance(set[i], set[j], space));
@@ -77,7 +78,7 @@ inline void expect_inside(const PointSet& set, const Space& space) {
                 << space.name();
 }
 
-/// A number that the generator worked out and wrote down.
+/// A number that the generator computed and stored in the provenance.
 inline double noted(const PointSet& set, std::string_view option) {
     for (const auto& [name, text] : set.provenance.options)
         if (name == option) return parse_number(text).value();

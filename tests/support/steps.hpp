@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A domain that is not even: its cells have probabilities of their own.
+// A domain with a density that is not constant, and cells of different probabilities.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,8 @@
 
 namespace stipple::testing {
 
-/// The unit interval or cube with a first coordinate of piecewise constant density: not even, and
-/// its masses are as wrong as they are told to be.
+/// Unit cube with a piecewise constant density in the first coordinate. Cell probabilities can be
+/// given a relative error `off`, and a stated error bound `error`.
 class Steps final : public Domain {
   public:
     explicit Steps(std::vector<double> masses, std::size_t d = 1, double error = 0, double off = 0)
@@ -44,7 +44,7 @@ class Steps final : public Domain {
         return std::vector<std::string>(d_, "x");
     }
 
-    /// A point of that law for a uniform one.
+    /// Quantile: maps a uniform number to a coordinate with this density.
     double place(double u) const {
         std::size_t bin = 0;
         while (bin + 1 < masses_.size() && u >= masses_[bin]) u -= masses_[bin++];

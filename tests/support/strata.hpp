@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Counting points in strata, in whole numbers.
+// Counts points in strata, in integers.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,8 @@ inline std::uint64_t stratum_of(double x, std::uint64_t parts) {
     return static_cast<std::uint64_t>(numerator(scaled) / denominator(scaled));
 }
 
-/// Whether each of n strata along every coordinate holds one of the n points, in exact arithmetic
-/// and as floor(x n) is computed.
+/// Whether each of n strata along every coordinate contains one of the n points, both in exact
+/// arithmetic and by floor(x n) in floating point.
 inline bool is_latin(const PointSet& points) {
     const std::size_t n = points.count();
     for (std::size_t k = 0; k < points.dimension(); ++k) {
@@ -34,7 +34,8 @@ inline bool is_latin(const PointSet& points) {
     return true;
 }
 
-/// Whether, along the given coordinates, cells of a grid of `levels` a side hold as many points.
+/// Whether all cells of a grid with `levels` cells along the given coordinates contain equally many
+/// points.
 inline bool is_balanced(const PointSet& points, std::uint64_t levels,
                         const std::vector<std::size_t>& coordinates) {
     std::uint64_t cells = 1;
@@ -49,7 +50,7 @@ inline bool is_balanced(const PointSet& points, std::uint64_t levels,
     return std::ranges::all_of(held, [&](auto h) { return h * cells == points.count(); });
 }
 
-/// Whether that is so for each `strength` of the coordinates: an orthogonal array by definition.
+/// Whether every choice of `strength` coordinates is balanced: an orthogonal array by definition.
 inline bool has_strength(const PointSet& points, std::uint64_t levels, std::size_t strength) {
     const std::size_t d = points.dimension();
     std::vector<bool> chosen(d);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Tests that need what only some systems have: /dev/full, which is always full, and /proc are Linux's.
+// Tests for features that only some systems have: /dev/full, which is always full, and /proc are
+// Linux's.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-/// Skips a test where there is no such file.
+/// Skips a test if the file does not exist.
 #define SKIP_WITHOUT(file) \
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "this system has no " << (file)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What this program uses of oneTBB, on threads and locks of the standard library alone: the thread
-// sanitizer does not see how Debian's libtbb, which is not built for it, hands work over.
-#pragma once
+// The parts of oneTBB that this program uses, implemented with threads and locks of the standard
+// library: Debian's libtbb is not built for the thread sanitizer, which therefore does not see its
+// synchronization.
 
 #include <algorithm>
 #include <atomic>
@@ -48,7 +48,7 @@ class task_arena {
     std::size_t threads_;
 };
 
-/// Calls body(i) for all i on the arena's threads; throws what the first that fails throws.
+/// Calls body(i) for all i on the arena's threads; rethrows the first exception.
 template <class Index, class Body>
 void parallel_for(Index first, Index last, const Body& body) {
     std::atomic<Index> next = first;

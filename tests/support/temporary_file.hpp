@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Files that tests write. Their names are of the process and the object: tests run side by side.
+// Files written by tests. Their names contain the process and the object, because tests run in
+// parallel.
 #pragma once
 
 #include <unistd.h>
@@ -14,7 +15,7 @@
 
 namespace stipple::testing {
 
-/// A file that is there as long as the object.
+/// A file that is removed with the object.
 class TemporaryFile {
   public:
     explicit TemporaryFile(std::string_view bytes, const std::string& extension = "") {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Ranks that are threads of the test: what they do together does not need a launcher.
+// Ranks as threads of the test process: tests collective work without a launcher.
 #pragma once
 
 #include <condition_variable>
@@ -17,7 +17,7 @@
 
 namespace stipple::testing {
 
-/// What goes from one to another.
+/// Messages between the ranks.
 class Hall {
   public:
     explicit Hall(int size) : said_(static_cast<std::size_t>(size)) {}
@@ -81,7 +81,7 @@ class ThreadRank final : public Ranks {
     int rank_;
 };
 
-/// Runs the work of all ranks, each on a thread of its own.
+/// Runs the work of all ranks, each on its own thread.
 inline void with_ranks(int size, const std::function<void(Ranks&)>& work) {
     Hall hall(size);
     std::vector<std::jthread> crew;

@@ -7,7 +7,7 @@
 
 namespace stipple::testing {
 
-/// Distance of `value` from what it should be, in units in the last place of the nearest double.
+/// Distance of `value` from the expected one, in units in the last place of the nearest double.
 inline double ulps(double value, long double expected) {
     const double near = std::abs(static_cast<double>(expected));
     const double ulp = std::nextafter(near, INFINITY) - near;

@@ -11,7 +11,7 @@
 namespace stipple::testing {
 namespace {
 
-/// The words after a unit's name in settings.txt, parted at their `=`.
+/// Settings after a unit's name in settings.txt, split at their `=`.
 Settings settings_of(const std::string& unit) {
     Settings settings;
     std::ifstream in(STIPPLE_SOURCE_DIR "/tests/contract/settings.txt");

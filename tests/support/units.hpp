@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Short ways for tests to make and measure point sets.
+// Shorthands for making and measuring point sets.
 #pragma once
 
 #include <concepts>
@@ -15,45 +15,45 @@
 
 namespace stipple::testing {
 
-/// Count and dimension, and what else a request has.
+/// A request with count, dimension and start.
 Request points(std::uint64_t count, std::size_t dimension, std::uint64_t start = 0);
 
-/// A request's seed, and what of a run tests like to choose.
+/// Seed of a request, and parts of the run that tests choose.
 struct Seeded {
     std::uint64_t seed = 1;
     unsigned threads = 0;
     std::uint64_t max_memory = std::numeric_limits<std::uint64_t>::max();
 };
 
-/// The generator's points for that request, whose own seed does not count.
+/// The generator's points; `seeded` replaces the seed in the request.
 PointSet make(std::string_view generator, Request request, const Settings& settings = {},
               const Seeded& seeded = {});
 
-/// The same in a given run; a template, so that braces are a Seeded.
+/// The same with a given RunContext; a template, so that braces construct a Seeded.
 template <std::same_as<RunContext> Run>
 PointSet make(std::string_view generator, const Request& request, const Settings& settings,
               const Run& run) {
     return generate(generator, request, settings, run);
 }
 
-/// A set of the given points.
+/// A set with these points.
 PointSet points_of(const std::vector<std::vector<double>>& rows);
 
-/// Options that tests of all units set, and the points of a unit's first golden set: those of
-/// tests/contract/settings.txt.
+/// From tests/contract/settings.txt: the options that a unit needs in tests of all units, and the
+/// number of points in its first golden set.
 Settings needed_options(const std::string& unit);
 std::uint64_t many_of(const std::string& unit);
 
-/// The least count that the unit makes from `wanted` on, or the largest of those that settings.txt
-/// lists; `wanted` where it lists none.
+/// Smallest count from `wanted` on that settings.txt lists for the unit, or the largest of them;
+/// `wanted` if it lists none.
 std::uint64_t count_of(const std::string& unit, std::uint64_t wanted);
 
 /// One number of an analyzer's report, by dotted key.
 double measure(std::string_view analyzer, std::string_view key, const PointSet& points,
                const Settings& settings = {});
 
-/// The message of the Error that `work` throws, with its kind in front: "usage: --count: ...", and
-/// its hint behind " | ". Empty if it throws none.
+/// Message of the Error that `work` throws, after its kind: "usage: --count: ...", followed by " |
+/// " and its hint. Empty if it throws none.
 template <class Work>
 std::string error_of(Work&& work) {
     try {

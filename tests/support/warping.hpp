@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Short ways for tests to warp points of the unit square.
+// Shorthands for warping points of the unit square.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,14 +17,14 @@
 
 namespace stipple::testing {
 
-/// The map that a spec means, "disk:method=naive", for two coordinates.
+/// The map of a spec such as "disk:method=naive", for two coordinates.
 inline std::unique_ptr<Mapping> mapping(std::string_view text) {
     const Spec spec = parse_spec(text);
     const Warp& warp = find_warp(spec.name);
     return warp.make(spec.values(warp.options), 2, {});
 }
 
-/// The image of points that have one, with its domain.
+/// Images of the points that have one, with their domain.
 inline PointSet warped(const Mapping& map, const PointSet& points) {
     const std::size_t d = map.domain()->dimension();
     std::vector<double> image(points.count() * d);
@@ -38,7 +38,7 @@ inline PointSet warped(const Mapping& map, const PointSet& points) {
     return out;
 }
 
-/// The image of one point of the cube.
+/// Image of one point of the cube.
 inline std::vector<double> image_of(const Mapping& map, const std::vector<double>& xi) {
     std::vector<double> image(map.domain()->dimension());
     std::vector<std::uint8_t> keep(1);
@@ -49,15 +49,15 @@ inline std::vector<double> image_of(std::string_view spec, const std::vector<dou
     return image_of(*mapping(spec), xi);
 }
 
-/// The point of the square that `map` takes to this point.
+/// Point of the square that `map` maps to this point.
 inline std::vector<double> inverse_of(const Mapping& map, const std::vector<double>& point) {
     std::vector<double> cube(map.cube_dimension());
     map.inverse(point, cube);
     return cube;
 }
 
-/// Corners, edges, centre and other planes of the unit cube where warps turn, both sides of them,
-/// and random points.
+/// Corners, edges, centre and other planes of the unit cube at which warps may change branches,
+/// points on both sides of them, and random points.
 inline PointSet telling_points(std::size_t dimension = 2) {
     std::vector<double> lines = {0, 5e-324, 1e-300, 1e-20, 0x1p-53, one_minus_ulp, 1};
     for (int k = 1; k < 8; ++k)
@@ -74,8 +74,8 @@ inline PointSet telling_points(std::size_t dimension = 2) {
     return {std::move(flat), dimension};
 }
 
-/// Holds that every image lies in the domain, and goes back into the closed cube, to a point whose
-/// image is the same within `tolerance`.
+/// Expects every image to be in the domain, and to be mapped back into the closed cube to a point
+/// with the same image within `tolerance`.
 inline void expect_round_trip(const Mapping& map, double tolerance) {
     const PointSet image = warped(map, telling_points(map.cube_dimension()));
     const DomainPtr domain = map.domain();
@@ -95,8 +95,8 @@ inline void expect_round_trip(const Mapping& map, double tolerance) {
     }
 }
 
-/// The factor by which `map` stretches length, area or volume at a point of the cube, by central
-/// differences: the root of Gram's determinant.
+/// Factor by which `map` changes length, area or volume at a point of the cube, by central
+/// differences: the root of the Gram determinant.
 inline double stretch_at(const Mapping& map, std::vector<double> xi, double h = 1e-5) {
     const std::size_t d = map.cube_dimension();
     const std::size_t m = map.domain()->dimension();
@@ -111,7 +111,7 @@ inline double stretch_at(const Mapping& map, std::vector<double> xi, double h = 
         xi[k] += h;
         for (std::size_t j = 0; j < m; ++j) tangents[k][j] = (ahead[j] - behind[j]) / (2 * h);
     }
-    double product = 1;  // of the tangents' lengths, each without what lies along earlier ones
+    double product = 1;  // of the tangents' lengths after orthogonalization
     for (std::size_t k = 0; k < d; ++k) {
         double square = 0;
         for (const double x : tangents[k]) square += x * x;
@@ -126,7 +126,7 @@ inline double stretch_at(const Mapping& map, std::vector<double> xi, double h = 
     return product;
 }
 
-/// Holds that the density is 1 over the stretch, at 200 random points of the cube.
+/// Expects the density to be 1 over that factor, at 200 random points of the cube.
 inline void expect_density_is_one_over_stretch(const Mapping& map, double tolerance = 1e-6) {
     const std::size_t d = map.cube_dimension();
     const Rng rng(23);
@@ -140,7 +140,7 @@ inline void expect_density_is_one_over_stretch(const Mapping& map, double tolera
     }
 }
 
-/// The two-sided p of chi-square for random points pushed through `map`, on its domain.
+/// Two-sided p-value of chi-square for images of random points, on the map's domain.
 inline double p_of_random(const Mapping& map, std::uint64_t count, std::uint64_t seed = 1) {
     return measure(
         "chi-square", "p_value",

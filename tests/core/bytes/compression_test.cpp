@@ -24,7 +24,7 @@ std::string compressed(Compression kind, std::string_view text, std::size_t step
     return out;
 }
 
-/// In parts of `step` bytes, on both sides.
+/// Passes `step` bytes at a time on both sides.
 std::string decompressed(Compression kind, std::string_view bytes, std::size_t step = 1 << 20) {
     const auto refill = [&] {
         const auto next = bytes.substr(0, step);
@@ -47,15 +47,15 @@ std::string noise(std::size_t size) {
     return text;
 }
 
-/// 13 bytes as Python's gzip writes them.
+/// 13 bytes as compressed by Python's gzip.
 const std::string table = "x,y\n0.25,0.5\n";
 constexpr unsigned char by_python[] = {0x1f, 0x8b, 0x08, 0x00, 0x00, 0x00, 0x00, 0x00, 0x02,
                                        0x03, 0xab, 0xd0, 0xa9, 0xe4, 0x32, 0xd0, 0x33, 0x32,
                                        0xd5, 0x31, 0xd0, 0x33, 0xe5, 0x02, 0x00, 0x98, 0x6b,
                                        0x5e, 0x4d, 0x0d, 0x00, 0x00, 0x00};
 
-/// One block of bytes that are not compressed, by hand from RFC 8878: magic, a head for one
-/// segment of 13 bytes, and the last block (1), raw (0), of 13 bytes (13 << 3).
+/// One uncompressed block, by hand from RFC 8878: magic, a header for one segment of 13 bytes, and
+/// a block that is the last (1), raw (0), and 13 bytes long (13 << 3).
 const std::string by_hand =
     std::string("\x28\xb5\x2f\xfd\x20\x0d", 6) + std::string("\x69\x00\x00", 3) + table;
 
@@ -99,7 +99,8 @@ TEST(Compression, RefusesEveryTruncationAndChangedByte) {
             const std::string error = error_of([&] { decompressed(kind, bytes); });
             refused += error.starts_with("input: p.csv: the compressed bytes ");
         }
-        EXPECT_GE(refused, whole.size() - 7);  // gzip's time, system and level may be anything
+        EXPECT_GE(refused,
+                  whole.size() - 7);  // gzip does not check its time, system and level bytes
         EXPECT_NE(error_of([&] { decompressed(kind, whole + "rest"); }), "");
     }
 }

@@ -8,7 +8,7 @@
 
 namespace stipple::testing::fingerprint_test {
 
-// The values that the authors of the hash print.
+// Values published by the authors of the hash.
 TEST(Fingerprint, IsThatOfItsAuthors) {
     EXPECT_EQ(fingerprint(std::string_view("")), 0xcbf29ce484222325U);
     EXPECT_EQ(fingerprint(std::string_view("a")), 0xaf63dc4c8601ec8cU);
