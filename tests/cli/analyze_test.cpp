@@ -51,7 +51,7 @@ TEST(Analyze, GivesTheContractsDocument) {
         EXPECT_TRUE(results["worst_box"].contains(key)) << key;
 }
 
-// Columns pdf and weight = 1 / pdf, in each format that names its columns.
+// Columns pdf and weight = 1 / pdf, in each format with named columns.
 TEST(Analyze, IntegrationTakesTheDensityOfAColumn) {
     const Sandbox box;
     const std::string rows = "0.1,2\n0.2,2\n0.6,0.5\n0.8,0.5\n";
@@ -74,9 +74,9 @@ TEST(Analyze, IntegrationTakesTheDensityOfAColumn) {
                  R"([0.8,0.5]]})",
                  "pdf"),
         0.7375);
-    // In a box twice as long, moved to the unit cube, the density is twice as high.
+    // In the unit cube, after mapping from a box twice as long, the density is twice as high.
     EXPECT_DOUBLE_EQ(estimate("x,pdf\n0,1\n2,0.25\n", "pdf", {"--rescale"}), 1);
-    // The pdf of a row is not of coordinates picked by hand.
+    // The pdf of a row does not apply to a selection of its coordinates.
     EXPECT_DOUBLE_EQ(estimate("x,pdf\n" + rows, "domain", {"--column", "x"}), 0.425);
     box.write("a.csv", "x,pdf\n0.1,2\n0.2,2\n");
     box.write("b.csv", "x,pdf\n0.6,0.5\n0.8,0.5\n");
@@ -228,7 +228,7 @@ TEST(Analyze, SeveralInputsAndSetsAreAnArrayOrAMean) {
     EXPECT_EQ(mean["input"]["sets"], 4);
 }
 
-// The anisotropy of a mean spectrum is not the mean of anisotropies: it falls by 10 log10(sets).
+// The anisotropy of a mean spectrum is not the mean of anisotropies: it is lower by 10 log10(sets).
 TEST(Analyze, AnAverageSpectrumHasItsOwnAnisotropy) {
     const Sandbox box;
     const auto out = report_of(box.shell(
@@ -241,7 +241,7 @@ TEST(Analyze, AnAverageSpectrumHasItsOwnAnisotropy) {
     EXPECT_TRUE(out["standard_error"]["radial"].contains("power"));
 }
 
-// Counts of prefixes are no measurements: they have no mean and no error, and make a table.
+// Counts of prefixes are not measured: they have no mean and no error, and results form a table.
 TEST(Analyze, AnAverageOfTablesIsATable) {
     const Sandbox box;
     const std::string table = good(
@@ -304,7 +304,7 @@ TEST(Analyze, TheInverseOfAWarpGivesTheSetBack) {
                 1e-13);
 }
 
-// An option of this name is a column of strengths for periodogram, and numbers for discrepancies.
+// --weights is a column of weights for periodogram, and a list of numbers for discrepancies.
 TEST(Analyze, TakesWeightsOfEitherKind) {
     const Sandbox box;
     good(box.run({"generate", "random", "-n", "20", "-o", "p.csv"}));
@@ -315,13 +315,14 @@ TEST(Analyze, TakesWeightsOfEitherKind) {
     };
     const double ones = star("l2-discrepancy", {"--weights", "1,1"});
     EXPECT_GT(ones, star("l2-discrepancy:weights=[0.5,1]", {}));
-    EXPECT_GT(ones, star("l2-discrepancy", {}));  // with the discrepancies of both axes
+    EXPECT_GT(ones,
+              star("l2-discrepancy", {}));  // the default includes the discrepancies of single axes
     EXPECT_EQ(star("l2-discrepancy", {"--weights", "0,0"}), 0);
     EXPECT_EQ(box.run({"analyze", "l2-discrepancy", "p.csv", "--weights", "1"}).code, 2);
     EXPECT_EQ(box.run({"analyze", "periodogram", "p.csv", "--weights", "z"}).code, 2);
 }
 
-// poisson-disk is a generator and an analyzer.
+// poisson-disk is both a generator and an analyzer.
 TEST(Analyze, TakesNoValueOfAnOptionForItsUnit) {
     const Sandbox box;
     for (const std::string spec : {"poisson-disk", "poisson-disk:radius=0.1"}) {
@@ -376,7 +377,7 @@ TEST(Analyze, WhatHasNoMeanHasNoStandardError) {
     }
 }
 
-// Each set of three has a radius of its own; a radius that the user gave is that of all.
+// Each of three sets has its own radius; a radius on the command line applies to all.
 TEST(Analyze, VerifiesEverySetOfAFileByItsOwnRadius) {
     const Sandbox box;
     for (const std::string name : {"p.json", "p.jsonl", "p.csv", "p.txt"}) {
@@ -432,7 +433,7 @@ TEST(Analyze, IntegratesWithErrorsFromTheSpreadOfSets) {
         2);
 }
 
-// Whether one thread measures them or several, in a single file or in many.
+// The results are the same for one thread and several, for a single file and many.
 TEST(Analyze, SpreadsSetsOverThreadsAndTellsTheSame) {
     const Sandbox box;
     good(
@@ -460,7 +461,7 @@ TEST(Analyze, SpreadsSetsOverThreadsAndTellsTheSame) {
     EXPECT_EQ(all[15]["input"]["source"], "13.csv");
 }
 
-// The first of several errors is the one that is told, as if sets came one after the other.
+// The first of several errors is reported, as if sets were measured one after the other.
 TEST(Analyze, TellsTheFirstErrorOfManySetsForAnyNumberOfThreads) {
     const Sandbox box;
     good(box.shell("stipple generate random -n 50 -m 6 -o '{set}.csv'"));
@@ -539,7 +540,7 @@ TEST(Analyze, SaysWhatPrefixesAndMixedUnitsTell) {
     EXPECT_EQ(notes(make, "star-discrepancy --bounds 0..1,0..100"), "");
 }
 
-// Copies of one set have its anisotropy, not that of a mean of many.
+// Copies of one set have the anisotropy of that set, not of a mean spectrum.
 TEST(Analyze, CopiesOfOneSetAreNoEvidence) {
     const Sandbox box;
     const auto results = [&](const std::string& sets) {
@@ -569,7 +570,7 @@ TEST(Analyze, SaysWhereRangesMixUnits) {
               false);
 }
 
-// The box that the points lie in, as the unit cube.
+// With --rescale, the box of --bounds is mapped to the unit cube.
 TEST(Analyze, MapsTheBoxOfBoundsToTheCube) {
     const Sandbox box;
     good(box.shell("stipple generate halton -n 50 -o u.csv"));
@@ -591,7 +592,7 @@ TEST(Analyze, SaysHowSeveralAnalyzersAreNamed) {
     EXPECT_EQ(broken.code, 1);
     EXPECT_THAT(broken.err, HasSubstr("u.json, set 0: value<0.01 does not hold"));
     EXPECT_THAT(broken.err, HasSubstr("u.json, set 1: value<0.01 does not hold"));
-    box.write("moments", "0.1,0.2\n0.3,0.4\n");  // a file may have the name
+    box.write("moments", "0.1,0.2\n0.3,0.4\n");  // a file may have an analyzer's name
     good(box.run({"analyze", "star-discrepancy", "moments"}));
 }
 
@@ -625,7 +626,7 @@ TEST(Analyze, AveragesEachKindOfSetsByItself) {
     EXPECT_EQ(json::parse(warped.out).size(), 2U);
 }
 
-// Without provenance the number of points is all there is, but for sets of one file.
+// Sets without provenance are grouped by their number of points, except those of one file.
 TEST(Analyze, AveragesWhatComesWithoutProvenanceByItsNumberOfPoints) {
     const Sandbox box;
     for (const char* analyzer : {"nearest-neighbor", "periodogram"}) {
@@ -654,7 +655,8 @@ TEST(Analyze, PoolsOnlySetsOfOneDimension) {
     EXPECT_THAT(outcome.err, HasSubstr("--pool: the sets have points of 2 and of 3 coordinates"));
 }
 
-// Distances hold in the box of --bounds as in that of --domain; integrals have its volume.
+// Distances are computed in the box of --bounds as in that of --domain; integrals include its
+// volume.
 TEST(Analyze, BoundsAreWhatThePointsLiveOn) {
     const Sandbox box;
     const std::string points = "0.5,1\n1.5,1\n";
@@ -671,7 +673,7 @@ TEST(Analyze, BoundsAreWhatThePointsLiveOn) {
     }
 }
 
-// In one pass over the sets: what each finds alone.
+// Measuring with several analyzers in one pass gives the same results as with each alone.
 TEST(Analyze, MeasuresBySeveralAnalyzers) {
     const Sandbox box;
     good(box.shell("stipple generate random -n 90 -m 3 -o a.json"));
@@ -756,7 +758,7 @@ TEST(Analyze, TextHasAllNumbersOfListsWhereItIsAsked) {
     EXPECT_THAT(full, HasSubstr(fmt::format(" 12 {:>12.6g} ", last)));
 }
 
-// The mean of one set is that set, with its places; of several there are none.
+// The mean of one set has that set's locations; the mean of several has none.
 TEST(Analyze, TheMeanOfOneSetHasItsPlaces) {
     const Sandbox box;
     const auto found = [&](const std::string& sets) {
@@ -769,7 +771,8 @@ TEST(Analyze, TheMeanOfOneSetHasItsPlaces) {
     EXPECT_FALSE(found("2").contains("box"));
 }
 
-// Inputs from one file, outputs from another, in which a run may be missing; and what is refused.
+// Inputs from one file, outputs from another, in which a run may be missing; and invalid
+// combinations.
 TEST(Analyze, SensitivityTakesOutputsBesideADesign) {
     const Sandbox box;
     good(box.shell("stipple generate sobol -n 64 -d 2 --bounds 0..10,5..6 --meta -o design.csv"));
@@ -797,13 +800,13 @@ TEST(Analyze, SensitivityTakesOutputsBesideADesign) {
                    "--response: the table has no column 'stress'");
     expect_refusal(box.shell(analyze + "y.csv --method morris"), 3,
                    "--method morris: the rows are not such a design");
-    // An analyzer of points takes no missing numbers, also beside one of tables.
+    // Analyzers of points reject missing numbers, also next to an analyzer of tables.
     expect_refusal(box.shell("printf 'x,y\\n1,\\n' | stipple analyze moments,sensitivity"), 3,
                    "an empty field; expected a number");
 }
 
-// One design as a table with its parameters, with provenance lines and a column added, and in two files;
-// bounds are those of the inputs.
+// One design as a table with its parameter file, with provenance lines and an added column, and in
+// two files; --bounds are those of the inputs.
 TEST(Analyze, SensitivityKnowsTheInputsFromParametersAndProvenance) {
     const Sandbox box;
     box.write("p.json", R"({"parameters":[{"name":"a","range":[1,403.428793492735],"scale":"log"},)"

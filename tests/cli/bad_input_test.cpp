@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Whatever is wrong: one clear line on stderr, the contract's exit code, nothing on stdout, and no
-// file left or harmed.
+// Every error gives one clear line on stderr, the documented exit code, nothing on stdout, and no
+// new or damaged file.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 
 namespace {
 
-/// analyze star-discrepancy of a file with these bytes.
+/// Runs analyze star-discrepancy on a file with these bytes.
 Outcome judge(const std::string& name, const std::string& bytes) {
     const Sandbox box;
     box.write(name, bytes);
@@ -37,7 +37,7 @@ std::string npy_header() {
     return std::string("\x93NUMPY\x01\x00\x76\x00", 10) + text + "\n";
 }
 
-/// What stands in the way of a file, in a folder of its own.
+/// Creates entries that are unsuitable as input or output files.
 void put_odd_things(const Sandbox& box) {
     box.write("points.csv", "x,y\n0.5,0.25\n0.25,0.5\n");
     box.write("empty.csv", "");
@@ -55,7 +55,7 @@ void put_odd_things(const Sandbox& box) {
     ::close(listener);
 }
 
-/// Shell words for the size of the file that a process writes and that has no name yet; 0: none.
+/// Shell command for the size of the unnamed file that a process is writing; 0 if there is none.
 std::string unnamed_bytes(const std::string& pid) {
     return "$(find -L /proc/" + pid +
            "/fd -type f -links 0 -printf '%s\\n' 2>/dev/null | grep . || echo 0)";
@@ -63,7 +63,7 @@ std::string unnamed_bytes(const std::string& pid) {
 
 }  // namespace
 
-// Variables of a launcher are inherited by everything that it starts.
+// A launcher's environment variables are inherited by everything that it starts.
 TEST(BadInput, IsReportedByEveryVerbThatRanksDoNotShare) {
     const Sandbox box;
     const std::string ranks = "OMPI_COMM_WORLD_SIZE=4 OMPI_COMM_WORLD_RANK=1 PMI_RANK=1 stipple ";
@@ -73,7 +73,7 @@ TEST(BadInput, IsReportedByEveryVerbThatRanksDoNotShare) {
                 HasSubstr("nonsense"));
 }
 
-// A full, a closed and a deaf standard error.
+// Standard error is full, closed, or a broken pipe.
 TEST(BadInput, ExitCodesHoldWhereNobodyHearsTheMessage) {
     SKIP_WITHOUT("/dev/full");
     const Sandbox box;
@@ -289,7 +289,7 @@ TEST(BadInput, TargetsThatCannotBeWritten) {
     EXPECT_EQ(box.files(), std::vector<std::string>{"folder"});
 }
 
-// Root may write everywhere, so the command is run as nobody.
+// Root can write everywhere, so the command is run as user nobody.
 TEST(BadInput, AReadOnlyTargetIsNotHarmed) {
     const Sandbox box;
     box.write("p.csv", "x,y\n0.5,0.5\n");
@@ -325,7 +325,7 @@ TEST(BadInput, CtrlCLeavesNothingBehind) {
     }
     EXPECT_EQ(box.shell(start + "kill -KILL $!; wait $!").code, 137);
     EXPECT_EQ(box.files(), std::vector<std::string>{});
-    // What nohup started goes on.
+    // A program started by nohup ignores SIGHUP.
     const Outcome nohup =
         box.shell("nohup " + start + "kill -HUP $!; size=" + unnamed_bytes("$!") + "; until [ " +
                   unnamed_bytes("$!") +
@@ -347,7 +347,7 @@ TEST(BadInput, AFileOverTheLimitIsAnErrorLikeAFullDisk) {
     EXPECT_EQ(box.files(), std::vector<std::string>{});
 }
 
-// Colours, titles and lines of their own in names of files, titles and words of the command line.
+// Escape sequences and newlines in names of files, titles and arguments.
 TEST(BadInput, TextOfStrangersIsShownAndNotObeyed) {
     const Sandbox box;
     const std::string name = "x\x1b[31m\nstipple: identical\xff.csv";
@@ -385,7 +385,7 @@ TEST(BadInput, LongWordsAreNotRepeated) {
     }
 }
 
-// What there is to remark is said with a result; an error stands alone.
+// Notes are printed with a result, but not with an error.
 TEST(BadInput, AnErrorIsOneLineWhateverThereIsToRemark) {
     const Sandbox box;
     const std::string remarked = "stipple generate sobol -n 1000 ";
@@ -410,12 +410,12 @@ TEST(BadInput, NamesMayBeginWithADash) {
     expect_refusal(box.run({"analyze", "moments", "-x.csv"}), 2, "-x.csv");
 }
 
-// The exact value needs hours.
+// The exact value would take hours.
 TEST(BadInput, CtrlCDuringASearchPrintsTheBoundsFoundSoFarButWritesNoFile) {
     const Sandbox box;
     const std::string search =
         "stipple generate halton -n 2000 -d 8 -o p.npy; stipple analyze star-discrepancy p.npy ";
-    // Bounds are shown as soon as there are some.
+    // Bounds are shown as soon as they are known.
     const std::string interrupt =
         " --progress always 2> err & until grep -q between err; do sleep 0.02; done; kill -INT $!; "
         "wait $!; code=$?; tr '\\r' '\\n' < err | grep -a interrupted | sed "
@@ -458,7 +458,7 @@ TEST(BadInput, TablesOfGeneratorsAreReadBeforeAnythingIsWritten) {
     EXPECT_EQ(missing.out + missing.err, "stipple: missing.txt: no such file\n");
 }
 
-// A box from -1e308 to 1e308 is wider than any number.
+// A box from -1e308 to 1e308 has a width beyond the range of double.
 TEST(BadInput, DomainsInAFileAreTheFilesFault) {
     const Sandbox box;
     box.write("f.json", R"({"points":[[0.1,0.2]],"meta":{"domain":"disk:radius=-1"}})");

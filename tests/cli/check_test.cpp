@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Conditions on results: --check with one, and alone.
+// Conditions on results: --check with and without a condition.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-/// A box with a maximal set of radius 0.1 (good.csv) and a random one (bad.csv).
+/// A directory with a maximal set of radius 0.1 (good.csv) and a random one (bad.csv).
 struct Sets {
     Sandbox box;
 
@@ -85,7 +85,7 @@ TEST(Check, OfAMeanNeedsAllSetsToBeValid) {
     EXPECT_EQ(code({"bad.csv", "bad.csv"}), 1);
 }
 
-// What one set does not meet, the mean may; what it does, the mean may not.
+// The mean may meet a condition that single sets do not, and the other way round.
 TEST(Check, ExpectationsAreOfTheMean) {
     const Sets sets;
     for (const Words& files :
@@ -97,7 +97,7 @@ TEST(Check, ExpectationsAreOfTheMean) {
         EXPECT_THAT(outcome.err, HasSubstr("not all are maximal Poisson-disk sets\n"));
     }
     EXPECT_EQ(sets.verify({"--average", "--expect", "valid", "good.csv", "good.csv"}).code, 0);
-    // Seed 9 alone has p = 0.021, seed 1 p = 0.14, all nine together p = 0.054.
+    // p = 0.021 for seed 9, 0.14 for seed 1, and 0.054 for all nine together.
     good(sets.box.shell(
         "for s in 1 2 3 4 5 6 7 8 9; do stipple generate random -n 100 -s $s -o r$s.csv; done"));
     const auto judge = [&](const std::string& rest) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Completions are asked of the shells themselves, where they are installed.
+// Completions are requested by the shells themselves, if they are installed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ using ::testing::Not;
 
 namespace {
 
-/// What bash offers for the last of these words; as bash parts them, '=' is a word.
+/// Completions by bash for the last of these words; as in bash, '=' is a separate word.
 std::vector<std::string> offered(const Sandbox& box, const std::string& words) {
     const Outcome outcome = box.shell(
         "source <(stipple completions bash); COMP_WORDS=(" + words +
@@ -75,7 +75,7 @@ TEST(Completions, OfBashKnowWordsAndFiles) {
     EXPECT_THAT(offered(box, "stipple nonsense ''"), IsEmpty());
 }
 
-// What shells ask the program; a candidate a line, with its help behind a tab.
+// The requests of shells; one candidate per line, with its help after a tab.
 TEST(Completions, NameAllThatThereIs) {
     const Sandbox box;
     const std::string all = good(box.run({"complete", ""}));

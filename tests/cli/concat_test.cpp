@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Shards put together again, and many files as one set.
+// Joins shards, and many files, to one set.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace stipple::testing::concat_test {
 
 using ::testing::HasSubstr;
 
-// For sequences and sets, for text and bytes, for parts of different size and of one point.
+// Sequences and sets, text and binary, shards of different size and of one point.
 TEST(Concat, OfShardsIsTheWholeByteForByte) {
     const Sandbox box;
     for (const char* what :

@@ -8,8 +8,8 @@ namespace stipple::testing::convert_test {
 
 using ::testing::HasSubstr;
 
-// Shortest digits and float64 binaries lose nothing, so the way round all formats ends where it
-// began.
+// Shortest digits and float64 binaries lose nothing, so converting through all formats gives the
+// original.
 TEST(Convert, AWayRoundAllFormatsLosesNothing) {
     const Sandbox box;
     good(box.run({"generate", "random", "-n", "500", "-d", "3", "-o", "a.csv"}));
@@ -124,7 +124,7 @@ TEST(Convert, PicksAndOrdersColumns) {
     EXPECT_EQ(box.run({"convert", "--column", "3,1"}, "0.1,0.2,0.3\n").out, "x,y\n0.3,0.1\n");
 }
 
-// Whatever it is called, as UTK calls its own files .bin.
+// UTK's files are recognized under any name, because UTK itself calls them .bin.
 TEST(Convert, UtkIsKnownByItsFirstBytes) {
     const Sandbox box;
     good(box.shell("stipple generate random -n 9 -d 3 -m 2 -o a.csv --format csv"));
@@ -204,7 +204,7 @@ TEST(Convert, PicturesAndMeshesAreWriteOnly) {
     EXPECT_THAT(outcome.err, HasSubstr("ply"));
 }
 
-// As spreadsheets of western Europe write them.
+// As written by spreadsheets in western Europe.
 TEST(Convert, ReadsNamesInLatin1) {
     const Sandbox box;
     box.write("a.csv",
@@ -214,7 +214,7 @@ TEST(Convert, ReadsNamesInLatin1) {
     EXPECT_EQ(good(box.shell("stipple convert a.csv --column Höhe -f csv")), "Höhe\n2\n3\n");
 }
 
-// Through every verb that keeps points, and every format that has a place for them.
+// Names are kept by every verb that keeps points, in every format that can store them.
 TEST(Convert, KeepsTheNamesOfColumns) {
     const Sandbox box;
     box.write("a.csv", "age,income,size\n0.1,0.2,0.3\n0.4,0.5,0.6\n");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The programs of data/examples do what their comments say; install_test.cpp builds them against the
-// installed package.
+// The programs of data/examples behave as their comments say; install_test.cpp builds them against
+// the installed package.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -160,7 +160,7 @@ TEST(Generate, JsonHoldsTheWholeProvenance) {
     EXPECT_EQ(meta["start"], 1);
     EXPECT_EQ(meta["warps"], json::array({"disk:method=concentric,center=[1,0]"}));
     EXPECT_EQ(meta["domain"], "disk:center=[1,0]");
-    // The command makes the same bytes again.
+    // The command in the provenance makes the same bytes.
     const Outcome again = box.shell(meta["command"].get<std::string>());
     EXPECT_EQ(json::parse(good(again)), out);
 }
@@ -189,7 +189,8 @@ TEST(Generate, AWarpOnSomeCoordinatesLeavesTheOthers) {
             EXPECT_EQ(warped["points"][i][k], plain["points"][i][k]);
 }
 
-// A file that says its domain tells what is warped; else, nothing is known of other coordinates.
+// If a file has a domain, it determines which coordinates can be warped; otherwise other
+// coordinates are not checked.
 TEST(Generate, AWarpAsksNothingOfCoordinatesItLeaves) {
     const Sandbox box;
     const std::vector<std::string> random = {"generate", "random", "-n", "50", "-d", "5", "-f"};
@@ -210,7 +211,7 @@ TEST(Generate, AWarpAsksNothingOfCoordinatesItLeaves) {
     EXPECT_EQ(box.run({"warp", "sphere@3,4"}, disk).err,
               "stipple: warp sphere: coordinate 4 is already on another domain; it takes "
               "coordinates of the unit cube\n");
-    // A warp that gives more numbers moves the domain of those behind it.
+    // A warp with more numbers per point shifts the domains of the coordinates after it.
     const auto back = with({"json", "-w", "disk@4,5", "-w", pixel});
     EXPECT_EQ(json::parse(good(
                   box.run({"warp", pixel, "--inverse", "-f", "json"}, back)))["meta"]["domain"],
@@ -231,7 +232,7 @@ TEST(Generate, AWarpAsksNothingOfCoordinatesItLeaves) {
               "first is point 0: (0.2, 7)\n");
 }
 
-// Only generate has a --start.
+// --start is only suggested for generate; other verbs do not have it.
 TEST(Generate, AnInfiniteDensityIsHintedAtWhereThatHelps) {
     const Sandbox box;
     const std::vector<std::string> naive = {"disk:method=naive", "--with-pdf"};
@@ -255,14 +256,14 @@ TEST(Generate, RejectionSaysHowManyPointsItKept) {
             .out)["meta"];
     EXPECT_EQ(meta["efficiency"], static_cast<double>(kept) / 1000);
     EXPECT_EQ(meta["count"], kept);
-    // Where none was dropped, there is nothing to say: the middle of the square is in the disk.
+    // Without dropped points there is no note: the centre of the square is in the disk.
     EXPECT_EQ(
         box.run({"generate", "halton", "--start", "1", "-n", "1", "-w", "disk:method=rejection"})
             .err,
         "");
 }
 
-// Options are checked in the box that is given, not in the unit cube, and it tells the dimension.
+// Options are checked against the given box, not the unit cube; it also determines the dimension.
 TEST(Generate, RadiiHoldInTheBox) {
     const Sandbox box;
     const auto run = [&](const std::string& radius, const std::string& bounds) {
@@ -277,7 +278,7 @@ TEST(Generate, RadiiHoldInTheBox) {
                 HasSubstr("--radius: 0.8 is outside (0, 0.5]; no two points of the box"));
 }
 
-// The mean of 1 times weight is the area, exactly where the density is one over it.
+// The mean of the weights estimates the area, exactly if the density is constant.
 TEST(Generate, WeightIsOneOverDensity) {
     const Sandbox box;
     EXPECT_EQ(good(box.run({"generate", "halton", "-n", "2", "-w", "triangle", "--with-pdf",
@@ -293,8 +294,8 @@ TEST(Generate, WeightIsOneOverDensity) {
                 HasSubstr("--with-weight: the inverse gives points of the unit cube"));
 }
 
-// Points stay where they are; 0 off the domain, also in coordinates that the warp leaves.
-// A density on the square times that of the sphere: 2 x / (4 pi) where x is the first coordinate.
+// Points do not move; the density is 0 outside the domain, also of coordinates that are not warped.
+// A density on the square times that of the sphere: 2 x / (4 pi), where x is the first coordinate.
 TEST(Warp, DensitiesOfPointsGoAlong) {
     const Sandbox box;
     box.write("p.csv", "x,y,pdf\n0.5,0.5,1\n0.25,0.5,0.5\n0.75,0.1,1.5\n");
@@ -320,7 +321,7 @@ TEST(Warp, DensitiesOfPointsGoAlong) {
     expect(last("stipple warp sphere both.csv"), {2 / sphere});
     expect(last("stipple warp sphere p.csv -f json | stipple warp sphere --inverse - -f csv"),
            {1, 0.5, 1.5});
-    // Other coordinates keep what their density holds already.
+    // The densities of other coordinates remain in the column.
     good(box.shell("stipple generate random -n 3 -d 3 -w normal@3 --with-pdf -f json -o n.json"));
     expect(last("stipple warp disk n.json --coordinates 1,2 -f json | "
                 "stipple warp disk --coordinates 1,2 --inverse - -f csv"),
@@ -351,8 +352,8 @@ TEST(Warp, TellsItsDensityAtGivenPoints) {
     EXPECT_EQ(good(box.shell("stipple generate random -n 300000 -w disk | stipple warp disk "
                              "--density-at | cksum")),
               good(box.shell("stipple generate random -n 300000 -w disk --with-pdf | cksum")));
-    // Coordinates that the warp leaves are on what the file says; what made the rest does not make
-    // the column.
+    // Other coordinates keep the domain of the file. A set with an added column cannot be
+    // reproduced from the recipe for its points.
     good(
         box.shell("stipple generate halton -n 5 -d 4 --start 1 -w sphere@1,2 -o on.json && stipple "
                   "warp exponential@4 on.json --density-at -o at.json"));
@@ -369,7 +370,8 @@ TEST(Warp, TellsItsDensityAtGivenPoints) {
     EXPECT_EQ(at({"power", "--exponent", "-1/2"}, "0\n").code, 3);
 }
 
-// What a search found is read by others, and by --vector-file, and stands in the provenance.
+// The vector found by a search can be read by other packages and by --vector-file, and is in the
+// provenance.
 TEST(Generate, WritesVectorsAsOtherPackagesDo) {
     const Sandbox box;
     for (const std::string lattice : {"rank1-lattice --rule cbc", "polynomial-lattice"})
@@ -435,8 +437,8 @@ TEST(Generate, PoissonDiskPutsItsRadiusIntoTheProvenance) {
     EXPECT_GT(out["meta"]["options"]["radius"].get<double>(), 0.04);
 }
 
-// What is written of several sets is true of all: their seeds follow the first one's, and no radius
-// is theirs but one that was asked for.
+// Provenance of several sets is true for all of them: their seeds are consecutive, and it has a
+// radius only if one was given.
 TEST(Generate, TellsOfSeveralSetsWhatIsTrueOfAll) {
     const Sandbox box;
     const auto options = [&](const std::vector<std::string>& more) {
@@ -462,7 +464,7 @@ TEST(Generate, AClosedPipeIsNoError) {
     EXPECT_EQ(outcome.err, "");
 }
 
-// However many sets are asked for, one is made after the other.
+// Sets are made one after the other, for any number of sets.
 TEST(Generate, BeginsWithManySetsAtOnce) {
     SKIP_WITHOUT("/proc/self/fd");
     if (sanitized()) GTEST_SKIP() << "sanitizers need memory of their own";
@@ -483,7 +485,7 @@ TEST(Generate, BeginsWithManySetsAtOnce) {
     EXPECT_EQ(box.read("x1.csv"), good(box.shell("stipple generate random -n 8 --seed 2")));
 }
 
-// Limits of address space let fewer threads start than are asked for.
+// A limit on the address space lets fewer threads start than requested.
 TEST(Generate, GoesOnWithTheThreadsThatStart) {
     if (sanitized()) GTEST_SKIP() << "sanitizers need memory of their own";
     const Sandbox box;
@@ -497,7 +499,7 @@ TEST(Generate, GoesOnWithTheThreadsThatStart) {
                   all);
 }
 
-// Address spaces are no measure under a sanitizer.
+// Sanitizers change the use of memory.
 TEST(Generate, StreamsInLittleMemory) {
     if (sanitized()) GTEST_SKIP() << "sanitizers need memory of their own";
     const Sandbox box;
@@ -517,7 +519,7 @@ TEST(Generate, StreamsInLittleMemory) {
     }
 }
 
-// What is written before the first set tells of all of them.
+// The header, written before the first set, describes all sets.
 TEST(Generate, SetsOfOneFileAreThoseOfAFileEach) {
     const Sandbox box;
     const std::string generate = "stipple generate poisson-disk --radius 0.1 --seed 3 -m 4 ";
@@ -541,7 +543,7 @@ TEST(Generate, SetsOfOneFileAreThoseOfAFileEach) {
     expect_refusal(full, 4, "a temporary file in ");
 }
 
-// More files than may be open wait under names of their own.
+// More files than the limit on open files.
 TEST(Generate, ManyFilesAppearTogether) {
     const Sandbox box;
     const std::string lines = "ulimit -n 90; stipple generate random -n 1 -m 200 -o ";
@@ -565,8 +567,8 @@ TEST(Generate, TakesTheOtherNamesOfAUnit) {
     EXPECT_THAT(box.run({"list", "generators", "--long"}).out, HasSubstr("also called regular"));
 }
 
-// SciPy adds up digits over powers of the base, and so is off by rounding; ours are the nearest
-// doubles. Two of those errors are 2^-53 each.
+// SciPy adds digits divided by powers of the base, with rounding errors; ours are the nearest
+// doubles. The tolerance is about two errors of 2^-53 each.
 TEST(Generate, HaltonAgreesWithSciPyToItsRounding) {
     const Sandbox box;
     good(box.run({"generate", "halton", "-n", "65536", "-d", "20", "-o", "a.npy"}));
@@ -576,7 +578,7 @@ TEST(Generate, HaltonAgreesWithSciPyToItsRounding) {
         " assert a.shape == b.shape and abs(a - b).max() < 4e-16 and (a == b).mean() > 0.5'"));
 }
 
-// The density x^2 is 0 at 0, where Sobol's first point is; no reader takes an infinite weight.
+// The density x^2 is 0 at 0, Sobol's first point; no reader accepts an infinite weight.
 TEST(Generate, RefusesColumnsThatNoReaderTakes) {
     const Sandbox box;
     const auto run = [&](const char* start) {
@@ -589,7 +591,7 @@ TEST(Generate, RefusesColumnsThatNoReaderTakes) {
     EXPECT_EQ(run("1").code, 0);
 }
 
-// A spec names a unit with its options in one word, wherever a unit is named.
+// A spec is a unit with its options in one word; it is accepted everywhere in place of a unit.
 TEST(Generate, SpecsAreTakenWhereverAUnitIsNamed) {
     const Sandbox box;
     const auto same = [&](const std::vector<std::string>& spec,
@@ -613,7 +615,7 @@ TEST(Generate, SpecsAreTakenWhereverAUnitIsNamed) {
               std::string::npos);
 }
 
-// Coordinates that no warp takes are scaled; the others are as without.
+// Only coordinates that are not warped are scaled; the others are unchanged.
 TEST(Generate, BoundsAreOfTheCoordinatesThatNoWarpTakes) {
     const Sandbox box;
     const auto rows = [&](const std::string& words) {
@@ -625,14 +627,14 @@ TEST(Generate, BoundsAreOfTheCoordinatesThatNoWarpTakes) {
         const auto scaled = rows(warped + " --bounds -2..8");
         EXPECT_EQ(scaled["meta"]["domain"], "disk@1,2 x box@3:bounds=[-2..8]");
         EXPECT_EQ(scaled["meta"]["bounds"], "0..1,0..1,-2..8");
-        if (generator.starts_with("poisson")) continue;  // its distances are those in the box
+        if (generator.starts_with("poisson")) continue;  // its distances depend on the box
         for (std::size_t i = 0; i < plain["points"].size(); ++i) {
             EXPECT_EQ(scaled["points"][i][0], plain["points"][i][0]);
             EXPECT_EQ(scaled["points"][i][1], plain["points"][i][1]);
             EXPECT_EQ(scaled["points"][i][2], -2 + 10 * plain["points"][i][2].get<double>());
         }
     }
-    // A warp that gives more numbers than it takes moves those behind it.
+    // A warp with more numbers per point shifts the coordinates after it.
     const auto moved = rows("halton -n 9 -d 4 -w sphere@2,3 --bounds 5..6,10..20");
     EXPECT_EQ(moved["meta"]["domain"],
               "sphere@2,3,4 x box@1:bounds=[5..6] x box@5:bounds=[10..20]");
@@ -640,7 +642,7 @@ TEST(Generate, BoundsAreOfTheCoordinatesThatNoWarpTakes) {
         EXPECT_GE(point[0], 5);
         EXPECT_GE(point[4], 10);
     }
-    // A scramble leaves all coordinates where they were.
+    // A scramble leaves all coordinates in the cube.
     const auto owen = rows("sobol -n 8 -w owen --bounds 0..5");
     EXPECT_EQ(owen["meta"]["domain"], "box@1:bounds=[0..5] x box@2:bounds=[0..5]");
     EXPECT_EQ(

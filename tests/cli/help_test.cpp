@@ -46,8 +46,8 @@ TEST(Help, EveryVerbAndUnitHasItFromTheRecord) {
         }
 }
 
-// Two options of one name could not be told apart. (A scramble's seed is for specs; where the verb
-// takes one, it is that.)
+// Two options with one name could not be distinguished. (A scramble's seed is an option in specs;
+// for verbs with --seed, it is that.)
 TEST(Help, NoUnitOptionHidesACommonOne) {
     for (const Kind& kind : catalog())
         for (const VerbInfo& verb : verbs()) {
@@ -78,7 +78,7 @@ TEST(Help, ExamplesRun) {
             const bool checks = line.find("--check") != std::string::npos;
             EXPECT_TRUE(outcome.code == 0 || (checks && outcome.code == 1)) << line << outcome.err;
         }
-        // The examples of later verbs read what those of earlier ones made, on the unit square.
+        // Examples of later verbs read files of earlier ones, and expect points on the unit square.
         if (verb.verb != Verb::generate) continue;
         EXPECT_EQ(box.shell("stipple generate random -n 500 -o points.csv").code, 0);
     }
@@ -124,7 +124,7 @@ TEST(List, IsTheWholeRegistry) {
     EXPECT_EQ(box.run({"list", "nonsense"}).code, 2);
 }
 
-// Also where a tag is long, a word has letters of several bytes, or nothing fits.
+// Also with long tags, multi-byte letters, and words that are too long.
 TEST(Help, FillsLines) {
     EXPECT_EQ(filled("one two\nthree  four", 9), "one two\nthree\nfour");
     EXPECT_EQ(filled("one two three", 11, 4), "one two\n    three");
@@ -142,7 +142,7 @@ TEST(Help, FillsLines) {
               "    code  as it is\n| a | table |\nend\n");
 }
 
-// A terminal of 60 columns; what is piped has 80. Words, commands and examples stay whole.
+// A terminal with 60 columns; output to a pipe has 80. Words, commands and examples are not broken.
 TEST(Help, FitsTheTerminal) {
     const Sandbox box;
     if (box.shell("script -qec true /dev/null").code != 0)
@@ -164,7 +164,7 @@ TEST(Help, FitsTheTerminal) {
     }
 }
 
-// By letters, whatever their case; by words of the field; by kind.
+// By letters, ignoring case; by terms of the field; by kind.
 TEST(Help, FindsTheUnitThatIsMeant) {
     const Sandbox box;
     const auto says = [&](const std::vector<std::string>& words) {
@@ -224,7 +224,7 @@ TEST(Help, SaysWhatDomainsAnAnalyzerTakes) {
         EXPECT_EQ(unit["traits"]["boxed"], boxed.contains(unit["name"])) << unit["name"];
 }
 
-// A picture of what it makes, unless that needs a file.
+// Help shows a picture of a unit's points, unless that needs a file.
 TEST(Help, ShowsPointsInLetters) {
     const Sandbox box;
     const auto dots = [&](const std::string& unit) {
@@ -241,7 +241,7 @@ TEST(Help, ShowsPointsInLetters) {
     EXPECT_EQ(dots("moments"), "");
 }
 
-// Only analyze takes lists of units; help is there all the same.
+// Only analyze accepts lists of units; help is available for all these words.
 TEST(Help, OfWordsThatOnlyBeginWithAUnit) {
     const Sandbox box;
     for (const std::string word : {"generate 'sobol;x'", "generate sobol,halton", "warp 'disk;y'",

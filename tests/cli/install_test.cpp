@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What `cmake --install` puts down is enough for another program to be built and run against.
+// The files installed by `cmake --install` suffice to build and run another program.
 #include <gtest/gtest.h>
 
 #include "places.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The command files of data/lectures hold: each passes as it is, and fails with a changed number.
+// The command files of data/lectures are correct: each passes unchanged, and fails with a changed
+// number.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,8 +18,7 @@ namespace {
 
 const std::filesystem::path folder = STIPPLE_SOURCE_DIR "/data/lectures";
 
-/// A line of a command file, or a part of one that occurs once, and what to put in its place so
-/// that it claims another number.
+/// A line of a command file, or a unique part of one, and its replacement with another number.
 struct Change {
     std::string before;
     std::string after;
@@ -37,12 +37,12 @@ const std::map<std::string, Change> changes = {
     {"point_sets", {"relative_radius>0.7", "relative_radius>0.8"}},
     {"quadrature", {"errors random 64 'x^2' 0.03317 0.04137", "errors random 64 'x^2' 0.02 0.03"}},
     {"radical_inverses", {"estimate==0.875", "estimate==0.75"}},
-    {"rejection", {"-ge 52208", "-ge 52359"}},  // the whole ball, without its hole, has pi/6
+    {"rejection", {"-ge 52208", "-ge 52359"}},  // without its hole, the whole ball has pi/6
     {"square_directions", {"mean_is -0.1415926536 ", "mean_is 0 "}},
     {"triangle_density", {"mean_is -0.0277777778 ", "mean_is 0 "}},
 };
 
-/// Names of the command files, without their extension.
+/// Names of the command files, without extensions.
 std::vector<std::string> lectures() {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -58,7 +58,7 @@ std::string text_of(const std::filesystem::path& file) {
 
 class Lecture : public ::testing::TestWithParam<std::string> {
   protected:
-    /// Runs a command file in a folder of its own.
+    /// Runs a command file in a directory of its own.
     [[nodiscard]] Outcome run(const std::string& commands) const {
         box_.write("lecture.sh", commands);
         return box_.shell("sh lecture.sh");

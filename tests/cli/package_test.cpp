@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Packages, made, unpacked and run; scripts/packages has a system install them.
+// Makes packages, unpacks and runs them; scripts/packages lets a system install them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 namespace {
 
-/// The program, its manual, its completions and its papers, below a prefix.
+/// Checks the program, its manual, completions and documents below a prefix.
 void expect_whole(const Sandbox& box, const std::string& prefix) {
     for (const char* file :
          {"bin/stipple", "share/man/man1/stipple.1.gz", "share/man/man1/stipple-generate.1.gz",
@@ -25,14 +25,13 @@ void expect_whole(const Sandbox& box, const std::string& prefix) {
         EXPECT_TRUE(box.exists(prefix + "/" + file)) << file;
     EXPECT_THAT(box.read(prefix + "/share/doc/stipple/copyright"), HasSubstr("MIT License"));
     const std::string program = box.path().string() + "/" + prefix + "/bin/stipple";
-    // 6511/129600, known by hand.
+    // The expected value 6511/129600 is known by hand.
     EXPECT_THAT(good(box.shell(program + " generate halton -n 100 --start 1 | " + program +
                                " analyze star-discrepancy --format csv")),
                 HasSubstr("0.05023"));
 }
 
-/// dpkg itself puts it down, into a system of its own that knows no other package, and takes it
-/// away.
+/// Installs and removes the package with dpkg, in a root directory without any other package.
 void expect_that_dpkg_takes_it(const Sandbox& box) {
     const std::string dpkg =
         "mkdir -p root/var/lib/dpkg/info root/var/lib/dpkg/updates && touch "

@@ -80,7 +80,7 @@ TEST_F(Parameters, WordsWithoutParametersAreNumberedByTheirLetters) {
                    "oak'");
 }
 
-// Words that look like numbers, or like a number that is missing.
+// Words that look like numbers or like missing numbers.
 TEST_F(Parameters, OddWordsSurvive) {
     for (const std::string words :
          {R"("nan", "18-25", "5%")", R"("inf", "NA", "-")", R"("a,b", "it's; so", "1/2 x")",
@@ -133,7 +133,7 @@ TEST_F(Parameters, AreFoundByTheNamesOfColumns) {
     EXPECT_THAT(box.shell(back + "e.csv").err, HasSubstr("the column 'cost' is none of"));
 }
 
-// Each level as often as others, whatever its probability.
+// Each level occurs equally often, regardless of its probability.
 TEST_F(Parameters, DesignsHaveTheirLevels) {
     box.write("d.json", R"({"parameters": [{"name": "k", "levels": ["A", "B"],
         "probabilities": [0.9, 0.1]}, {"name": "m", "levels": ["p", "q", "r"]},
@@ -175,7 +175,7 @@ TEST_F(Parameters, FixedDesignsKeepWhatHolds) {
     EXPECT_EQ(text("stipple generate factorial -n 27 --parameters c.json --quiet | wc -l"), "25\n");
 }
 
-// Rows of one sequence: those that hold, in order.
+// --start and shards count the rows of one sequence that satisfy the constraints, in order.
 TEST_F(Parameters, StartCountsWhatHolds) {
     box.write("c.json", R"({"parameters": [{"name": "a", "range": [0, 1]}, {"name": "b",
         "range": [0, 1]}], "constraints": ["a*b < 0.3"]})");
@@ -196,7 +196,7 @@ TEST_F(Parameters, EarlierRunsAreExtended) {
         {"name": "z", "distribution": "normal"}]})");
     const std::string make = "stipple generate latin-hypercube --parameters c.json ";
     text(make + "-n 20 -o a.csv");
-    // In another order, with the outputs of the runs.
+    // In another order, and with outputs of the runs.
     text(
         "awk -F, '{print $4 \",\" $3 \",\" $1 \",\" $2 \",\" (NR > 1 ? NR : \"cost\")}' a.csv > "
         "b.csv");
@@ -232,7 +232,7 @@ TEST_F(Parameters, TheDesignItselfIsInTheUnitCube) {
                 HasSubstr("length,layers,kind\n0,0.0625,0.25\n"));
 }
 
-// A share of 1/32 holds.
+// A fraction of 1/32 of the points satisfies the constraints.
 TEST_F(Parameters, ConstraintsLeaveAsManyPointsAsAreAskedFor) {
     for (const std::string unit :
          {"random", "sobol --scramble owen", "latin-hypercube", "poisson-disk"})
@@ -251,7 +251,8 @@ TEST_F(Parameters, ConstraintsLeaveAsManyPointsAsAreAskedFor) {
         "the constraints hold for none of");
 }
 
-// Equalities of what is continuous, and shares of 1e-8: by counting some million points.
+// Equalities of continuous parameters, and fractions of 1e-8, found by counting some million
+// points.
 TEST_F(Parameters, ConstraintsThatHardlyEverHoldAreRefused) {
     const auto refused = [&](const std::string& constraint, const std::string& unit) {
         box.write("rare.json", R"({"parameters": [{"name": "a", "range": [0, 1]},
@@ -265,8 +266,8 @@ TEST_F(Parameters, ConstraintsThatHardlyEverHoldAreRefused) {
     refused("a*b < 1e-10", "random");
 }
 
-// A Latin hypercube of twelve points: each twelfth of the cube's axes holds one, and so do the halves
-// and quarters that levels have.
+// A Latin hypercube of twelve points: each twelfth of an axis contains one; levels divide it into
+// halves and quarters.
 TEST_F(Parameters, OptimizedDesignsSatisfyConstraints) {
     box.write("near.json", R"({"parameters": [{"name": "a", "range": [0, 12]},
         {"name": "b", "range": [0, 12]}, {"name": "m", "levels": ["p", "q"]},
@@ -296,7 +297,7 @@ TEST_F(Parameters, OptimizedDesignsSatisfyConstraints) {
     }
 }
 
-// No Latin hypercube of strata of equal width has all points below the diagonal.
+// No Latin hypercube with strata of equal width has all points below the diagonal.
 TEST_F(Parameters, OptimizedDesignsHaveOtherStrataWhereConstraintsNeedThem) {
     const std::string make =
         "stipple generate latin-hypercube --optimize maximin --effort 0.001 -n 40 --parameters "
@@ -318,7 +319,7 @@ TEST_F(Parameters, OptimizedDesignsHaveOtherStrataWhereConstraintsNeedThem) {
                    3, "latin-hypercube: only 0 of ");
 }
 
-// The set as a whole: made, read, one of several, measured and made again.
+// The set as a whole: made, read, one of several, measured and reproduced.
 TEST_F(Parameters, AreReorderedAsAWholeSet) {
     box.write("r.json", R"({"parameters": [{"name": "a", "range": [0, 2]}, {"name": "b",
         "distribution": "normal"}], "correlation": {"reordering": "iman-conover",
@@ -393,7 +394,7 @@ TEST_F(Parameters, FollowColumnsOfFiles) {
         "w.json: $.parameters[0].file: wind.csv has 2 columns; expected 1; \"column\" selects one");
 }
 
-// No point is dropped, so that a sequence keeps its structure and is cut as without constraints.
+// No point is dropped, so a sequence keeps its structure, and shorter sets are its prefixes.
 TEST_F(Parameters, LinearConstraintsAreMetExactly) {
     for (const std::string unit : {"random", "sobol", "latin-hypercube", "poisson-disk"})
         EXPECT_EQ(box.shell("stipple generate " + unit +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The verb plot: points and reports in, whole pictures out, or none.
+// The verb plot: points and reports in; complete pictures out, or none.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ std::string xml(const Sandbox& box, const std::string& file, const std::string& 
     return good(box.shell("/usr/bin/python3 look.py " + file + " " + what));
 }
 
-/// Takes a PNG file apart; prints its size, and what its text chunks say.
+/// Parses a PNG file; prints its size, and its text chunks.
 std::string png(const Sandbox& box, const std::string& file) {
     box.write("png.py",
               "import struct, sys, zlib\n"
@@ -61,7 +61,7 @@ TEST(Plot, WritesSvgToAPipeWithAMarkForEachPoint) {
     EXPECT_THAT(box.read("p.svg"), HasSubstr("\"command\":\"stipple generate random --count 200"));
 }
 
-// The table, as CSV and as JSON lines, from a pipe with the summary behind it, and the summary alone.
+// The table as CSV and as JSON lines, from a pipe followed by the summary, and the summary alone.
 TEST(Plot, DrawsStudies) {
     const Sandbox box;
     const std::string study =
@@ -188,7 +188,7 @@ TEST(Plot, DrawsWhatIsAnalyzedOnTheWay) {
     }
     good(box.run({"plot", "j.json", "--chart", "spectrum", "-o", "s.svg"}));
     EXPECT_EQ(xml(box, "s.svg", "image"), "2\n");
-    // The same numbers as the analyzer's, up to the name of what was analyzed.
+    // Same numbers as the analyzer's, apart from the name of the input.
     good(box.shell(
         "stipple analyze periodogram j.json --average | stipple plot -o a.svg --title t"));
     good(box.shell("stipple plot j.json --chart radial -o b.svg --title t"));
@@ -225,7 +225,7 @@ TEST(Plot, DrawsTheLocalDiscrepancy) {
     EXPECT_LT(box.read("a.pdf").size(), 1'000'000U);
     EXPECT_THAT(good(box.shell(plot + "p.json -f text --title T")),
                 ::testing::AllOf(HasSubstr("T\n┌"), HasSubstr("star discrepancy 0.0537109\n")));
-    // One bar of colours for all in a row.
+    // One bar of colours for all frames of a row.
     good(box.shell(plot + "--generate sobol --generate random --generate halton -n 64 -o s.svg"));
     EXPECT_EQ(xml(box, "s.svg", "image"), "4\n");
     EXPECT_THAT(good(box.shell(plot + "--generate sobol --generate random -n 8 -f text")),
@@ -275,7 +275,7 @@ TEST(Plot, DrawsTheTableThatGridSaves) {
     EXPECT_THAT(xml(box, "d.svg", "text"), HasSubstr("Δx (pixels)"));
 }
 
-// A table is a NPY file that --grid may have saved; text is points, however symmetric.
+// Only an NPY file can be a table saved by --grid; text is points, even if symmetric.
 TEST(Plot, DrawsEqualAndMirroredPointsAsPoints) {
     const Sandbox box;
     box.write("equal.csv", "1\n1\n1\n1\n1\n1\n1\n1\n1\n");
@@ -398,7 +398,7 @@ TEST(Plot, DrawsOnePointAndEqualPoints) {
                    "no nearest neighbour");
 }
 
-// Columns that measure different things have axes of their own.
+// Columns with different units have separate axes.
 TEST(Plot, UnlikeSidesAreNotCompared) {
     const Sandbox box;
     box.write(
@@ -431,7 +431,7 @@ TEST(Plot, DrawsCellsAndTheLargestGap) {
     };
     const int plain = lines("");
     EXPECT_EQ(lines("--draw cells"), plain + 24);  // edges between 16 squares
-    EXPECT_EQ(lines("--draw gap"), plain + 18);    // a disk and its rim, with their copies
+    EXPECT_EQ(lines("--draw gap"), plain + 18);    // a disk and its rim, with periodic copies
     EXPECT_EQ(lines("--draw gap,cells"), plain + 42);
     expect_refusal(box.shell("stipple plot g.csv -o g.svg --draw holes"), 2,
                    "not one of cells, gap");
@@ -439,7 +439,8 @@ TEST(Plot, DrawsCellsAndTheLargestGap) {
                    "--draw");
 }
 
-// Its table tells where every object begins; text is text, and every point a dot.
+// The cross-reference table has the position of every object; text is stored as text, and every
+// point is a dot.
 TEST(Plot, WritesPdf) {
     const Sandbox box;
     good(box.shell("stipple plot --generate random -n 37 --title 'Größe (10⁻³) ★' -o p.pdf"));
@@ -479,7 +480,7 @@ TEST(Plot, WritesPdf) {
                   "          for i in range(0, len(text), 4)))'"));
     EXPECT_TRUE(checked.starts_with("37\n")) << checked.substr(0, 20);
     EXPECT_THAT(checked, HasSubstr("\nGröße (10⁻³) ★\n37 points, seed 1\n"));
-    // Every font is carried by the file, and its letters are found by readers.
+    // Fonts are embedded, and their letters are searchable.
     EXPECT_THAT(pdf, HasSubstr("/FontFile2 "));
     EXPECT_THAT(pdf, Not(HasSubstr("/Type1")));
     if (box.shell("command -v pdffonts && command -v pdftotext").code == 0) {
@@ -494,8 +495,8 @@ TEST(Plot, WritesPdf) {
     EXPECT_TRUE(box.read("q.pdf").substr(0, 900) == pdf.substr(0, 900));
 }
 
-// Two coordinates that differ in their last bits, or by all that doubles can, end in a picture that says
-// so, in every form; none takes long or prints what is no number.
+// Two coordinates that differ in their last bits, or by the whole range of doubles, give a picture
+// or an error in every format; quickly, and without NaN or infinity in it.
 TEST(Plot, EndsForEveryPairOfCoordinates) {
     const Sandbox box;
     // Sanitizers need more address space than any limit.
@@ -544,7 +545,7 @@ TEST(Plot, EndsForEveryPairOfCoordinates) {
         good(box.shell("ulimit -t 20 -v 4000000; stipple plot r.json -o " + file));
 }
 
-// Runs that failed have no numbers: their rows are left out, with a note.
+// Failed runs have no numbers: their rows are left out, with a note.
 TEST(Plot, LeavesOutRowsWithMissingNumbers) {
     const Sandbox box;
     box.write("p.csv", "x,y\n0.1,0.2\n,0.5\n0.3,NA\n0.4,nan\n0.9,0.8\n");
@@ -558,7 +559,7 @@ TEST(Plot, LeavesOutRowsWithMissingNumbers) {
     expect_refusal(box.run({"plot", "p.csv", "-o", "q.svg"}), 3, "each of its 2 rows");
 }
 
-// Words stand on axes as words, in pictures of every kind.
+// Axes show levels as words, in pictures of every kind.
 TEST(Plot, ShowsWordsOfLevels) {
     const Sandbox box;
     box.write("p.json", R"({"parameters":[{"name":"a","range":[2,3]},)"
@@ -596,7 +597,7 @@ TEST(Plot, LabelsAndAxesNameWhatIsDrawn) {
     EXPECT_THAT(xml(box, "p.svg", "text"), HasSubstr("Pseudo (slope"));
 }
 
-// A frame for each set, with its own points; --overlay has one for all.
+// One frame for each set, with its own points; --overlay draws all in one frame.
 TEST(Plot, SeveralSetsStandSideBySide) {
     const Sandbox box;
     good(box.shell("stipple generate random -n 5 -m 4 -f json -o p.json"));
@@ -605,7 +606,7 @@ TEST(Plot, SeveralSetsStandSideBySide) {
     for (const char* name : {"set 0", "set 1", "set 2", "set 3"})
         EXPECT_THAT(xml(box, "p.svg", "text"), HasSubstr(name));
     good(box.shell("stipple plot p.json -o p.svg --overlay"));
-    EXPECT_EQ(xml(box, "p.svg", "circle"), "24\n");  // 4 in the legend
+    EXPECT_EQ(xml(box, "p.svg", "circle"), "24\n");  // 4 of them in the legend
     good(box.shell("stipple generate random -n 5 -m 13 -f json -o many.json"));
     const Outcome outcome = box.run({"plot", "many.json", "-o", "p.svg"});
     EXPECT_THAT(outcome.err, HasSubstr("the first 12 of 13 sets"));
@@ -616,11 +617,11 @@ TEST(Plot, SeveralSetsStandSideBySide) {
     EXPECT_THAT(first, ::testing::AllOf(HasSubstr("set 0"), HasSubstr("set 1")));
 }
 
-// Rows are chosen by the room, and what has none is refused.
+// The number of rows depends on the size; a size that is too small is an error.
 TEST(Plot, SheetsFillTheSizeThatIsAskedFor) {
     const Sandbox box;
     good(box.shell("stipple generate random -n 5 -m 4 -f json -o p.json"));
-    // Places of the four titles: their lines, from left to right and from above.
+    // Counts the columns and rows of the four titles.
     const auto places = [&](const std::string& size) {
         good(box.shell("stipple plot p.json -o p.svg " + size));
         const std::string svg = box.read("p.svg");
@@ -652,7 +653,7 @@ TEST(Plot, SheetsFillTheSizeThatIsAskedFor) {
               "(300, 900)\n");
 }
 
-// Means have no subtitle that tells their options.
+// Pictures of means have no subtitle, so names include the options.
 TEST(Plot, MeansAreNamedWithTheirOptions) {
     const Sandbox box;
     const std::string make = "--generate sobol --generate sobol:scramble=owen -n 64 -m 2 --quiet ";
@@ -660,7 +661,8 @@ TEST(Plot, MeansAreNamedWithTheirOptions) {
         good(box.shell("stipple plot " + make + "-o s.svg --chart " + chart));
         EXPECT_THAT(xml(box, "s.svg", "text"), HasSubstr("sobol:scramble=owen")) << chart;
     }
-    good(box.shell("stipple plot " + make + "-o p.svg"));  // one of plain points, two of scrambled
+    good(box.shell("stipple plot " + make +
+                   "-o p.svg"));  // one of unscrambled points, two of scrambled ones
     EXPECT_EQ(xml(box, "p.svg", "circle"), "192\n");
     good(box.shell("printf '1,60000\\n2,90000\\n' | stipple plot --rescale -o r.svg"));
     EXPECT_THAT(xml(box, "r.svg", "text"), Not(HasSubstr("60000")));
@@ -679,7 +681,7 @@ TEST(Plot, DrawsPairsOfThreeCoordinates) {
                    "have no pairs");
 }
 
-// Columns that measure different things have an x axis each, with their names.
+// Columns with different units have separate x axes, with their names.
 TEST(Plot, HistogramsOfUnlikeColumnsHaveTheirOwnAxes) {
     const Sandbox box;
     box.write("g.csv", "age,income\n23,1500\n35,2400\n45,3100\n52,4200\n");
@@ -689,7 +691,7 @@ TEST(Plot, HistogramsOfUnlikeColumnsHaveTheirOwnAxes) {
     EXPECT_THAT(own, Not(HasSubstr("coordinate")));
     good(box.shell("stipple plot --generate random -n 9 --chart histogram -o h.svg"));
     EXPECT_THAT(xml(box, "h.svg", "text"), HasSubstr("coordinate"));
-    // Distances of points that have no domain are straight, and there is nothing to expect of them.
+    // Points without a domain have Euclidean distances, and no expected distribution.
     good(box.shell("stipple plot g.csv --chart distances -o d.svg"));
     EXPECT_THAT(xml(box, "d.svg", "text"), Not(HasSubstr("torus")));
     EXPECT_THAT(xml(box, "d.svg", "text"), Not(HasSubstr("independent")));
@@ -706,7 +708,7 @@ TEST(Plot, SeveralSpectraStandSideBySide) {
         "stipple plot --generate random --generate halton -n 64 --chart spectrum ";
     good(box.shell(plot + "-o s.svg"));
     EXPECT_THAT(xml(box, "s.svg", "text"), HasSubstr("halton"));
-    EXPECT_EQ(xml(box, "s.svg", "image"), "3\n");  // with the bar of shades
+    EXPECT_EQ(xml(box, "s.svg", "image"), "3\n");  // including the bar of shades
     const std::string text = good(box.shell(plot + "-f text --width 80 --height 30"));
     EXPECT_THAT(text.substr(0, text.find('\n')), HasSubstr("halton"));
 }
@@ -722,7 +724,7 @@ TEST(Plot, LettersHaveALegendAllPanelsAndPairs) {
     EXPECT_THAT(curves, HasSubstr("radial power"));
     EXPECT_THAT(curves, HasSubstr("anisotropy (dB)"));
     EXPECT_THAT(curves, ::testing::ContainsRegex("│ b"));
-    EXPECT_THAT(curves, Not(HasSubstr("\x1b")));  // of colours, on terminals alone
+    EXPECT_THAT(curves, Not(HasSubstr("\x1b")));  // colours are for terminals only
     const std::string pairs = good(box.shell("stipple plot c.csv -f text --width 100 --height 20"));
     for (const char* name : {"x1", "x2", "x3", "x4", "x5"}) EXPECT_THAT(pairs, HasSubstr(name));
     EXPECT_THAT(good(box.shell("stipple plot c.csv -f text --width 60 --height 20")),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// One set, analyzed by several ranks of MPI. What they find together is tested with many more of
-// them, as threads, in tests/study/shared_analysis_test.cpp.
+// One set, analyzed by several MPI ranks. Their results are tested with many more ranks, as
+// threads, in tests/pipeline/shared_analysis_test.cpp.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -20,14 +20,14 @@ using ::testing::HasSubstr;
 
 namespace {
 
-/// Results without what the clock says of them.
+/// Results without times.
 std::string timeless(const Sandbox& box, const std::string& command) {
     return good(box.shell(command + " | sed 's/ *\"seconds\":.*//'"));
 }
 
 }  // namespace
 
-// Three files, of which two are shared in the middle, and one of them is text.
+// Three files, two of which are split between ranks, one of these being text.
 TEST(Ranks, AnalyzeOneSetAsOneProcessDoes) {
     if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
     const Sandbox box;
@@ -62,7 +62,7 @@ TEST(Ranks, SpeakOnceOfWhatIsWrong) {
     EXPECT_THAT(alone.err, HasSubstr("ranks do not share dispersion"));
 }
 
-// The ranks agree on what is wrong with points, and rank 0 names their file as one process does.
+// The ranks agree on the error in the points, and rank 0 names the file like a single process.
 TEST(Ranks, NameTheFileThatIsAtFault) {
     if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
     const Sandbox box;
@@ -81,8 +81,8 @@ TEST(Ranks, NameTheFileThatIsAtFault) {
     }
 }
 
-// Rank 1 has a folder, a memory or an output of its own. Whatever fails there, and whenever, the others
-// do not wait for it, and one line says where it was.
+// Rank 1 has a directory, memory limit or output of its own. If anything fails there at any time,
+// the other ranks end, too, and one line names the rank.
 TEST(Ranks, EndTogetherWhereOneFails) {
     if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
     const Sandbox box;
@@ -128,7 +128,7 @@ TEST(Ranks, EndTogetherWhereOneFails) {
                 HasSubstr("4 " + rank_1 + "c.json: no such file"));
 }
 
-// mpirun gives its first process a terminal, wherever its own output goes.
+// mpirun gives its first process a terminal even if its own output is redirected.
 TEST(Ranks, OfWhichThereIsOneWriteAsIfAlone) {
     if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
     const Sandbox box;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// README and the guide cannot rot: their tables are the program's, their recipes run.
+// Keeps README and the guide up to date: their tables are the program's, their recipes run.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ std::string page(const std::string& path) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The contents of all fenced blocks of a language.
+/// Contents of all fenced blocks of a language.
 std::vector<std::string> blocks(const std::string& text, const std::string& language) {
     std::vector<std::string> found;
     const std::string fence = "```" + language + "\n";
@@ -35,7 +35,7 @@ std::vector<std::string> blocks(const std::string& text, const std::string& lang
     return found;
 }
 
-/// Runs the blocks marked `sh` in order in one folder, and says how many they were.
+/// Runs the blocks marked `sh` in order in one directory; returns their number.
 std::size_t run_recipes(const std::string& path) {
     const Sandbox box;
     const auto recipes = blocks(page(path), "sh");
@@ -91,7 +91,7 @@ TEST(Guide, GalleryHasAllGeneratorsAndWarps) {
     EXPECT_GT(pictures, 10U);
 }
 
-// What other packages print, by scripts/peers, which must find a wrong number, too.
+// Results of other packages, compared by scripts/peers, which must also detect a wrong number.
 TEST(Guide, OtherPackagesNumbersAreOurs) {
     const Sandbox box;
     const std::string peers = "python3 " STIPPLE_SOURCE_DIR "/scripts/peers ";

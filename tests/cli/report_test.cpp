@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The verb report: sets in, one page out that a browser shows without complaints; or no page.
+// The verb report: sets in; one page out that a browser shows without errors, or no page.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ using ::testing::Not;
 
 namespace {
 
-/// Runs Chromium on a page of the box, with its console on stderr.
+/// Runs Chromium on a page of the directory, with its console on stderr.
 Outcome browse(const Sandbox& box, const std::string& options, const std::string& page) {
     return box.shell(
         "chromium --headless --no-sandbox --disable-gpu --enable-logging=stderr "
@@ -77,7 +77,8 @@ TEST(Report, ChromiumShowsItWithoutComplaints) {
     EXPECT_EQ(box.read("a.pdf").substr(0, 5), "%PDF-");
 }
 
-// The script does as the program: without a set, the page marks what one of the others does.
+// The page's script marks the same values as the program: hiding a set gives the marks of a page
+// without it.
 TEST(Report, MarksTheBestOfTheSetsThatAreShown) {
     const Sandbox box;
     if (!has_browser(box)) GTEST_SKIP() << "chromium is not installed";
@@ -92,7 +93,7 @@ TEST(Report, MarksTheBestOfTheSetsThatAreShown) {
         "-n 256 -o sizes.html; "
         "stipple report " +
         others + "-n 256 -o two.html"));
-    const auto marks = [](const std::string& page) {  // "KEY:.*." of each row that has a key
+    const auto marks = [](const std::string& page) {  // "KEY:.*." for each row with a key
         std::vector<std::string> rows;
         const std::regex part(
             "data-key=\"([^\"]*)|<td class=\"number( best)?[^\"]*\" data-set|(</tr>)");
@@ -108,7 +109,7 @@ TEST(Report, MarksTheBestOfTheSetsThatAreShown) {
     };
     std::vector<std::string> expected = marks(box.read("two.html"));
     EXPECT_THAT(expected, ::testing::Contains(HasSubstr("*")));
-    for (std::string& row : expected) row.insert(row.find(':') + 1, ".");  // the one that is hidden
+    for (std::string& row : expected) row.insert(row.find(':') + 1, ".");  // the hidden set
     for (const std::string name : {"three.html", "sizes.html"}) {
         std::string page = box.read(name);
         page.insert(page.rfind("</body>"),
@@ -119,7 +120,7 @@ TEST(Report, MarksTheBestOfTheSetsThatAreShown) {
     }
 }
 
-// What the tests above rely on: complaints are seen where there are some.
+// Checks that the tests above would detect errors in the browser.
 TEST(Report, ChromiumsComplaintsWouldBeSeen) {
     const Sandbox box;
     if (!has_browser(box)) GTEST_SKIP() << "chromium is not installed";
@@ -138,7 +139,7 @@ TEST(Report, DependsOnTheSetsAloneNotOnThreads) {
               good(box.shell("stipple " + make + "--json --threads 4")));
 }
 
-// Every number of the page comes out of its command.
+// Every number of the page is printed by its command.
 TEST(Report, ItsCommandsMeasureTheSameNumbers) {
     const Sandbox box;
     good(box.shell("stipple generate random -n 60 -d 3 -m 2 -o two.csv"));
@@ -170,7 +171,7 @@ constexpr const char* experiment =
 
 }  // namespace
 
-// Where the file or the option says that points are of parameters, too.
+// Also if a file or an option defines parameters.
 TEST(Report, ItsCommandsAreOfTheParameters) {
     const Sandbox box;
     box.write("p.json",
@@ -193,8 +194,8 @@ TEST(Report, ItsCommandsAreOfTheParameters) {
     }
 }
 
-// A table of parameters in place of their file's text, words in place of numbers of levels, and no
-// distance between millimetres and kilonewtons.
+// A table of parameters instead of their file's text, words instead of numbers of levels, and no
+// distances between millimetres and kilonewtons.
 TEST(Report, OfAnExperimentIsReadable) {
     const Sandbox box;
     box.write("p.json", experiment);
@@ -241,7 +242,7 @@ TEST(Report, ChecksWhatItIsToldTo) {
     EXPECT_EQ(box.shell(report + "'kolmogorov-smirnov.statistic[1]<0.9'").code, 0);
 }
 
-// The older form of the same.
+// --fail-on is the older form of --check.
 TEST(Report, FailsOnTheOppositeAndSaysSo) {
     const Sandbox box;
     good(box.shell("stipple generate halton -n 100 -o a.csv"));
@@ -257,7 +258,7 @@ TEST(Report, FailsOnTheOppositeAndSaysSo) {
     EXPECT_EQ(box.shell(report + "'chi-square.verdict==non-uniform'").code, 0);
 }
 
-// Bounds that leave it open are no pass.
+// A condition that bounds leave open counts as failed.
 TEST(Report, FailsWhereBoundsLeaveItOpen) {
     const Sandbox box;
     const std::string report =
@@ -267,7 +268,7 @@ TEST(Report, FailsWhereBoundsLeaveItOpen) {
     EXPECT_EQ(box.shell(report + "'star-discrepancy<=1'").code, 0);
 }
 
-// Before anything is measured.
+// Impossible conditions are rejected before anything is measured.
 TEST(Report, RefusesConditionsThatNeverHold) {
     const Sandbox box;
     good(box.shell("stipple generate halton -n 20 -d 5 -o a.csv"));
@@ -291,7 +292,7 @@ TEST(Report, RefusesConditionsThatNeverHold) {
     EXPECT_FALSE(box.exists("r.html"));
 }
 
-// What nobody measured is no pass; the page says the same.
+// A condition on a missing measure counts as failed; the page says the same.
 TEST(Report, FailsWhereAMeasureWasLeftOut) {
     const Sandbox box;
     good(box.shell("stipple generate halton -n 20 -o a.csv"));
@@ -373,16 +374,16 @@ TEST(Report, LeavesOutWhatADiskDoesNotHave) {
     EXPECT_THAT(box.read("s.html"), HasSubstr("Left out"));
 }
 
-// Ten sets of 10^5 points stay small.
+// A page about sets of 10^5 points is small.
 TEST(Report, StaysSmallForLargeSets) {
     const Sandbox box;
     if (sanitized()) GTEST_SKIP() << "takes long with sanitizers";
     good(box.shell(
         "stipple report --generate random --generate jittered -n 99856 --max-work 1e6 -o r.html"));
-    EXPECT_LT(box.read("r.html").size(), 1'000'000U);  // 10 of them: 5 MB
+    EXPECT_LT(box.read("r.html").size(), 1'000'000U);  // so a page of ten sets has less than 5 MB
 }
 
-// Means, their errors and root mean squares as analyze has them.
+// Means, standard errors and root mean squares equal those of analyze.
 TEST(Report, ComparesMeansOfSeveralSets) {
     const Sandbox box;
     const std::string sets = " --generate random -n 64 -m 5 ";
@@ -403,7 +404,7 @@ TEST(Report, ComparesMeansOfSeveralSets) {
         ++integrands;
     }
     EXPECT_EQ(integrands, 3);
-    // A condition is for each of the sets.
+    // A condition applies to each of the sets.
     const double worst = page["sets"][0]["measures"][0]["results"]["value"];
     const std::string check = "--check 'star-discrepancy<" + std::to_string(worst + 1e-9) + "' ";
     EXPECT_EQ(box.shell("stipple report --generate random -n 64 -o r.html " + check).code, 0);

@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 
 namespace {
 
-/// The file is said to be identical.
+/// Expects the file to be identical.
 void expect_identical(const Sandbox& box, const std::string& file) {
     const Outcome outcome = box.run({"reproduce", file});
     EXPECT_EQ(outcome.code, 0) << file << ": " << outcome.out << outcome.err;
@@ -20,7 +20,7 @@ void expect_identical(const Sandbox& box, const std::string& file) {
     EXPECT_TRUE(outcome.out.starts_with(file + ": identical: ")) << outcome.out;
 }
 
-/// The verdict on a file that is not; exit code 1.
+/// Verdict on a file that differs; exit code 1.
 std::string difference(const Sandbox& box, const std::string& file) {
     const Outcome outcome = box.run({"reproduce", file});
     EXPECT_EQ(outcome.code, 1) << outcome.out << outcome.err;
@@ -45,7 +45,7 @@ void replace_in(const Sandbox& box, const std::string& file, const std::string& 
 
 }  // namespace
 
-// What is written with its provenance is made again, whatever the format and the options.
+// Every output with provenance can be reproduced, in any format and with any options.
 TEST(Reproduce, MakesAgainWhatGenerateWrote) {
     const Sandbox box;
     const std::vector<std::pair<std::string, std::string>> cases = {
@@ -112,7 +112,7 @@ TEST(Reproduce, KnowsTheSetsThatConvertPutIntoFilesOfTheirOwn) {
         expect_identical(box, file);
 }
 
-// Warps of later commands, their scrambles and what was cut in between.
+// Follows warps and scrambles of later commands, and selections of points in between.
 TEST(Reproduce, FollowsLaterCommands) {
     const Sandbox box;
     good(
@@ -147,7 +147,7 @@ TEST(Reproduce, NamesTheFirstDifference) {
     EXPECT_THAT(difference(box, "c.csv"), HasSubstr("it has 9 points; made again it has 10"));
     good(box.shell("stipple generate halton -n 10 --meta -o d.csv && echo 0.5,0.5 >> d.csv"));
     EXPECT_THAT(difference(box, "d.csv"), HasSubstr("more than 10 points"));
-    // A head that counts the points is not what the points are compared with.
+    // The count in a file's header is not used for the comparison.
     good(box.shell("stipple generate halton -n 10 -o f.jsonl && sed -i '$d' f.jsonl"));
     EXPECT_THAT(difference(box, "f.jsonl"), HasSubstr("it has 9 points; made again it has 10"));
     good(
@@ -199,7 +199,7 @@ TEST(Reproduce, SpeaksToProgramsAndWritesThePoints) {
     EXPECT_EQ(verdict["difference"]["coordinate"], "x");
 }
 
-// A radius that was asked for is not one that was found; both are in the options.
+// Provenance distinguishes a given radius from a computed one; its options contain both.
 TEST(Reproduce, TellsWhatWasAskedFromWhatWasFound) {
     const Sandbox box;
     good(box.shell("stipple generate poisson-disk -n 200 -o a.json"));
@@ -213,7 +213,7 @@ TEST(Reproduce, TellsWhatWasAskedFromWhatWasFound) {
     EXPECT_THAT(outcome.err, HasSubstr("radius 0.9"));
 }
 
-// A program that uses the library writes no command.
+// Programs that use the library do not record a command.
 TEST(Reproduce, DoesWithoutACommand) {
     const Sandbox box;
     good(
@@ -236,7 +236,7 @@ TEST(Reproduce, NoticesFilesThatAreGoneOrChanged) {
                   "&& stipple generate random -n 50 -w image:file=m.png --meta -o i.csv"));
     expect_identical(box, "m.png");
     for (const char* file : {"l.json", "i.csv"}) {
-        // No file is read because another names it.
+        // A file is not read only because another file names it.
         EXPECT_THAT(refusal(box, file), HasSubstr("made from 'm.png', which is not read for that "
                                                   "alone; give it with --input m.png"));
         good(box.run({"reproduce", file, "--input", "m.png"}));
@@ -266,7 +266,8 @@ TEST(Reproduce, ComparesPicturesByTheirPixels) {
         box.shell("stipple generate void-and-cluster -n 16 --size 8x8 -m 2 --mask-image "
                   "'m{set}.png' -o 'v{set}.csv'"));
     for (const char* file : {"m0.png", "m1.png"}) expect_identical(box, file);
-    // The second's pixels with the first's provenance: chunks are header, text, pixels.
+    // Combines the second picture's pixels with the first one's provenance: chunks are header,
+    // text, pixels.
     std::string one = box.read("m0.png");
     const std::string two = box.read("m1.png");
     box.write("mixed.png", one.substr(0, one.find("IDAT") - 4) + two.substr(two.find("IDAT") - 4));
@@ -281,7 +282,7 @@ TEST(Reproduce, SaysThatRulesChanged) {
                 HasSubstr("a.json: the rules of random changed: the file is of stream version 2"));
     replace_in(box, "b.json", "\"command\"", "\"stream_versions\":{\"owen\":7},\"command\"");
     EXPECT_THAT(difference(box, "b.json"), HasSubstr("the rules of owen changed"));
-    // Another version of stipple with the same rules makes the same points.
+    // Another version of stipple with the same stream versions makes the same points.
     good(box.shell("stipple generate random -n 10 -o c.json"));
     replace_in(box, "c.json", "\"version\":\"0.1.0\"", "\"version\":\"9.8.7\"");
     expect_identical(box, "c.json");
@@ -353,7 +354,7 @@ TEST(Reproduce, MakesThePointsOfAPictureAgain) {
     }
 }
 
-/// Options of the kind's units whose text is the name of a file.
+/// Options of the kind's units whose text is a file name.
 std::vector<std::pair<std::string, std::string>> file_options(const std::string& kind) {
     const Sandbox box;
     std::vector<std::pair<std::string, std::string>> found;
@@ -364,7 +365,7 @@ std::vector<std::pair<std::string, std::string>> file_options(const std::string&
     return found;
 }
 
-// What an option writes beside the points is no part of their recipe, and neither is its form.
+// Options that write side files are not part of the recipe, nor is the output format.
 TEST(Reproduce, NeedsNoOptionsThatOnlyWriteFiles) {
     for (const std::string make :
          {"rank1-lattice -n 64 -d 3 --vector-output side.txt --vector-format latnet-builder",
@@ -383,15 +384,15 @@ TEST(Reproduce, NeedsNoOptionsThatOnlyWriteFiles) {
         }
 }
 
-// A file from a stranger names another file by any option that there is: it is neither read nor, where it
-// is one that the generator would write, which is no part of the recipe, written, whether a command names it, the options, or a warp.
+// An untrusted file may name other files in any option, in its command, options or warps. They are
+// neither read nor written.
 TEST(Reproduce, OpensNoFileThatItsProvenanceNames) {
     const auto of_generators = file_options("generators");
     const auto of_warps = file_options("warps");
     ASSERT_GE(of_generators.size(), 9U);
     ASSERT_GE(of_warps.size(), 4U);
     const auto versions = nlohmann::json::parse(good(Sandbox().run({"list", "--json"})));
-    std::string rules;  // or else it would be said that they have changed
+    std::string rules;  // current stream versions
     for (const char* kind : {"generators", "warps"})
         for (const auto& unit : versions[kind])
             rules += (rules.empty() ? "" : ",") + unit["name"].dump() + ":" +
@@ -433,7 +434,7 @@ TEST(Reproduce, OpensNoFileThatItsProvenanceNames) {
     }
 }
 
-// What the command line would refuse, a provenance may not say either.
+// A provenance cannot contain values that the command line rejects.
 TEST(Reproduce, RefusesValuesThatNoneCanHave) {
     const Sandbox box;
     good(box.shell("stipple generate random -n 10 --meta -o a.csv"));
@@ -451,7 +452,7 @@ TEST(Reproduce, RefusesValuesThatNoneCanHave) {
         const std::string key = was.substr(0, was.find(':'));
         EXPECT_THAT(refusal(box, "b.csv"), HasSubstr("its " + key + " cannot be '")) << is;
     }
-    // Options, too, where the command does not have them.
+    // Also in options that are missing from the command.
     for (const char* option : {"\"mask\":\"m.png\"", "\"cell\":\"nowhere\""}) {
         good(box.shell("stipple generate void-and-cluster -n 16 --size 8x8 -o c.json"));
         replace_in(box, "c.json", "\"cell\":\"center\"", option);
@@ -468,7 +469,7 @@ TEST(Reproduce, LeavesNoFiles) {
     EXPECT_EQ(box.files(), std::vector<std::string>{"v.json"});
 }
 
-// Beside npy, bin and psa, which have no place for it.
+// npy, bin and psa cannot store provenance; it is in a file beside them.
 TEST(Meta, StandsBesideFormatsWithoutAPlaceForIt) {
     const Sandbox box;
     good(box.shell("stipple generate random -n 10 --meta -o a.npy"));

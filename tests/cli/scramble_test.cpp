@@ -17,7 +17,8 @@ TEST(Scramble, OnTheWayOutOrFromAFileIsTheSame) {
                   "&& cmp a.csv b.csv"));
 }
 
-// The digits of each generator are in its own base, on the way out and from a file that tells of it.
+// Digits are scrambled in the base of each generator, both in generate and for a file with
+// provenance.
 TEST(Scramble, TakesTheBasesOfTheGenerator) {
     const Sandbox box;
     for (const auto& [generator, bases] : {std::pair{"faure -d 5", "5"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The scripts that make tables of what the program measures.
+// The scripts that make tables of measured values.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,8 +20,9 @@ void expect_quiet(const Outcome& outcome) {
 
 }  // namespace
 
-// 64 points of a square grid: 1/8 apart, sqrt(sqrt(3) / 2) of hexagons, and circles of sqrt(1/2) /
-// 8 are empty, sqrt(3 sqrt(3) / 4) times those of hexagons.
+// 64 points of a square grid: distance 1/8, or sqrt(sqrt(3) / 2) of that in a hexagonal lattice;
+// empty circles have radius sqrt(1/2) / 8, or sqrt(3 sqrt(3) / 4) times those of the hexagonal
+// lattice.
 TEST(BlueNoiseTable, HasARowForEachGenerator) {
     const Sandbox box;
     const std::string table = STIPPLE_SOURCE_DIR "/tests/bench/blue_noise_table.py ";

@@ -16,7 +16,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// void-and-cluster on 16 x 16 cells with a mask image, and more words.
+/// Runs void-and-cluster on 16 x 16 cells with a mask image, and more options.
 Outcome dither(const Sandbox& box, const std::string& mask, const Names& more) {
     Names words = {"generate", "void-and-cluster", "--size", "16x16", "-n",
                    "40",       "--mask-image",     mask};
@@ -33,7 +33,7 @@ TEST(SideFiles, AreWrittenWithThePointsAndDoNotChangeThem) {
     const PngPicture mask = read_png(box.read("m.png"), "m.png", {});
     EXPECT_EQ(mask.width, 16U);
     EXPECT_EQ(mask.height, 16U);
-    // Every rank once: the mean grey is that of (rank + 1/2) / 256.
+    // Every rank occurs once: the mean grey is that of (rank + 1/2) / 256.
     double sum = 0;
     for (const double grey : mask.grey) sum += grey;
     EXPECT_NEAR(sum / 256, 0.5, 1e-4);
@@ -82,7 +82,7 @@ TEST(SideFiles, OfOneNameAreRefused) {
     EXPECT_EQ(box.files(), Names{});
 }
 
-// The file that was there stays, and no other is left.
+// Existing files remain, and no others are left.
 TEST(SideFiles, AreNotLeftByACommandThatFails) {
     SKIP_WITHOUT("/dev/full");
     SKIP_WITHOUT("/proc/self/fd");
@@ -100,7 +100,7 @@ TEST(SideFiles, AreNotLeftByACommandThatFails) {
         EXPECT_EQ(box.files(), Names{"m.png"}) << mask;
         EXPECT_EQ(dither(box, mask, {}).out, "") << mask;
     }
-    // Interrupted while the points wait for a reader: both files are begun.
+    // Interrupted while the points wait for a reader: both files have been started.
     const Outcome outcome = box.shell(
         "mkfifo pipe; sleep 9 < pipe & reader=$!;"
         "stipple generate void-and-cluster --size 128x128 -n 16e3 --mask-image n.png -o pipe & "
@@ -110,7 +110,7 @@ TEST(SideFiles, AreNotLeftByACommandThatFails) {
     EXPECT_EQ(box.files(), (Names{"m.png", "pipe"})) << outcome.err;
 }
 
-// What generate writes beside the points, from the points alone.
+// Side files of generate, from the points alone.
 TEST(SideFiles, OfALatticeComeFromItsProvenance) {
     const Sandbox box;
     for (const std::string made :

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Sobol' points from the program: beside SciPy's, and what the user is told.
+// Sobol' points by the program: compared with SciPy's, and notes to the user.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@ namespace stipple::testing::sobol_test {
 
 using ::testing::HasSubstr;
 
-// SciPy's numbers have 30 binary digits, more than 2^16 points need; the last set reaches every
-// dimension of the table.
+// SciPy's numbers have 30 binary digits, enough for 2^16 points; the last set uses every dimension
+// of the table.
 TEST(Sobol, AgreesWithSciPyToTheLastBit) {
     const Sandbox box;
     for (const auto& [count, dimension] : {std::pair{"65536", "20"}, {"512", "3667"}}) {

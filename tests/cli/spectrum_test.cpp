@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Power spectra on the command line: sets without files, strengths, windows, pictures, wisdom.
+// Power spectra on the command line: sets without files, weights, windows, pictures, wisdom.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ void expect_error(const Outcome& outcome, int code, const std::string& words) {
 
 }  // namespace
 
-// Sets from files, from a pipe and from the generator itself are the same sets.
+// Sets from files, from a pipe and directly from the generator give the same spectrum.
 TEST(Spectrum, OfGeneratedSetsIsThatOfTheirFiles) {
     const Sandbox box;
     for (const std::string analyzer : {"periodogram", "nearest-neighbor", "moments"}) {
@@ -86,7 +86,7 @@ TEST(Spectrum, SetsOfDifferentSizesHaveAMeanWhichIsSaid) {
         HasSubstr("differ in their number of points\n"));
 }
 
-// More text than is read at once: the sets come one after the other, whole.
+// More text than the reader's buffer: the sets are read completely, one after the other.
 TEST(Spectrum, ManySetsInOnePipeComeOneAfterTheOther) {
     const Sandbox box;
     const std::string make = "stipple generate random -n 20000 -m 8";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Pipes of more points than are held: the same results as from files, in little memory.
+// Pipes of more points than fit in memory: same results as from files, in little memory.
 #include <gtest/gtest.h>
 
 #include "support/program.hpp"
@@ -86,7 +86,7 @@ TEST(Stream, ABadPointLeavesNoFile) {
         << named.err;
 }
 
-// 8 million points take 128 MB as such.
+// 8 million points would take 128 MB.
 TEST(Stream, MemoryDoesNotGrowWithThePoints) {
     const Sandbox box;
     for (const char* verb : {"analyze chi-square", "analyze moments", "warp disk -f bin"})

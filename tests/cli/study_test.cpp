@@ -41,7 +41,7 @@ std::vector<std::string> fields_of(const std::string& line) {
     return fields;
 }
 
-/// The rows of a table in CSV, by column.
+/// Rows of a CSV table, by column.
 std::vector<Row> rows_of(const std::string& text) {
     std::istringstream in(text);
     std::string line;
@@ -146,7 +146,7 @@ TEST(Study, FailuresAreRowsAndTheExitCodeSaysSo) {
         EXPECT_NE(row.at("reason"), "");
         ++failed[row.at("generator") + row.at("count") + "d" + row.at("dimension")];
     }
-    // grid takes squares and fourth powers; pair-correlation at most three dimensions.
+    // grid needs squares or fourth powers; pair-correlation at most three dimensions.
     EXPECT_EQ(failed, (std::map<std::string, int>{{"grid32d2", 4},
                                                   {"grid16d4", 2},
                                                   {"grid32d4", 4},
@@ -170,7 +170,7 @@ TEST(Study, TimeLimitsAreRowsAndExitFive) {
     EXPECT_EQ(rows.back().at("status"), "ok");
 }
 
-// Neighbours of 2^14 points take 1.06 MiB: more than a quarter of 2M, which is each thread's share.
+// The neighbours of 2^14 points take 1.06 MiB, more than each thread's quarter of 2M.
 TEST(Study, AShareOfTheMemoryThatIsTooSmallChangesNothing) {
     const Sandbox box;
     const std::string command =
@@ -231,8 +231,8 @@ TEST(Study, AMeasureThatCannotTakeTheWarpLooksBeforeIt) {
     }
 }
 
-// Errors, as normal numbers of mean 0, have a root mean square between those of chi-square: with 4
-// degrees, 0.4844185571 and 11.1432867819 at both ends of 95 %.
+// The root mean square of errors, normal numbers of mean 0, has an interval by chi-square; with 4
+// degrees of freedom its 95 % limits are 0.4844185571 and 11.1432867819.
 TEST(Study, SummaryHasIntervalsOfErrors) {
     const Sandbox box;
     good(
@@ -242,7 +242,7 @@ TEST(Study, SummaryHasIntervalsOfErrors) {
     ASSERT_FALSE(means.empty());
     for (const Row& row : means) {
         const double rms = std::stod(row.at("rms"));
-        if (rms == 0) continue;  // what does not vary has no interval
+        if (rms == 0) continue;  // constant values have no interval
         EXPECT_NEAR(std::stod(row.at("rms_high")), rms * std::sqrt(4 / 0.4844185571), 1e-9 * rms);
         EXPECT_NEAR(std::stod(row.at("rms_low")), rms * std::sqrt(4 / 11.1432867819), 1e-9 * rms);
     }
@@ -282,16 +282,16 @@ TEST(Study, SummaryHasMeansIntervalsAndComparisons) {
     for (const double x : values) mean_square += x * x / 4;
     const double rms = std::sqrt(mean_square);
     EXPECT_NEAR(std::stod(first.at("rms")), rms, 1e-14);
-    EXPECT_EQ(first.at("rms_low"), "");  // a discrepancy is never of mean 0
+    EXPECT_EQ(first.at("rms_low"), "");  // a discrepancy never has mean 0
     const auto pairs = rows_of(box.read("study.comparisons.csv"));
-    EXPECT_EQ(pairs.size(), 3U * 3 * 2);  // of generators, for each count and measure
+    EXPECT_EQ(pairs.size(), 3U * 3 * 2);  // pairs of generators, for each count and measure
     for (const Row& row : pairs) {
         EXPECT_GE(std::stod(row.at("p_holm")), std::stod(row.at("p_value")));
         EXPECT_EQ(row.at("method"), "welch");
     }
 }
 
-// What is beside a table is of that table, or not there.
+// Files beside a table belong to that table, or are removed.
 TEST(Study, NothingOfTheStudyBeforeIsLeftBehind) {
     const Sandbox box;
     const std::string one =
@@ -324,7 +324,7 @@ TEST(Study, ResumeAfterACutGivesTheSameBytes) {
     }
 }
 
-// After a power failure a journal may hold anything in place of what was written last.
+// After a power failure the end of a journal may hold anything.
 TEST(Study, ResumeTakesNothingFromADamagedJournal) {
     const Sandbox box;
     const std::string study =
@@ -350,7 +350,7 @@ TEST(Study, ResumeTakesNothingFromADamagedJournal) {
     expect_refusal(box.shell(study + "-o cut.csv --resume"), 3, "the study there is another one");
 }
 
-// A finished study has no journal; the file may have been copied in part since.
+// A finished study has no journal; a copy of its table may be incomplete.
 TEST(Study, ResumeCompletesAFinishedTableThatWasCut) {
     const Sandbox box;
     const std::string study =
@@ -368,7 +368,7 @@ TEST(Study, ResumeCompletesAFinishedTableThatWasCut) {
     }
 }
 
-// What a measure has against a set of few points, it may not have against more.
+// A measure that rejects sets of few points may accept more.
 TEST(Study, OptionsThatFitSomeSetsAreNoReasonToRefuseTheStudy) {
     const Sandbox box;
     const Outcome outcome = box.shell(
@@ -409,8 +409,8 @@ TEST(Study, ResumeAfterAKillGivesTheSameBytes) {
     EXPECT_EQ(box.files(), (std::vector<std::string>{"cut.csv", "whole.csv"}));
 }
 
-// Dear pieces are done first, and wait in the journal for their place: a study that is stopped
-// again and again must not lose them.
+// Expensive work is done first, and waits in the journal until its rows are due: a study that is
+// stopped repeatedly must not lose it.
 TEST(Study, ResumeKeepsWhatWaitsInTheJournal) {
     SKIP_WITHOUT("/proc/self/fd");
     const Sandbox box;
@@ -439,7 +439,7 @@ TEST(Study, SaysWhichGeneratorsNeverDiffer) {
     EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1);
 }
 
-// Rows are all there by then, and stay; so does the journal, which says that a summary is missing.
+// All rows are complete and kept; so is the journal, since the summary is missing.
 TEST(Study, StopsWhileItSumsUp) {
     const Sandbox box;
     const std::string study =
@@ -491,8 +491,8 @@ TEST(Study, ResumeRefusesAnotherStudyAndWhatIsNone) {
     EXPECT_EQ(outcome.code, 2);
 }
 
-// More of anything, before what is there, between and behind it: the file is that of a study which
-// had all from the start, and what is there is not made again.
+// Additions of any kind, before, between and after existing rows: the file equals that of a study
+// with everything from the start, and existing rows are not measured again.
 TEST(Study, ResumeAddsSeedsCountsGeneratorsAndMeasures) {
     const Sandbox box;
     const auto command = [](const std::string& generators, const std::string& counts,
@@ -520,18 +520,18 @@ TEST(Study, ResumeAddsSeedsCountsGeneratorsAndMeasures) {
             EXPECT_FALSE(box.exists(name + std::string(".journal")));
         }
     }
-    // What is there is taken, not measured once more.
+    // Existing rows are kept, not measured again.
     good(box.shell(before + "-o s.csv --overwrite"));
     std::string text = box.read("s.csv");
     const auto at = text.find(",ok,");
-    text.insert(at, "5");  // a digit more of the first value
+    text.insert(at, "5");  // changes the first value
     box.write("s.csv", text);
     good(box.shell(command("random,halton", "8,32", "-s 3 --seeds 5", "moments,coverage") +
                    "-o s.csv --resume"));
     EXPECT_EQ(lines(box.read("s.csv"), 2).substr(0, at + 1), text.substr(0, at + 1));
 }
 
-// Killed while it takes over what is there, before and after the table is cut.
+// Killed while copying existing rows, before and after the table is truncated.
 TEST(Study, ResumeWithMoreSeedsCanBeResumed) {
     const Sandbox box;
     const std::string before =
@@ -545,7 +545,7 @@ TEST(Study, ResumeWithMoreSeedsCanBeResumed) {
     const std::string journal = "{\"format\":\"stipple.study-journal\",\"version\":2,";
     good(box.shell(before + "--overwrite"));
     const std::string old = box.read("s.csv");
-    for (const char* limit : {"", "600", "2000", "6000"}) {  // blocks of a journal that is cut off
+    for (const char* limit : {"", "600", "2000", "6000"}) {  // limits that cut off the journal
         box.write("s.csv", old);
         if (*limit != 0)
             (void)box.shell(
@@ -588,7 +588,7 @@ TEST(Study, ResumeRefusesWhatHasLess) {
     refused("--generators random,halton -n 8,16 -d 2,3 -s 2 --seeds 3 --analyze moments",
             "the measure coverage");
     EXPECT_EQ(box.read("s.csv"), whole);
-    // Rows that are gone.
+    // Some rows are missing.
     box.write("s.csv", lines(whole, 1) + whole.substr(lines(whole, 12).size()));
     EXPECT_EQ(box.shell("stipple study --generators random,halton -n 8,16 -d 2,3 -s 2 --seeds 9 "
                         "--analyze moments,coverage --no-seconds -o s.csv --resume")
@@ -665,7 +665,7 @@ TEST(Study, HugeStudiesAreRefusedBeforeTheyStart) {
         "stipple study --generators random,halton -n 1024 --seeds 5e8 --analyze "
         "star-discrepancy -o study.csv --threads 2");
     EXPECT_EQ(outcome.code, 5);
-    // Nobody waits for a guess at the time of a billion cells.
+    // Estimating the time of a billion cells would take too long.
     EXPECT_EQ(box.run({"study", "--generators", "random", "--analyze", "moments", "-n",
                        "1..1000000+1", "-d", "1..1000+1"})
                   .code,
@@ -696,7 +696,7 @@ TEST(Study, AConfigurationSaysTheSameAsOptions) {
               "'sobol'?\n");
 }
 
-// Values are checked as those that are typed; the message names their place.
+// Values are checked like typed ones; the message names their key.
 TEST(Study, ValuesOfAConfigurationThatNoOptionTakesAreNamedByTheirKey) {
     const Sandbox box;
     const std::vector<std::pair<std::string, std::string>> cases = {
@@ -796,7 +796,7 @@ TEST(Study, RanksGiveTheBytesOfOneProcess) {
         EXPECT_EQ(outcome.code, 0) << outcome.err;
         EXPECT_EQ(box.read("ranks.csv"), one) << ranks;
     }
-    // A failing measurement is a row, for all ranks.
+    // A failed measurement is a row, with any number of ranks.
     const std::string failing =
         "stipple study --generators 'grid,random' -n 16..2^6 --seeds 3 --analyze "
         "star-discrepancy --no-seconds -o failing.csv";
@@ -804,7 +804,7 @@ TEST(Study, RanksGiveTheBytesOfOneProcess) {
     const std::string expected = box.read("failing.csv");
     EXPECT_EQ(box.shell(mpirun + "-n 2 " + failing + " --overwrite").code, 3);
     EXPECT_EQ(box.read("failing.csv"), expected);
-    // Rank 0 alone speaks of a wrong call.
+    // Only rank 0 reports a wrong command line.
     const Outcome wrong =
         box.shell(mpirun + "-n 2 stipple study --generators sobl --analyze moments");
     EXPECT_EQ(wrong.code, 2);
@@ -813,8 +813,8 @@ TEST(Study, RanksGiveTheBytesOfOneProcess) {
     EXPECT_EQ(wrong.err.find("unknown generator", first + 1), std::string::npos);
 }
 
-// Slurm's launcher tells PMIx of its processes. Those that do not find each other must not all do
-// the whole study.
+// Slurm's launcher gives PMIx the number of processes. Processes that are not connected must not
+// each do the whole study.
 TEST(Study, ProcessesThatDoNotFindEachOtherAreRefused) {
     if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
     const Sandbox box;
@@ -829,7 +829,7 @@ TEST(Study, ProcessesThatDoNotFindEachOtherAreRefused) {
     EXPECT_EQ(second.err, "") << "the first one speaks for all";
 }
 
-// Variables that a shell inherited from a launcher silence nothing that is not shared.
+// Variables that a shell inherited from a launcher suppress only errors of shared work.
 TEST(Study, OnlySharedWorkLeavesErrorsToTheFirstRank) {
     const Sandbox box;
     const std::string rank = "OMPI_COMM_WORLD_SIZE=4 OMPI_COMM_WORLD_RANK=3 ";

@@ -18,16 +18,16 @@ using namespace stipple::cli;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// The text of a file that a topic shows: the indented lines below one that ends with its name.
+/// Text of a file in a topic: the indented lines below a line that ends with its name.
 std::string shown_file(std::istringstream& lines) {
     std::string text;
     std::string line;
-    std::getline(lines, line);  // empty
+    std::getline(lines, line);  // blank line
     while (std::getline(lines, line) && line.starts_with("    ")) text += line + '\n';
     return text;
 }
 
-// What a topic shows works: its examples run one after the other in one folder.
+// Examples of topics run one after the other in one directory.
 TEST(Topics, ExamplesRun) {
     for (const Topic& topic : topics()) {
         const Sandbox box;
@@ -47,7 +47,7 @@ TEST(Topics, ExamplesRun) {
     }
 }
 
-// "mod(-0.3, 0.7) = -0.3": all that is said of formulas, and of each function.
+// Checks all stated values of formulas and functions, such as "mod(-0.3, 0.7) = -0.3".
 TEST(Topics, FormulasHaveTheValuesThatAreSaid) {
     const auto topic = std::ranges::find(topics(), std::string("formulas"), &Topic::name);
     ASSERT_NE(topic, topics().end());
@@ -117,7 +117,7 @@ TEST(Topics, FindWhatOtherPackagesCallSomething) {
         EXPECT_EQ(box.run({"help", none}).code, 2) << none;
 }
 
-// Every exit code that the program knows stands in the topic, in the help and in the contract.
+// Every exit code of the program is in the topic, in the help and in the contract.
 TEST(Topics, NameAllExitCodes) {
     const Sandbox box;
     const std::string text = good(box.run({"help", "exit-codes"}));
