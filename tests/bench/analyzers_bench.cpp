@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Measuring point sets on one core: time a set, and how it grows with the number of points.
+// Analyzers on one core: time per set, and its growth with the number of points.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ void measure(benchmark::State& state, const char* analyzer, const char* generato
     state.SetItemsProcessed(static_cast<std::int64_t>(count) * state.iterations());
 }
 
-/// In the square, where the time grows as n^(4/3).
+/// In two dimensions, where the time grows as n^(4/3).
 void star_discrepancy_random(benchmark::State& state) {
     measure(state, "star-discrepancy", "random");
     state.SetComplexityN(state.range(0));
@@ -68,7 +68,7 @@ void star_discrepancy_of_many_axes(benchmark::State& state) {
 void star_discrepancy_bounds(benchmark::State& state) {
     measure(state, "star-discrepancy", "sobol", {{"method", "bounds"}, {"tolerance", "0.1"}});
 }
-/// The square, F and 10^-k as told, on so many threads.
+/// Two dimensions; arguments are the maximum frequency, the tolerance's exponent and the threads.
 void periodogram(benchmark::State& state) {
     const auto count = static_cast<std::uint64_t>(state.range(0));
     const PointSet points = generate("random", {.count = count, .dimension = 2});
@@ -78,7 +78,7 @@ void periodogram(benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(analyze("periodogram", points, settings, run));
     state.SetItemsProcessed(static_cast<std::int64_t>(count) * state.iterations());
 }
-/// The truth beside it: the plain sum at as many frequencies as it takes a second for.
+/// For comparison the direct sum, at as many frequencies as take about a second.
 void periodogram_direct(benchmark::State& state) {
     measure(state, "periodogram", "random", {{"max-frequency", "32"}, {"method", "direct"}});
 }
@@ -90,7 +90,7 @@ void nearest_neighbor(benchmark::State& state) { measure(state, "nearest-neighbo
 void nearest_neighbor_halton(benchmark::State& state) {
     measure(state, "nearest-neighbor", "halton");
 }
-/// 10^6 points to 10 mean distances: 1.6e8 pairs.
+/// 10^6 points, distances up to 10 mean distances: 1.6e8 pairs.
 void pair_correlation(benchmark::State& state) {
     measure(state, "pair-correlation", "random",
             {{"max-distance", "10"}, {"normalize-distance", "true"}});
@@ -124,7 +124,7 @@ BENCHMARK(l2_discrepancy)
     ->Args({1'000'000, 2})
     ->Args({4'194'304, 2})
     ->Unit(benchmark::kMillisecond);
-// Curves over n in five dimensions, and the sizes that are compared with SciPy's.
+// Growth with n in five dimensions, and the sizes that are compared with SciPy.
 BENCHMARK(l2_star)
     ->Args({1024, 5})
     ->Args({4096, 5})

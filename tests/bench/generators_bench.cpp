@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Points a second, on one core. Sequences fill cache-sized blocks, one after the other, with points
-// of two (20) dimensions; a set is made as a whole.
+// Points per second on one core. Sequences fill cache-sized blocks one after the other, with points
+// of 2 (20) dimensions; sets are made as a whole.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@ void fill_blocks(benchmark::State& state, const std::string& name, const Setting
                  std::size_t dimension) {
     const Generator& generator = find_generator(name);
     Values values = generator.options.defaults();
-    bool square = false;  // of a prime
+    bool square = false;  // the square of a prime
     for (const auto& [option, text] : settings) {
         generator.options.set(values, option, text);
         square = square || text == "bose";
@@ -52,7 +52,7 @@ void search_vector(benchmark::State& state, const std::string& name, const Reque
             generator.sequence(plan_for(generator, request, values), values, {}).get());
 }
 
-/// A whole array, as a peer gives it: with the time that its memory takes.
+/// Makes a whole array, as other libraries do, including the time for its memory.
 void make_array(benchmark::State& state, const std::string& name, const Settings& settings,
                 std::size_t dimension) {
     const Request request{.count = std::uint64_t{1} << 20, .dimension = dimension};
@@ -67,7 +67,7 @@ std::string label_of(const std::string& name, const Settings& settings, std::siz
     return fmt::format("{}/{}d", label, dimension);
 }
 
-/// In blocks that fit the cache.
+/// Benchmarks in blocks that fit into the cache.
 void add_blocks(const std::string& name, const std::vector<std::size_t>& dimensions,
                 const Settings& settings = {}) {
     for (const std::size_t d : dimensions)
@@ -75,7 +75,7 @@ void add_blocks(const std::string& name, const std::vector<std::size_t>& dimensi
                                      [=](auto& state) { fill_blocks(state, name, settings, d); });
 }
 
-/// As whole arrays; compare_scipy.py goes by these names.
+/// Benchmarks as whole arrays; compare_scipy.py uses their names.
 void add_arrays(const std::string& name, const Settings& settings = {}) {
     for (const std::size_t d : {2U, 20U})
         benchmark::RegisterBenchmark(("array/" + label_of(name, settings, d)).c_str(),
@@ -86,7 +86,7 @@ void add_arrays(const std::string& name, const Settings& settings = {}) {
 void add_sequences() {
     for (const char* rng : {"philox", "mt19937-64", "drand48", "ranlux48", "ranmar", "random"})
         add_blocks("random", {2}, {{"rng", rng}});
-    // 2^40 = 4^20 points: a power of two in 20 dimensions as well.
+    // 2^40 = 4^20 points, so that the count is also a 20th power.
     for (const char* name : {"random", "grid", "jittered", "hammersley", "kronecker", "faure",
                              "niederreiter", "latin-hypercube"})
         add_blocks(name, {2, 20});
@@ -116,7 +116,7 @@ void add_searches() {
     add("polynomial-lattice", 1'048'576);
 }
 
-/// About 10^5 points, and of what moves them many times 4096.
+/// About 10^5 points; 4096 for methods that move points many times.
 void add_sets() {
     const auto add = [](const std::string& name, const char* label, const Request& request,
                         const Settings& settings) {

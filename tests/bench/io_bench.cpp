@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Writing and reading a million 2-D points, on one core. Beside them, the same number of numbers
-// through the libraries at hand.
+// Writing and reading a million 2-D points on one core; for comparison, as many numbers by other
+// libraries.
 #include <benchmark/benchmark.h>
 #include <fmt/compile.h>
 
@@ -27,7 +27,7 @@ const std::vector<double>& points() {
     return rows;
 }
 
-/// As the command line does it: blocks of rows into a buffer that is used again.
+/// Like the command line: blocks of rows in a reused buffer.
 template <class Sink>
 void write(const Format& format, const Sink& sink) {
     const Layout layout{.dimension = 2, .counts = {count}};
@@ -64,7 +64,7 @@ void read_points(benchmark::State& state, const char* name) {
     state.SetBytesProcessed(static_cast<std::int64_t>(file.size()) * state.iterations());
 }
 
-/// Printing numbers one after another with `put(buffer, value)`, which returns the end.
+/// Prints numbers one after another with `put(buffer, value)`, which returns the end.
 template <class Put>
 void print_numbers(benchmark::State& state, const Put& put) {
     std::vector<char> text(numbers * 32);
@@ -76,7 +76,7 @@ void print_numbers(benchmark::State& state, const Put& put) {
     state.SetItemsProcessed(static_cast<std::int64_t>(numbers) * state.iterations());
 }
 
-/// Reading what append_number prints, with `take(begin, end, value)`, which returns the end.
+/// Reads the output of append_number with `take(begin, end, value)`, which returns the end.
 template <class Take>
 void scan_numbers(benchmark::State& state, const Take& take) {
     std::string text;

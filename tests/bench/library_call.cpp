@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The least of processor time, in seconds, of ten calls of the library in memory, on one thread: the
-// measure of python_bench.py for what the module adds.
+// Smallest processor time in seconds of ten in-memory calls of the library on one thread.
+// python_bench.py compares it to measure the overhead of the module.
 //
 //     stipple_library_call GENERATOR COUNT DIMENSION [ANALYZER]
 #include <algorithm>

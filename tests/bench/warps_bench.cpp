@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Warps, on one core: random points of the cube in blocks of 4096, forward and back.
+// Warps on one core: random points of the cube in blocks of 4096, forward and back.
 #include <benchmark/benchmark.h>
 
 #include "core/rng.hpp"
@@ -53,7 +53,7 @@ void inverse(benchmark::State& state, const std::string& text) {
     state.SetItemsProcessed(static_cast<std::int64_t>(block) * state.iterations());
 }
 
-/// All warps and methods there is something to say of, that need no file.
+/// Warps and methods of interest that need no file.
 const std::vector<std::string> specs = {
     "annulus",
     "ball",
@@ -109,7 +109,7 @@ const std::vector<std::string> specs = {
     "von-mises-fisher",
 };
 
-/// A square array of random bytes; all of it is in no cache.
+/// A square array of random bytes, as an NPY file.
 std::string noise_npy(std::size_t side) {
     std::string head = "{'descr': '|u1', 'fortran_order': False, 'shape': (" +
                        std::to_string(side) + ", " + std::to_string(side) + "), }";
@@ -121,7 +121,8 @@ std::string noise_npy(std::size_t side) {
     return bytes;
 }
 
-/// Points of many blocks, each in its turn, so that they do not find what the last ones fetched.
+/// Cycles through many blocks of points, so that table entries used by one block are no longer in
+/// the cache for the next.
 void image(benchmark::State& state) {
     const testing::TemporaryFile file(noise_npy(static_cast<std::size_t>(state.range(0))), ".npy");
     const auto map = mapping_of("image:file=" + file.path());

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Every warp, in every method, on ten million random and hostile points each:
+// Tests every warp, with every method, on ten million random and hostile points each:
 //
 //     stipple_warps_long [POINTS [SPEC...]]
 //
-// Half of the coordinates are random, half are ends of [0, 1], numbers next to them at any scale
-// down to denormals, and simple fractions with their neighbours. Every image is finite and in the
-// domain, has a density that is not negative, and coordinates of the domain's cube in [0, 1]. Where
-// there is a way back, it ends in the closed cube, at the point that it came from or one whose
-// image is the same, within 1e-12: of 1, or of the domain's size; of the image's own size where the
-// domain has no end. A line a warp; exit code 1 where one fails. Some minutes on two cores, so no
-// part of the tests.
+// Half of the coordinates are random; the others are ends of [0, 1], numbers next to them at any
+// scale including denormals, and simple fractions with their neighbours. Every image must be finite
+// and in the domain, have a nonnegative density, and have coordinates in [0, 1] in the domain's
+// cube. If there is an inverse, it must return a point of the closed cube that equals the original
+// or has the same image within 1e-12, relative to 1 or the domain's size, or to the image's size in
+// infinite domains. Prints one line per warp; exit code 1 if one fails. Takes minutes on two cores,
+// so it is not among the tests.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -52,7 +52,7 @@ double hostile(std::uint64_t bits) {
         case 2:
             return std::ldexp(any, -scale);
         case 3:
-            return std::ldexp(any, -17 * scale);  // down to denormals
+            return std::ldexp(any, -17 * scale);  // including denormals
         case 4:
         case 5:
             return std::min(1 - std::ldexp(any, -scale), 1 - 0x1p-53);
@@ -74,8 +74,8 @@ struct Findings {
     std::uint64_t densities = 0;  ///< negative or NaN
     std::uint64_t cells = 0;      ///< not in the domain's cube
     std::uint64_t backs = 0;      ///< not in the unit cube
-    double worst = 0;             ///< relative error of the image of the way back
-    std::vector<double> at;       ///< where that is, or something else went wrong
+    double worst = 0;             ///< largest relative error of the image of an inverse
+    std::vector<double> at;       ///< point with the largest error or another failure
 
     void add(const Findings& other) {
         kept += other.kept;
@@ -96,7 +96,7 @@ bool in_cube(std::span<const double> point) {
     return std::ranges::all_of(point, [](double u) { return u >= 0 && u <= 1; });
 }
 
-/// The largest coordinate there is, if the domain ends.
+/// Largest coordinate of the domain; 0 if it is infinite.
 double size_of(const Domain& domain) {
     if (!(domain.measure() < std::numeric_limits<double>::infinity())) return 0;
     const Box box = domain.bounding_box();
@@ -106,7 +106,7 @@ double size_of(const Domain& domain) {
     return size;
 }
 
-/// Points of one block on their way.
+/// One block of points with their images and inverses.
 struct Batch {
     Batch(const Mapping& by, bool way_back, std::uint64_t first, std::uint64_t last)
         : map(by),
@@ -176,7 +176,7 @@ struct Batch {
                 off = std::max(off, std::abs(again[i * out + k] - there[i * out + k]));
                 if (size == 0) scale = std::max(scale, std::abs(there[i * out + k]));
             }
-            // Where a density falls to 0, neighbouring coordinates have images far apart.
+            // Near zeros of the density, neighbouring coordinates have distant images.
             const double error = std::min(off / scale, coordinate_error(back, i, which[i]));
             if (off == 0 || error <= found.worst) continue;
             found.worst = error;
@@ -204,7 +204,7 @@ struct Batch {
     Findings found;
 };
 
-/// A file that is there while the program runs.
+/// A picture file that exists while the program runs.
 class PictureFile {
   public:
     PictureFile() {
@@ -279,7 +279,7 @@ std::vector<std::string> specs(const PictureFile& picture) {
     return list;
 }
 
-/// Some methods of a warp have no inverse where others do.
+/// Whether the method has an inverse; other methods of the warp may differ.
 bool has_way_back(const Warp& warp, const Mapping& map) {
     if (!warp.traits.invertible || map.drops()) return false;
     try {
@@ -291,7 +291,7 @@ bool has_way_back(const Warp& warp, const Mapping& map) {
     }
 }
 
-/// Prints a line about a warp.
+/// Tests a warp and prints its line; returns whether it passed.
 bool stands(const std::string& text, std::uint64_t points, const RunContext& run) {
     const Spec spec = parse_spec(text);
     const Warp& warp = find_warp(spec.name);

@@ -12,7 +12,7 @@
 namespace stipple::testing::carried_meta_test {
 namespace {
 
-/// What XML, roff and shells would trip over.
+/// Provenance with characters that are special in XML, roff and shells.
 Provenance awkward() {
     Provenance meta = some_provenance();
     meta.command = "stipple generate halton -w 'a<b>&amp;c' \"\\n";

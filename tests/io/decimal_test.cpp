@@ -31,7 +31,7 @@ double value_of(const std::string& text) {
     return value;
 }
 
-/// Doubles of all sizes, and those where algorithms go wrong: powers of two, subnormals, integers.
+/// Doubles of all sizes, and difficult ones: powers of two, subnormals, integers.
 double interesting(std::mt19937_64& random, int kind) {
     const auto bits = random();
     switch (kind % 5) {
@@ -74,7 +74,7 @@ TEST(Decimal, ByHand) {
     EXPECT_EQ(text(-std::numeric_limits<double>::infinity()), "-inf");
 }
 
-// Two independent programs agree on what the shortest text is.
+// Two independent programs agree on the shortest text.
 TEST(Decimal, IsTheShortestTextThatReadsBack) {
     std::mt19937_64 random(1);
     for (int i = 0; i < rounds; ++i) {
@@ -96,7 +96,7 @@ TEST(Decimal, EveryDoubleReadsBackToItsLastBit) {
     EXPECT_TRUE(std::signbit(value_of(text(-0.0))));
 }
 
-// Any digits at all: the standard library rounds correctly, and so must we.
+// Text with any digits is rounded correctly, as by the standard library.
 TEST(Decimal, ReadsAnyDigitsAsTheStandardLibraryDoes) {
     std::mt19937_64 random(3);
     for (int i = 0; i < rounds; ++i) {
@@ -113,7 +113,7 @@ TEST(Decimal, ReadsAnyDigitsAsTheStandardLibraryDoes) {
     }
 }
 
-// Halfway between two doubles, and just beside: where a cut product cannot tell.
+// Halfway between two doubles, and next to it: truncated products do not decide these.
 TEST(Decimal, ReadsTiesToEven) {
     EXPECT_EQ(value_of("9007199254740993"), 9007199254740992.0);
     EXPECT_EQ(value_of("9007199254740995"), 9007199254740996.0);
@@ -179,7 +179,7 @@ TEST(Decimal, PrecisionCutsTowardZero) {
     EXPECT_EQ(text(1e300, 2).size(), 304U);
 }
 
-// Oracle: all 1074 digits that a double can have, cut.
+// Oracle: all of a double's up to 1074 digits, truncated.
 TEST(Decimal, PrecisionIsExact) {
     std::mt19937_64 random(4);
     for (int i = 0; i < 20'000; ++i) {

@@ -26,7 +26,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// A folder of its own for each test, removed in the end.
+/// A directory for each test, removed at the end.
 class Files : public ::testing::Test {
   protected:
     Files() {
@@ -65,7 +65,7 @@ TEST_F(Files, InputGivesTheBytes) {
     EXPECT_EQ(io::read_bytes(path("a"), {}), "bytes\n");
     put("empty", "");
     EXPECT_EQ(io::read_bytes(path("empty"), {}), "");
-    if (fs::exists("/proc/self/status")) {  // says its size is 0
+    if (fs::exists("/proc/self/status")) {  // which has size 0
         EXPECT_FALSE(io::read_bytes("/proc/self/status", {}).empty());
     }
 }
@@ -88,7 +88,7 @@ TEST_F(Files, InputReadsPipesToTheirEnd) {
     EXPECT_EQ(io::read_bytes(path("pipe"), {}), bytes);
 }
 
-// A pipe that nobody writes to: without a look at the stop token this would wait for ever.
+// Without checking the stop token, reading a pipe without a writer would never return.
 TEST_F(Files, InputStopsWaitingWhenAsked) {
     ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
     std::stop_source stop;
@@ -106,7 +106,7 @@ TEST_F(Files, InputHonoursTheMemoryLimit) {
     EXPECT_TRUE(error.starts_with("limit: the bytes of /dev/zero needs")) << error;
 }
 
-// What grows, shrinks or is written anew between its first and last byte is not one file.
+// A file that grows, shrinks or is rewritten while it is read is not one file.
 TEST_F(Files, InputThatChangesWhileItIsReadIsNamed) {
     const std::string bytes(3 * io::Feed::front_size, 'x');
     const std::vector<std::function<void()>> changes = {
@@ -173,7 +173,7 @@ TEST_F(Files, OutputsAppearTogetherOrNotAtAll) {
     EXPECT_EQ(entries(), 1U);
     EXPECT_EQ(get("old.csv"), "old");
 
-    // Whose place is taken by a folder while it is written cannot be put there.
+    // If a directory is created at a file's path in the meantime, the file cannot be moved there.
     io::Outputs halfway;
     halfway.add(path("old.csv")).write("new");
     halfway.add(path("folder")).write("new");
@@ -183,7 +183,7 @@ TEST_F(Files, OutputsAppearTogetherOrNotAtAll) {
     EXPECT_TRUE(error.ends_with("; already written: " + path("old.csv"))) << error;
 }
 
-// As many files as a command may have, with fewer descriptors than files.
+// As many files as a command may write, with fewer file descriptors.
 TEST_F(Files, OutputsMayBeMoreThanTheSystemLetsBeOpen) {
     rlimit before{};
     ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
@@ -204,7 +204,7 @@ TEST_F(Files, OutputKeepsTheModeOfWhatItReplaces) {
         return fs::status(path(name)).permissions() & fs::perms::all;
     };
     put("old.csv", "old");
-    fs::permissions(path("old.csv"), fs::perms(06640));  // but not setuid and setgid
+    fs::permissions(path("old.csv"), fs::perms(06640));  // without setuid and setgid
     io::Output again(path("old.csv"));
     again.write("new");
     again.commit();

@@ -64,8 +64,8 @@ TEST(Formats, AreToldByTheirFirstBytes) {
     EXPECT_EQ(name("1 2\n"), "csv");
 }
 
-// What others send us must be read or refused: it must never crash, hang or give nonsense. The
-// sanitizers watch.
+// Untrusted files must be read or rejected, without a crash, a hang or wrong results. Sanitizers
+// find more.
 TEST(Formats, BrokenFilesAreReadOrRefused) {
     std::mt19937_64 random(1);
     const std::vector<PointSet> sets{random_points(4, 2, 1), random_points(4, 2, 2)};

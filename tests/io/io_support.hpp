@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Short ways for tests to write and read point files in memory.
+// Shorthands for writing and reading point files in memory.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@
 
 namespace stipple::testing {
 
-/// The bytes of a file with these sets (rows hold layout.extras behind the coordinates).
+/// A file with these sets; rows have layout.extras after the coordinates.
 inline std::string written(std::string_view format_name, const std::vector<PointSet>& sets,
                            Layout layout = {}) {
     const Format& format = io::format_named(format_name);
@@ -23,7 +23,7 @@ inline std::string written(std::string_view format_name, const std::vector<Point
     if (format.head) format.head(layout, out);
     for (std::size_t s = 0; s < sets.size(); ++s) {
         if (format.begin_set) format.begin_set(layout, s, out);
-        // Two calls, for rows are written in blocks.
+        // Two calls, because rows are written in blocks.
         const std::size_t half = sets[s].count() / 2;
         const auto flat = sets[s].flat();
         format.rows(layout, s, 0, flat.first(half * sets[s].dimension()), out);
@@ -39,13 +39,13 @@ inline std::vector<PointSet> read_as(std::string_view format, std::string_view b
     return io::format_named(format).read(bytes, options, run);
 }
 
-/// What a file that must be refused is told; empty if it was read.
+/// Error of reading; empty if there is none.
 inline std::string refusal(std::string_view format, std::string_view bytes,
                            const ReadOptions& options = {}, const RunContext& run = {}) {
     return error_of([&] { read_as(format, bytes, options, run); });
 }
 
-/// Uniform random points, the same ones every time.
+/// Uniform random points, the same for the same seed.
 inline PointSet random_points(std::size_t count, std::size_t dimension, std::uint64_t seed = 1) {
     PointSet points(count, dimension);
     Rng(seed).fill(0, points.flat());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Points in blocks are the points of the whole file, for files larger than what is looked at first.
+// Reading in blocks gives the points of the whole file, also for files larger than the first
+// buffer.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -45,7 +46,7 @@ class PointStreams : public ::testing::Test {
          ::testing::UnitTest::GetInstance()->current_test_info()->name());
 };
 
-/// All sets of a stream, taken `block` rows at a time.
+/// All sets of a stream, read in blocks of `block` rows.
 std::vector<PointSet> drained(io::PointStream& stream, std::size_t block) {
     std::vector<PointSet> sets;
     const std::size_t d = stream.dimension();
@@ -78,7 +79,7 @@ void expect_same(const std::string& path, const ReadOptions& options = {.dimensi
     EXPECT_EQ(io::open_points(path, options, {})->read_all({}), whole);
 }
 
-/// Reads all; the same error as for the whole file.
+/// Expects reading in blocks to give the same error as reading the whole file.
 void expect_same_error(const std::string& path, const ReadOptions& options = {.dimension = 2}) {
     const auto error = error_of([&] { io::read_points(path, options, {}); });
     EXPECT_NE(error, "");

@@ -45,7 +45,7 @@ TEST(ProvenanceJson, ReadsBack) {
     }
 }
 
-// Keys beyond the contract's are there only where they say something.
+// Optional keys are written only if they have a value.
 TEST(ProvenanceJson, ReadsBackWhatWasCutAndReadAndByWhichRules) {
     Provenance provenance = some_provenance();
     provenance.precision = 0;

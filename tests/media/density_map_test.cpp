@@ -21,7 +21,7 @@ DensityMap density(const std::string& bytes, bool invert = false) {
     return read_density(TemporaryFile(bytes).path(), invert, {});
 }
 
-/// The message, with FILE for the file's name.
+/// Error message, with FILE in place of the file's name.
 std::string refused(const std::string& bytes, bool invert = false) {
     const TemporaryFile file(bytes);
     std::string error = error_of([&] { read_density(file.path(), invert, {}); });
@@ -51,7 +51,7 @@ TEST(DensityMap, TakesNumbersOfAnySize) {
     EXPECT_EQ(values_of(DensityMap(2, 1, {3e-320, 0})), (std::vector<double>{2, 0}));
 }
 
-// Piecewise linear, so known by hand: half of the mass is below y = 1/3 ...
+// The map is piecewise linear, so values are known by hand: half of the mass is below y = 1/3.
 TEST(DensityMap, PlacesTheUniformSquare) {
     const DensityMap map(2, 2, {3, 1, 0, 4});
     EXPECT_EQ(map.place(0, 0), (std::array<double, 2>{0, 0}));
@@ -61,7 +61,7 @@ TEST(DensityMap, PlacesTheUniformSquare) {
     EXPECT_EQ(map.place(0, 0.5), (std::array<double, 2>{0.5, 0.5}));
 }
 
-// Chi-square over the cells of positive density; 80 cells: 200 is 11 standard deviations above.
+// Chi-square over 80 cells of positive density; 200 is 11 standard deviations above the mean.
 TEST(DensityMap, PlacesPointsInProportionAndNeverWhereItIsZero) {
     std::vector<double> values(9 * 11);
     const Rng shape(3);
@@ -86,7 +86,7 @@ TEST(DensityMap, PlacesPointsInProportionAndNeverWhereItIsZero) {
     EXPECT_GT(statistic, 30);
 }
 
-// Rounding must not lead into a neighbour that is empty, nor out of the square.
+// Rounding must not move points into an empty neighbour, nor out of the square.
 TEST(DensityMap, PlacesTheRimOfCellsInsideThem) {
     for (const std::size_t width : {1U, 3U, 49U, 98U, 1000U}) {
         std::vector<double> values(width);
@@ -104,7 +104,7 @@ TEST(DensityMap, PlacesTheRimOfCellsInsideThem) {
     }
 }
 
-// Batches must not depend on where they are cut; sides of 1 and of several buckets a row.
+// Batches give the same points wherever they are split; sides of 1, and several buckets per row.
 TEST(DensityMap, PlacesBatchesAsSinglePoints) {
     for (const auto& [width, height] : {std::pair{1, 1}, {300, 7}, {1, 50}, {5, 200}}) {
         std::vector<double> values(static_cast<std::size_t>(width * height));
@@ -153,7 +153,7 @@ TEST(ReadDensity, TurnsPicturesTheRightWayUp) {
               values_of(DensityMap(2, 2, {102 / 255.0, 1, 0, 51 / 255.0})));
     const DensityMap ink = density(bytes, true);
     EXPECT_EQ(values_of(ink), values_of(DensityMap(2, 2, {1 - 102 / 255.0, 0, 1, 1 - 51 / 255.0})));
-    EXPECT_EQ(ink.at(0.1, 0.9), ink.largest());  // black, on top left
+    EXPECT_EQ(ink.at(0.1, 0.9), ink.largest());  // black, at the top left
 }
 
 TEST(ReadDensity, PutsNothingWhereAPictureIsTransparent) {

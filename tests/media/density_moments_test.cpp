@@ -8,7 +8,7 @@
 namespace stipple::testing::density_moments_test {
 namespace {
 
-/// Oracle: the cell cut along the sides of each pixel of the plane around it, piece by piece.
+/// Oracle: the cell is cut into pieces along the pixels around it, and their moments are added.
 CellMoments by_pieces(const VoronoiCell& cell, Vec2 site, std::size_t width, std::size_t height,
                       const std::vector<double>& values, Vec2 sides) {
     const auto w = static_cast<int>(width);
@@ -59,7 +59,7 @@ TEST(DensityMoments, AreThoseOfTheCellCutIntoPixels) {
             }
 }
 
-// Across pixels of 1, 2, 4 along the diagonal of a 3 x 3 grid, and once more beyond.
+// Across pixels of 1, 2, 4 along the diagonal of a 3 x 3 grid, and one more beyond it.
 TEST(DensityMoments, AlongALineByHand) {
     const DensityMoments moments(3, 3, std::vector<double>{1, 0, 0, 0, 2, 0, 0, 0, 4}, {1, 1});
     EXPECT_NEAR(moments.along({0.5, 0}, {0.5, 1}), 2.0 / 3, 1e-15);

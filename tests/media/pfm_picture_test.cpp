@@ -27,7 +27,7 @@ TEST(PfmPicture, ReadsGreyInBothByteOrders) {
     }
 }
 
-// 1.0 as the format's readers know it: 3f 80 00 00, the low byte last where the scale is above 0.
+// 1.0 is 3f 80 00 00, with the low byte last if the scale is positive.
 TEST(PfmPicture, ReadsBytesByHand) {
     using namespace std::string_literals;
     EXPECT_EQ(read("Pf\n1 1\n1\n\x3f\x80\0\0"s).values, std::vector{1.0});

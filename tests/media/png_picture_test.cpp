@@ -70,7 +70,7 @@ TEST(PngPicture, ReadsPalettesAndTransparency) {
     EXPECT_EQ(colour.opacity, (std::vector<double>{0.2, 1}));
 }
 
-// Adam7 stores pixels in seven passes; what is read must not depend on that.
+// Adam7 stores pixels in seven passes, which must not change the picture.
 TEST(PngPicture, InterlacingChangesNothing) {
     Samples samples(3 * 37 * 21);
     const Rng rng(1);
@@ -97,7 +97,7 @@ TEST(PngPicture, RefusesEveryTruncationSilently) {
     }
 }
 
-// A check sum guards every chunk, so a changed byte is refused or passed over, but never a crash.
+// Chunks have checksums, so a changed byte is an error or has no effect, but never a crash.
 TEST(PngPicture, SurvivesAnyChangedByte) {
     const std::string whole = png_of(9, 5, Samples(9 * 5, 99), {.interlaced = true});
     std::size_t refusals = 0;
@@ -110,7 +110,8 @@ TEST(PngPicture, SurvivesAnyChangedByte) {
     EXPECT_GT(refusals, (whole.size() - 8) * 2);
 }
 
-// Lengths take every one of their bytes; libpng checks the sums of the chunks.
+// Tests text lengths that use every byte of the length field; libpng verifies the chunks'
+// checksums.
 TEST(PngPicture, TextsOfAnyLengthComeBack) {
     const std::string picture = png_of(9, 5, Samples(9 * 5, 99));
     for (const std::size_t size : {0U, 1U, 255U, 256U, 65'535U, 70'000U, 20'000'000U}) {

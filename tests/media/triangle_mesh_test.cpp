@@ -35,7 +35,7 @@ const std::string ascii_head =
     "property list uchar int vertex_indices\nend_header\n";
 const std::string ascii_points = "0 0 0 9\n1 0 0 9\n1 1 0 9\n0 1 0 9\n";
 
-/// Numbers as they stand in a binary file.
+/// Numbers in the representation of a binary file.
 template <class T>
 void put(std::string& bytes, T value) {
     char raw[sizeof(T)];
@@ -156,7 +156,7 @@ TEST(TriangleMesh, EveryCutOfABinaryPlyIsRefusedNamingAByte) {
     EXPECT_NE(error.find("x of vertex 4 of 4 is nan"), std::string::npos) << error;
 }
 
-/// Twice the area of the triangles, in the plane z = 0.
+/// Twice the signed area of the triangles in the plane z = 0.
 double twice_area(const TriangleMesh& mesh) {
     double sum = 0;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -166,8 +166,8 @@ double twice_area(const TriangleMesh& mesh) {
     return sum;
 }
 
-// The area between (0,2) (1,.2) (2,2) (2,0) (0,0) is 4 - 1.8; a fan from the first corner has more.
-// Triangles keep the direction of their polygon.
+// The polygon (0,2) (1,.2) (2,2) (2,0) (0,0) has area 4 - 1.8; a fan from its first corner has
+// more. Triangles have the orientation of their polygon.
 TEST(TriangleMesh, TriangulatesFacesThatAreNotConvex) {
     const std::string notch = "v 0 2 0\nv 1 0.2 0\nv 2 2 0\nv 2 0 0\nv 0 0 0\n";
     const TriangleMesh one = obj(notch + "f 1 2 3 4 5\n");
@@ -186,7 +186,7 @@ TEST(TriangleMesh, TriangulatesFacesThatAreNotConvex) {
     EXPECT_EQ(arrow.triangles.size(), 2U);
 }
 
-// Combs of whole numbers in all directions of space, whose area the shoelace formula gives.
+// Combs with integer corners in arbitrary planes in space; the shoelace formula gives their area.
 TEST(TriangleMesh, TrianglesOfAPolygonHaveItsArea) {
     const Rng rng(4);
     for (std::uint64_t teeth = 1; teeth <= 30; ++teeth) {

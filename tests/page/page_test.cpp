@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Report pages: what is marked as best, what is said in words, and that the page and its data say
-// the same.
+// Report pages: marks of the best values, remarks in words, and equality of the page and its data.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -72,7 +71,7 @@ TEST(Best, NeedsSomethingToCompareWith) {
                 ElementsAre(true, false, false));
 }
 
-// Bounds that overlap leave open which set is the better one.
+// Overlapping bounds leave the better set undecided.
 TEST(Best, IsCertain) {
     EXPECT_THAT(best_of(Compared{Known{1, 1, 3}, exactly(2)}, Better::lower),
                 ElementsAre(false, false));
@@ -116,7 +115,7 @@ TEST(Comparison, KnowsThatHaltonIsMoreEvenThanChance) {
     EXPECT_EQ(verdict_in_words(measure_of(sets[0], "dispersion")), "");
 }
 
-// The mean and its error; the same number for all has none, however it is rounded.
+// The mean and its standard error, which is exactly 0 for equal numbers.
 TEST(Comparison, MeansHaveErrors) {
     const auto set_of = [](const std::vector<double>& values) {
         Set set;
@@ -137,7 +136,7 @@ TEST(Comparison, MeansHaveErrors) {
     EXPECT_DOUBLE_EQ(root.error, 3.5 / (2 * std::sqrt(12.5)));
     EXPECT_EQ(known_under(set_of({0.1, 0.1, 0.1}), {"m.value", "", ""})->error, 0);
     EXPECT_EQ(known_under(set_of({1, NAN}), {"m.value", "", ""}), std::nullopt);
-    // Two standard errors tell means apart.
+    // Means are considered different if two standard errors apart.
     EXPECT_THAT(best_of(Compared{Known{1, 1, 1, 0.1}, Known{1.3, 1.3, 1.3, 0.1}}, Better::lower),
                 ElementsAre(false, false));
     EXPECT_THAT(best_of(Compared{Known{1, 1, 1, 0.1}, Known{1.5, 1.5, 1.5, 0.1}}, Better::lower),
@@ -159,7 +158,7 @@ TEST(Comparison, EveryKeyIsOneOfTheMeasures) {
     EXPECT_FALSE(known_under(set, {"nonsense.value", "", ""}));
 }
 
-// The commands name the analyzer, the input and every option that is not the default.
+// Commands name the analyzer, the input and every option that is not the default.
 TEST(Measures, TellHowToMeasureAgain) {
     const Set set = page_set("p.csv", make("halton", points(32, 2)), 12345);
     EXPECT_EQ(measure_of(set, "extreme-discrepancy").command,
@@ -202,7 +201,7 @@ TEST(Measures, LimitedSearchesGiveCertainBounds) {
     EXPECT_THAT(shown_known(*known), HasSubstr(" to "));
 }
 
-// By n and d, not by a clock: 50 50 9 steps are more than 5 times 4000.
+// The limit depends on n and d, not on the time: 50 50 9 steps exceed 5 times 4000.
 TEST(Measures, LeaveOutWhatWouldTakeLong) {
     const Set set = page_set("a", make("random", points(50, 9)), 4000);
     EXPECT_THAT(measure_of(set, "nearest-neighbor").left_out, HasSubstr("all pairs of 50 points"));
@@ -227,7 +226,7 @@ TEST(Figures, BlocksKeepTheCentreAndTheMean) {
     grid.values[24] = 9;
     EXPECT_EQ(in_blocks(grid, 7), grid);
     const Grid small = in_blocks(grid, 3);
-    ASSERT_EQ(small.rows, 1U);  // the blocks at the rim would not be whole
+    ASSERT_EQ(small.rows, 1U);  // blocks at the edge would be incomplete
     EXPECT_EQ(small.values, std::vector<double>{1});
     Grid wide{.rows = 9, .columns = 9, .values = std::vector<double>(81, 2)};
     wide.values[0] = 11;
@@ -252,7 +251,7 @@ TEST(Figures, EveryPointIsAMarkAndManyAreAPicture) {
 }
 
 TEST(Figures, BoxesAreDrawnWhereTheyAre) {
-    // One point in the middle: the worst box is [0, 1/2]^2 closed, 1 - 1/4.
+    // One point in the middle: the worst box is the closed [0, 1/2]^2, with discrepancy 1 - 1/4.
     const PointSet one = points_of({{0.5, 0.5}});
     const Set set = page_set("one", one);
     const auto boxes = worst_boxes(set);
@@ -260,7 +259,7 @@ TEST(Figures, BoxesAreDrawnWhereTheyAre) {
     EXPECT_EQ(boxes[0].kind, "star");
     EXPECT_EQ(boxes[0].high, (std::vector<double>{0.5, 0.5}));
     EXPECT_EQ(boxes[0].label, "worst box from the origin: 1 of the points in 0.25 of the volume");
-    // The box has the frame's lower left corner; its upper right one is the point.
+    // The box extends from the frame's lower left corner to the point.
     const std::string figure = point_figures(one, set).front();
     std::smatch dot;
     ASSERT_TRUE(std::regex_search(figure, dot, std::regex("d=\"M([0-9.]+) ([0-9.]+)h0")));

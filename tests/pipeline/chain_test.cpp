@@ -32,7 +32,7 @@ TEST(WarpChain, WarpsTheNamedCoordinatesAndLeavesTheOthers) {
     EXPECT_NEAR(both.density(out)[0], 2 / 3.14159265358979, 1e-12);
 }
 
-// A triangle in space has three numbers for two; what stood behind moves up.
+// A triangle in space has three numbers for two coordinates; later coordinates are shifted.
 TEST(WarpChain, ImagesOfMoreNumbersMakeRowsLonger) {
     const auto longer = chain({"disk@3,4", "triangle@1,2:vertices=[0,0,1 1,0,1 0,1,1]"}, 4);
     EXPECT_EQ(longer.dimension_out(), 5U);
@@ -48,7 +48,7 @@ TEST(WarpChain, ImagesOfMoreNumbersMakeRowsLonger) {
     for (std::size_t k = 0; k < row.size(); ++k) EXPECT_NEAR(back[k], row[k], 1e-14) << k;
 }
 
-// What comes back is a point of the cube [0, 1), which every warp takes: never 1.
+// Inverses are points of the half-open cube [0, 1), which every warp accepts: never 1.
 TEST(WarpChain, RimsComeBackBelowOne) {
     for (const char* warp : {"disk:method=concentric", "ellipse", "ball", "tent", "annulus"}) {
         const std::size_t d = std::string_view(warp) == "ball" ? 3 : 2;
@@ -62,7 +62,7 @@ TEST(WarpChain, RimsComeBackBelowOne) {
     EXPECT_EQ(corner, (std::vector<double>{one_minus_ulp, 0.5}));
 }
 
-// A sphere takes two numbers and gives three; what stands behind it moves to the left.
+// A sphere has three numbers for two coordinates; the inverse shifts later coordinates back.
 TEST(WarpChain, TheWayBackLeavesTheDomainsOfOtherCoordinates) {
     const auto sphere = chain({"sphere@1,2"}, 5);
     const auto before = [&](const std::string& after) {
@@ -105,7 +105,7 @@ TEST(WarpChain, RefusesPointsThatItWasNotMadeFor) {
     EXPECT_EQ(error_of([&] { static_cast<void>(disk.preimage(PointSet(5, 3), {})); }),
               "input: the points have 3 coordinates; the warps give 2");
     PointSet once = disk.image(points_of({{0.9, 0.5}}), {});
-    once.domain = unit_cube(2);  // as a file without provenance says
+    once.domain = unit_cube(2);  // like a file without provenance
     EXPECT_NE(error_of([&] {
                   static_cast<void>(warp("disk", once));
               }).find("1 of 1 points are outside the unit cube"),
@@ -158,8 +158,8 @@ TEST(WarpChain, ScramblesGoByTheSetsSeedOrTheirOwn) {
         "the unit cube");
 }
 
-// The first row of a set, whatever thread it is on; of sequences with a point 0, that one. A mixture's
-// component has its own ends.
+// Warns of the first row of a set, independent of threads; for sequences with a point 0, of that.
+// Components of a mixture have their own infinite ends.
 TEST(WarpChain, TellsOnceOfTheFirstPointThatIsInfinitelyFar) {
     const auto told = [](std::initializer_list<const char*> specs, const PointSet& points) {
         const auto warps = chain(specs, points.dimension());

@@ -14,7 +14,7 @@
 namespace stipple::testing::produce_test {
 namespace {
 
-/// What a target without a file is given.
+/// Output of a target without a file.
 std::string written(std::vector<PointSet> sets, Target target = {}) {
     std::string bytes;
     target.sink = [&](std::string_view more) {
@@ -83,7 +83,8 @@ TEST(SetStream, WaitsOnDiskWithCountsAndCommonOptions) {
     }
 }
 
-// Blocks that are warped side by side lose points each; those that are left stand together, in order.
+// Blocks that are warped in parallel lose different numbers of points; the remaining ones are
+// joined in order.
 TEST(WriteWarped, DropsPointsOfAStreamAsOfASetInMemory) {
     const PointSet points = generate("random", {.count = 300'000, .dimension = 2});
     const TemporaryFile file("", ".f64");
@@ -104,7 +105,7 @@ TEST(WriteWarped, DropsPointsOfAStreamAsOfASetInMemory) {
     EXPECT_EQ(std::memcmp(bytes.data(), image.flat().data(), bytes.size()), 0);
 }
 
-// A file that is written of them tells how they were made.
+// Sets have provenance, so that files written of them have it, too.
 TEST(Generate, TellsWhereThePointsAreFrom) {
     const PointSet points =
         generate("halton", {.count = 5, .dimension = 3, .start = 7, .seed = 9}, {{"leap", "7"}});

@@ -24,7 +24,7 @@ Values values_of(const Analyzer& analyzer, const Settings& settings) {
     return values;
 }
 
-/// All numbers to the last bit.
+/// All numbers with all their bits.
 std::string text_of(const Report& report) {
     return to_json(std::vector<Measurement>{{.analyzer = "",
                                              .source = "",
@@ -34,7 +34,7 @@ std::string text_of(const Report& report) {
                                              .results = report}});
 }
 
-/// What so many ranks find.
+/// Report by this number of ranks.
 std::string found_by(int ranks, const std::string& analyzer, const PointSet& points,
                      const Settings& settings = {}) {
     const Analyzer& unit = find_analyzer(analyzer);
@@ -59,7 +59,7 @@ void expect_same_for_all_ranks(const std::string& analyzer, const PointSet& poin
 
 }  // namespace
 
-// More batches than ranks, and fewer; no number of them divides the points.
+// More batches than ranks, and fewer; the points do not divide evenly.
 TEST(SharedAnalysis, IsThatOfOneProcessToTheLastBit) {
     for (const auto& [n, d] : {std::pair<std::size_t, std::size_t>{300'007, 2}, {50'001, 11}}) {
         const PointSet points = make("random", {.count = n, .dimension = d});
@@ -83,7 +83,7 @@ TEST(SharedAnalysis, AddsGridsOfFadedPointsToTheLastBit) {
               text_of(analyze("periodogram", points, hann)));
 }
 
-// Strengths of the second block are far from those of the first; both count in the sum.
+// Weights in the second block are much larger than in the first; both contribute to the sum.
 TEST(SharedAnalysis, AddsGridsOfStrongAndWeakPointsToTheLastBit) {
     const std::size_t n = 2'200'000;  // two grains
     const PointSet bare = make("random", {.count = n, .dimension = 2});
@@ -118,7 +118,7 @@ TEST(SharedAnalysis, AddsGridsOfStrongAndWeakPointsToTheLastBit) {
         if (found) shared = text_of(found->report);
     });
     EXPECT_EQ(shared, text_of(one));
-    // The oracle: the plain sum, of other rounding.
+    // Oracle: the direct sum, with other rounding.
     const Report direct = alone({{"max-frequency", "2"}, {"method", "direct"}, {"weights", "3"}});
     const auto& exact = std::get<Grid>(*direct.find("grid")).values;
     const auto& found = std::get<Grid>(*one.find("grid")).values;
@@ -126,7 +126,7 @@ TEST(SharedAnalysis, AddsGridsOfStrongAndWeakPointsToTheLastBit) {
         EXPECT_NEAR(found[i], exact[i], 1e-5 * (1 + exact[i])) << i;
 }
 
-// The worst box, and all else of the report, from searches of many rounds and of a few.
+// The whole report, including the worst box, from searches of many rounds and of few.
 TEST(SharedAnalysis, SearchesTogetherWhatOneSearches) {
     const Analyzer& unit = find_analyzer("star-discrepancy");
     for (const Settings& settings :
@@ -142,7 +142,7 @@ TEST(SharedAnalysis, SearchesTogetherWhatOneSearches) {
     }
 }
 
-// A stop that reaches one rank only, and early, ends all of them in the same round.
+// A stop request to one rank, early in the search, ends all ranks in the same round.
 TEST(SharedAnalysis, StopsTogether) {
     const Analyzer& unit = find_analyzer("star-discrepancy");
     const PointSet points = make("random", {.count = 300, .dimension = 6});
@@ -182,7 +182,7 @@ TEST(SharedAnalysis, CountsPointsOutsideAsOneProcessDoes) {
     });
 }
 
-// Files of any sizes and formats, shared where no file ends.
+// Files of any sizes and formats, split at positions that are not ends of files.
 TEST(SharedFiles, GiveThePointsFromAnyPlace) {
     const PointSet points = make("random", {.count = 1000, .dimension = 3});
     std::vector<std::unique_ptr<TemporaryFile>> files;

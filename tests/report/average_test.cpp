@@ -21,7 +21,7 @@ Report sample(double x, std::int64_t n, const char* word) {
     return report;
 }
 
-/// The numbers under a key, one or many.
+/// Numbers under a key: a list, or a single one.
 Report::Curve numbers_at(const Report& report, const std::string& key) {
     const Report::Item& item = *report.find(key);
     if (const auto* curve = std::get_if<Report::Curve>(&item)) return *curve;
@@ -30,11 +30,11 @@ Report::Curve numbers_at(const Report& report, const std::string& key) {
 
 /// Variances, summed over the numbers of a key.
 struct Scatter {
-    double found = 0;   ///< of the means of many groups of sets
-    double stated = 0;  ///< mean of the squares of the standard errors that these state
+    double found = 0;   ///< variance of means between groups of sets
+    double stated = 0;  ///< mean of the squared standard errors within groups
 };
 
-/// What groups of random sets state for each key that has a standard error.
+/// Scatter of each key that has a standard error, over groups of random sets.
 std::map<std::string, Scatter> scatter_of(const char* words, const char* generator) {
     constexpr std::size_t groups = 60;
     constexpr std::size_t sets = 8;
@@ -80,7 +80,7 @@ TEST(ReportAverage, MeanAndStandardErrorByHand) {
     EXPECT_EQ(mean.text("word"), "same");
     EXPECT_EQ(mean.curve("inner.curve"), (Report::Curve{3, 6}));
     EXPECT_EQ(std::get<Grid>(*mean.find("grid")).values, (std::vector<double>{3, -3}));
-    // Deviations -2, -1, 3: sum of squares 14, over 3 * 2.
+    // Deviations -2, -1, 3: sum of squares 14, divided by 3 * 2.
     const Report error = average.standard_error(average.mean());
     EXPECT_NEAR(error.number("value"), std::sqrt(14.0 / 6), 1e-15);
     EXPECT_NEAR(error.curve("inner.curve")[1], 2 * std::sqrt(14.0 / 6), 1e-15);
@@ -132,7 +132,7 @@ TEST(ReportAverage, WhatIsNoMeanHasNoStandardError) {
               (std::vector<std::string>{"estimate", "one.error"}));
 }
 
-// A standard deviation of 60 values has an error of 9 %.
+// A standard deviation estimated from 60 values has an error of 9 %.
 TEST(ReportAverage, StandardErrorsAreThoseOfTheValuesBesideThem) {
     for (const char* analyzer : {"periodogram:max-frequency=16", "differential:pixels=63"})
         for (const char* generator : {"best-candidate", "n-rooks"})

@@ -9,7 +9,7 @@
 namespace stipple::testing::check_test {
 namespace {
 
-/// A discrepancy between 0.2 and 0.3.
+/// A discrepancy with bounds 0.2 and 0.3.
 Report between_bounds(bool exact) {
     Report report;
     report.add("value", 0.2);

@@ -55,7 +55,7 @@ TEST(Document, CsvIsATidyTableOfItsCurves) {
               "unit,\"a,b.csv\",,3,1,unit-cube,0.1,true,fine,inf,2,16\n");
 }
 
-// Lists that are no curves: a corner, which stands alone, and one number for each axis.
+// Lists that are not curves: the coordinates of a corner, and one number for each axis.
 TEST(Document, CsvHasOneRowForAResultWithoutCurves) {
     Measurement m = sample();
     m.results = Report();
@@ -85,7 +85,7 @@ TEST(Document, CsvTablesOfOneReportFollowEachOther) {
                   ",,2,1\n");
 }
 
-// Reports with different keys, and with fewer numbers in a list, keep their own columns.
+// Reports with different keys, or fewer numbers in a list, keep their own columns.
 TEST(Document, CsvColumnsAreThoseOfAllResults) {
     Measurement one = sample();
     Measurement two = sample();
@@ -129,7 +129,7 @@ TEST(Check, TakesOneOfSeveralNumbers) {
             << text;
 }
 
-// Names are whatever a program, or a file, gives them.
+// Names may come from any program or file.
 TEST(Document, NamesMayHoldDots) {
     Report inner;
     inner.add("b.c", 2, "points").add("d", 3);
@@ -144,7 +144,7 @@ TEST(Document, NamesMayHoldDots) {
     EXPECT_THAT(to_text(report), ::testing::HasSubstr("a.b.c  2 points\n"));
 }
 
-// The standard errors of a mean are columns of their own, behind the results.
+// Standard errors of a mean are separate columns, after the results.
 TEST(Document, CsvOfAMeanHasItsStandardErrors) {
     Measurement m{.analyzer = "a", .source = "p", .count = 4, .dimension = 2, .domain = "disk"};
     m.results.add("value", 0.5).add("curve", Report::Curve{1, 2});

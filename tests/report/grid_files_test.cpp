@@ -15,7 +15,7 @@ using ::testing::Not;
 
 namespace {
 
-/// Grey pixels of a PNG, row after row from the top.
+/// Grey values of a PNG, row after row from the top.
 std::vector<int> decode(const std::string& bytes, const Grid& shape) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
@@ -50,13 +50,13 @@ TEST(GridFiles, NpyHoldsShapeAndNumbers) {
     EXPECT_EQ(values, grid.values);
 }
 
-// 255 P / (1 + P); the last row on top; the centre black.
+// Grey is 255 P / (1 + P); the last row is on top; the centre is black.
 TEST(GridFiles, PngIsGreyByPowerWithTheLastRowOnTop) {
     EXPECT_EQ(decode(png_bytes(sample), sample),
               (std::vector<int>{255, 128, 0, 128, 0, 128, 0, 128, 191}));
 }
 
-// Of a plane off the middle nothing is left out.
+// A plane off the centre omits no frequency.
 TEST(GridFiles, PngSaysWhatItsPixelsAre) {
     EXPECT_THAT(png_bytes(sample),
                 AllOf(HasSubstr("Power spectrum, white noise P = 1, at the frequencies -1 to 1 "),

@@ -24,8 +24,8 @@ TEST(DigitalShift, KeepsTheNetProperty) {
         EXPECT_TRUE(is_net(scrambled(plain, "digital-shift", seed), 2, 0));
 }
 
-// 3^5 consecutive numbers of Halton's base 3 fill the intervals of length 3^-5; a rotation keeps
-// that, but shifting one digit in base 2 would not.
+// 3^5 consecutive points of the radical inverse in base 3 fill the intervals of length 3^-5. A
+// digital shift in base 3 preserves that; one in base 2 does not.
 TEST(DigitalShift, WorksInAnyBase) {
     const PointSet base_three = part_of(make("halton", points(243, 2)), 0, 243, {1});
     EXPECT_TRUE(is_net(scrambled(base_three, "digital-shift:base=3"), 3, 0));

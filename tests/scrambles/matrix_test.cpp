@@ -7,7 +7,7 @@
 
 namespace stipple::testing::matrix_test {
 
-// By the definition, column by column: the image of x + y is that of x plus that of y plus the
+// By the definition, column by column: the image of x + y is the image of x plus that of y plus the
 // shift, digit by digit, and the image of a single digit is its column.
 TEST(MatrixScramble, IsTheProductWithItsMatrixAndAShift) {
     const auto columns = binary_matrix(5, 0);

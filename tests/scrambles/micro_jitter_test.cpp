@@ -31,7 +31,7 @@ TEST(MicroJitter, CellsAreAsManyAsAskedFor) {
     EXPECT_GE(moved[2][0], 0.5);
 }
 
-// The random numbers belong to a point's place: a stretch of a set moves as in the whole.
+// Random numbers depend on a point's index: a part of a set moves as within the whole.
 TEST(MicroJitter, GoesOnWhereAStretchBegins) {
     const PointSet plain = make("halton", points(100, 2));
     const PointSet whole = scrambled(plain, "micro-jitter:cells=100");

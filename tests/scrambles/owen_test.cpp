@@ -11,9 +11,9 @@
 namespace stipple::testing::owen_test {
 namespace {
 
-/// How much more the part of two functions' variance that is at levels (k, l) of the tree of digits
-/// counts in the mean over these points than over independent ones: Owen's gain coefficient, by its
-/// definition. `whole` are the points' first digits, 2^-m apart; beyond them pairs are independent.
+/// Owen's gain coefficient at levels (k, l) by its definition: the variance of a function's
+/// component at these levels under scrambling, relative to independent points.
+/// @param whole the points' first m digits in base 2 as integers; further digits are independent
 double gain(const std::vector<std::vector<std::uint64_t>>& whole, std::size_t m, std::size_t k,
             std::size_t l) {
     const auto share = [m](std::uint64_t a, std::uint64_t b, std::size_t digits) {
@@ -29,15 +29,16 @@ double gain(const std::vector<std::vector<std::uint64_t>>& whole, std::size_t m,
     return sum / static_cast<double>(whole.size());
 }
 
-/// The variance of the mean of x y over a scrambled net of 16 points in two dimensions. The part of
-/// the variance of x at level k is 4^-k / 16.
+/// Variance of the mean of x y over a scrambled net of 16 points in two dimensions. The component
+/// of x at level k has variance 4^-k / 16.
 double expected_variance(const PointSet& net) {
     std::vector<std::vector<std::uint64_t>> whole;
     for (std::size_t i = 0; i < net.count(); ++i)
         whole.push_back({cell_of(net[i][0], 16), cell_of(net[i][1], 16)});
     double variance = 0;
     for (std::size_t k = 0; k < 12; ++k) {
-        // Alone, a coordinate has the mean 1/2 of the other as a factor; its points are 16 strata.
+        // Components of a single coordinate have the other's mean 1/2 as a factor; the points are
+        // in 16 strata.
         if (k >= 4) variance += 2 * std::pow(4., -static_cast<double>(k)) / 64;
         for (std::size_t l = 0; l < 12; ++l)
             variance += gain(whole, 4, k, l) * std::pow(4., -static_cast<double>(k + l)) / 256;
@@ -77,7 +78,7 @@ TEST(OwenScramble, EqualPointsStayEqualAndOthersDoNotMeet) {
 }
 
 // A. B. Owen, Ann. Statist. 25 (1997) 1541-1562: the variance of a scrambled net's estimate is the
-// sum of gains times parts of the variance. 20 000 scrambles of 16 points: 1 to 2 % of error.
+// sum of gains times variances of components. 20 000 scrambles of 16 points: error 1 to 2 %.
 TEST(OwenScramble, VarianceOfAMonomialIsTheClosedForm) {
     const PointSet plain = make("hammersley", points(16, 2));
     const double expected = expected_variance(plain);

@@ -16,7 +16,7 @@ const std::vector<double> b = {2.0, 3.1, 4.7, 6.2, 8.9};
 
 }  // namespace
 
-// The figures are SciPy's: ttest_ind(equal_var=False), ttest_rel, t.interval, sem.
+// Expected values from SciPy: ttest_ind(equal_var=False), ttest_rel, t.interval, sem.
 TEST(Statistics, AgreesWithSciPy) {
     const MeanTest welch = welch_test(a, b);
     EXPECT_NEAR(welch.difference, -1.76, 1e-14);
@@ -43,7 +43,7 @@ TEST(Statistics, MedianIsTheMiddleOrBetweenTheTwo) {
     EXPECT_EQ(summarize(std::vector<double>{7}).median, 7);
 }
 
-// By hand: 0.01 x 4, 0.02 x 3, 0.03 x 2 (not below the one before), 0.04 x 1 likewise.
+// By hand: 0.01 x 4, 0.02 x 3, 0.03 x 2 and 0.04 x 1, the last two raised to the one before.
 TEST(Statistics, HolmStepsDown) {
     EXPECT_EQ(holm(std::vector<double>{0.04, 0.01, 0.03, 0.02}),
               (std::vector<double>{0.06, 0.04, 0.06, 0.06}));
@@ -78,14 +78,14 @@ TEST(Statistics, EqualNumbersHaveNoErrorHoweverTheyRound) {
     EXPECT_EQ(welch_test(same, same).p_value, 1);
     EXPECT_EQ(welch_test(same, std::vector<double>(7, 0.2)).p_value, 0);
     EXPECT_EQ(bootstrap_interval(same, 0.95, 100, 1).low, 0.1);
-    // Against numbers that vary it is the test of one sample.
+    // Against a constant sample it is the test of one sample.
     EXPECT_NEAR(welch_test(a, std::vector<double>(5, 2.0)).t, 1.6370309599093835, 1e-13);
     EXPECT_NEAR(welch_test(a, std::vector<double>(5, 2.0)).p_value, 0.17696542379676464, 1e-13);
 }
 
-// 400 samples of 20 uniform numbers: the 90 % interval holds 1/2 in 360 +- 6 of them where it is
-// exact; the bootstrap's is a little short. Five deviations: false alarm below 1e-5. An interval
-// of 70 % is found out.
+// 400 samples of 20 uniform numbers: an exact 90 % interval contains 1/2 in 360 +- 6 of them; the
+// bootstrap's is slightly too short. Five standard deviations: false alarm below 1e-5. A 70 %
+// interval would be detected.
 TEST(Statistics, BootstrapIntervalsHoldTheMeanAsOftenAsTheySay) {
     const auto held = [](double confidence) {
         int count = 0;

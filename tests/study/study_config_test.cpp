@@ -20,7 +20,7 @@ std::string error_in(const std::string& json) {
     return error_of([&] { parse_study_config(json, "s.json"); });
 }
 
-/// A configuration that is right but for one more key.
+/// Error of a valid configuration with one more key.
 std::string error_with(const std::string& key) {
     return error_in(R"({"generators": ["random"], "analyze": ["moments"], )" + key + "}");
 }
@@ -89,7 +89,7 @@ TEST(StudyConfig, KeysThatStandTwiceAreRefused) {
     EXPECT_EQ(error_in(R"({"generators": [{"name": "sobol", "options": {"scramble": "owen",
                            "scramble": "none"}}], "analyze": "moments"})"),
               "input: s.json: $.generators.options.scramble: the key occurs twice");
-    // In objects side by side they do not.
+    // The same key in different objects is valid.
     EXPECT_NO_THROW(parse_study_config(
         R"({"generators": [{"name": "sobol"}, {"name": "halton"}], "analyze": "moments"})", ""));
 }

@@ -16,7 +16,7 @@ Sweep sweep() {
                   .measures = {"star-discrepancy", "moments", "periodogram"}});
 }
 
-/// How often each unit is given out.
+/// Number of times that each unit is assigned.
 std::vector<int> given_out(const Sweep& s, const Ranges& done, std::size_t workers) {
     std::vector<int> times(s.units());
     WorkQueue queue(s, done, workers);
@@ -61,7 +61,7 @@ TEST(WorkQueue, BeginsWithWhatIsDearAndKeepsTheOrderOfTheRest) {
     WorkQueue queue(s, {}, 2);
     std::vector<std::uint64_t> firsts;
     while (const auto ranges = queue.pull()) firsts.push_back(ranges->front().first);
-    // A set of each: poisson-disk's large ones are 15, 16 and 17, random's 6, 7 and 8.
+    // Single sets: poisson-disk's large ones are 15, 16 and 17, random's 6, 7 and 8.
     EXPECT_EQ(firsts, (std::vector<std::uint64_t>{15, 16, 17, 6, 7, 8, 0, 3, 9, 12}));
 }
 
@@ -70,7 +70,8 @@ TEST(WorkLeft, IsNothingInTheEndAndLearnsFromWhatIsDone) {
     const double modelled = WorkLeft(s).seconds();
     EXPECT_GT(modelled, 0);
     WorkLeft slower(s);
-    // Everything takes a hundred times what the model says: so will what is left.
+    // The first part took a hundred times as long as the model predicts, so the estimate for the
+    // rest grows.
     const UnitRange first{0, s.units() / 3};
     const double part = modelled - WorkLeft(s, {first}).seconds();
     slower.finish({first}, part * 100);
@@ -78,8 +79,8 @@ TEST(WorkLeft, IsNothingInTheEndAndLearnsFromWhatIsDone) {
     EXPECT_NEAR(WorkLeft(s, {{0, s.units()}}).seconds(), 0, 1e-9 * modelled);
 }
 
-// Searches in 6 dimensions that are a thousand times faster than the model do not make those in the
-// plane faster.
+// Searches in 6 dimensions that are a thousand times faster than the model do not change the
+// estimate for two dimensions.
 TEST(WorkLeft, LearnsForEachDimension) {
     const Sweep s(SweepRequest{.generators = {"random"},
                                .counts = {1000},
@@ -122,7 +123,7 @@ TEST(Sweep, TheFingerprintIsOfAllThatRowsDependOn) {
     other.warps = {"disk"};
     EXPECT_NE(Sweep(other).fingerprint(), own);
     other = request;
-    other.generators = {"random:rng=philox"};  // the default, written out
+    other.generators = {"random:rng=philox"};  // the default, written explicitly
     EXPECT_EQ(Sweep(other).fingerprint(), own);
 }
 

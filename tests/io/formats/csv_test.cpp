@@ -63,8 +63,7 @@ TEST(Csv, ReadsWhatSpreadsheetsWrite) {
     EXPECT_EQ(csv("x,y\r0,0.5\r0.25,1e-7\r").at(0), two);
 }
 
-// As printed by numpy.savetxt(f, a) and numpy.savetxt(f, a, delimiter=',', header='x,y').
-// write.csv of R and to_csv of pandas.
+// As written by write.csv of R and to_csv of pandas.
 TEST(Csv, LeavesRowNamesOut) {
     for (const char* text :
          {"\"\",\"x\",\"y\"\n\"1\",0,0.5\n\"2\",0.25,1e-07\n",
@@ -165,7 +164,7 @@ TEST(Csv, ThreadsChangeNothing) {
     for (const unsigned threads : {1U, 2U, 7U})
         EXPECT_EQ(read_as("csv", text, {}, {.threads = threads}).at(0), expected) << threads;
 
-    // Two errors in different blocks: the first is told.
+    // With two errors in different blocks, the first is reported.
     text[text.find('\n', text.size() / 2) + 1] = '?';
     text[text.find('\n', text.size() - 99) + 1] = '?';
     const std::string error = refusal("csv", text, {}, {.threads = 1});
@@ -176,7 +175,7 @@ TEST(Csv, ThreadsChangeNothing) {
         EXPECT_EQ(refusal("csv", text, {}, {.threads = threads}), error) << threads;
 }
 
-// A line much longer than a block, lines that are mostly comments, and blocks without any row.
+// A line much longer than a block, a text that is mostly comments, and blocks without any row.
 TEST(Csv, BlocksWithoutRowsAreNoTrouble) {
     const std::string comment = "# " + std::string(3'000'000, '-') + "\n";
     EXPECT_EQ(
@@ -186,7 +185,7 @@ TEST(Csv, BlocksWithoutRowsAreNoTrouble) {
     EXPECT_EQ(csv(written("csv", {wide})).at(0), wide);
 }
 
-// The shortest rows there are fill the room of their block to the last.
+// The shortest possible rows fill a block's buffer completely.
 TEST(Csv, BlocksOfShortRowsHaveRoom) {
     std::string text;
     while (text.size() < 2'500'000) text += "1\n";
@@ -196,7 +195,7 @@ TEST(Csv, BlocksOfShortRowsHaveRoom) {
     EXPECT_EQ(csv(text).at(0), PointSet(std::vector<double>((text.size() + 1) / 2, 1.0), 2));
 }
 
-// The quick way and the careful way read the same.
+// The fast parser and the general one read the same.
 TEST(Csv, QuotesAndBlanksDoNotMatter) {
     const PointSet points = random_points(1000, 3);
     std::string text = "x,y,z\n";
@@ -217,9 +216,10 @@ TEST(Csv, MissingNumbersAreNaNWhereTheyAreAsked) {
     using Found = std::pair<std::size_t, std::vector<std::size_t>>;
     EXPECT_EQ(missing("x,y\n1,\n,\n\n3,nan\n"), (Found{3, {1, 2, 3, 5}}));
     EXPECT_EQ(missing("x,y\n1,NA\n\"\",2\nNaN,3\n"), (Found{3, {1, 2, 4}}));
-    EXPECT_EQ(missing("y\n1\n\n3\n\n"), (Found{4, {1, 3}}));  // an empty line of one column
+    EXPECT_EQ(missing("y\n1\n\n3\n\n"),
+              (Found{4, {1, 3}}));  // an empty line is a missing number in a single column
     EXPECT_EQ(csv("y\n1\n\n3\n").at(0).count(), 2U);
-    // More rows than bytes of full ones would be, in several blocks.
+    // Rows of missing numbers are shorter than the shortest complete ones; in several blocks.
     std::string text = "a,b,c\n";
     for (int i = 0; i < 700'000; ++i) text += ",,\n";
     EXPECT_EQ(missing(text).first, 700'000U);
@@ -320,7 +320,7 @@ TEST(Csv, StopsAndLimitsAreHonoured) {
     EXPECT_TRUE(error.starts_with("limit: reading p needs")) << error;
 }
 
-// As spreadsheets write them where the comma stands for the point.
+// As written by spreadsheets in locales with decimal commas.
 TEST(Csv, TakesDecimalCommas) {
     const PointSet points = points_of({{0.5, 1}, {-2.25, 1e-3}, {3, 0.125}});
     EXPECT_EQ(csv("0,5;1\n-2,25;1e-3\n3;0,125\n").at(0), points);
@@ -348,7 +348,7 @@ TEST(Csv, KeepsTheNamesOfColumns) {
     EXPECT_EQ(names("a,b,c\n1,2,3\n", {.columns = {"c", "a"}}), (Names{"c", "a"}));
     EXPECT_EQ(names("a,b,pdf\n1,2,3\n"), (Names{"a", "b"}));
     EXPECT_EQ(names("set,a\n0,2\n"), Names{"a"});
-    // A header with these would be read as something else.
+    // A header with these names would be read as something else.
     EXPECT_EQ(names("a,set\n0,2\n"), Names());
     EXPECT_EQ(names("a,b\"c\n0,2\n"), Names());
     EXPECT_EQ(names("a," + std::string(300, 'b') + "\n0,2\n"), Names());

@@ -168,7 +168,7 @@ TEST(Json, SurvivesDeepNesting) {
     const std::string deep(100'000, '[');
     EXPECT_NE(refused(deep), "");
     EXPECT_NE(refused("{\"meta\":" + deep), "");
-    // The parser copies a value where another key follows it.
+    // The parser copies a value recursively if another key follows it.
     EXPECT_EQ(
         refused(with("\"meta\":{\"options\":{\"a\":" + deep + std::string(100'000, ']') +
                      ",\"b\":1},\"seed\":1},")),
@@ -210,7 +210,7 @@ TEST(Json, KeepsTheNamesOfColumns) {
     EXPECT_THAT(text, ::testing::HasSubstr(R"("columns":["age","income"])"));
     EXPECT_EQ(read_as("json", text).at(0).provenance.columns, layout.provenance.columns);
     EXPECT_EQ(read_as("json", text, {.columns = {"income"}}).at(0), points_of({{0.5}, {-1e-7}}));
-    // Names that no header could have.
+    // Names that are not valid in headers.
     layout.provenance.columns = {"set", "\x1b[31m"};
     EXPECT_EQ(read_as("json", written("json", {two}, layout)).at(0).provenance.columns.size(), 0U);
 }

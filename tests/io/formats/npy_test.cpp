@@ -9,13 +9,13 @@ using namespace std::string_literals;
 
 namespace {
 
-/// What numpy.save (1.24) writes before the numbers.
+/// Header written by numpy.save (1.24).
 std::string numpy_header(std::string dictionary) {
     dictionary.resize(117, ' ');
     return "\x93NUMPY\x01\0v\0"s + dictionary + "\n";
 }
 
-// numpy.save of [[0, 0.5], [0.1, 1/3], [0.999, -2e-300]], as NumPy wrote it.
+// numpy.save of [[0, 0.5], [0.1, 1/3], [0.999, -2e-300]], as written by NumPy.
 const std::string numpy_file =
     numpy_header("{'descr': '<f8', 'fortran_order': False, 'shape': (3, 2), }") +
     "\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\x00\xe0?"
@@ -63,7 +63,7 @@ TEST(Npy, SingleNeverHoldsOne) {
     EXPECT_LE(back[0][1], 0.1);
 }
 
-// The arrays below were saved by NumPy, too.
+// The arrays below were also saved by NumPy.
 TEST(Npy, ReadsOtherOrdersAndTypes) {
     EXPECT_EQ(
         read_as("npy", numpy_header("{'descr': '<f8', 'fortran_order': True, 'shape': (3, 2), }") +
@@ -101,8 +101,8 @@ TEST(Npy, ReadsOtherOrdersAndTypes) {
         points_of({{0.25}, {0.5}}));
 }
 
-// numpy.asfortranarray(numpy.arange(12.).reshape(2, 3, 2) / 16): NumPy stored, times 16,
-// 0 6 2 8 4 10 1 7 3 9 5 11.
+// numpy.asfortranarray(numpy.arange(12.).reshape(2, 3, 2) / 16): stored in the order, times 16, 0 6
+// 2 8 4 10 1 7 3 9 5 11.
 TEST(Npy, ReadsSetsInColumnMajorOrder) {
     PointSet stored(12, 1);
     const std::vector<double> order{0, 6, 2, 8, 4, 10, 1, 7, 3, 9, 5, 11};

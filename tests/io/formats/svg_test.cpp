@@ -59,7 +59,7 @@ TEST(Svg, EachPairOfCoordinatesHasItsPanel) {
               std::string::npos);
 }
 
-// A box of one domain keeps its aspect: 490 units are 10, so that x is 49 wide and z is 98 high.
+// A box that is one domain keeps its aspect ratio: 10 are 490 units, so x is 49 wide and z 98 high.
 TEST(Svg, PanelsOfOneDomainShowLengthsAlike) {
     Layout layout;
     layout.extent = Box{{0, 0, -1}, {1, 10, 1}};

@@ -34,7 +34,7 @@ TEST(Txt, MetaIsNotTakenForASeparator) {
     EXPECT_EQ(sets[1].provenance, second);
 }
 
-// Index, x, y, with comments and a blank line between two blocks, as gnuplot's tables have them.
+// Index, x, y, with comments and a blank line between two blocks, as in gnuplot's tables.
 TEST(Txt, ReadsTablesOfGnuplot) {
     EXPECT_EQ(
         read_as("txt", "# Curve 0 of 1, 2 points\n# x y type\n 0  0.5  i\n 0.25  -1e-07  i\n\n",

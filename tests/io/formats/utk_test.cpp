@@ -10,7 +10,7 @@ using namespace std::string_literals;
 
 namespace {
 
-/// What UTK writes before the numbers of sets of n points in d dimensions.
+/// Header by UTK for sets of n points in d dimensions.
 std::string utk_head(char type, char sets, char n, char d) {
     return "UTK!"s + type + "\0\0\0"s + sets + "\0\0\0"s + n + "\0\0\0"s + d + "\0\0\0"s;
 }
