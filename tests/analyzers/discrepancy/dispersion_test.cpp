@@ -31,7 +31,7 @@ double value_of(const PointSet& p, bool torus = false) {
     return report.number("value");
 }
 
-/// By branch and bound alone, from nothing.
+/// Result of branch and bound alone, without a starting box.
 double by_search(const PointSet& p, bool torus) {
     const BoxGrid grid = box_grid(p, torus ? Family::torus : Family::cube, {}, Measure::emptiness);
     const auto found = extreme::search(grid, WorstBox(grid), {}, {});
@@ -39,7 +39,7 @@ double by_search(const PointSet& p, bool torus) {
     return found.worst.value();
 }
 
-/// Whether x is inside (a, b), or, on the torus, in (a, 1 + b) if b <= a.
+/// Whether x is in (a, b), or on the torus in (a, 1 + b) if b <= a.
 bool is_between(double x, double a, double b, bool torus) {
     if (!torus) return x > a && x < b;
     if (x == 1) x = 0;
@@ -56,8 +56,8 @@ std::vector<double> ends_of(const PointSet& p, std::size_t axis, bool torus) {
     return ends;
 }
 
-/// Oracle: all boxes that begin and end at coordinates, with those of the points that are still
-/// inside; in exact fractions. Slow, and too plain to be wrong.
+/// Oracle: all boxes between coordinates of points, axis after axis, each time with the points
+/// still inside; in exact fractions. Slow, and too plain to be wrong.
 Fraction largest_from(const PointSet& p, std::size_t axis, const Fraction& volume,
                       const std::vector<std::size_t>& inside, bool torus) {
     if (axis == p.dimension()) return inside.empty() ? volume : Fraction(0);
@@ -82,7 +82,7 @@ Fraction by_definition(const PointSet& p, bool torus) {
     return largest_from(p, 0, 1, all, torus);
 }
 
-/// The reported box is empty and has the reported volume.
+/// Expects the reported box to be empty and to have the reported volume.
 void expect_box_holds(const PointSet& p, const Report& report, bool torus) {
     const auto lower = report.curve("box.lower_corner");
     const auto upper = report.curve("box.upper_corner");
@@ -116,7 +116,7 @@ PointSet grid(std::size_t k, std::size_t d, double offset) {
     return p;
 }
 
-/// (i / n, {i m / n}).
+/// Lattice (i / n, {i m / n}).
 PointSet lattice(std::size_t n, std::size_t m) {
     PointSet p(n, 2);
     for (std::size_t i = 0; i < n; ++i) {
@@ -136,18 +136,18 @@ TEST(Dispersion, KnownByHand) {
     EXPECT_EQ(value_of(points_of({{.5, .25}})), .75);
     EXPECT_EQ(value_of(points_of({{.5, .25}}), true), 1);
     EXPECT_EQ(value_of(points_of({{.25, .25}, {.75, .75}})), .5625);  // from (1/4, 0) to (1, 3/4)
-    // The torus less two lines, one through each point.
+    // The torus without two lines, one through each point.
     EXPECT_EQ(value_of(points_of({{.25, .25}, {.75, .75}}), true), 1);
     EXPECT_EQ(value_of(points_of({{0, 0}, {.5, .5}, {0, .5}, {.5, 0}}), true), .5);
     EXPECT_EQ(value_of(points_of({{.5, .25, .5}})), .75);
     EXPECT_EQ(value_of(points_of({{.5, .25, .5}}), true), 1);
 }
 
-// Points on the rim of the cube block nothing, and points on a line leave what is beside it.
+// Points on the faces of the cube block nothing, and points on a line block only that line.
 TEST(Dispersion, TakesBoxesToBeOpen) {
     EXPECT_EQ(value_of(points_of({{0, 0}, {0, .5}, {1, 1}, {.3, 1}, {.7, 0}, {1, .2}})), 1);
     EXPECT_EQ(value_of(points_of({{0}, {1}})), 1);
-    EXPECT_EQ(value_of(points_of({{0, 0}, {.5, 1}}), true), 1);  // 1 is 0: between is nothing
+    EXPECT_EQ(value_of(points_of({{0, 0}, {.5, 1}}), true), 1);  // 1 equals 0 on the torus
     EXPECT_EQ(value_of(points_of({{0, .5}, {.5, .5}, {.75, .5}})), .5);
     EXPECT_EQ(value_of(points_of({{0, .5}, {.5, .5}, {.75, .5}}), true), 1);
     EXPECT_EQ(value_of(points_of({{.25, .1}, {.25, .5}, {.25, .9}, {.25, .5}})), .75);
@@ -170,7 +170,7 @@ TEST(Dispersion, IsTheDefinitions) {
                 }
 }
 
-// Two ways that share nothing but the comparison of boxes.
+// Two methods that share only the comparison of boxes.
 TEST(Dispersion, RectanglesAndBranchAndBoundAgree) {
     for (std::uint64_t seed = 1; seed <= 6; ++seed)
         for (const bool torus : {false, true}) {
@@ -183,7 +183,7 @@ TEST(Dispersion, RectanglesAndBranchAndBoundAgree) {
         }
 }
 
-// Between two neighbouring planes of a grid is a slab as thick as a cell; half a cell at the faces.
+// Between two neighbouring planes of a grid is a slab one cell thick, at the faces half a cell.
 TEST(Dispersion, OfGridsHasAClosedForm) {
     for (const auto& [k, d] : {std::pair{4, 1}, {4, 2}, {32, 2}, {7, 2}, {4, 3}, {3, 4}})
         for (const double offset : {0., .5})
@@ -194,8 +194,8 @@ TEST(Dispersion, OfGridsHasAClosedForm) {
             }
 }
 
-// A box of the lattice (i, m i mod n) / n that cannot grow has a point on each of its sides; the
-// values are those of all boxes, by the definition.
+// A maximal empty box of the lattice (i, m i mod n) / n has a point on each of its sides; values by
+// the definition.
 TEST(Dispersion, OfFibonacciLatticesIsTheDefinitions) {
     for (const auto& [n, m] : {std::pair{5, 3}, {8, 5}, {13, 8}})
         for (const bool torus : {false, true}) {
@@ -204,7 +204,7 @@ TEST(Dispersion, OfFibonacciLatticesIsTheDefinitions) {
         }
 }
 
-// The largest empty box of the torus moves with the points.
+// The largest empty box on the torus moves with the points.
 TEST(Dispersion, OnTheTorusDoesNotChangeWithAShift) {
     for (std::size_t d = 1; d <= 3; ++d)
         for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -216,7 +216,7 @@ TEST(Dispersion, OnTheTorusDoesNotChangeWithAShift) {
         }
 }
 
-// n points leave n + 1 slabs; and a point more takes away, never adds.
+// n points leave n + 1 slabs; adding a point never enlarges the box.
 TEST(Dispersion, FallsWithThePointsButNotBelowThatOfSlabs) {
     for (std::size_t d = 1; d <= 3; ++d) {
         double before = 1;
@@ -253,7 +253,7 @@ TEST(Dispersion, BoundsWhatItHasNoTimeFor) {
     EXPECT_EQ(report_of(make("random", points(9, 1)), false).text("method"), "sweep-1d");
     EXPECT_EQ(report_of(make("random", points(9, 2)), false).text("method"), "maximal-rectangles");
     expect_box_holds(p, report, false);
-    // Across the whole cube there is a slab without a point.
+    // Some slab across the whole cube contains no point.
     const PointSet many = make("random", points(40, 100));
     for (const bool torus : {false, true})
         EXPECT_GE(report_of(many, torus, {{"max-work", "1"}}).number("lower"), 1. / 41);
@@ -266,7 +266,7 @@ TEST(Dispersion, BoundsWhatItHasNoTimeFor) {
     }
 }
 
-// Rectangles are cut short, too, by a stop and by a clock.
+// The search for rectangles ends early, too, by a stop request or a time limit.
 TEST(Dispersion, SaysWhatIsCertainWhenThereIsNoTime) {
     const PointSet p = make("random", points(5000, 2));
     for (const bool torus : {false, true}) {
@@ -301,7 +301,7 @@ TEST(Dispersion, RefusesWhatItCannotTake) {
               "limit: the search for the largest empty box needs ");
 }
 
-// A mean of boxes is none, but that of one box is the box.
+// Boxes cannot be averaged, but the mean of one set keeps its box.
 TEST(Dispersion, TheMeanOfOneSetHasItsBox) {
     const Analyzer& dispersion = find_analyzer("dispersion");
     for (const std::size_t sets : {1, 2}) {

@@ -31,7 +31,7 @@ double value_of(const PointSet& p, const char* kind) {
     return report.number("value");
 }
 
-/// By branch and bound alone, from nothing: a good start would hide what the search misses.
+/// Result of branch and bound alone: a good start would hide errors of the search.
 double by_search(const PointSet& p, const char* kind) {
     const auto family = std::string(kind) == "extreme" ? Family::cube : Family::torus;
     const BoxGrid grid = box_grid(p, family, {});
@@ -42,13 +42,13 @@ double by_search(const PointSet& p, const char* kind) {
 
 __extension__ using Wide = __int128;
 
-/// One way to begin and end on an axis: length times 2^places, and the points between as bits.
+/// An interval on an axis: length times 2^places, and the points in it as bits.
 struct Arc {
     Wide length;
     std::uint32_t inside;
 };
 
-/// All intervals of one axis, by comparing all points with all pairs of ends.
+/// All intervals on one axis, found by comparing all points with all pairs of ends.
 std::vector<Arc> arcs_of(const PointSet& p, std::size_t axis, bool closed, bool torus, int places) {
     std::vector<Wide> x;
     for (std::size_t i = 0; i < p.count(); ++i)
@@ -86,7 +86,7 @@ Wide worst_from(const std::vector<std::vector<Arc>>& axes, std::size_t k, Wide v
     return worst;
 }
 
-/// Oracle: all boxes, in whole numbers; for up to 32 points with coordinates that are multiples of
+/// Oracle: all boxes, in integers; for up to 32 points with coordinates that are multiples of
 /// 2^-places, n 2^(d places) < 2^127. Too plain to be wrong.
 Fraction by_definition(const PointSet& p, const char* kind, int places) {
     const bool torus = std::string(kind) == "periodic";
@@ -116,7 +116,7 @@ bool is_between(double x, double lower, double upper, bool closed) {
     return wraps ? after || until : after && until;
 }
 
-/// Counts the worst box anew, from the report alone: the value is the nearest double.
+/// Recounts the worst box from the report: the value must be the nearest double.
 void expect_box_holds(const PointSet& p, const Report& report, bool torus) {
     const auto lower = report.curve("worst_box.lower_corner");
     const auto upper = report.curve("worst_box.corner");
@@ -149,7 +149,7 @@ std::string text_of(const PointSet& p) {
     return text;
 }
 
-/// The points moved on the torus by multiples of 1/steps.
+/// The points shifted on the torus by multiples of 1/steps.
 PointSet shifted(const PointSet& p, std::uint64_t steps, std::uint64_t seed) {
     PointSet q(p.count(), p.dimension());
     for (std::size_t k = 0; k < p.dimension(); ++k) {
@@ -191,21 +191,21 @@ TEST(ExtremeDiscrepancy, KnownByHand) {
 }
 
 TEST(ExtremeDiscrepancy, ReportsOpenBoxesThatWrap) {
-    // The torus less two lines, one through each point, has none.
+    // The torus without two lines, one through each point, is empty.
     const PointSet p = points_of({{0, .5}, {.5, .25}});
     const Report report = report_of(p, "periodic");
     expect_box_holds(p, report, true);
     EXPECT_EQ(report.number("value"), 1);
     EXPECT_FALSE(std::get<bool>(*report.find("worst_box.closed")));
     EXPECT_EQ(report.curve("worst_box.lower_corner"), report.curve("worst_box.corner"));
-    // Closed, from 3/4 over 0 to 1/8: three of four points in 3/8 of the circle.
+    // Closed interval from 3/4 over 0 to 1/8: three of four points in 3/8 of the circle.
     const Report arc = report_of(points_of({{.75}, {0}, {.125}, {.5}}), "periodic");
     EXPECT_EQ(arc.number("value"), 3. / 8);
     expect_box_holds(points_of({{.75}, {0}, {.125}, {.5}}), arc, true);
 }
 
 // Exact to the last bit, with ties, duplicates, points on 0 and 1, and single points; also for
-// coordinates that are not dyadic, so that boxes nearly tie.
+// coordinates that are not dyadic, so that boxes are nearly equal.
 TEST(ExtremeDiscrepancy, IsTheDefinitionsToTheLastBit) {
     constexpr std::size_t most[] = {0, 24, 9, 4};
     for (std::size_t d = 1; d <= 3; ++d)
@@ -238,7 +238,7 @@ TEST(ExtremeDiscrepancy, IsTheDefinitionsForLargerSets) {
         }
 }
 
-// The ascents find most worst boxes by themselves; what the search excludes must not depend on them.
+// The ascents alone find most worst boxes; boxes that the search excludes must not depend on them.
 TEST(ExtremeDiscrepancy, SearchFindsFromNothingWhatItFindsFromAGoodStart) {
     for (const char* kind : kinds) {
         for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -257,7 +257,7 @@ TEST(ExtremeDiscrepancy, SearchFindsFromNothingWhatItFindsFromAGoodStart) {
     }
 }
 
-// A box is a signed sum of 2^d boxes from the origin, and a plain box is one of the torus.
+// A box is a signed sum of 2^d boxes at the origin, and every box of the cube is one of the torus.
 TEST(ExtremeDiscrepancy, LiesBetweenTheStarDiscrepancyAndThePeriodicOne) {
     for (std::size_t d = 1; d <= 3; ++d)
         for (const std::uint64_t steps : {4, 64, 1 << 20})
@@ -282,8 +282,8 @@ TEST(PeriodicDiscrepancy, DoesNotChangeWhenThePointsAreShifted) {
         }
 }
 
-// sup |g(b) - g(a)| over a < b of g(x) = #{x_i <= x} / n - x is the range of g, that is Kuiper's
-// statistic; and on the circle as well.
+// sup |g(b) - g(a)| over a < b of g(x) = #{x_i <= x} / n - x is the range of g, which is Kuiper's
+// statistic; also on the circle.
 TEST(ExtremeDiscrepancy, InOneDimensionIsKuipersStatistic) {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         const PointSet p = make("random", points(10 * seed, 1), {}, {.seed = seed});
@@ -304,8 +304,8 @@ TEST(ExtremeDiscrepancy, InOneDimensionIsKuipersStatistic) {
     EXPECT_EQ(report_of(points_of({{.5}}), "extreme").text("method"), "sweep-1d");
 }
 
-// A closed box with m_j of the k places on axis j has Π m_j/k - Π (m_j - 1)/k too much; that grows
-// with each m_j, so that the box around all points is the worst.
+// A closed box with m_j of the k coordinates on axis j has an excess of prod m_j/k - prod (m_j -
+// 1)/k, which grows with each m_j. So the box around all points is the worst.
 TEST(ExtremeDiscrepancy, OfGridsHasAClosedForm) {
     for (const auto& [k, d] : {std::pair{8, 1}, {7, 1}, {4, 2}, {16, 2}, {7, 2}, {4, 3}}) {
         const PointSet p = centred_grid(static_cast<std::size_t>(k), static_cast<std::size_t>(d));
@@ -353,13 +353,14 @@ TEST(ExtremeDiscrepancy, BoundsWhatItHasNoTimeFor) {
         EXPECT_FALSE(std::get<bool>(*part.find("exact")));
         EXPECT_LT(part.number("lower"), part.number("upper"));
         expect_box_holds(make("random", points(200, 5)), part, kind == kinds[1]);
-        // A point by itself is a closed box.
+        // A single point is a closed box.
         const PointSet many = make("random", points(40, 100));
         EXPECT_GE(report_of(many, kind, {{"max-work", "1"}}).number("lower"), 1. / 40 - 1e-15);
     }
 }
 
-// Open cells that would fill the memory are explored to the end, so that what is certain stays so.
+// If open cells would fill the memory, they are searched to the end instead, so that the bounds
+// remain valid.
 TEST(ExtremeDiscrepancy, KeepsItsBoundsWhereCellsFillTheMemory) {
     const PointSet p = make("random", points(60, 12));
     const Settings settings{{"kind", "extreme"}, {"max-work", "100000000"}};
@@ -369,8 +370,8 @@ TEST(ExtremeDiscrepancy, KeepsItsBoundsWhereCellsFillTheMemory) {
     expect_box_holds(p, report, false);
 }
 
-// A box is the sum and difference of 4 boxes from the origin, on the torus of 8 and the whole; with
-// hardly any search that is the bound. Points at 1 are at 0 on the torus.
+// A box is a signed sum of 4 boxes at the origin, on the torus of 8 and the whole cube; almost
+// without search, this is the bound. Points at 1 are at 0 on the torus.
 TEST(ExtremeDiscrepancy, IsAtMostSomeTimesTheStarDiscrepancy) {
     for (const PointSet& p :
          {make("halton", points(150, 2)), on_lattice(150, 2, 64, 1), on_lattice(200, 2, 16, 2)}) {

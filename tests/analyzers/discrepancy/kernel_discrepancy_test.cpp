@@ -22,7 +22,7 @@ double squared(const PointSet& set, const Settings& settings = {}) {
     return measure(unit, "squared", set, settings);
 }
 
-/// The points as text, a point a line, that reads back to the same numbers.
+/// The points as text, one per line, which reads back to the same numbers.
 std::string text_of(const PointSet& set) {
     std::string text;
     for (std::size_t i = 0; i < set.count(); ++i)
@@ -35,7 +35,7 @@ std::string refusal(const PointSet& set, const Settings& settings) {
     return error_of([&] { analyze(unit, set, settings); });
 }
 
-/// n points of the standard normal distribution about `mean`, with the scores of that about 0.
+/// n points of a normal distribution about `mean`, with scores of the one about 0.
 PointSet normal_rows(std::size_t n, std::size_t d, double mean, std::uint64_t seed) {
     const Rng rng(seed);
     PointSet rows(n, 2 * d);
@@ -50,8 +50,8 @@ PointSet normal_rows(std::size_t n, std::size_t d, double mean, std::uint64_t se
 
 }  // namespace
 
-// One point has K(x, x) - 1 = 2 pi^2 / 6; two opposite ones half of it at twice the frequency:
-// squared = sum over even m of 2 / m^2.
+// One point has K(x, x) - 1 = 2 pi^2 / 6; two opposite points have half of that at twice the
+// frequency: squared = sum over even m of 2 / m^2.
 TEST(KernelDiscrepancy, PeriodicByHand) {
     const double pi = std::numbers::pi;
     for (const double x : {0.0, 0.3, 1.0})
@@ -66,7 +66,7 @@ TEST(KernelDiscrepancy, PeriodicByHand) {
     EXPECT_EQ(report.find("bandwidth"), nullptr);
 }
 
-// n = d = 1 with h = 1 at 0: 1 - 2 int k(t) dt + 2 int (1 - t) k(t) dt.
+// For n = d = 1, h = 1 and the point 0: 1 - 2 int k(t) dt + 2 int (1 - t) k(t) dt.
 TEST(KernelDiscrepancy, GaussianAndMaternByHand) {
     const PointSet origin = points_of({{0}});
     const double e = std::exp(-1);
@@ -120,8 +120,8 @@ TEST(KernelDiscrepancy, DefaultBandwidthIsTheDistanceOfUniformPoints) {
     EXPECT_GT(smooth("1.5"), smooth("2.5"));
 }
 
-// Means over 40 sets are within 15 % of what is expected: the standard deviation of such a mean is
-// some 4 %, so that chance fails one in 10^3 seeds; those here are fixed.
+// Means over 40 sets are within 15 % of their expectation. The standard deviation of such a mean is
+// about 4 %, so this fails by chance for one in 10^3 seeds; seeds are fixed.
 TEST(KernelDiscrepancy, OfIndependentPointsIsWhatIsExpected) {
     for (const char* kernel : {"periodic", "gaussian", "matern"}) {
         double sum = 0;
@@ -170,9 +170,9 @@ TEST(KernelDiscrepancy, TellsShiftedPointsFromTheTarget) {
     }
 }
 
-// By the definition, off by 1e-12: the ratio of the means of 20 sets to what is expected, and of
-// sets that are shifted by half a standard deviation. Chance fails the bounds in fewer than one of
-// 10^4 seeds; those here are fixed.
+// By the definition within 1e-12. Then the mean of 20 sets relative to its expectation, for the
+// target and for sets shifted by half a standard deviation. Fails by chance for fewer than one in
+// 10^4 seeds; seeds are fixed.
 TEST(KernelDiscrepancy, SteinIsSmallForItsTargetAndLargeForOthers) {
     double near = 0;
     double far = 0;
@@ -217,8 +217,8 @@ PointSet with_domain(PointSet set, const std::string& spec) {
     return set;
 }
 
-// With Y standard normal, E exp(-(x - Y)^2 / (2 h^2)) = h / sqrt(h^2 + 1) exp(-x^2 / (2 (h^2 + 1))), and
-// of x = Y' the same with 2 in place of 1 and x = 0.
+// With Y standard normal, E exp(-(x - Y)^2 / (2 h^2)) = h / sqrt(h^2 + 1) exp(-x^2 / (2 (h^2 +
+// 1))). For x = Y', replace 1 by 2 and x by 0.
 TEST(KernelDiscrepancy, OfTheNormalDistributionInClosedForm) {
     for (const std::size_t d : {1, 2}) {
         const PointSet set = with_domain(d == 1 ? points_of({{-0.8}, {0.1}, {2.5}})
@@ -248,8 +248,8 @@ TEST(KernelDiscrepancy, OfTheNormalDistributionInClosedForm) {
     }
 }
 
-// On a box, which is a uniform domain, too, the lengths scale: exp(-|x - y|) on [0, 2] is exp(-2 |x - y|)
-// on [0, 1]; and the exponential distribution has E exp(-|x - Y|) = (x + 1/2) e^-x, 1/2 on average.
+// Lengths scale on a box, which is a uniform domain, too: exp(-|x - y|) on [0, 2] is exp(-2 |x -
+// y|) on [0, 1]. The exponential distribution has E exp(-|x - Y|) = (x + 1/2) e^-x, with mean 1/2.
 TEST(KernelDiscrepancy, OfBoxesAndTheExponentialDistribution) {
     PointSet set = make("random", points(40, 1));
     const Settings half = {{"kernel", "matern"}, {"smoothness", "0.5"}, {"bandwidth", "0.5"}};
@@ -273,7 +273,7 @@ TEST(KernelDiscrepancy, RefusesDomainsWhoseMeansItDoesNotKnow) {
                                  "points of the unit cube or a box"));
 }
 
-// Distances of 0, 1, 3 and 7: 1, 2, 3, 4, 6, 7. Without the last, 1, 2, 3.
+// Points 0, 1, 3 and 7 have the distances 1, 2, 3, 4, 6, 7; without the last point 1, 2, 3.
 TEST(KernelDiscrepancy, MedianIsThatOfAllPairs) {
     const TemporaryFile two("3\n7\n");
     const Settings settings = {{"kernel", "gaussian"}, {"target", two.path()}};
@@ -289,7 +289,7 @@ TEST(KernelDiscrepancy, MedianIsThatOfAllPairs) {
                                    {{"kernel", "gaussian"}, {"target", many.path()}});
     EXPECT_EQ(sampled.text("bandwidth_rule"), "median-of-sample");
     EXPECT_EQ(sampled.number("bandwidth_pairs"), 1 << 22);
-    EXPECT_NEAR(sampled.number("bandwidth"), 0.5120, 0.005);  // of two uniform points of the square
+    EXPECT_NEAR(sampled.number("bandwidth"), 0.5120, 0.005);  // of two uniform points in the square
 }
 
 TEST(KernelDiscrepancy, IsTheSameForAnyThreadsWithEveryKernel) {

@@ -28,7 +28,7 @@ using Weights = std::vector<double>;
 const Fraction half(1, 2);
 Fraction from_middle(const Fraction& x) { return abs(x - half); }
 
-/// A kind by its definition: its kernel on an axis, the kernel's mean and the mean of that.
+/// Definition of a kind: its kernel on an axis, the kernel's mean over one argument and over both.
 struct Definition {
     const char* name;
     bool projections;
@@ -108,7 +108,7 @@ Fraction exact_square(const PointSet& set, const Definition& kind, const Weights
     return total - 2 * means / count + pairs / (count * count);
 }
 
-/// Oracle: the square of the product of d sets on a line, from sums over the line.
+/// Oracle: the square for the product of d copies of a set on a line, from sums over the line.
 Fraction product_square(std::span<const double> line, const Definition& kind, int d) {
     const Fraction one = kind.projections ? 1 : 0;
     const Fraction n = line.size();
@@ -129,7 +129,7 @@ Fraction product_square(std::span<const double> line, const Definition& kind, in
     return totals - 2 * means + products;
 }
 
-/// Numbers of 104 bits and a power of two, for products of any size.
+/// Numbers with 104 bits and an exponent, for products of any size.
 struct Precise {
     DoubleDouble number;
     int exponent = 0;
@@ -150,7 +150,7 @@ DoubleDouble negative(const DoubleDouble& x) { return {-x.high, -x.low}; }
 DoubleDouble magnitude(const DoubleDouble& x) { return x.high < 0 ? negative(x) : x; }
 DoubleDouble times(double a, const DoubleDouble& x) { return DoubleDouble{a, 0} * x; }
 
-/// A kernel on an axis by its definition.
+/// Kernel on an axis by its definition.
 DoubleDouble kernel_of(Kind kind, double x, double y) {
     const DoubleDouble t = magnitude(exact_sum(x, -y));
     const DoubleDouble u = magnitude(exact_sum(x, -0.5));
@@ -179,7 +179,7 @@ DoubleDouble kernel_of(Kind kind, double x, double y) {
     }
 }
 
-/// The mean of a kernel over y, and with no x the mean of that.
+/// Mean of a kernel over y; without x the mean over both arguments.
 DoubleDouble mean_of(Kind kind, std::optional<double> x) {
     const DoubleDouble third{1.0 / 3, 0x1.5555555555555p-56};
     const DoubleDouble u = magnitude(exact_sum(x.value_or(0), -0.5));
@@ -210,8 +210,8 @@ DoubleDouble mean_of(Kind kind, std::optional<double> x) {
     }
 }
 
-/// Oracle: the square pair by pair, by the definitions; off by some 2^-90 of the largest sum, for
-/// sums that doubles hold.
+/// Oracle: the square pair by pair by the definitions; the error is about 2^-90 of the largest sum,
+/// for sums in the range of double.
 double plain_square(const PointSet& set, Kind kind, const Weights& weights = {}) {
     const std::size_t n = set.count();
     const bool alone = weights.empty() && !l2::record_of(kind).projections;
@@ -287,7 +287,7 @@ PointSet mapped(PointSet set, double (*map)(double)) {
 constexpr Kind reflectable[] = {Kind::extreme, Kind::periodic, Kind::centered, Kind::wraparound,
                                 Kind::mixture, Kind::diaphony, Kind::average,  Kind::symmetric};
 
-/// Kinds that divide and conquer takes.
+/// Kinds that divide and conquer supports.
 std::vector<Kind> divisible(std::size_t dimension) {
     std::vector<Kind> kinds;
     for (const Kind kind : l2::all_kinds)
@@ -297,7 +297,7 @@ std::vector<Kind> divisible(std::size_t dimension) {
 
 std::string name_of(Kind kind) { return std::string(l2::record_of(kind).name); }
 
-/// Middles of as many cells of a line.
+/// Midpoints of `side` cells of the line.
 std::vector<double> middles(std::size_t side) {
     std::vector<double> line;
     for (std::size_t i = 0; i < side; ++i)
@@ -394,8 +394,9 @@ TEST(L2Discrepancy, AgreesWithSciPy) {
     EXPECT_NEAR(halton.number("star.value"), 0.013345897863399583, 1e-14);
 }
 
-// arXiv:2508.04926: the mean of the squared star discrepancies from all corners. Hickernell's
-// symmetric discrepancy is (4/3)^d - 2/n sum prod (1 + 2 x - 2 x^2) + 2^d/n^2 sum prod (1 - t).
+// arXiv:2508.04926: the average is the mean of the squared star discrepancies with respect to all
+// corners. Hickernell's symmetric discrepancy is (4/3)^d - 2/n sum prod (1 + 2 x - 2 x^2) + 2^d/n^2
+// sum prod (1 - t).
 TEST(L2Discrepancy, AverageIsTheMeanOfStarOverAllCorners) {
     for (const std::size_t d : {1, 2, 3, 5}) {
         const PointSet set = on_lattice(40, d, 1 << 20, d);
@@ -415,20 +416,21 @@ TEST(L2Discrepancy, AverageIsTheMeanOfStarOverAllCorners) {
     }
 }
 
-// On a line the star discrepancy of the centered grid is least: 1 / (n sqrt 12).
+// On a line, the centered grid has the least star discrepancy, 1 / (n sqrt 12).
 TEST(L2Discrepancy, OfACenteredGridOnALineIsKnown) {
     for (const std::size_t n : {1, 2, 5, 4096, 100'000}) {
         PointSet set(n, 1);
         for (std::size_t i = 0; i < n; ++i)
             set[i][0] = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
         const auto count = static_cast<double>(n);
-        // coordinates that are no multiples of a power of two are off by 2^-54
+        // coordinates that are not dyadic have errors of 2^-54
         EXPECT_NEAR(measure("l2-discrepancy", "star.value", set) * count * std::sqrt(12), 1, 1e-13)
             << n;
     }
 }
 
-// sum over m != 0 divisible by n of 1/m^2 = pi^2 / (3 n^2); divided by 2 pi^2, that of B_2.
+// The sum over m != 0 divisible by n of 1/m^2 is pi^2 / (3 n^2); divided by 2 pi^2 it is that of
+// B_2.
 TEST(L2Discrepancy, OfARegularGridOnALineIsKnownForPeriodicKinds) {
     for (const std::size_t n : {1, 8, 1024}) {
         const Report report = report_of(make("grid", points(n, 1)));
@@ -447,7 +449,7 @@ TEST(L2Discrepancy, OfOnePointIsTheDiaphonysLargest) {
                     1, 1e-14);
 }
 
-/// The diaphony's square by cosines, without those beyond `most`.
+/// Square of the diaphony by cosines up to frequency `most`.
 double cosine_square(const PointSet& set, int most) {
     const auto n = static_cast<double>(set.count());
     double sum = 0;
@@ -467,8 +469,8 @@ double cosine_square(const PointSet& set, int most) {
     return sum;
 }
 
-// What is left out is at most the tail of 1/m^2 on each axis, and is random in sign of its phase:
-// 2 / most (1 + pi^2/3) 2 / n on average for random points.
+// The error is at most the tail of 1/m^2 on each axis; for random points, with random phases, it is
+// about 2 / most (1 + pi^2/3) 2 / n.
 TEST(L2Discrepancy, IsTheDiaphonyOfItsFourierSeries) {
     const PointSet set = random_set(8, 2, 4);
     const double whole = squared(report_of(set), "diaphony");
@@ -478,8 +480,8 @@ TEST(L2Discrepancy, IsTheDiaphonyOfItsFourierSeries) {
     EXPECT_GT(whole, 1);
 }
 
-// J. H. Halton, S. K. Zaremba, Monatsh. Math. 73 (1969) 316-328: Hammersley sets in base 2. At
-// 2^20 points the square is 10^-11 of the terms that make it.
+// J. H. Halton, S. K. Zaremba, Monatsh. Math. 73 (1969) 316-328: Hammersley sets in base 2. At 2^20
+// points the square is 10^-11 of its largest term.
 TEST(L2Discrepancy, OfHammersleySetsIsHaltonsAndZarembas) {
     for (const int m : {0, 1, 2, 3, 10, 20}) {
         const Fraction n = exactly(std::ldexp(1, m));
@@ -492,7 +494,7 @@ TEST(L2Discrepancy, OfHammersleySetsIsHaltonsAndZarembas) {
     }
 }
 
-// On a lattice all points see the same: one sum in place of two. 2^20 points, exact fractions.
+// On a lattice all points have the same sum, so one sum suffices. 2^20 points, exact fractions.
 TEST(L2Discrepancy, OfALatticeIsASingleSum) {
     const std::uint64_t n = 1 << 20;
     const std::uint64_t step = 443'165;
@@ -519,7 +521,7 @@ TEST(L2Discrepancy, OfALatticeIsASingleSum) {
     EXPECT_LT(report.number("star.value"), 1e-5);
 }
 
-// The kernels of a product of two grids are products of sums over the line.
+// For the product of two grids, sums of kernels are products of sums over the line.
 TEST(L2Discrepancy, OfAProductOfGridsIsAProductOfSums) {
     const std::size_t side = 64;
     PointSet line(side, 1);
@@ -551,7 +553,7 @@ TEST(L2Discrepancy, OfThePlaneIsThatOfAllPairs) {
         }
 }
 
-// In the plane and by division it is exact; on even sets most of the digits cancel.
+// In the plane and by divide and conquer the result is exact; for even sets most digits cancel.
 TEST(L2Discrepancy, OfAllPairsIsExactWhereMuchCancels) {
     for (const PointSet& set :
          {random_set(300, 2, 1), on_lattice(277, 2, 40, 2), make("sobol", points(1024, 2)),
@@ -568,7 +570,7 @@ TEST(L2Discrepancy, OfAllPairsIsExactWhereMuchCancels) {
         }
 }
 
-// Coordinates that are multiples of 2^-53, and others; equal ones, and ones next to each other.
+// Coordinates that are multiples of 2^-53, and others; equal ones, and adjacent ones.
 TEST(L2Discrepancy, OfAllPairsIsThatOfItsDefinition) {
     PointSet close = random_set(131, 3, 3);
     for (std::size_t i = 1; i < close.count(); i += 2)
@@ -602,7 +604,7 @@ TEST(L2Discrepancy, OfAllPairsIsExactWithWeights) {
     }
 }
 
-// Lanes are summed alike, whatever holds them; so are places without points behind the last.
+// The sum of lanes does not depend on the vector width, nor on unused lanes after the last point.
 TEST(L2Discrepancy, DoesNotDependOnTheWidthOfVectors) {
     using l2::pair_square;
     for (const PointSet& set : {random_set(150, 3, 1), on_lattice(67, 4, 40, 2),
@@ -616,7 +618,7 @@ TEST(L2Discrepancy, DoesNotDependOnTheWidthOfVectors) {
             }
 }
 
-// A square below the doubles' range, and one that is the difference of numbers near 1.
+// A square below the range of double, and one that is the difference of numbers near 1.
 TEST(L2Discrepancy, SaysWhatItIsOffByWhereNothingIsLeft) {
     const PointSet high = random_set(3, 400, 1);
     const PointSet few = small_sets(3)[2];
@@ -635,13 +637,14 @@ TEST(L2Discrepancy, SaysWhatItIsOffByWhereNothingIsLeft) {
     EXPECT_GE(report_of(few, tiny, "star").number("star.error"), 1e-20);
 }
 
-// Products of hundreds of factors leave the range of doubles on their way: star's are near 3^-d,
-// those of small weights near 1, and those of large ones beyond.
+// Products of hundreds of factors exceed the range of double: star's are near 3^-d, those of small
+// weights near 1, and those of large ones huge.
 TEST(L2Discrepancy, IsWithinATrillionthInHundredsOfDimensions) {
     const PointSet high = random_set(40, 600, 1);
     const PointSet low = make("sobol", points(64, 410));
     const PointSet many = make("sobol", points(256, 100));
-    PointSet sides = random_set(100, 400, 2);  // first factors small and last ones large, or not
+    PointSet sides =
+        random_set(100, 400, 2);  // first factors small and last ones large, or the other way round
     for (std::size_t i = 0; i < sides.count(); ++i)
         for (std::size_t j = 0; j < sides.dimension(); ++j)
             sides[i][j] = std::ldexp(sides[i][j] + ((i % 2 == 0) == (j < 200) ? 1 : 0), -1);
@@ -763,8 +766,8 @@ TEST(L2Discrepancy, OfPeriodicKindsDoesNotChangeUnderShiftsOfTheTorus) {
     EXPECT_NE(squared(after, "centered"), squared(before, "centered"));
 }
 
-// E squared = (2^-d - 3^-d) / n for n independent points. The mean of 400 squares is normal enough;
-// each test is off by chance at 4.5 standard errors: 7e-6.
+// E squared = (2^-d - 3^-d) / n for n independent points. The mean of 400 squares is nearly normal;
+// each test fails by chance at 4.5 standard errors: 7e-6.
 TEST(L2Discrepancy, OfRandomSetsHasItsExpectation) {
     for (const std::size_t d : {2, 3}) {
         double sum = 0;
@@ -844,7 +847,7 @@ TEST(L2Discrepancy, RefusesWhatNoDoubleHolds) {
               "limit: wraparound discrepancy: in 2000 dimensions its square is beyond the largest "
               "double | --kind selects others");
     EXPECT_TRUE(std::isfinite(squared(report_of(set, {}, "star"), "star")));
-    // All kinds, of which diaphony is the first that is too large: 500 log10(1 + pi^2/3) = 316.
+    // The report has all kinds; diaphony is the first that overflows: 500 log10(1 + pi^2/3) = 316.
     const Report all = report_of(random_set(3, 500, 1));
     EXPECT_EQ(all.text("diaphony.missing"),
               "in 500 dimensions its square is beyond the largest double");

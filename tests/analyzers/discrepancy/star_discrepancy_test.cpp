@@ -33,7 +33,7 @@ double half_open_star_of(const PointSet& points) {
     return analyze("star-discrepancy", points, {{"boxes", "half-open"}}).number("value");
 }
 
-/// By branch and bound alone, from nothing: a good start would hide what the search misses.
+/// Result of branch and bound alone: a good start would hide errors of the search.
 double by_search(const PointSet& points) {
     const BoxGrid grid = box_grid(points, Family::anchored, {});
     return star::search(grid, WorstBox(grid), {}, {}).worst.value();
@@ -65,7 +65,7 @@ PointSet hammersley(std::size_t n) {
     return p;
 }
 
-/// k^d points, on axis j at (place + offset) / k.
+/// k^d points, with coordinates (index + offset) / k.
 PointSet grid(std::size_t k, std::size_t d, double offset) {
     std::size_t n = 1;
     for (std::size_t j = 0; j < d; ++j) n *= k;
@@ -78,7 +78,7 @@ PointSet grid(std::size_t k, std::size_t d, double offset) {
     return p;
 }
 
-/// Calls visit(corner) for all corners made of coordinates and 1.
+/// Calls visit(corner) for all corners whose coordinates are those of points or 1.
 void each_corner(const PointSet& p, const std::function<void(const std::vector<double>&)>& visit) {
     std::vector<std::vector<double>> values(p.dimension(), {1.0});
     for (std::size_t i = 0; i < p.count(); ++i)
@@ -110,7 +110,7 @@ std::int64_t points_in(const PointSet& p, const std::vector<double>& corner, boo
 }
 
 /// Oracle: the definition, corner by corner, in integers; for coordinates that are multiples of
-/// 1/steps. Exact where steps is a power of two and n * steps^d < 2^53. Slow, and too plain to be
+/// 1/steps. Exact if steps is a power of two and n * steps^d < 2^53. Slow, and too plain to be
 /// wrong.
 double by_definition(const PointSet& p, std::int64_t steps) {
     std::int64_t cells = 1;
@@ -126,8 +126,8 @@ double by_definition(const PointSet& p, std::int64_t steps) {
     return static_cast<double>(worst) / static_cast<double>(n * cells);
 }
 
-/// Oracle: the same for half-open boxes alone. A box may end just behind a corner, in which case it
-/// has the points on its faces, but not behind 1.
+/// Oracle: the same for half-open boxes only. A box may end just beyond a corner, and then contains
+/// the points on its faces; but never beyond 1.
 double by_half_open_definition(const PointSet& p, std::int64_t steps) {
     const auto d = p.dimension();
     const auto n = static_cast<std::int64_t>(p.count());
@@ -152,15 +152,16 @@ double by_half_open_definition(const PointSet& p, std::int64_t steps) {
     return static_cast<double>(worst);
 }
 
-/// Oracle in three dimensions: level by level of the last axis, a table of the points below the
-/// level in every box of the first two. O(n^3).
+/// Oracle in three dimensions: level by level along the last axis, with a table of the numbers of
+/// points below the level in every box of the first two axes. O(n^3).
 double by_levels(const PointSet& p) {
     const BoxGrid grid = box_grid(p, Family::anchored, {});
     const auto& xs = grid.values[0];
     const auto& ys = grid.values[1];
     const auto& zs = grid.values[2];
     const std::size_t columns = ys.size() + 1;
-    std::vector<int> below((xs.size() + 1) * columns);  // [a, j]: before places a and j
+    std::vector<int> below((xs.size() + 1) *
+                           columns);  // [a, j]: below the a-th and j-th coordinate
     std::vector<std::vector<std::size_t>> at(zs.size());
     for (std::size_t i = 0; i < p.count(); ++i) at[grid.ranks[2][i]].push_back(i);
     const double share = 1 / static_cast<double>(p.count());
@@ -182,8 +183,8 @@ double by_levels(const PointSet& p) {
     return worst;
 }
 
-/// Counts the worst box anew and works out its discrepancy in rational numbers: the value is the
-/// nearest double to it.
+/// Recounts the worst box and computes its discrepancy in rational numbers: the value must be the
+/// nearest double.
 void expect_box_holds(const PointSet& p, const Report& report) {
     const auto corner = report.curve("worst_box.corner");
     const bool closed = std::get<bool>(*report.find("worst_box.closed"));
@@ -223,7 +224,7 @@ TEST(StarDiscrepancy, KnownByHand) {
     EXPECT_EQ(star_of(points_of({{1, 1, 1, 1, 1}})), 1);
 }
 
-// Worked out in exact rationals by an independent program; the coordinates are rounded to doubles.
+// Computed in exact rationals by an independent program; the coordinates are rounded to doubles.
 TEST(StarDiscrepancy, KnownOfHundredPoints) {
     EXPECT_NEAR(star_of(halton(100, 2)), 6511. / 129600, 2e-16);
     EXPECT_NEAR(star_of(hammersley(100)), 121. / 3200, 2e-16);
@@ -231,8 +232,8 @@ TEST(StarDiscrepancy, KnownOfHundredPoints) {
     EXPECT_NEAR(star_of(grid(10, 2, 0.5)), 39. / 400, 2e-16);
 }
 
-// The box up to the last points holds them all: 1 - (1 - 1/k)^d, and with half the margin for
-// points in the middle of their cells.
+// The closed box to the last points contains all points: 1 - (1 - 1/k)^d; points at the centres of
+// their cells have half the margin.
 TEST(StarDiscrepancy, OfGridsHasAClosedForm) {
     for (const auto& [k, d] :
          {std::pair{7, 1}, {1, 2}, {8, 2}, {33, 2}, {5, 3}, {8, 3}, {4, 4}, {3, 5}}) {
@@ -246,7 +247,7 @@ TEST(StarDiscrepancy, OfGridsHasAClosedForm) {
 }
 
 // Halton and Zaremba (1969): n D* = m/3 + 13/9 - (-1)^m 4/(9 2^m) for n = 2^m points (i/n,
-// phi_2(i)). For m = 1 the formula does not hold: the points (0,0), (1/2,1/2) have 3/4, by hand.
+// phi_2(i)). The formula does not hold for m = 1: the points (0,0), (1/2,1/2) have 3/4, by hand.
 TEST(StarDiscrepancy, OfHammersleyInBaseTwoHasAClosedForm) {
     EXPECT_EQ(star_of(hammersley(2)), 3. / 4);
     for (int m = 2; m <= 15; ++m) {
@@ -257,8 +258,8 @@ TEST(StarDiscrepancy, OfHammersleyInBaseTwoHasAClosedForm) {
     }
 }
 
-// Only open boxes see that all points are at 1, only closed ones that they are at 0, and only
-// boxes that end at 1 (closed there) hold (0, 1).
+// Points at 1 are detected only by open boxes, points at 0 only by closed ones, and (0, 1) is only
+// in boxes that end at 1 and are closed there.
 TEST(StarDiscrepancy, CountsOpenAndClosedBoxes) {
     EXPECT_EQ(star_of(points_of({{1, 1}, {1, 1}, {1, 1}})), 1);
     EXPECT_EQ(star_of(points_of({{0, 0}, {0, 0}, {0, 0}})), 1);
@@ -266,7 +267,7 @@ TEST(StarDiscrepancy, CountsOpenAndClosedBoxes) {
     EXPECT_EQ(star_of(points_of({{0, 1, 0}, {0, .5, 0}})), 1);
     EXPECT_EQ(star_of(points_of({{1}, {.5}})), 1. / 2);
     const Report open = star_report(points_of({{.75, .5}, {.75, 1}}));
-    EXPECT_EQ(open.number("value"), 3. / 4);  // nothing to the left of 3/4
+    EXPECT_EQ(open.number("value"), 3. / 4);  // no point to the left of 3/4
     EXPECT_FALSE(std::get<bool>(*open.find("worst_box.closed")));
     EXPECT_EQ(open.curve("worst_box.corner"), (std::vector<double>{.75, 1}));
     EXPECT_EQ(open.number("worst_box.points"), 0);
@@ -284,13 +285,13 @@ TEST(StarDiscrepancy, OfHalfOpenBoxesLeavesOutWhatLiesAtOne) {
     EXPECT_EQ(star_of(edge), 1);
     EXPECT_EQ(half_open_star_of(edge), 1. / 2);
     EXPECT_EQ(half_open_star_of(points_of({{0, 1, 0}, {0, .5, 0}})), 1. / 2);
-    EXPECT_EQ(half_open_star_of(points_of({{0, 1}})), 1);  // holds no point
+    EXPECT_EQ(half_open_star_of(points_of({{0, 1}})), 1);  // contains no point
     EXPECT_EQ(half_open_star_of(points_of({{.25}, {1}})), 1. / 2);
     EXPECT_EQ(half_open_star_of(halton(100, 2)), star_of(halton(100, 2)));
 }
 
-// Values agree with the definition on sets with many points at 1, in every dimension and by every
-// method; on most of them the two conventions differ, so a wrong one can't pass.
+// Values equal the definition on sets with many points at 1, in every dimension and by every
+// method; on most of them the two conventions differ, so that the wrong one fails.
 TEST(StarDiscrepancy, OfHalfOpenBoxesIsTheDefinitions) {
     constexpr std::size_t most[] = {0, 20, 9, 6, 4, 3};
     int different = 0;
@@ -326,7 +327,7 @@ TEST(StarDiscrepancy, IsTheDefinitionsToTheLastBit) {
             }
 }
 
-// As above, with enough points for the search to have to shrink and split its cells.
+// As above, with enough points that the search has to shrink and split its cells.
 TEST(StarDiscrepancy, IsTheDefinitionsForLargerSets) {
     for (const auto& [n, d] : {std::pair{120, 2}, {36, 3}, {16, 4}})
         for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -352,22 +353,22 @@ TEST(StarDiscrepancy, ReportsItsBoxAndBounds) {
     EXPECT_EQ(star_report(halton(9, 3)).text("method"), "branch-and-bound");
 }
 
-// Two boxes 2^-52 apart, far below what sums of doubles tell apart, and nearer to 1.
+// Two boxes that differ by 2^-52, far below the rounding of sums of doubles, and closer to 1.
 TEST(StarDiscrepancy, ComparesBoxesWithoutRounding) {
     const double tiny = 0x1p-300;
     const PointSet p = points_of({{tiny, tiny}, {tiny / 2, tiny}, {tiny, tiny / 4}});
     const Report report = star_report(p);
     EXPECT_EQ(report.number("value"), 1);
     EXPECT_EQ(report.number("worst_box.volume"), tiny * tiny);
-    // Open box up to a half: 0.5 - 2^-54 and 0.5 - 2^-54 + tiny have the same double.
+    // Open box up to one half: 0.5 - 2^-54 and 0.5 - 2^-54 + tiny round to the same double.
     const double half = 0.5 - 0x1p-54;
     const PointSet q = points_of({{half, 1}, {1, half}});
     EXPECT_EQ(star_report(q).number("value"), by_search(q));
     expect_box_holds(q, star_report(q));
 }
 
-// The ascents find most worst boxes by themselves; what the search excludes must not depend on them.
-// Among these are sets on which ends of cells judged by the bound of another cell go wrong.
+// The ascents alone find most worst boxes; boxes that the search excludes must not depend on them.
+// The sets include some that fail if the ends of a cell are judged by another cell's bound.
 TEST(StarDiscrepancy, SearchFindsFromNothingWhatItFindsFromAGoodStart) {
     for (const auto& [n, d] :
          {std::pair{150, 3}, {64, 4}, {100, 4}, {16, 6}, {16, 7}, {64, 8}, {25, 12}})
@@ -379,8 +380,9 @@ TEST(StarDiscrepancy, SearchFindsFromNothingWhatItFindsFromAGoodStart) {
         }
 }
 
-// Sets whose places are hard to group: much on one line, far gaps, two points in every place, all
-// on a diagonal, and coordinates 2^-50 apart. The sweep knows no coordinates finer than groups.
+// Sets whose coordinates are difficult to group: many on one line, large gaps, two points at every
+// coordinate, all on a diagonal, and coordinates 2^-50 apart. The sweep distinguishes coordinates
+// only by groups.
 TEST(StarDiscrepancy, SweepAndSearchAgreeOnUnevenSets) {
     const auto bent = [](std::size_t n, const auto& bend) {
         PointSet p = make("random", points(n, 2), {}, {.seed = n});
@@ -407,7 +409,7 @@ TEST(StarDiscrepancy, SweepAndSearchAgreeOnUnevenSets) {
     }
 }
 
-// Wherever a sweep is cut in two, and with no good box to start from: so large sets are swept.
+// The sweep may be split into strips anywhere, and needs no good starting box, as for large sets.
 TEST(StarDiscrepancy, SweepsFromAnyStripFindTheSame) {
     for (const PointSet& p : {make("random", points(700, 2)), halton(400, 2),
                               on_lattice(600, 2, 32, 1), on_lattice(300, 2, 4096, 2)}) {
@@ -488,7 +490,7 @@ TEST(StarDiscrepancy, IsTheSameForAnyNumberOfThreads) {
     }
 }
 
-// The exact values are those of searches to the end; here most end early, somewhere.
+// Exact values are those of complete searches; most of these end early.
 TEST(StarDiscrepancy, BoundsHoldTheExactValueWhereverTheyEnd) {
     for (const auto& [n, d] : {std::pair{60, 3}, {40, 5}, {40, 8}})
         for (std::uint64_t seed = 1; seed <= 3; ++seed) {
@@ -512,7 +514,7 @@ TEST(StarDiscrepancy, BoundsHoldTheExactValueWhereverTheyEnd) {
         }
 }
 
-// On a grid of nearly all corners, and on coarse ones; delta is about 1.1 ln(d) d / (d - 1) / side.
+// Covers by nearly all corners, and coarse ones; delta is about 1.1 ln(d) d / (d - 1) / side.
 TEST(StarDiscrepancy, CoversBoundItFromAboveAndNotByFar) {
     for (std::size_t d = 2; d <= 5; ++d)
         for (std::uint64_t seed = 1; seed <= 6; ++seed) {
@@ -530,13 +532,13 @@ TEST(StarDiscrepancy, CoversBoundItFromAboveAndNotByFar) {
             }
             EXPECT_EQ(star::cover_bound(corners, 20, {}), 1);
         }
-    // All points at 0: the closed box up to 0 is as bad as can be.
+    // All points at 0: the closed box up to 0 has the largest possible discrepancy.
     const PointSet zeros = points_of({{0, 0, 0}, {0, 0, 0}});
     EXPECT_EQ(star::cover_bound(box_grid(zeros, Family::anchored, {}), 1 << 15, {}), 1);
 }
 
-// Niederreiter's bound for t = 0 in the square is (1 + m) / 2^m, in the cube (1 + m (m + 1) / 2) /
-// 2^m.
+// Niederreiter's bound for t = 0 is (1 + m) / 2^m in two dimensions, and (1 + m (m + 1) / 2) / 2^m
+// in three.
 TEST(StarDiscrepancy, NetsBoundItByTheirQuality) {
     const auto bound = [](const PointSet& p, double most = 1) {
         return star::net_bound(box_grid(p, Family::anchored, {}), most, std::uint64_t{1} << 40, {});
@@ -560,8 +562,8 @@ TEST(StarDiscrepancy, NetsBoundItByTheirQuality) {
 }
 
 // M. Gnewuch, M. Wahlstroem, C. Winzen, SIAM J. Numer. Anal. 50 (2012) 781-807,
-// doi:10.1137/110833865 (arXiv:1103.2102), print exact values of Faure sets, from index 0, to four
-// digits; these are five of them.
+// doi:10.1137/110833865 (arXiv:1103.2102), publish exact values of Faure sets, from index 0, to
+// four digits; these are five of them.
 TEST(StarDiscrepancy, OfFaureSetsIsThePublishedOne) {
     const auto of_faure = [](std::size_t n, std::size_t d) {
         return star_of(make("faure", points(n, d)));
@@ -573,11 +575,11 @@ TEST(StarDiscrepancy, OfFaureSetsIsThePublishedOne) {
     EXPECT_NEAR(of_faure(121, 11), 0.3010, 0.5e-4);
 }
 
-// The Fibonacci column of the tables that F. Clement, C. Doerr, K. Klamroth, L. Paquete
-// (arXiv:2311.17463) and, for n >= 30, T. K. Rusch and others (arXiv:2405.15059) compare their sets
-// with, as the README of github.com/hockeyguy123/openevolve-star-discrepancy collects them: points
-// (i/n, {i phi}), i = 0 .. n - 1, phi the golden ratio. Some digits are cut off, not rounded. For n
-// = 4 they print 0.4910; it is 3/4 - {phi}/2 = 0.4410, of the box up to (1/2, {phi}).
+// The Fibonacci column in the tables of F. Clement, C. Doerr, K. Klamroth, L. Paquete
+// (arXiv:2311.17463) and, for n >= 30, T. K. Rusch and others (arXiv:2405.15059), as collected by
+// the README of github.com/hockeyguy123/openevolve-star-discrepancy: points (i/n, {i phi}), i = 0
+// .. n - 1, phi the golden ratio. Some values are truncated, not rounded. For n = 4 they print
+// 0.4910; the value is 3/4 - {phi}/2 = 0.4410, for the box up to (1/2, {phi}).
 TEST(StarDiscrepancy, OfFibonacciSetsIsThePublishedOne) {
     const double phi = (1 + std::sqrt(5.0)) / 2;
     const auto of_fibonacci = [phi](std::size_t n) {
@@ -604,14 +606,14 @@ TEST(StarDiscrepancy, OfFibonacciSetsIsThePublishedOne) {
     for (const auto& [n, value] : between) EXPECT_NEAR(of_fibonacci(n), value, 1e-5) << n;
 }
 
-// Thiemard's program of 2001, as J. Burkardt prints its output for these points.
+// Output of Thiemard's program of 2001 for these points, published by J. Burkardt.
 TEST(StarDiscrepancy, IsBetweenThePrintedBoundsOfTenHaltonPoints) {
     const double value = star_of(halton(10, 2, 0));
     EXPECT_GE(value, 0.2666665);
     EXPECT_LE(value, 0.2674435);
 }
 
-// With few points, a brute force in integers, also with ties and points on 0 and 1.
+// Few points, compared with brute force in integers, also with ties and points on 0 and 1.
 TEST(StarDiscrepancy, BoundsHoldTheDefinitionsValue) {
     for (std::size_t d = 2; d <= 6; ++d)
         for (std::uint64_t seed = 1; seed <= 8; ++seed) {
@@ -696,7 +698,7 @@ TEST(StarDiscrepancy, ExactOrNothingExceptWhatIsCertain) {
     EXPECT_THAT(told[0], HasSubstr(" (--tolerance 0.001 was not reached)"));
 }
 
-// A clock that goes on by a hundredth of a second whenever it is looked at.
+// A clock that advances by a hundredth of a second whenever it is read.
 TEST(StarDiscrepancy, EndsAtTheTimeLimitWithBounds) {
     for (const auto& p : {halton(3000, 2), halton(300, 6)}) {
         std::atomic<int> looks = 0;
@@ -798,7 +800,7 @@ TEST(StarDiscrepancy, SaysWhatIsCertainWhenAskedToStop) {
     }
 }
 
-// Before anything was looked at, too.
+// Also if stopped before anything was computed.
 TEST(StarDiscrepancy, SaysSomethingCertainWhenStoppedAtOnce) {
     std::stop_source source;
     const RunContext run{.threads = 1, .stop = source.get_token()};
@@ -821,7 +823,7 @@ TEST(StarDiscrepancy, SaysSomethingCertainWhenStoppedAtOnce) {
     }
 }
 
-// What is known in no time holds: with ties, with points on 0 and 1, for either kind of boxes.
+// Quick bounds are valid: with ties, with points on 0 and 1, for either kind of boxes.
 TEST(StarDiscrepancy, QuickBoundsHold) {
     for (const std::size_t d : {1, 2, 3, 5, 6})
         for (const std::size_t n : {1, 2, 9, 60})
@@ -844,18 +846,18 @@ TEST(StarDiscrepancy, QuickBoundsHold) {
 }
 
 TEST(StarDiscrepancy, BoundsFromSingleAxesByHand) {
-    // The discrepancy of each axis is 1/10: (1 - 1/3)^3 and all three for open boxes.
+    // Each axis has discrepancy 1/10: (1 - 1/3)^3, and all three for open boxes.
     PointSet five(5, 3);
     for (std::size_t i = 0; i < 5; ++i)
         for (double& x : five[i]) x = (static_cast<double>(i) + 0.5) / 5;
     const BoxGrid grid = box_grid(five, Family::anchored, {});
     EXPECT_NEAR(star::axis_bound(grid, 1), 8 / 27. + 0.3, 1e-12);
-    // Closed boxes where the axes have none: (1 - 1/3) 3^(-1/2).
+    // Bound for closed boxes on which the axes have none: (1 - 1/3) 3^(-1/2).
     EXPECT_NEAR(star::axis_bound(grid, 0), 2 / (3 * std::sqrt(3)), 1e-12);
 }
 
-// On a diagonal, a closed box has as many points as one of its sides; where no point is in the upper
-// part of more than one axis, an open box lacks as many as all of its sides together.
+// On a diagonal, a closed box has as many points as one of its sides. If no point is in the upper
+// part of more than one axis, an open box lacks as many points as all of its sides together.
 TEST(StarDiscrepancy, BoundsFromSingleAxesAreReached) {
     constexpr std::size_t n = 60;
     PointSet diagonal(n, 3);
@@ -872,7 +874,7 @@ TEST(StarDiscrepancy, BoundsFromSingleAxesAreReached) {
     }
 }
 
-// Where the search has no time, either.
+// Also if the search has no time.
 TEST(StarDiscrepancy, OfOtherKindsHasBoundsInFiveDimensions) {
     for (const char* kind : {"extreme", "periodic"}) {
         const Report report =
@@ -977,7 +979,7 @@ TEST(StarDiscrepancy, TablesAreTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(seen.back(), 1);
 }
 
-// Where prefixes are measured one after the other, each says what is certain of it.
+// If prefixes are measured one after the other, each row has the bounds known for it.
 TEST(StarDiscrepancy, TablesOfPrefixesTellTheGap) {
     std::vector<std::string> words;
     std::vector<double> seen;
@@ -995,7 +997,7 @@ TEST(StarDiscrepancy, TablesOfPrefixesTellTheGap) {
     EXPECT_EQ(seen.back(), 1);
 }
 
-// A table has the limits of one set; all that it does not work out stays between bounds that hold.
+// A table has the limits of a single set; values that are not computed have valid bounds.
 TEST(StarDiscrepancy, LimitsAreForAllRowsOfATable) {
     const PointSet p = halton(160, 8);
     const auto rows = [&p](const Settings& settings, const RunContext& run = {}) {
@@ -1025,7 +1027,7 @@ TEST(StarDiscrepancy, LimitsAreForAllRowsOfATable) {
     const Report again = rows({{"every", "20"}, {"max-work", "4000000"}}, {.threads = 3});
     for (const char* key : {"prefixes.lower", "prefixes.upper"})
         EXPECT_EQ(part.curve(key), again.curve(key));
-    // A clock that goes on by a hundredth of a second whenever it is looked at.
+    // A clock that advances by a hundredth of a second whenever it is read.
     std::atomic<int> looks = 0;
     run.seconds = [&] { return 0.01 * static_cast<double>(++looks); };
     const Report timed = rows({{"projections", "6"}, {"time-limit", "2"}}, run);
@@ -1034,7 +1036,7 @@ TEST(StarDiscrepancy, LimitsAreForAllRowsOfATable) {
     EXPECT_THAT(told[1], HasSubstr("the first, that of the projection to axes 1, 2, 3, 4, 5, "));
     EXPECT_FALSE(std::get<bool>(*timed.find("projections.worst_is_certain")));
     EXPECT_EQ(timed.find("projections.largest.value"), nullptr);
-    // Once the time is over, a row costs a few looks at the clock; the first is measured.
+    // After the time limit, a row reads the clock a few times; the first row is measured.
     looks = 0;
     const Report late = rows({{"projections", "3"}, {"time-limit", "1e-9"}}, run);
     EXPECT_LE(looks, 56 * 8 + 100);
@@ -1092,7 +1094,8 @@ TEST(StarDiscrepancy, OtherKindsEndAtLimitsWithBounds) {
     }
 }
 
-// The first ascents count, and a time limit cuts them short, in many dimensions too.
+// The first ascents count towards the limits, and a time limit interrupts them, also in many
+// dimensions.
 TEST(StarDiscrepancy, LimitsHoldForTheFirstAscents) {
     const PointSet p = make("random", points(20, 500));
     const BoxGrid corners = box_grid(p, Family::anchored, {});
@@ -1126,7 +1129,7 @@ TEST(StarDiscrepancy, MeansHaveNoWorstBox) {
     EXPECT_NE(table.find("projections.value"), nullptr);
 }
 
-// The worst of the means need not be the worst of any set.
+// The worst of the means may not be the worst of any set.
 TEST(StarDiscrepancy, MeansOfProjectionsHaveTheirOwnWorst) {
     const Analyzer& analyzer = find_analyzer("star-discrepancy");
     Report mean = analyze("star-discrepancy", halton(20, 3), {{"projections", "2"}});

@@ -30,7 +30,7 @@ double distance_to_set(const PointSet& p, const Place& x, const Place& sides) {
     return least;
 }
 
-/// Places where lines a x + b y = c meet each other, in the closed box.
+/// Intersections of pairs of lines a x + b y = c in the closed box.
 std::vector<Place> meetings(const std::vector<std::array<double, 3>>& lines, const Box& box) {
     std::vector<Place> places;
     for (const auto& [a, b, c] : lines)
@@ -45,8 +45,8 @@ std::vector<Place> meetings(const std::vector<std::array<double, 3>>& lines, con
     return places;
 }
 
-/// Oracle for the plane: the maximum is where two bisectors or walls meet; all such places are
-/// tried. O(n^5).
+/// Oracle for the plane: the maximum is at an intersection of two bisectors or walls; tries all of
+/// them. O(n^5).
 double by_definition(const PointSet& p, const Box& box, bool torus) {
     std::vector<Place> copies;
     for (std::size_t i = 0; i < p.count(); ++i)
@@ -80,7 +80,7 @@ Box cube(std::size_t d) { return {Place(d, 0.0), Place(d, 1.0)}; }
 
 Settings with(bool torus) { return {{"metric", torus ? "torus" : "euclidean"}}; }
 
-/// What the report says of its ball is so: no point is in it, and it is the largest.
+/// Expects the reported ball to be empty, and to be the largest.
 void expect_radius(const PointSet& set, bool torus, double expected, double tolerance = 1e-12) {
     const Report report = analyze(unit, set, with(torus));
     EXPECT_NEAR(report.number("radius"), expected, tolerance * expected);
@@ -96,7 +96,7 @@ void expect_radius(const PointSet& set, bool torus, double expected, double tole
     EXPECT_EQ(report.text("metric"), torus ? "torus" : "euclidean");
 }
 
-/// Points m^d of a grid, moved by (shift, ..., shift) / m.
+/// m^d grid points, shifted by (shift, ..., shift) / m.
 PointSet grid(std::size_t m, std::size_t d, double shift) {
     std::vector<double> rows;
     const auto count = static_cast<std::size_t>(std::pow(m, d) + 0.5);
@@ -108,8 +108,8 @@ PointSet grid(std::size_t m, std::size_t d, double shift) {
 
 }  // namespace
 
-// Deep holes of grids: the middle of a cell, at sqrt(d) / 2 of its side; with walls, and points
-// from the origin on, the far corner of the cube, at sqrt(d) of it.
+// Deep holes of grids: the centre of a cell, at sqrt(d) / 2 of its side; with walls, and points
+// starting at the origin, the far corner of the cube, at sqrt(d) of it.
 TEST(Coverage, OfGridsIsHalfTheirDiagonal) {
     for (const auto& [m, d] : {std::pair<std::size_t, std::size_t>{1, 1},
                                {7, 1},
@@ -129,8 +129,8 @@ TEST(Coverage, OfGridsIsHalfTheirDiagonal) {
     }
 }
 
-// Conway and Sloane, chapter 4: the covering radii of D3 (fcc) and its dual (bcc), of the lattices
-// with least vectors sqrt 2 and sqrt 3 / 2, are 1 and sqrt 5 / 4; of D4, 1.
+// Conway and Sloane, chapter 4: the covering radii of D3 (fcc) and its dual (bcc), with minimal
+// vectors sqrt 2 and sqrt 3 / 2, are 1 and sqrt 5 / 4; that of D4 is 1.
 TEST(Coverage, OfLatticesAsPrinted) {
     const double h = 0.5;
     expect_radius(points_of({{0, 0, 0}, {0, h, h}, {h, 0, h}, {h, h, 0}}), true, 0.5, 1e-6);
@@ -183,7 +183,7 @@ TEST(Coverage, HoldsInTheBoxThatThePointsLiveOn) {
     expect_radius(line, false, 2);
 }
 
-// Cells against branch and bound, which share nothing but the search tree.
+// Voronoi cells and branch and bound, which share only the search tree.
 TEST(Coverage, TwoMethodsAgreeInThePlane) {
     for (const bool torus : {true, false})
         for (const char* generator : {"random", "halton", "poisson-disk", "hexagonal"}) {
@@ -198,7 +198,7 @@ TEST(Coverage, TwoMethodsAgreeInThePlane) {
         }
 }
 
-// No place of a fine grid is farther from the points than the bound, nor nearer than it must be.
+// The bounds are compared with the largest distance from positions of a fine grid.
 TEST(Coverage, BoundsHoldInSpace) {
     for (const std::size_t d : {3, 4, 5})
         for (const bool torus : {true, false}) {

@@ -16,7 +16,7 @@ Report report_on(const PointSet& set, const Settings& settings = {}) {
     return analyze(unit, set, settings);
 }
 
-/// Efficiency of a design by its levels.
+/// Efficiency of a design from its levels.
 Report efficiency(std::string_view generator, const Request& request, const Settings& settings,
                   const char* model) {
     return report_on(make(generator, request, settings), {{"model", model}, {"compare", "0"}});
@@ -49,7 +49,7 @@ TEST(Design, CriteriaAreThoseOfTheDefinitions) {
     double audze = 0;
     double maxpro = 0;
     std::vector<double> line(d, 9);
-    std::vector<double> plane(d, 9);  // seen along axis k
+    std::vector<double> plane(d, 9);  // projected along axis k
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < i; ++j) {
             double squared = 0;
@@ -97,7 +97,7 @@ TEST(Design, CorrelationsAreThoseOfTheMoments) {
     EXPECT_NEAR(report_on(screening).number("largest_correlation"), 0, 1e-15);
 }
 
-// Orthogonal two-level designs are as efficient as any can be.
+// Orthogonal two-level designs have the largest possible efficiency.
 TEST(Design, OrthogonalDesignsHaveEfficiencyOne) {
     const Request three{.dimension = 3};
     for (const Report& report :
@@ -111,8 +111,8 @@ TEST(Design, OrthogonalDesignsHaveEfficiencyOne) {
             EXPECT_NEAR(report.number(key), 1, 1e-12) << key;
 }
 
-// 3^2 runs for 6 terms, by hand: det = 6 6 4 36 = 5184; trace of the inverse 1/6 + 1/6 + 1/4 +
-// 14/9; the variance is largest at the corners, 1/6 + 1/6 + 1/4 + 2/9 = 29/36.
+// 3^2 runs for 6 terms, by hand: det = 6 6 4 36 = 5184; the trace of the inverse is 1/6 + 1/6 + 1/4
+// + 14/9; the variance is largest at the corners, 1/6 + 1/6 + 1/4 + 2/9 = 29/36.
 TEST(Design, QuadraticEfficiencyOfThreeSquaredByHand) {
     const Report report = efficiency("factorial", {}, {{"levels", "3"}}, "quadratic");
     EXPECT_EQ(report.number("terms"), 6);
@@ -130,14 +130,14 @@ TEST(Design, AliasedTermsHaveNoEfficiency) {
     EXPECT_EQ(report.text("g_places"), "corners");
 }
 
-// More corners than can be tried: the design's own points.
+// With too many corners to try all, efficiency is evaluated at the design's own points.
 TEST(Design, ManyFactorsAreJudgedAtThePoints) {
     const Report report = efficiency("plackett-burman", points(48, 47), {}, "linear");
     EXPECT_EQ(report.text("g_places"), "points");
     EXPECT_NEAR(report.number("g_efficiency"), 1, 1e-12);
 }
 
-// The means of the sets of seeds 1 to 3, one by one.
+// Compared with means over the sets of seeds 1 to 3, computed one by one.
 TEST(Design, ComparesWithTheMeanOfLatinHypercubes) {
     const PointSet set = make("sobol", points(32, 3));
     const Report report = report_on(set, {{"compare", "3"}});

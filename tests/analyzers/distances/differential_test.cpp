@@ -23,7 +23,7 @@ PointSet in_box(const char* generator, std::size_t n, const Box& box) {
     return set;
 }
 
-/// How likely the difference of two numbers of [0, 1] is in [a, b], by adding up.
+/// Probability that the difference of two numbers in [0, 1] is in [a, b], by summation.
 double straight_chance(double a, double b) {
     double sum = 0;
     for (int i = 0; i < 1000; ++i)
@@ -78,7 +78,7 @@ TEST(Differential, ImageIsThatOfAllPairs) {
     }
 }
 
-// 32 x 32 points: one in five pixels along each axis is at a difference, which all points have.
+// 32 x 32 points: one in five pixels along each axis has differences, the same for all points.
 TEST(Differential, LatticesAreTheirOwnImages) {
     const Report found =
         report(make("regular", points(1024, 2)), {{"pixels", "45"}, {"max-distance", "4.5"}});
@@ -94,8 +94,8 @@ TEST(Differential, LatticesAreTheirOwnImages) {
                 1e-9);
 }
 
-// The mean of 65024 pixels of 0.4 pairs on average each scatters by 0.01, the anisotropy of rings
-// by 0.3 dB or less; bounds are 5 of these.
+// The mean over 65024 pixels with 0.4 pairs on average has a standard deviation of 0.01, the
+// anisotropy of rings at most 0.3 dB; bounds are 5 of these.
 TEST(Differential, IndependentPointsHaveOneEverywhere) {
     for (const char* metric : {"torus", "euclidean"}) {
         const Report found =

@@ -16,7 +16,8 @@ Report report(const PointSet& set, const Settings& settings = {}) {
     return analyze(unit, set, settings);
 }
 
-/// Volume that two balls share, in slices across the line between their centres.
+/// Volume of the intersection of two balls, in slices perpendicular to the line between their
+/// centres.
 double overlap_by_slices(std::size_t d, double r, double radius) {
     if (r >= 2 * radius) return 0;
     if (d == 1) return 2 * radius - r;
@@ -75,8 +76,8 @@ TEST(Hyperuniformity, VarianceIsTheSumOverPairsOfTheirOverlaps) {
     }
 }
 
-// Squares of a lattice have few distances, which bins of any width keep; lattices of others have a
-// few in each. Oracle: all pairs, whose overlaps are summed one by one.
+// Square lattices have few distances, which bins of any width preserve; others have a few per bin.
+// Oracle: all pairs, with overlaps summed one by one.
 TEST(Hyperuniformity, VarianceOfLatticesIsWithinTheErrorThatIsStated) {
     for (const auto& [generator, n, most] :
          {std::tuple{"regular", std::size_t{900}, 1e-10}, {"halton", std::size_t{500}, 1e-6}}) {
@@ -110,7 +111,8 @@ TEST(Hyperuniformity, VarianceOfLatticesIsWithinTheErrorThatIsStated) {
     }
 }
 
-// As defined: windows at many places, here on a lattice of centres that is in step with nothing.
+// Counts in windows at many positions, here on a lattice of centres that is incommensurable with
+// the points.
 TEST(Hyperuniformity, VarianceIsThatOfCountsInWindows) {
     const PointSet set = make("random", points(200, 2));
     const Report found = report(set);
@@ -138,7 +140,7 @@ TEST(Hyperuniformity, VarianceIsThatOfCountsInWindows) {
     }
 }
 
-// n points on a circle, 1 / n apart: a window of f places and a bit has f or f + 1.
+// n points on a circle, 1 / n apart: a window of length f / n and a bit more contains f or f + 1.
 TEST(Hyperuniformity, LatticeOnALineByHand) {
     const Report found = report(make("regular", points(400, 1)));
     for (std::size_t i = 0; i < found.curve("radius").size(); ++i) {
@@ -149,9 +151,9 @@ TEST(Hyperuniformity, LatticeOnALineByHand) {
     EXPECT_LT(std::abs(found.number("exponent")), 0.3);
 }
 
-// By Poisson's sum over the lattice's frequencies k of (2 pi R J_1(k R) / k)^2, whose mean over the
-// waves is 4 pi R / k^3: variance / R is 1 / (2 pi^2) * sum over (a, b) != 0 of (a^2 + b^2)^(-3/2),
-// which is 4 zeta(3/2) beta(3/2) / (2 pi^2), in the lattice's spacing.
+// Poisson's sum over the lattice's frequencies k of (2 pi R J_1(k R) / k)^2, whose average over the
+// oscillation is 4 pi R / k^3: variance / R is 1 / (2 pi^2) sum over (a, b) != 0 of (a^2 +
+// b^2)^(-3/2), which is 4 zeta(3/2) beta(3/2) / (2 pi^2), in units of the lattice spacing.
 TEST(Hyperuniformity, SquareLatticeByItsFrequencies) {
     const Report found = report(make("regular", points(128 * 128, 2)),
                                 {{"min-radius", "10"}, {"max-radius", "14"}, {"radii", "1000"}});
@@ -167,8 +169,9 @@ TEST(Hyperuniformity, SquareLatticeByItsFrequencies) {
                 4 * zeta * beta / (2 * std::numbers::pi * std::numbers::pi), 0.002);
 }
 
-// Exponents of independent points scatter by 0.09 from set to set, the dispersions by 0.04 (seen
-// over 60 sets): the bounds are 5 standard deviations of a mean of 5. False alarm: 1e-6 each.
+// Standard deviations between sets of independent points are 0.09 for exponents and 0.04 for
+// dispersions (estimated from 60 sets): the bounds are 5 standard deviations of a mean of 5. False
+// alarm: 1e-6 each.
 TEST(Hyperuniformity, ExponentTellsIndependentPointsFromEvenOnes) {
     for (const std::size_t d : {1U, 2U, 3U}) {
         const auto side = static_cast<std::size_t>(d == 1 ? 4096 : d == 2 ? 64 : 16);
@@ -188,8 +191,8 @@ TEST(Hyperuniformity, ExponentTellsIndependentPointsFromEvenOnes) {
     }
 }
 
-// A lattice looks the same from inside a box as on the torus. Variances of 10,000 windows scatter
-// by 1.4 % and more, those of independent points by the set's own 10 %.
+// A lattice has the same variance inside a box as on the torus. Variances of 10,000 windows have a
+// standard deviation of at least 1.4 %; those of independent points the set's own 10 %.
 TEST(Hyperuniformity, StraightWindowsStayInTheBox) {
     for (const std::size_t d : {1U, 2U, 3U}) {
         const PointSet grid = make("regular", points(d == 3 ? 4096 : 1024, d));
@@ -208,7 +211,7 @@ TEST(Hyperuniformity, StraightWindowsStayInTheBox) {
         }
         EXPECT_EQ(drawn.text("method"), "windows");
     }
-    // What is beyond a wall does not count: none is missing at the corners, either.
+    // Windows do not extend beyond the walls: there is no deficit at the corners.
     const Report random = report(make("random", points(20'000, 2)), {{"metric", "euclidean"}});
     EXPECT_NEAR(random.curve("dispersion")[10], 1, 0.3);
     EXPECT_NEAR(random.number("exponent"), 2, 0.4);
@@ -216,8 +219,8 @@ TEST(Hyperuniformity, StraightWindowsStayInTheBox) {
     EXPECT_NEAR(even.number("exponent"), 1, 0.2);
 }
 
-// Points 0.2 apart, centres in [0.25, 0.75]: a window of R = 0.125 has two points in a fifth of its
-// places, else one; one of 0.25 three in three fifths, else two.
+// Points 0.2 apart, centres in [0.25, 0.75]: a window of R = 0.125 has two points at a fifth of its
+// positions, otherwise one; one of 0.25 has three at three fifths, otherwise two.
 TEST(Hyperuniformity, WindowsByHand) {
     PointSet set(5, 1);
     for (std::size_t i = 0; i < 5; ++i) set[i][0] = 0.1 + 0.2 * static_cast<double>(i);
@@ -231,7 +234,7 @@ TEST(Hyperuniformity, WindowsByHand) {
 }
 
 TEST(Hyperuniformity, PointsAtFewPlacesAreCountedToo) {
-    // Half of the points at each of two places that no window has both of: N is 50 or 0.
+    // Half of the points at each of two positions that no window contains both: N is 50 or 0.
     PointSet set(100, 2);
     for (std::size_t i = 50; i < 100; ++i) set[i][0] = set[i][1] = 0.5;
     const Report found = report(set);

@@ -21,7 +21,7 @@ struct Expected {
     Report::Integers pair;
 };
 
-/// Oracle: all pairs, by the definition, in a box of these sides (none: straight distances).
+/// Oracle: all pairs, by the definition, in a torus with these sides (empty: Euclidean).
 Expected by_definition(const PointSet& p, const std::vector<double>& sides,
                        const std::string& norm = "") {
     Expected found;
@@ -68,7 +68,7 @@ void expect_as_defined(const PointSet& set, const std::vector<double>& sides,
     EXPECT_EQ(report.text("metric"), metric);
 }
 
-/// Points c / 2 for the words of d binary digits that are kept.
+/// Points c / 2 for the words of d binary digits that `keep` accepts.
 template <class Keep>
 PointSet half_integers(std::size_t d, const Keep& keep) {
     std::vector<double> rows;
@@ -82,7 +82,7 @@ bool even(unsigned word) { return std::popcount(word) % 2 == 0; }
 
 }  // namespace
 
-// Points 0 and 2 are 0.2 apart across the left face; 0 and 1 are 0.3 apart straight.
+// Points 0 and 2 are 0.2 apart across the left face; 0 and 1 are 0.3 apart inside the cube.
 TEST(NearestNeighbor, ByHand) {
     const PointSet set = points_of({{0.1, 0.5}, {0.4, 0.5}, {0.9, 0.5}});
     const Report torus = analyze(unit, set);
@@ -144,7 +144,7 @@ TEST(NearestNeighbor, HoldsInTheBoxThatThePointsLiveOn) {
     EXPECT_EQ(analyze(unit, set).text("metric"), "torus");
 }
 
-// On the torus 0 and 1 are the same place.
+// On the torus 0 and 1 are the same position.
 TEST(NearestNeighbor, DuplicatesAreAtDistanceZero) {
     const PointSet set = points_of({{0.5, 0.5}, {0.2, 0}, {0.5, 0.5}, {0.2, 1}, {0.9, 0.9}});
     EXPECT_EQ(measure(unit, "minimum", set), 0);
@@ -153,8 +153,8 @@ TEST(NearestNeighbor, DuplicatesAreAtDistanceZero) {
     EXPECT_EQ(measure(unit, "relative_radius", set), 0);
 }
 
-// The densest lattices that halves of whole numbers can make: Z, D3, D4, D5, E7 and E8, each with
-// the density that Conway and Sloane print.
+// The densest lattices with half-integer coordinates: Z, D3, D4, D5, E7 and E8, each with the
+// density published by Conway and Sloane.
 TEST(NearestNeighbor, DensestLatticesHaveRelativeRadiusOne) {
     const auto d3 = half_integers(3, even);
     const auto d4 = points_of({{0, 0, 0, 0}, {0.5, 0.5, 0.5, 0.5}});
@@ -171,7 +171,7 @@ TEST(NearestNeighbor, DensestLatticesHaveRelativeRadiusOne) {
         EXPECT_NEAR(measure(unit, "relative_radius", lattice), 1, 1e-14) << lattice.dimension();
 }
 
-// 24 = 4 x 6 columns of side 1 and sqrt(3) / 2 in a box that fits them.
+// 24 = 4 x 6 points in columns with spacings 1 and sqrt(3) / 2, in a box that fits them.
 TEST(NearestNeighbor, HexagonsInABoxThatFitsThemHaveRelativeRadiusOne) {
     const double height = std::sqrt(3.0) / 2;
     std::vector<double> rows;
@@ -185,7 +185,7 @@ TEST(NearestNeighbor, HexagonsInABoxThatFitsThemHaveRelativeRadiusOne) {
     EXPECT_LE(measure(unit, "relative_radius", square), 1);
 }
 
-// On a torus of 100 by 1, two points 50 apart are 1 from their own copies.
+// On a torus of 100 by 1, two points 50 apart have distance 1 to their own copies.
 TEST(NearestNeighbor, RelativeRadiusIsAtMostOneOnALongTorus) {
     PointSet set({0.0, 0.5, 50.0, 0.5}, 2);
     set.domain = box_domain(Box{{0, 0}, {100, 1}});
@@ -198,9 +198,8 @@ TEST(NearestNeighbor, HasNoRelativeRadiusWhereNoPackingIsKnown) {
     EXPECT_EQ(analyze(unit, make("random", points(9, 9))).find("relative_radius"), nullptr);
 }
 
-// Random points: mean distance 1 / (2 sqrt n), in the limit of large n.
-// Standard error of the mean: sqrt((4 - pi) / (4 pi n)) / sqrt n, below 0.001 / sqrt n here; the
-// bound is ten of those.
+// Random points have the mean distance 1 / (2 sqrt n) for large n. Standard error of the mean:
+// sqrt((4 - pi) / (4 pi n)) / sqrt n, below 0.001 / sqrt n here; the bound is ten of these.
 TEST(NearestNeighbor, RandomPointsHaveTheMeanDistanceOfAPoissonProcess) {
     const double mean = measure(unit, "mean", make("random", points(100'000, 2)));
     EXPECT_NEAR(mean * std::sqrt(100'000), 0.5, 0.01);
@@ -232,7 +231,7 @@ TEST(NearestNeighbor, NamesWhatIsNoFiniteNumber) {
               "input: x2 of point 0 is inf, not a finite number");
 }
 
-// The square of 1e154 is 1e308, the sum of two of them is not; that of 2e200 is far beyond.
+// The square of 1e154 is 1e308, but the sum of two of them overflows; that of 2e200 far more.
 TEST(NearestNeighbor, RefusesSquaresBeyondFloat64) {
     const PointSet far = points_of({{1e200, 1e-320}, {-1e200, 0.5}, {3, 3}});
     const auto refusal = [](const char* analyzer, const PointSet& set) {

@@ -31,7 +31,7 @@ PointSet on(PointSet set, const Box& box) {
     return set;
 }
 
-/// Points of the box, some of them doubled, some on its faces.
+/// Points in the box, some of them twice, some on its faces.
 PointSet awkward(const Box& box, std::size_t count) {
     const Rng rng(7);
     const std::size_t d = box.dimension();
@@ -60,7 +60,7 @@ const Box line{{-1}, {3}};
 const Box flat{{0, 2}, {1, 2.75}};
 const Box solid{{0, 0, -1}, {1, 2, 0.5}};
 
-/// Chance of a distance up to r, by adding up the middles of small cells of displacements.
+/// Probability of a distance up to r, by summation over midpoints of small cells of displacements.
 double added_up(const Box& box, bool torus, double r, int cells) {
     const std::size_t d = box.dimension();
     double all = 0;
@@ -84,7 +84,8 @@ double added_up(const Box& box, bool torus, double r, int cells) {
 }  // namespace
 
 TEST(PairCorrelation, ChancesOfDistancesByHand) {
-    // Chiu et al., section 4.7: the ball's integral over the set covariance, r up to every side.
+    // Chiu et al., section 4.7: the integral of the set covariance over the ball, r up to every
+    // side.
     const double r = 0.7;
     EXPECT_DOUBLE_EQ(pair_probability(line, true, 1), 0.5);
     EXPECT_DOUBLE_EQ(pair_probability(line, false, 1), 2. / 4 - 1. / 16);
@@ -138,7 +139,8 @@ TEST(PairCorrelation, CountsEveryPairOnce) {
             }
 }
 
-// Over all distances the expected pairs are all pairs, so that the mean of g by their share is 1.
+// Over all distances, the expected number of pairs is that of all pairs, so the weighted mean of g
+// is 1.
 TEST(PairCorrelation, DensitiesAddUpToAllPairs) {
     for (const Box& box : {line, flat, solid})
         for (const bool torus : {true, false}) {
@@ -167,7 +169,7 @@ TEST(PairCorrelation, NeighborsOfLattices) {
     for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(found.curve("density")[i], 0);
 }
 
-// False alarms of the first claim: 6 deviations in 800 bins, 1e-6.
+// False alarm for the first claim: 6 standard deviations in 800 bins, 1e-6.
 TEST(PairCorrelation, UniformPointsHaveNone) {
     for (const Box& box : {line, flat, solid})
         for (const bool torus : {true, false})
@@ -190,7 +192,7 @@ TEST(PairCorrelation, UniformPointsHaveNone) {
                     squares += share * share / 199;
                 }
                 if (!torus) continue;
-                // Bins are independent: 6 deviations of their sum of squares.
+                // Independent bins: 6 standard deviations of their sum of squares.
                 const bool independent = std::string_view(kernel) == "histogram";
                 EXPECT_GT(squares, independent ? 0.4 : 0.1) << kernel << box.dimension();
                 EXPECT_LT(squares, independent ? 1.6 : 6.0) << kernel << box.dimension();
@@ -233,8 +235,8 @@ TEST(PairCorrelation, SmoothingIsTheSumOverPairs) {
     }
 }
 
-// On the circle of length 1 distances are uniform in [0, 1/2], so that w has the mean 8 h / 3 and the
-// mean square 32 h / 15 away from 0, and half of both at 0.
+// On the circle of length 1, distances are uniform in [0, 1/2], so w has mean 8 h / 3 and mean
+// square 32 h / 15 away from 0, and half of both at 0.
 TEST(PairCorrelation, DeviationOfSmoothedDensitiesByHand) {
     const Report found = report(
         make("random", points(100, 1)),
@@ -276,7 +278,7 @@ TEST(PairCorrelation, RefusesWhatHasNoPairs) {
               "usage: --bandwidth: 4 is more than the 3 bins");
     EXPECT_NE(refusal(make("random", points(10, 2)), {{"max-distance", "0"}}), "");
     EXPECT_NE(refusal(make("random", points(10, 4))), "");
-    // Two points at one place are a pair at distance 0.
+    // Two points at the same position are a pair at distance 0.
     const Report same = report(points_of({{0.5, 0.5}, {0.5, 0.5}}));
     EXPECT_EQ(std::get<Report::Integers>(*same.find("pairs"))[0], 1);
 }

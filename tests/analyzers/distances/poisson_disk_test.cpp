@@ -28,7 +28,7 @@ PointSet grid() {
     return {std::move(rows), 2};
 }
 
-/// A maximal set the slow way: as long as a place is too far from all points, a point is put there.
+/// A maximal set by a slow method: adds a point while some position is too far from all points.
 PointSet filled(std::size_t d, double r, bool torus) {
     std::vector<double> rows(d, 0.3);
     for (;;) {
@@ -48,7 +48,7 @@ Report::Integers first_conflict(const Report& report) {
 
 }  // namespace
 
-// Neighbours of the grid are 1/8 apart, and the middles of its cells sqrt(2) / 16 from them.
+// Neighbours in the grid are 1/8 apart, and the centres of its cells sqrt(2) / 16 from them.
 TEST(PoissonDiskVerification, OfAGridByHand) {
     const Report valid = analyze(unit, grid(), with(0.125));
     EXPECT_TRUE(flag(valid, "valid"));
@@ -64,7 +64,7 @@ TEST(PoissonDiskVerification, OfAGridByHand) {
     EXPECT_EQ(crowded.number("conflicts"), 128);
     EXPECT_EQ(first_conflict(crowded), (Report::Integers{0, 1}));
     EXPECT_EQ(analyze(unit, grid(), with(0.1251, false)).number("conflicts"), 112);
-    EXPECT_EQ(analyze(unit, grid(), with(0.18)).number("conflicts"), 256);  // diagonals too
+    EXPECT_EQ(analyze(unit, grid(), with(0.18)).number("conflicts"), 256);  // including diagonals
 
     const Report sparse = analyze(unit, grid(), with(0.088));
     EXPECT_FALSE(flag(sparse, "valid"));
@@ -94,7 +94,7 @@ TEST(PoissonDiskVerification, AcceptsMaximalSetsAndMissesNoFault) {
         }
 }
 
-// Oracle: all pairs, in a radius where many are too near.
+// Oracle: all pairs, with a radius for which many are too near.
 TEST(PoissonDiskVerification, CountsEveryPairThatIsTooNear) {
     for (const std::size_t d : {1, 2, 3})
         for (const double r : {0.01, 0.3, 2.0}) {
@@ -131,7 +131,7 @@ TEST(PoissonDiskVerification, TakesTheRadiusFromTheProvenanceElseTheSmallestDist
                     HasSubstr(std::string("the points were made with --") + varied));
         EXPECT_EQ(measure(unit, "radius", set, {{"radius", "0.1"}}), 0.1);
     }
-    set.provenance.warps = {"disk"};  // the radius was one of other points
+    set.provenance.warps = {"disk"};  // the radius belonged to the points before the warp
     EXPECT_EQ(measure(unit, "radius", set), 0.125);
 }
 

@@ -34,7 +34,7 @@ PointSet moved(PointSet set, double x, double y) {
     return set;
 }
 
-/// Hexagons of distance 1, `side` rows of them, in a rectangle of which they fill every corner.
+/// Hexagonal lattice with distance 1 and `side` rows, in a rectangle that it fills periodically.
 PointSet hexagons(std::size_t side) {
     const double height = std::sqrt(3) / 2;
     PointSet set(side * side, 2);
@@ -58,7 +58,7 @@ struct Oracle {
     double inner = 0;
 };
 
-/// Integral of |x - c|^2 over a triangle from its edges' middles, which is exact.
+/// Integral of |x - c|^2 over a triangle from its edges' midpoints, which is exact.
 double second_moment(const PlanePair& a, const PlanePair& b, const PlanePair& c) {
     const double area = signed_area({a, b, c});
     const auto squared = [](const PlanePair& p, const PlanePair& q) {
@@ -69,7 +69,7 @@ double second_moment(const PlanePair& a, const PlanePair& b, const PlanePair& c)
     return area / 3 * (squared(a, b) + squared(b, c) + squared(c, a));
 }
 
-/// The other points and, on the torus, all copies of the eight boxes around, seen from point i.
+/// The other points and, on the torus, all copies in the eight boxes around, relative to point i.
 std::vector<PlanePair> others_of(const PointSet& set, std::size_t i, bool torus) {
     const Box box = set.domain->bounding_box();
     std::vector<PlanePair> others;
@@ -83,7 +83,7 @@ std::vector<PlanePair> others_of(const PointSet& set, std::size_t i, bool torus)
     return others;
 }
 
-/// A cell cut out of the box, or of a large one, by all others.
+/// A cell cut out of the box, or on the torus of a large one, by all others.
 Polygon cell_of(const PointSet& set, std::size_t i, bool torus) {
     const Box box = set.domain->bounding_box();
     const double a = box.extent(0);
@@ -98,7 +98,7 @@ Polygon cell_of(const PointSet& set, std::size_t i, bool torus) {
     return cell;
 }
 
-/// Length of the part of the cell's rim that is as far from the other as from the site.
+/// Length of the part of the cell's boundary that is equally far from the other point and the site.
 double shared_edge(const Polygon& cell, const PlanePair& other) {
     double low = INFINITY;
     double high = -INFINITY;
@@ -153,7 +153,7 @@ Oracle by_definition(const PointSet& set, bool torus) {
             sum += std::polar(1.0, 6 * std::atan2(other[1], other[0]));
             ++bonds;
         }
-        if (length < rim_of(cell) * (1 - 1e-9)) continue;  // the rest is the box's
+        if (length < rim_of(cell) * (1 - 1e-9)) continue;  // the remaining edges are the box's
         ++sums.inner;
         sums.bonds += bonds;
         sums.bond_sum += sum;
@@ -194,7 +194,7 @@ TEST(Voronoi, HexagonalLatticeByHand) {
     EXPECT_NEAR(found.number("normalized_second_moment"), 5 / (36 * std::sqrt(3)), 1e-13);
 }
 
-// A lattice that is turned by 90 degrees is as regular; Lloyd's grains point this way and that.
+// A lattice rotated by 90 degrees is as regular; Lloyd's grains have different orientations.
 TEST(Voronoi, GlobalOrderTellsWhetherHexagonsAreParallel) {
     PointSet set = hexagons(12);
     const Box box = set.domain->bounding_box();
@@ -211,8 +211,8 @@ TEST(Voronoi, GlobalOrderTellsWhetherHexagonsAreParallel) {
     EXPECT_LT(random.number("bond_order.global"), 0.3);
 }
 
-// Gilbert's variance of areas, 0.280176; valences of 6 +- 1.3345 and a share of 0.2947 with six
-// (Calka 2003). Each bound is 5 standard deviations of 20 sets or more: false alarm 1e-5.
+// Gilbert's variance of areas, 0.280176; valences of 6 +- 1.3345, of which a fraction of 0.2947 is
+// six (Calka 2003). Each bound is at least 5 standard deviations of 20 sets: false alarm 1e-5.
 TEST(Voronoi, IndependentPointsAsTheBooksHaveThem) {
     double variance = 0, moment = 0, deviation = 0, six = 0;
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -287,13 +287,13 @@ TEST(Voronoi, PlacesCountOnceAndTheirOrderNot) {
     EXPECT_EQ(found.number("duplicates"), 1000);
     for (const char* key : {"area.variation", "bond_order.local", "lloyd_energy", "valence.six"})
         EXPECT_NEAR(found.number(key), report(set).number(key), 1e-12) << key;
-    // The torus' upper faces are its lower ones.
+    // Upper faces of the torus equal the lower ones.
     const Report faces =
         report(points_of({{0, 0.25}, {1, 0.25}, {0.5, 0}, {0.5, 1}, {0, 0}, {1, 1}}));
     EXPECT_EQ(faces.number("cells"), 3);
 }
 
-// Crowds take another way to their cells; both find the same.
+// Crowded points are handled by another algorithm with the same result.
 TEST(Voronoi, CrowdsAreCutAsOthers) {
     PointSet set = make("random", points(4000, 2));
     const Report plain = report(set);
@@ -319,7 +319,7 @@ TEST(Voronoi, TakesPointsOnALine) {
     EXPECT_EQ(report(line).number("valence.mean"), 4);
     EXPECT_NEAR(report(line).number("lloyd_energy"), (0.01 + 1) / 12, 1e-12);
     EXPECT_EQ(report(line, {{"metric", "euclidean"}}).find("valence"), nullptr);
-    // By a tree, in no time; but for edges that rounding makes.
+    // Fast, by triangulation; apart from edges due to rounding.
     PointSet crowded = make("random", points(20000, 2));
     for (std::size_t i = 0; i < crowded.count(); ++i) crowded[i][1] = 0.5;
     EXPECT_NEAR(report(crowded).number("valence.mean"), 4, 5e-4);

@@ -12,7 +12,7 @@
 namespace stipple::testing::integration_test {
 namespace {
 
-/// The unit square with density p(x) = 1/2 + x, and the coordinate in which it is uniform.
+/// The unit square with density p(x) = 1/2 + x, and its uniform coordinate.
 class Ramp : public Domain {
   public:
     std::string spec() const override { return "ramp"; }
@@ -28,7 +28,7 @@ class Ramp : public Domain {
     std::vector<std::string> cube_axes() const override { return {"u", "v"}; }
 };
 
-/// Claims a density that is 2 % off.
+/// Claims a density with an error of 2 %.
 class WrongRamp : public Ramp {
     double density(std::span<const double> x) const override { return 1.02 * (0.5 + x[0]); }
 };
@@ -69,7 +69,7 @@ std::string refusal(const PointSet& points, const std::string& integrands,
     return error_of([&] { integrate(points, integrands, more); });
 }
 
-/// The mean of several sets, as the command line makes it of their reports.
+/// Mean of several sets, computed from reports like the command line does.
 Report combined(const std::vector<Report>& sets) {
     const Analyzer& unit = find_analyzer("integration");
     Report mean = sets.front();
@@ -122,7 +122,7 @@ TEST(Integration, SpreadOfSeveralSetsByHand) {
     for (const double x : {0.25, 0.5, 1.0}) sets.push_back(integrate(points_of({{x}}), "sobol-g"));
     const Report mean = combined(sets);
     EXPECT_DOUBLE_EQ(mean.number("sobol-g.standard_error"), std::sqrt(1.0 / 3));
-    // Student's t of 2 degrees of freedom, 97.5 %: 4.302653.
+    // Student's t with 2 degrees of freedom, 97.5 %: 4.302653.
     EXPECT_NEAR(mean.number("sobol-g.interval_high"), 1 + 4.302653 * std::sqrt(1.0 / 3), 1e-6);
     EXPECT_NEAR(mean.number("sobol-g.interval_low"), 1 - 4.302653 * std::sqrt(1.0 / 3), 1e-6);
     EXPECT_DOUBLE_EQ(mean.number("sobol-g.rms_error"), std::sqrt(2.0 / 3));
@@ -130,7 +130,7 @@ TEST(Integration, SpreadOfSeveralSetsByHand) {
 }
 
 // 200 intervals of 95 %: 10 misses are expected; outside [1, 27] with probability below 5e-5. The
-// same intervals about a value two standard errors off must miss far more often.
+// same intervals around a value two standard errors away must miss far more often.
 TEST(Integration, IntervalsOfScrambledSetsHoldTheIntegral) {
     int misses = 0;
     int wrong = 0;
@@ -154,8 +154,8 @@ TEST(Integration, IntervalsOfScrambledSetsHoldTheIntegral) {
     EXPECT_GT(wrong, 40);
 }
 
-// Random points: error falls by 8 from 64 to 4096 points, in the mean; scrambled nets, on smooth
-// functions, by about 64^(3/2) = 512.
+// The mean error of random points falls by 8 from 64 to 4096 points; that of scrambled nets, for
+// smooth functions, by about 64^(3/2) = 512.
 TEST(Integration, ErrorsFallFasterForNetsThanForRandomPoints) {
     const std::string smooth = "genz-gaussian";
     const Settings owen{{"scramble", "owen"}};
@@ -169,7 +169,7 @@ TEST(Integration, ErrorsFallFasterForNetsThanForRandomPoints) {
     EXPECT_LT(rms_error("sobol", owen, 4096, smooth), rms_error("random", {}, 4096, smooth) / 10);
 }
 
-// Each estimate is within 5 standard errors: false alarms below 20 x 6e-7.
+// Each estimate is within 5 standard errors: false alarm below 20 x 6e-7.
 TEST(Integration, OfAllIntegrandsIsUnbiasedInAnyDimension) {
     for (const std::size_t d : {1, 2, 3, 8, 30}) {
         PointSet set = random_points(20'000, d, 7);
@@ -199,7 +199,7 @@ TEST(Integration, OnABoxIsThatOfTheCubeTimesTheVolume) {
     EXPECT_NEAR(integrate(box, "measure").number("measure.estimate"), 81 * std::numbers::pi, 1e-12);
 }
 
-// Within 5 standard errors, as far as one sample's variance tells: false alarm 6e-7 each.
+// Within 5 standard errors, estimated from one sample: false alarm 6e-7 each.
 TEST(Integration, WithADensityIsUnbiasedAndAWrongDensityIsSeen) {
     for (const std::string name : {"smooth-gaussian", "genz-corner-peak", "measure"}) {
         const auto off = [&](DomainPtr domain) {
@@ -213,7 +213,7 @@ TEST(Integration, WithADensityIsUnbiasedAndAWrongDensityIsSeen) {
     }
 }
 
-// Each of these is off by a half or more with the density of the domain.
+// With the domain's density, each of these has an error of at least one half.
 TEST(Integration, TakesTheDensityOfBiasedWarps) {
     for (const auto& [warp, f, exact] :
          {std::tuple{"disk:method=naive", "x*x", std::numbers::pi / 4},
@@ -233,7 +233,7 @@ TEST(Integration, TakesTheDensityOfBiasedWarps) {
     }
 }
 
-// Factors of a product are told apart by the order of the warps that made them.
+// Factors of a product are matched with the order of the warps that made them.
 TEST(Integration, TakesTheDensityOfTheFactorThatIsBiased) {
     const Spec naive = parse_spec("disk@3,4:method=naive");
     const Spec right = parse_spec("disk@1,2");
@@ -247,7 +247,7 @@ TEST(Integration, TakesTheDensityOfTheFactorThatIsBiased) {
                 5 * found.number("expression.standard_error"));
 }
 
-// 1 / p of the points as they are: x uniform, pdf 2, stands for half of them.
+// Uses 1 / p of the given densities: x uniform, pdf 2, represents half of them.
 TEST(Integration, TakesDensitiesThatAreGiven) {
     PointSet set(std::vector{0.1, 0.2, 0.6, 0.8}, 1);
     set.densities = {2, 2, 0.5, 0.5};
@@ -269,8 +269,8 @@ TEST(Integration, ComparesWithUniformPointsOfTheSameCube) {
               found.number("smooth-gaussian.estimate"));
 }
 
-// With cos theta = c: f / p = pi (1 + 2 c) / 3 has variance 4 pi^2 / 9 / 18; uniformly 2 pi f has
-// 4 pi^2 (1/3 + 1 + 4/5) / 9 - (7 pi / 9)^2.
+// With cos theta = c: f / p = pi (1 + 2 c) / 3 has variance 4 pi^2 / 9 / 18; with uniform points 2
+// pi f has 4 pi^2 (1/3 + 1 + 4/5) / 9 - (7 pi / 9)^2.
 TEST(Integration, CosineSamplingOfASkyReducesTheVarianceByWhatTheoryTells) {
     const PointSet directions = cosine_directions(random_points(100'000, 2, 6));
     const Report found = integrate(directions, "sky-radiance", {{"compare", "true"}});
@@ -284,7 +284,7 @@ TEST(Integration, CosineSamplingOfASkyReducesTheVarianceByWhatTheoryTells) {
     EXPECT_NEAR(number("uniform_variance") / uniform, 1, 0.02);
     EXPECT_NEAR(number("variance_ratio") / (uniform / cosine), 1, 0.04);
     EXPECT_NEAR(number("uniform_estimate"), 7 * pi / 9, 5 * std::sqrt(uniform / 1e5));
-    // int y z^2 is pi / 4 about y, whatever the two other axes are.
+    // int y z^2 is pi / 4 around y, for any choice of the two other axes.
     const Report turned =
         analyze("integration", directions, {{"expression", "y*(z-2*x)^2"}, {"compare", "true"}});
     EXPECT_NEAR(turned.number("compare.expression.uniform_estimate"), 5 * pi / 4, 0.1);
@@ -292,7 +292,7 @@ TEST(Integration, CosineSamplingOfASkyReducesTheVarianceByWhatTheoryTells) {
     EXPECT_NEAR(found.number("sky-radiance.error"), 0, 5 * std::sqrt(cosine / 1e5));
 }
 
-// f = 1 + z by a lobe about x: uniformly, 4 pi f has the variance 16 pi^2 / 3.
+// f = 1 + z by a lobe around x: with uniform points 4 pi f has variance 16 pi^2 / 3.
 TEST(Integration, ComparesALobeWithTheWholeSphere) {
     const PointSet cube = random_points(100'000, 2, 7);
     for (const char* spec :
@@ -322,7 +322,7 @@ TEST(Integration, ComparesUniformPointsWithThemselves) {
     }
 }
 
-// Of one set there is no spread, but an error.
+// One set has no standard error between sets, but an error.
 TEST(Integration, OneSetsAverageHasItsErrorAsRootMeanSquare) {
     const Analyzer& unit = find_analyzer("integration");
     Report one = integrate(random_points(64, 2), "owen");
@@ -382,7 +382,7 @@ TEST(Integration, RefusesWhatItCannotIntegrateInOneLine) {
               "input: --compare: needs at least 2 points, not 1");
 }
 
-/// A density that is 0 where points are.
+/// A density that is 0 at the points.
 class Empty final : public Ramp {
     double density(std::span<const double> x) const override { return x[0] > 0.5 ? 2 : 0; }
 };
@@ -394,7 +394,7 @@ TEST(Integration, RefusesPointsWhereTheDensityIsZero) {
               "input: at point 1 the integrand measure is 1 and the density of ramp is 0");
 }
 
-// int_0^1 int_0^1 x y^2 = 1/6; on the ramp with the same points' density.
+// int_0^1 int_0^1 x y^2 = 1/6; also on the ramp with the density of its points.
 TEST(Integration, TakesFormulas) {
     const PointSet set = make("sobol", points(1024, 2));
     const auto of = [&](const PointSet& points, const Settings& settings) {
@@ -431,8 +431,8 @@ TEST(Integration, HelpNamesAllIntegrands) {
 
 }  // namespace
 
-// Density 1/3 on [0, 1], 0 on [1, 2], 2/3 on [2, 3]: no point tells of f in between, and both the
-// estimate and the exact value are of the rest.
+// Density 1/3 on [0, 1], 0 on [1, 2], 2/3 on [2, 3]: no point samples f in between, so the estimate
+// and the exact value both exclude that part.
 TEST(Integration, GapsInADensityAreLeftOutOfTheExactValue) {
     PointSet line = make("sobol", points(1024, 1));
     const Spec spec = parse_spec("table-1d:rows=[0,1 1,0 2,2 3,2],interpolation=constant");
@@ -459,7 +459,7 @@ TEST(Integration, GapsInADensityAreLeftOutOfTheExactValue) {
     EXPECT_NEAR(half.number("smooth-gaussian.error"), 0, 0.02);  // 1 / p is large near x = 1/2
 }
 
-// Both parts fill the unit square, so that the mixture does.
+// Both components fill the unit square, so the mixture does, too.
 TEST(Integration, MixturesOnABoxAreIntegratedAndCompared) {
     PointSet set = make("sobol", points(4096, 2));
     const auto warp =
@@ -471,12 +471,12 @@ TEST(Integration, MixturesOnABoxAreIntegratedAndCompared) {
     EXPECT_NEAR(found.number("measure.error"), 0, 5e-3);
     EXPECT_NEAR(found.number("expression.error"), 0, 2e-3);
     EXPECT_NEAR(found.number("compare.measure.uniform_variance"), 0, 2e-2);
-    // Of x y at uniform points: 1/9 - 1/16.
+    // Variance of x y at uniform points: 1/9 - 1/16.
     EXPECT_NEAR(found.number("compare.expression.uniform_variance"), 1 / 9.0 - 1 / 16.0, 2e-3);
     EXPECT_LT(found.number("compare.expression.importance_variance"), 1 / 9.0 - 1 / 16.0);
 }
 
-// Two caps cover a part of the sphere that is not known: an estimate, and no exact value.
+// Two caps cover a part of the sphere of unknown area: an estimate without an exact value.
 TEST(Integration, WhatAMixtureCoversIsEstimatedWithoutAnExactValue) {
     const auto warp = mapping(
         "mixture:components=[cone:half-angle=60|cone:half-angle=60,"
@@ -486,7 +486,7 @@ TEST(Integration, WhatAMixtureCoversIsEstimatedWithoutAnExactValue) {
     EXPECT_NEAR(found.number("measure.estimate"), 2 * std::numbers::pi, 0.01);
     EXPECT_EQ(found.find("measure.exact"), nullptr);
     EXPECT_NE(found.find("support.meaning"), nullptr);
-    // Two spheres' quarters: 2 pi, of which the densities 1 / (4 pi) and 3 / (4 pi) are known.
+    // Two quarters of the sphere: area 2 pi, with known densities 1 / (4 pi) and 3 / (4 pi).
     const Report both = integrate(caps, "measure", {{"compare", "true"}});
     EXPECT_NEAR(both.number("support.measure"), 2 * std::numbers::pi, 0.01);
     EXPECT_EQ(both.find("support.measure_error"), nullptr) << "of no independent points";

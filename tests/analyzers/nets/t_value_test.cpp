@@ -35,12 +35,12 @@ PointSet projected(const PointSet& points, const std::vector<std::size_t>& coord
     return out;
 }
 
-/// Oracle: the definition, t after t, interval after interval.
+/// Oracle: the definition, for each t and each interval.
 std::int64_t t_by_definition(const PointSet& points, int base) {
     return static_cast<std::int64_t>(exact_t(points, static_cast<std::uint64_t>(base)));
 }
 
-/// Point i of a digital net is the sum of the columns that the digits of i choose.
+/// Point i of a digital net is the sum of the columns selected by the digits of i.
 PointSet digital_net(int base, int m, std::size_t dimension, const Rng& rng) {
     const auto n = static_cast<std::size_t>(std::lround(std::pow(base, m)));
     PointSet points(n, dimension);
@@ -101,8 +101,8 @@ TEST(TValue, HammersleyIsAZeroNetInItsBase) {
     EXPECT_EQ(t_value(projected(three, {0, 2}), 3).text("method"), "rank");
 }
 
-// Nested scrambling keeps every elementary box as full as it was, but leaves no matrices to find; a
-// digital shift leaves them.
+// Nested scrambling preserves the counts in all elementary boxes, but the result is not a digital
+// net; after a digital shift it still is.
 TEST(TValue, ScramblingChangesNoT) {
     const PointSet plane = make("hammersley", points(4096, 2));
     const PointSet owen = scrambled(plane, "owen");
@@ -127,7 +127,7 @@ TEST(TValue, RandomPointsAreFarFromEven) {
 TEST(TValue, DuplicatesHaveTheLargestT) {
     EXPECT_EQ(t_of(PointSet(std::vector<double>(3 * 32, 0.7), 3)), 5);
     EXPECT_EQ(t_of(PointSet(std::vector<double>(2 * 81, 0.7), 2), 3), 4);
-    // Each point of a net twice: one digit more is missing.
+    // Each point of a net twice: t is larger by one digit.
     const PointSet net = make("hammersley", points(64, 2));
     std::vector<double> twice(net.flat().begin(), net.flat().end());
     twice.insert(twice.end(), net.flat().begin(), net.flat().end());
@@ -151,8 +151,8 @@ TEST(TValue, OneIsInTheLastInterval) {
     EXPECT_EQ(t_of(points_of({{0, 0}, {1. / 3, 1. / 3}, {1, 1}}), 3), 0);
 }
 
-// Many doubles nearest to j / b^m are below it; and the doubles next to it are in the cells where
-// they look to be.
+// Many doubles nearest to j / b^m are below it, and belong to the cell of j; adjacent doubles
+// belong to the cell that contains them.
 TEST(TValue, RoundedMultiplesAreOnTheirEdges) {
     for (const auto& [b, n] : {std::pair{3, 6561}, {5, 3125}, {7, 2401}, {10, 10000}, {49, 2401}}) {
         std::vector<double> edges;
@@ -164,14 +164,14 @@ TEST(TValue, RoundedMultiplesAreOnTheirEdges) {
             x = std::nextafter(x, 1);
             EXPECT_EQ(t_of(PointSet(moved, 1), b), 0) << b;
             x = std::nextafter(std::nextafter(x, 0), 0);
-            int t = 1;  // and one more for each coarser edge that j / n is on
+            int t = 1;  // and one more for each coarser edge at j / n
             for (; j % b == 0; j /= b) ++t;
             EXPECT_EQ(t_of(PointSet(moved, 1), b), t) << b;
         }
     }
 }
 
-// Also in another order, in which nothing is known of the matrices: there points are counted.
+// Also in another order, which hides the matrices, so that points are counted.
 TEST(TValue, IsThatOfTheDefinition) {
     std::uint64_t stream = 0;
     for (const auto& [base, m, d] :
@@ -233,7 +233,7 @@ TEST(TValue, NamesTheSmallestProjectionsThatHaveTheTOfAll) {
         std::size_t size = 0;
         while (expected.empty()) {
             ++size;
-            for (unsigned chosen = 0; chosen < 32; ++chosen) {  // rising as the last coordinate is
+            for (unsigned chosen = 0; chosen < 32; ++chosen) {  // ascending in the last coordinate
                 std::vector<std::size_t> along;
                 for (std::size_t k = 0; k < 5; ++k)
                     if (chosen >> k & 1) along.push_back(k);
@@ -251,7 +251,7 @@ TEST(TValue, NamesTheSmallestProjectionsThatHaveTheTOfAll) {
     }
 }
 
-// A digital shift changes no t, and its net is still known by its matrices.
+// A digital shift does not change t, and the matrices of the net are still recognized.
 TEST(TValue, SeesThroughADigitalShift) {
     const Rng rng(4);
     PointSet net = digital_net(2, 8, 3, rng);
@@ -264,7 +264,7 @@ TEST(TValue, SeesThroughADigitalShift) {
         }
     EXPECT_EQ(t_value(net), before);
     EXPECT_EQ(before.text("method"), "rank");
-    // One point elsewhere, and it is no digital net any more.
+    // After moving one point, it is not a digital net.
     net[200][1] = 1 - net[200][1];
     EXPECT_EQ(t_value(net).text("method"), "counting");
 }

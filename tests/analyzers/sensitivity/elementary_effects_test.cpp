@@ -15,7 +15,7 @@ namespace {
 constexpr const char* unit = "sensitivity";
 }
 
-// A linear model has the same effect everywhere: mu* = |c|, and no spread.
+// A linear model has the same effect everywhere: mu* = |c|, and standard deviation 0.
 TEST(ElementaryEffects, OfALinearModelAreItsCoefficients) {
     const Model model = [](auto u) { return 3 * u[0] - 2 * u[1] + 0.5 * u[2]; };
     const Report report = analyze(unit, with_outputs(morris_rows(10, 3, 1), model));
@@ -27,7 +27,7 @@ TEST(ElementaryEffects, OfALinearModelAreItsCoefficients) {
         EXPECT_NEAR(report.number(key + ".mu"), coefficients[i], 1e-14);
         EXPECT_NEAR(report.number(key + ".mu_star"), std::abs(coefficients[i]), 1e-14);
         EXPECT_NEAR(report.number(key + ".mu_star_low"), std::abs(coefficients[i]), 1e-14);
-        EXPECT_NEAR(report.number(key + ".sigma"), 0, 1e-7);  // the root of what is rounded
+        EXPECT_NEAR(report.number(key + ".sigma"), 0, 1e-7);  // the square root of rounding errors
     }
     EXPECT_EQ(report.number("x4.samples"), 10);
 }
@@ -54,7 +54,7 @@ TEST(ElementaryEffects, OppositeEffectsCancelInMuAlone) {
     EXPECT_DOUBLE_EQ(report.number("z.x.sigma"), std::sqrt(2));
 }
 
-// Steps are shares of the range: the unit does not matter, be it told by the file or seen.
+// Steps are fractions of the range: units do not matter, whether the range is given or estimated.
 TEST(ElementaryEffects, StepsAreOfUnitInputs) {
     Rows rows = morris_rows(8, 2, 3);
     for (auto& row : rows) row = {100 + 50 * row[0], row[1] / 1000};
@@ -76,8 +76,8 @@ TEST(ElementaryEffects, StepsAreOfUnitInputs) {
     EXPECT_NEAR(told.number("y.y.mu"), 3, 1e-12);
 }
 
-// f(x) = ln x of a log range from 1 to e^6 is 6 u: its effect is 6, whatever the steps. A design that
-// --bounds says lies in (0, 2) is of u = x / 2.
+// f(x) = ln x with a log range from 1 to e^6 is 6 u: its effect is 6 for any steps. A design with
+// --bounds (0, 2) is one of u = x / 2.
 TEST(ElementaryEffects, AreOfProbabilitiesOfTheInputs) {
     const std::string range =
         R"({"parameters":[{"name":"a","range":[1,403.428793492735],"scale":"log"},)"
@@ -95,7 +95,7 @@ TEST(ElementaryEffects, AreOfProbabilitiesOfTheInputs) {
     EXPECT_NEAR(report.number("y.a.sigma"), 0, 1e-9);
 }
 
-// A star around (0, 0) and one around (1/2, 1/2), by hand: x y has the effects 0, 0 and 1/2, 1/2.
+// One star around (0, 0) and one around (1/2, 1/2), by hand: x y has the effects 0, 0 and 1/2, 1/2.
 TEST(ElementaryEffects, OfStars) {
     const Rows rows = {{0, 0}, {1, 0}, {0, 1}, {0.5, 0.5}, {1, 0.5}, {0.5, 0}};
     const Report report = analyze(unit, with_outputs(rows, [](auto u) { return u[0] * u[1]; }));
@@ -111,7 +111,8 @@ TEST(ElementaryEffects, OfStars) {
                     3. - static_cast<double>(i), 1e-9);
 }
 
-// The second trajectory does not move x: its effects are those of the other two, 1 and 3, by hand.
+// The second trajectory does not move x: the effects of x are those of the other two, 1 and 3, by
+// hand.
 TEST(ElementaryEffects, OfAnInputThatStandsStill) {
     const Rows rows = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {0, 0}, {0, 1}, {0, 1}, {1, 1}, {1, 0}};
     const Report report =

@@ -47,7 +47,7 @@ TEST(FourierAmplitude, IsWhatTheFormulasSay) {
     }
 }
 
-// Totals are off by more: harmonics above w / 2 of other inputs count for the curve's own.
+// Totals have larger errors: harmonics of other inputs above w / 2 count as the curve's own.
 TEST(FourierAmplitude, FindsIshigamisIndices) {
     const Report report = analyze(unit, with_outputs(fast_rows(4096, 3, 1), ishigami));
     for (std::size_t i = 0; i < 3; ++i) {
@@ -66,7 +66,8 @@ TEST(FourierAmplitude, FindsTheIndicesOfTheGFunctionAndOfALinearModel) {
         EXPECT_NEAR(g.number(key + ".first"), g_first(i), 0.02);
         EXPECT_NEAR(g.number(key + ".total"), g_total(i), 0.03);
     }
-    // Four harmonics hold 0.998 of a triangle wave, which is what a linear input is along the curve.
+    // Four harmonics have 0.998 of the variance of a triangle wave, which is a linear input along
+    // the curve.
     const Report sum = analyze(unit, with_outputs(fast_rows(1025, 3, 3), linear));
     for (std::size_t i = 0; i < 3; ++i) {
         const std::string key = "x4.x" + std::to_string(i + 1);
@@ -77,8 +78,8 @@ TEST(FourierAmplitude, FindsTheIndicesOfTheGFunctionAndOfALinearModel) {
     }
 }
 
-// The curves' frequency tells M, whatever the inputs follow: with four harmonics in place of two, those
-// of w / 2 would count.
+// The curves' frequency determines M, for any distribution of the inputs: with four harmonics
+// instead of two, those above w / 2 would count.
 TEST(FourierAmplitude, TakesTheDesignsOwnHarmonics) {
     for (const char* m : {"1", "2", "3", "5"}) {
         PointSet design = make("fast", points(771, 3), {{"harmonics", m}});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Models whose indices have closed forms, and designs by plain loops.
+// Models whose indices have closed forms, and designs by simple loops.
 #pragma once
 
 #include <cmath>
@@ -51,7 +51,7 @@ inline double g_total(std::size_t i) {
 /// 3 u_1 + 2 u_2 + u_3: S_i = c_i^2 / 14, exactly.
 inline double linear(std::span<const double> u) { return 3 * u[0] + 2 * u[1] + u[2]; }
 
-/// The rows with the model's value behind each.
+/// The rows, each followed by the model's value.
 inline PointSet with_outputs(const std::vector<std::vector<double>>& rows, const Model& model) {
     std::vector<std::vector<double>> all = rows;
     for (std::size_t i = 0; i < rows.size(); ++i) all[i].push_back(model(rows[i]));
@@ -67,7 +67,7 @@ inline Rows points_in(const PointSet& points) {
     return rows;
 }
 
-/// A, AB_1, ..., AB_k, [BA_1, ..., BA_k,] B of each point, the halves of which are A and B.
+/// A, AB_1, ..., AB_k, [BA_1, ..., BA_k,] B for each point, whose halves are A and B.
 inline Rows pick_freeze_rows(const PointSet& base, bool pairs) {
     const std::size_t k = base.dimension() / 2;
     Rows rows;
@@ -108,7 +108,7 @@ inline Rows morris_rows(std::size_t r, std::size_t k, std::uint64_t seed) {
     return rows;
 }
 
-/// Curves of extended FAST with M = 4, as SALib's fast_sampler has them.
+/// Curves of extended FAST with M = 4, as in SALib's fast_sampler.
 inline Rows fast_rows(std::size_t n, std::size_t k, std::uint64_t seed) {
     const double pi = std::numbers::pi;
     constexpr std::size_t harmonics = 4;

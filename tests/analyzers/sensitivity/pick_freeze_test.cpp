@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* unit = "sensitivity";
 
-/// Oracle: indices from the formulas, with A, B and their mixes made anew and evaluated.
+/// Oracle: indices by the formulas, with A, B and their mixtures generated and evaluated again.
 struct ByDefinition {
     ByDefinition(const PointSet& base, const Model& model) : base_(base), model_(model) {
         const std::size_t k = base.dimension() / 2;
@@ -38,7 +38,7 @@ struct ByDefinition {
         variance = square - sum * sum;
     }
 
-    /// The centred output of A, or B, of base row r with coordinates of the other.
+    /// Centred output of A, or of B, for base row r with these coordinates swapped with the other.
     double at(std::size_t r, const std::vector<std::size_t>& swapped, bool b) const {
         const std::size_t k = base_.dimension() / 2;
         std::vector<double> x;
@@ -122,8 +122,8 @@ TEST(PickFreeze, FindsTheIndicesOfTheGFunction) {
     }
 }
 
-// Intervals hold with probability 0.95 or more: below 88 of 100 is a chance of 0.2 %. Their width is that
-// of the normal interval, 3.9 standard errors of 0.08 and 0.06, and a quarter for caution.
+// If intervals hold with probability 0.95, fewer than 88 of 100 has a probability of 0.2 %. Their
+// width is that of the normal interval, 3.9 standard errors of 0.08 and 0.06, plus a quarter.
 TEST(PickFreeze, IntervalsHoldTheIndexAsOftenAsTheySay) {
     int first = 0;
     int total = 0;
@@ -169,7 +169,7 @@ TEST(PickFreeze, IntervalsFollowLevelAndSeed) {
     EXPECT_EQ(width({}), width({{"bootstrap-seed", "1"}, {"bootstrap", "1000"}}));
 }
 
-// Base rows with a failed run count as if they were not there.
+// Base rows with a failed run are ignored.
 TEST(PickFreeze, LeavesOutBaseRowsWithFailedRuns) {
     const PointSet base = make("random", points(40, 6));
     PointSet some = with_outputs(pick_freeze_rows(base, false), ishigami);
@@ -195,7 +195,7 @@ TEST(PickFreeze, GivesTheSameForAnyNumberOfThreads) {
               analyze(unit, table, {}, RunContext{.threads = 5}));
 }
 
-// Large outputs, and large means, cost no more than their own rounding.
+// Large outputs, or large means, only add their own rounding errors.
 TEST(PickFreeze, UnitsDoNotMatter) {
     const auto rows = pick_freeze_rows(make("sobol", points(256, 6)), false);
     const double plain = measure(unit, "x4.x1.first", with_outputs(rows, ishigami));
@@ -207,7 +207,7 @@ TEST(PickFreeze, UnitsDoNotMatter) {
     EXPECT_NEAR(measure(unit, "x4.x1.first", with_outputs(rows, moved)), plain, 1e-8);
 }
 
-// By hand: A and B have the outputs 0, 1, 0, 1, of variance 1/4, and one mixed row has 1e8.
+// By hand: A and B have the outputs 0, 1, 0, 1 with variance 1/4, and one mixed row has 1e8.
 TEST(PickFreeze, HasNoIndicesOfRowsThatAreNoSampleOfTheSame) {
     PointSet table =
         with_outputs(pick_freeze_rows(make("random", points(4, 4)), false), g_function);
@@ -216,7 +216,7 @@ TEST(PickFreeze, HasNoIndicesOfRowsThatAreNoSampleOfTheSame) {
     const Report report = analyze(unit, table, {{"method", "saltelli"}});
     EXPECT_EQ(report.find("z.x.first"), nullptr);
     EXPECT_NE(report.find("z.x.missing"), nullptr);
-    // Where A and B do not vary at all, there is no index.
+    // If A and B do not vary at all, there is no index.
     for (std::size_t i = 0; i < table.count(); ++i) table[i][2] = i % 4 == 1;
     const Report none = analyze(unit, table, {{"method", "saltelli"}});
     for (const char* key : {"z.x.first", "z.y.total", "z.variance"})

@@ -22,8 +22,8 @@ Report chaos(const PointSet& table, Settings settings = {}) {
 
 }  // namespace
 
-// 3 x + 2 (3/sqrt(2)) (y^2 - 2/3) + x z on all of {-1, 1} x {-1, 0, 1} x {-1, 1}, five times: orthonormal
-// terms, with the shares 9, 4 and 1 of 14.
+// 3 x + 2 (3/sqrt(2)) (y^2 - 2/3) + x z on {-1, 1} x {-1, 0, 1} x {-1, 1}, five times: orthonormal
+// terms, with 9, 4 and 1 fourteenths of the variance.
 TEST(PolynomialChaos, OfAPolynomialIsExact) {
     Rows rows;
     for (int time = 0; time < 5; ++time)
@@ -45,9 +45,9 @@ TEST(PolynomialChaos, OfAPolynomialIsExact) {
     EXPECT_EQ(report.number("x4.degree"), 2);
 }
 
-// In [0, 1], where the sample's mean and variance are as of uniform inputs, the indices are those of
-// uniform ones: 1 + 3 P_1(x) + 2 P_2(y) + P_1(x) P_1(z) has the shares 9, 4 and 1 of 14, from any sample. The
-// intervals are so wide all the same that the inputs need not be uniform, but where that is told.
+// In [0, 1], if the sample's mean and variance are those of uniform inputs, so are the indices: 1 +
+// 3 P_1(x) + 2 P_2(y) + P_1(x) P_1(z) has 9, 4 and 1 fourteenths of the variance, for any sample.
+// Intervals are wide, because the inputs may not be uniform, unless the provenance says so.
 TEST(PolynomialChaos, OfUniformInputsIsExactFromAnySample) {
     const Model model = [](auto u) {
         const auto p1 = [](double v) { return std::sqrt(3) * (2 * v - 1); };
@@ -74,7 +74,7 @@ TEST(PolynomialChaos, OfUniformInputsIsExactFromAnySample) {
     EXPECT_LT(told.number("y.x.first_high") - told.number("y.x.first_low"), 1e-12);
 }
 
-// The variances of the parts of a sum, each over the values that its input has in the sample.
+// Variances of the terms of a sum, each over the sample's values of its input.
 TEST(PolynomialChaos, TakesEachInputsOwnDistribution) {
     const auto variance = [](const std::vector<double>& values) {
         double mean = 0;
@@ -100,7 +100,7 @@ TEST(PolynomialChaos, TakesEachInputsOwnDistribution) {
     for (std::size_t i = 0; i < 3; ++i)
         EXPECT_NEAR(report.number("x4.x" + std::to_string(i + 1) + ".first"),
                     variance(parts[i]) / all, 1e-10);
-    // m in {0, 1}, x uniform: m + sqrt(3) x has half of its variance from each.
+    // m in {0, 1}, x uniform: each has half of the variance of m + sqrt(3) x.
     Rows two = points_in(make("sobol", points(1024, 2)));
     for (auto& row : two) row[0] = std::floor(2 * row[0]);
     EXPECT_NEAR(chaos(with_outputs(two, [](auto u) { return u[0] + std::sqrt(3) * u[1]; }))
@@ -117,7 +117,7 @@ TEST(PolynomialChaos, FindsKnownIndicesOfModerateSamples) {
     }
     EXPECT_NEAR(ish.number("x4.x1:x3.second"), ishigami_total[2], 0.002);
     EXPECT_GT(ish.number("x4.q2"), 0.999);
-    // Its kinks are no polynomials.
+    // Functions with kinks are not polynomials.
     const Report g = chaos(with_outputs(points_in(make("sobol", points(1024, 4))), g_function));
     for (std::size_t i = 0; i < 4; ++i) {
         const std::string key = "x5.x" + std::to_string(i + 1);
@@ -127,8 +127,8 @@ TEST(PolynomialChaos, FindsKnownIndicesOfModerateSamples) {
     EXPECT_GT(g.number("x5.q2"), 0.95);
 }
 
-// Terms that fit noise predict none of it. Of 60 sets of noise three may have a q2 above 0.2; ten have a
-// chance of 1e-3.
+// Terms fitted to noise do not predict it. Of 60 sets of noise about three may have a q2 above 0.2;
+// ten have a probability of 1e-3.
 TEST(PolynomialChaos, Q2IsThatOfRunsWithoutAPartInTheChoice) {
     int high = 0;
     double q2 = 0;
@@ -142,10 +142,10 @@ TEST(PolynomialChaos, Q2IsThatOfRunsWithoutAPartInTheChoice) {
             const std::string key = table.dimension() == 3 ? "z" : "x" + std::to_string(d + 1);
             try {
                 high += chaos(table).number(key + ".q2") >= 0.2;
-            } catch (const Error&) {  // no term at all
+            } catch (const Error&) {  // no term was chosen
             }
         }
-        // 4 x - 2 y + z + noise with an eighth of the variance, an input inert.
+        // 4 x - 2 y + z + noise with an eighth of the variance, and an inert input.
         const auto rows = points_in(make("random", points(200, 4), {}, {.seed = seed}));
         const Report report = chaos(with_outputs(rows, [&](auto u) {
             return 4 * u[0] - 2 * u[1] + u[2] + std::sqrt(3.0) * (rng.uniform(used++) - 0.5);
@@ -157,8 +157,9 @@ TEST(PolynomialChaos, Q2IsThatOfRunsWithoutAPartInTheChoice) {
     EXPECT_NEAR(q2, 0.875, 0.015);
 }
 
-// At least 95 % of the intervals of 40 samples and 3 inputs, two for each: 210 of 240 would be a chance
-// of 1e-6 if they were independent. Their width is what the polynomial does not explain and little more.
+// Intervals contain the index in at least 95 % of 40 samples, 3 inputs and two indices each: 210 of
+// 240 would have a probability of 1e-6 if independent. Their width is little more than the variance
+// that the polynomial does not explain.
 TEST(PolynomialChaos, IntervalsHoldTheIndices) {
     int held = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -181,7 +182,7 @@ TEST(PolynomialChaos, IntervalsHoldTheIndices) {
     EXPECT_EQ(few.find("x4.x1.total_low"), nullptr);
 }
 
-// exp(5 u) has polynomials of its own, but the output is one of u.
+// The inputs are exp(5 u), but the output is nearly a polynomial in u.
 TEST(PolynomialChaos, TakesRanksWhereTheyFitBetter) {
     Rows rows = points_in(make("sobol", points(512, 3)));
     PointSet plain = with_outputs(rows, ishigami);

@@ -20,14 +20,14 @@ double first(const PointSet& table, const std::string& key) {
 
 }  // namespace
 
-// Outputs 1, 4, 2, 5 in the order of x, of mean 3 and variance 5/2: two windows, with the products
-// -2 and -2 about the mean, each for a run and the other.
+// Outputs 1, 4, 2, 5 in the order of x, with mean 3 and variance 5/2: two windows, whose products
+// about the mean are -2 and -2, each counted in both orders.
 TEST(RankIndices, ByHand) {
     const PointSet table = points_of({{0.9, 5}, {0.1, 1}, {0.7, 2}, {0.2, 4}});
     EXPECT_NEAR(first(table, "y.x"), 2 * (-2 - 2) / 4. / 2.5, 1e-15);
 }
 
-// Oracle: all pairs of different runs of each window, written down: windows of three or more of ten.
+// Oracle: all pairs of different runs in each window, listed: windows of three or more of ten runs.
 TEST(RankIndices, EqualInputsStayInOneWindow) {
     Rows rows = {{0, 1}, {0, 5}, {1, 2}, {1, 4}, {1, 0}, {2, 3}, {3, 3}, {3, 7}, {3, 1}, {4, 4}};
     const std::vector<std::pair<std::size_t, std::size_t>> windows = {{0, 5}, {5, 10}};
@@ -41,12 +41,12 @@ TEST(RankIndices, EqualInputsStayInOneWindow) {
     EXPECT_NEAR(first(points_of(rows), "y.x"), sum / squares, 1e-14);
     std::ranges::reverse(rows);
     EXPECT_NEAR(first(points_of(rows), "y.x"), sum / squares, 1e-14);
-    // An input that never changes is one window: minus the share of a run.
+    // A constant input is one window: minus one run's fraction.
     for (auto& row : rows) row[0] = 7;
     EXPECT_NEAR(first(points_of(rows), "y.x"), -1. / 9, 1e-14);
 }
 
-// A factor of three levels of equal size: the variance of the means of the levels.
+// A factor with three levels of equal size: variance of the level means.
 TEST(RankIndices, OfAFewLevelsAreAnalysisOfVariance) {
     const Rng rng(3);
     Rows rows;
@@ -70,7 +70,8 @@ TEST(RankIndices, FindsKnownIndicesOfModerateSamples) {
         EXPECT_NEAR(first(four, "x5.x" + std::to_string(i + 1)), g_first(i), 0.04);
 }
 
-// Below 178 of 200 is a chance of 1e-4 if intervals hold with probability 0.95, as they do or more often.
+// If intervals hold with probability 0.95 or more, fewer than 178 of 200 has a probability below
+// 1e-4.
 TEST(RankIndices, IntervalsHoldTheIndexAsOftenAsTheySay) {
     for (const auto& [n, most] : {std::pair<std::size_t, double>{50, 1.0}, {1000, 0.13}}) {
         std::vector<int> held(3);
@@ -91,8 +92,8 @@ TEST(RankIndices, IntervalsHoldTheIndexAsOftenAsTheySay) {
     }
 }
 
-// The index 1 of the only input that matters, on which windows alone would fall short, and levels, whose
-// windows hide nothing.
+// The only input that matters has index 1, which windows alone would underestimate; levels have
+// windows without this error.
 TEST(RankIndices, IntervalsCountWhatWindowsHide) {
     int held = 0;
     double width = 0;
@@ -121,8 +122,8 @@ TEST(RankIndices, FewRunsHaveNoIntervals) {
     EXPECT_NE(report_of(20).find("x4.x1.first_low"), nullptr);
 }
 
-// Neighbors in one coordinate of Sobol' points are related in the others: statistics of single
-// neighbors give -0.6 to 0.4 here. Windows do not.
+// Neighbours of Sobol' points in one coordinate are related in the others: statistics of single
+// neighbours give -0.6 to 0.4 here. Windows avoid that.
 TEST(RankIndices, HoldOnLowDiscrepancyPoints) {
     for (const char* generator : {"sobol", "halton", "rank1-lattice"}) {
         const auto rows = points_in(make(generator, points(1024, 4)));

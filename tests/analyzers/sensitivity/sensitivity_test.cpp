@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The unit: which columns are inputs and outputs, which method is taken, what is refused.
+// The unit: recognition of inputs and outputs, choice of the method, errors.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ TEST(Sensitivity, DesignNamesTheInputsAndTheTableTheOutputs) {
     const Report nameless =
         analyze(unit, outputs_of(rows, linear), {{"design", design.path()}, {"method", "chaos"}});
     EXPECT_EQ(nameless.number("y.length.first"), named.number("stress.length.first"));
-    // A part of the inputs, by name and number.
+    // Some of the inputs, by name and number.
     const Report two =
         analyze(unit, outputs_of(rows, linear),
                 {{"design", design.path()}, {"method", "rank"}, {"inputs", "load,1"}});
@@ -60,7 +60,7 @@ TEST(Sensitivity, DesignNamesTheInputsAndTheTableTheOutputs) {
     EXPECT_NEAR(two.number("y.length.first"), 9. / 14, 0.1);
 }
 
-/// What a call says.
+/// Notes of a call.
 std::vector<std::string> notes_of(const PointSet& table, const Settings& settings) {
     std::vector<std::string> told;
     RunContext run;
@@ -69,7 +69,7 @@ std::vector<std::string> notes_of(const PointSet& table, const Settings& setting
     return told;
 }
 
-// A copy of an input has its name and its numbers, up to their rounding in writing.
+// A copy of an input has its name and its numbers, up to rounding in the file.
 TEST(Sensitivity, CopiesOfInputsAreNoOutputsButNoneVanishes) {
     Rows rows = points_in(make("sobol", points(64, 2, 1)));
     const TemporaryFile design(csv_of("a,b", rows), ".csv");
@@ -99,7 +99,7 @@ TEST(Sensitivity, CopiesOfInputsAreNoOutputsButNoneVanishes) {
         "input: all columns of the table are copies of inputs: a, b | --response selects outputs");
 }
 
-// Provenance of a design to which a column was added knows which columns it had.
+// Provenance of a design with an added column has the names of its own columns.
 TEST(Sensitivity, ProvenanceNamesTheInputs) {
     PointSet table =
         with_outputs(points_in(make("sobol", points(64, 2))), [](auto u) { return u[0]; });
@@ -111,7 +111,7 @@ TEST(Sensitivity, ProvenanceNamesTheInputs) {
     EXPECT_NEAR(report.number("load.x.first"), 1, 0.1);
     EXPECT_NE(report.find("load.y.first"), nullptr);
     EXPECT_EQ(notes_of(table, {}), std::vector<std::string>{});
-    // Of an output that is picked, the others are neither.
+    // If one output is selected, the others are neither inputs nor outputs.
     table.provenance.columns = {"a", "load", "b"};
     EXPECT_THAT(refusal(table),
                 HasSubstr("the table has no column x, y for the inputs of its design"));
@@ -167,7 +167,7 @@ TEST(Sensitivity, TheDesignShowsItsMethod) {
     EXPECT_EQ(method(points_in(make("sobol", points(512, 3))), noise), "rank");
 }
 
-// Equal coordinates stay equal under maps of single coordinates, and curves keep their period.
+// Maps of single coordinates preserve equality of coordinates and the period of curves.
 TEST(Sensitivity, WarpedDesignsKeepTheirMethod) {
     const auto method = [](Rows rows) {
         for (auto& row : rows)
@@ -179,7 +179,7 @@ TEST(Sensitivity, WarpedDesignsKeepTheirMethod) {
     EXPECT_EQ(method(fast_rows(129, 3, 1)), "fast");
 }
 
-// Whole rows of no method, in any order, are told; so are inputs that depend on each other.
+// Complete rows that fit no method, in any order, cause a note; so do dependent inputs.
 TEST(Sensitivity, SaysThatADesignIsBroken) {
     Rows rows = pick_freeze_rows(make("sobol", points(64, 6)), false);
     std::ranges::rotate(rows, rows.begin() + 2);
@@ -209,7 +209,7 @@ TEST(Sensitivity, SaysThatADesignIsBroken) {
     }
 }
 
-// A 2^2 design in the order 00, 10, 01, 11 has the rows of pick-freeze with A = 00 and B = 11 alone.
+// A 2^2 design in the order 00, 10, 01, 11 has the rows of pick-freeze only with A = 00 and B = 11.
 TEST(Sensitivity, ReplicatedFactorialsAreNoPickFreeze) {
     Rows rows;
     for (int replicate = 0; replicate < 6; ++replicate)
@@ -247,7 +247,8 @@ TEST(Sensitivity, RefusesColumnsThatAreNotThere) {
                 HasSubstr("a table of 1 column has no inputs besides the outputs | --design"));
 }
 
-// Shares of no variance are missing, with the reason; rounding is no variance. Other outputs have theirs.
+// Constant outputs have no indices, with a reason; rounding errors are not variance. Other outputs
+// have indices.
 TEST(Sensitivity, ConstantOutputsHaveNoIndices) {
     const std::vector<std::pair<std::string, Rows>> designs = {
         {"rank", points_in(make("sobol", points(64, 2)))},
@@ -276,7 +277,7 @@ TEST(Sensitivity, ConstantOutputsHaveNoIndices) {
         EXPECT_NEAR(report.number("x7.x1.first"), 1, 0.3) << method;
     }
     const PointSet trajectories = with_outputs(morris_rows(4, 2, 1), [](auto) { return 0.1; });
-    EXPECT_EQ(measure(unit, "z.x.mu_star", trajectories), 0);  // no share of anything
+    EXPECT_EQ(measure(unit, "z.x.mu_star", trajectories), 0);  // no effect at all
 }
 
 TEST(Sensitivity, AnOutputWithTooFewRunsDoesNotHideOthers) {

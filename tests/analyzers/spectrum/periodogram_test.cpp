@@ -58,7 +58,7 @@ double sinc(double x) {
     return x == 0 ? 1 : std::sin(y) / y;
 }
 
-/// Mean of reports as the command line makes it: numbers, curves and grids, then refine.
+/// Mean of reports like on the command line: numbers, curves and grids, then refine.
 Report mean_of(const std::vector<Report>& reports) {
     Report mean = reports.front();
     Grid grid = grid_of(mean);
@@ -74,8 +74,8 @@ Report mean_of(const std::vector<Report>& reports) {
 
 }  // namespace
 
-// |exp(i phi)|^2 = 1 for one point, which alone is no set: so two sets' worth of it in one place,
-// |2 exp(i phi)|^2 / 2 = 2, and the sums themselves for one.
+// One point has |exp(i phi)|^2 = 1, but a set needs two. So two points at the same position: |2
+// exp(i phi)|^2 / 2 = 2; and the sums themselves for one.
 TEST(Periodogram, PointsInOnePlaceHaveTheirNumberAsPowerEverywhere) {
     for (const std::string method : {"nufft", "direct"})
         for (const auto& row : std::vector<std::vector<double>>{
@@ -110,7 +110,7 @@ TEST(Periodogram, TwoPointsOnALineByHand) {
     }
 }
 
-// A k x k grid is in phase at multiples of k and cancels elsewhere.
+// Points of a k x k grid are in phase at multiples of k and cancel elsewhere.
 TEST(Periodogram, RegularGridHasPeaksOfPowerNAtMultiplesOfItsSide) {
     for (const int k : {3, 8}) {
         const Report report = spectrum(corner_grid(k), {{"max-frequency", "20"}});
@@ -121,7 +121,7 @@ TEST(Periodogram, RegularGridHasPeaksOfPowerNAtMultiplesOfItsSide) {
     }
 }
 
-// Row = f_1 and column = f_0: points that differ in x alone have a power that changes along rows.
+// Row = f_1 and column = f_0: points that differ only in x have a power that varies along rows.
 TEST(Periodogram, ColumnsAreFrequenciesInX) {
     const Report report = spectrum(points_of({{0, 0.2}, {0.5, 0.2}}), {{"max-frequency", "4"}});
     const Grid& grid = grid_of(report);
@@ -130,8 +130,8 @@ TEST(Periodogram, ColumnsAreFrequenciesInX) {
             EXPECT_NEAR(grid.values[row * 9 + column], column % 2 == 0 ? 2 : 0, 1e-8);
 }
 
-// Rings by hand: 1/2 <= |f| < 3/2 holds (+-1, 0), (0, +-1), (+-1, +-1); 3/2 <= |f| < 5/2 holds
-// (+-2, 0), (0, +-2), (+-2, +-1), (+-1, +-2).
+// Rings by hand: 1/2 <= |f| < 3/2 contains (+-1, 0), (0, +-1), (+-1, +-1); 3/2 <= |f| < 5/2
+// contains (+-2, 0), (0, +-2), (+-2, +-1), (+-1, +-2).
 TEST(Periodogram, RingsAreOneUnitWideAndWithoutZero) {
     const PointSet set = make("random", points(100, 2));
     const Report report = spectrum(set, {{"max-frequency", "12"}});
@@ -189,7 +189,7 @@ TEST(Periodogram, OppositeFrequenciesHaveEqualPowerToTheLastBit) {
         std::vector<double> reversed = grid_of(report).values;
         std::ranges::reverse(reversed);
         EXPECT_EQ(reversed, grid_of(report).values);
-        EXPECT_EQ(reversed[reversed.size() / 2], 64);  // at zero
+        EXPECT_EQ(reversed[reversed.size() / 2], 64);  // at frequency 0
     }
 }
 
@@ -212,10 +212,10 @@ TEST(Periodogram, SameForAnyNumberOfThreads) {
     EXPECT_EQ(spectrum(set, {}, {.threads = 7}), one);
 }
 
-// White noise: 2 P is chi-square with 2 degrees of freedom, nearly, and independent at different
-// f but for -f. 40 sets at F = 24: the mean over 900 pairs x 40 sets has a standard deviation of
-// 1/190, so 6 of them fail by chance once in 5e8 runs. Points that keep a 0.8 of the square have a
-// spectrum far from it.
+// White noise: 2 P is nearly chi-square with 2 degrees of freedom, and independent at different f
+// except -f. For 40 sets with F = 24, the mean over 900 pairs x 40 sets has a standard deviation of
+// 1/190; exceeding 6 of them has a probability of 2e-9. Points restricted to 0.8 of the square have
+// a very different spectrum.
 TEST(Periodogram, WhiteNoiseHasMeanPowerOneAndOtherSetsHaveNot) {
     const auto mean_power = [](double squeeze) {
         double sum = 0;
@@ -237,10 +237,10 @@ TEST(Periodogram, WhiteNoiseHasMeanPowerOneAndOtherSetsHaveNot) {
     EXPECT_GT(mean_power(0.8), 1 + 20 * deviation);
 }
 
-// Expectation of a jittered m x m grid off its reciprocal lattice:
-// P(f) = 1 - sinc^2(f_0 / m) sinc^2(f_1 / m). The mean over 400 sets has, at each frequency, a
-// standard deviation of P / 20 (P being exponentially distributed, nearly); 6 of them at 300
-// frequencies fail by chance less than once in 1e5 runs. White noise must be told apart.
+// Expectation of a jittered m x m grid off its reciprocal lattice: P(f) = 1 - sinc^2(f_0 / m)
+// sinc^2(f_1 / m). The mean over 400 sets has, at each frequency, a standard deviation of P / 20 (P
+// is nearly exponentially distributed); exceeding 6 of them at any of 300 frequencies has a
+// probability below 1e-5. White noise must be rejected.
 TEST(Periodogram, JitteredGridHasItsExactExpectation) {
     const int m = 8;
     const int last = 12;
@@ -265,9 +265,9 @@ TEST(Periodogram, JitteredGridHasItsExactExpectation) {
     EXPECT_GT(told_apart, 20);
 }
 
-// The anisotropy of a mean power is that of the mean, -10 log10(sets) for white noise, and not the
-// mean anisotropy, which is near 0 dB. Over rings 8..24 with over 1800 / 2 values the ratio's
-// standard deviation is below 0.6 dB.
+// The anisotropy of a mean spectrum is -10 log10(sets) for white noise, while the mean anisotropy
+// is near 0 dB. Over rings 8..24 with more than 1800 / 2 values, the ratio's standard deviation is
+// below 0.6 dB.
 TEST(Periodogram, AnisotropyOfAMeanIsThatOfTheMeanPower) {
     std::vector<Report> reports;
     for (std::uint64_t seed = 1; seed <= 100; ++seed)
@@ -285,8 +285,8 @@ TEST(Periodogram, AnisotropyOfAMeanIsThatOfTheMeanPower) {
     EXPECT_NE(mean.number("oscillation"), reports[0].number("oscillation"));
 }
 
-// Both definitions on a power made by hand: 0 up to ring 4, 1 beyond it. The disk |f| < r + 1/2 has
-// 0 up to r = 4; with N_r vectors inside, its mean is (N_5 - N_4) / N_5 = 28 / 96 at r = 5.
+// Both definitions on a simple power: 0 up to ring 4, 1 beyond. The disk |f| < r + 1/2 has 0 up to
+// r = 4; with N_r vectors inside, its mean is (N_5 - N_4) / N_5 = 28 / 96 at r = 5.
 TEST(Periodogram, EffectiveNyquistAndOscillationByHand) {
     Grid power{.rows = 21, .columns = 21, .values = std::vector<double>(21 * 21)};
     for (int f1 = -10; f1 <= 10; ++f1)
@@ -320,7 +320,7 @@ TEST(Periodogram, EffectiveNyquistAndOscillationByHand) {
     EXPECT_FALSE(flag(report, "oscillation_complete"));
 }
 
-// Power is 1 from the first ring on, so that the window is the rings 1..1 + 5 n^(1/d).
+// Power is 1 from the first ring on, so the window is the rings 1..1 + 5 n^(1/d).
 TEST(Periodogram, OscillationIsCompleteWhereItsWindowIs) {
     const Analyzer& unit = find_analyzer("periodogram");
     const auto complete = [&](std::size_t last, double power) {
@@ -339,7 +339,7 @@ TEST(Periodogram, OscillationIsCompleteWhereItsWindowIs) {
     EXPECT_FALSE(complete(21, 0.9)) << "it never begins";
 }
 
-// Windows and distances of other sizes have no mean either.
+// Neither can results with windows or distances of different sizes be averaged.
 TEST(Periodogram, NorHaveOtherAnalyzersOverOtherLengths) {
     for (const char* name : {"pair-correlation", "hyperuniformity"}) {
         const Analyzer& unit = find_analyzer(name);
@@ -354,7 +354,7 @@ TEST(Periodogram, NorHaveOtherAnalyzersOverOtherLengths) {
     }
 }
 
-// Frequencies over n^(1/d) of sets of different n are different ones.
+// Frequencies normalized by n^(1/d) differ between sets of different n.
 TEST(Periodogram, NormalizedFrequenciesOfOtherSizesHaveNoMean) {
     const Analyzer& unit = find_analyzer("periodogram");
     const std::vector<Report> sets = {spectrum(make("random", points(100, 2))),
@@ -372,8 +372,8 @@ TEST(Periodogram, NormalizedFrequenciesOfOtherSizesHaveNoMean) {
     EXPECT_EQ(refusal("false"), "");
 }
 
-// Frequencies one by one in the order of their lengths, for powers whose mean goes up and down
-// about a tenth.
+// Frequencies one by one in the order of their lengths, for powers whose mean oscillates about one
+// tenth.
 TEST(Periodogram, EffectiveNyquistLooksAtEveryLength) {
     std::size_t between = 0;
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
@@ -419,7 +419,7 @@ TEST(Periodogram, EffectiveNyquistLooksAtEveryLength) {
     EXPECT_GE(between, 10);
 }
 
-// What a regular grid can do: its first peaks, at f = k, end the empty disk.
+// The first peaks of a regular grid, at f = k, end the empty disk.
 TEST(Periodogram, RegularGridHasItsOwnNyquistFrequency) {
     const Report report = spectrum(corner_grid(32));
     EXPECT_EQ(report.number("max_frequency"), 64);
@@ -427,7 +427,7 @@ TEST(Periodogram, RegularGridHasItsOwnNyquistFrequency) {
     EXPECT_EQ(report.number("effective_nyquist"), 16);
 }
 
-// Nothing is infinite or not a number, which JSON cannot hold.
+// JSON cannot represent infinity or NaN.
 TEST(Periodogram, EqualPointsAndEmptyRingsGiveFiniteNumbers) {
     for (const auto& set : {corner_grid(16), points_of({{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}}),
                             points_of({{0, 0}, {0, 0}}), points_of({{1}, {1}})}) {
@@ -491,9 +491,9 @@ TEST(Periodogram, RefusesWhatItCannotDo) {
     EXPECT_EQ(refusal(set, {}, {.stop = source.get_token()}), "cancelled: interrupted");
 }
 
-// White noise at every ring: 2 R P of a mean over R sets and the vectors of a ring is chi-square
-// distributed, nearly; with c / 2 independent vectors the mean has the deviation sqrt(2 / (c R)).
-// 24 rings at 5.5 deviations: a false alarm once in a million runs. A jittered grid is told apart.
+// White noise at every ring: 2 R P of a mean over R sets and the vectors of a ring is nearly
+// chi-square distributed; with c / 2 independent vectors the mean has the standard deviation sqrt(2
+// / (c R)). 24 rings at 5.5 deviations: false alarm 1e-6. A jittered grid must be rejected.
 TEST(Periodogram, MeanPowerOfWhiteNoiseIsOneInEveryBinWithinItsBand) {
     std::vector<Report> white;
     std::vector<Report> jittered;
@@ -513,8 +513,8 @@ TEST(Periodogram, MeanPowerOfWhiteNoiseIsOneInEveryBinWithinItsBand) {
     }
 }
 
-// P(f) = 1 - sinc^2 sinc^2 = pi^2 |f|^2 / (3 m^2) near 0, for white noise 1: exponents 2 and 0. The
-// fit over 8 rings of the mean of 100 sets has deviations below 0.1.
+// P(f) = 1 - sinc^2 sinc^2 is about pi^2 |f|^2 / (3 m^2) near 0, and 1 for white noise: exponents 2
+// and 0. The fit over 8 rings of the mean of 100 sets has standard deviations below 0.1.
 TEST(Periodogram, LowFrequencyExponentOfJitterIsTwoAndOfNoiseZero) {
     std::vector<Report> white;
     std::vector<Report> jittered;
@@ -527,13 +527,13 @@ TEST(Periodogram, LowFrequencyExponentOfJitterIsTwoAndOfNoiseZero) {
     EXPECT_NEAR(mean_of(white).number("low_frequency_exponent"), 0, 0.25);
     EXPECT_LT(mean_of(white).number("total_variation"), 0.05);
     EXPECT_GT(mean_of(jittered).number("total_variation"), 0.3);
-    // A lattice has no power there, and no exponent.
+    // A lattice has no power there, and so no exponent.
     EXPECT_EQ(spectrum(corner_grid(32)).find("low_frequency_exponent"), nullptr);
 }
 
-// All power of a lattice of 16 x 16 points is at (16, 0), (16, 16) and the like: of it the ring of
-// 16 has 256 at 4 places of c, a variance of 256^2 (4/c - 16/c^2) by a squared mean of
-// (1024/c)^2. What rounding leaves elsewhere has no anisotropy, neither of one set nor of a mean.
+// All power of a lattice of 16 x 16 points is at (16, 0), (16, 16) and so on. Its ring 16 has power
+// 256 at 4 of c frequencies: variance 256^2 (4/c - 16/c^2), squared mean (1024/c)^2. Rounding
+// errors elsewhere have no anisotropy, for one set and for a mean.
 TEST(Periodogram, RingsWithoutPowerHaveNoAnisotropy) {
     for (const char* method : {"nufft", "direct"}) {
         const Report lattice =
@@ -560,7 +560,7 @@ TEST(Periodogram, NormalizedFrequenciesAreCyclesAMeanDistance) {
     EXPECT_EQ(report.number("regular_nyquist"), 10);
 }
 
-/// A set with a strength behind the coordinates of each point, as --weights gives it.
+/// Report on rows with a weight after each point's coordinates, as with --weights.
 Report weighted(const std::vector<std::vector<double>>& rows, Settings settings) {
     const Analyzer& unit = find_analyzer("periodogram");
     settings.emplace_back("weights", "w");
@@ -578,7 +578,7 @@ Report weighted(const std::vector<std::vector<double>>& rows, Settings settings)
     return analyze(unit, {unit_cube(d), {}, true}, next, values, {}).report;
 }
 
-// Strengths 2 and -1 at 0 and 1/2: |2 - (-1)^f|^2 / 5 = 1/5 at even f, 9/5 at odd f.
+// Weights 2 and -1 at 0 and 1/2: |2 - (-1)^f|^2 / 5 = 1/5 at even f, 9/5 at odd f.
 TEST(Periodogram, StrengthsByHand) {
     for (const std::string method : {"nufft", "direct"}) {
         const Report report =
@@ -592,8 +592,8 @@ TEST(Periodogram, StrengthsByHand) {
               "input: --weights: all 2 weights are 0; expected at least one other number");
 }
 
-// A power of two as a factor of all strengths changes no bit; beyond 1e-100 and 1e100 they are
-// refused, as a square would soon be 0 or infinite.
+// A power of two as a common factor of the weights changes no bit; weights below 1e-100 or above
+// 1e100 are rejected, because squares could become 0 or infinite.
 TEST(Periodogram, PowerDoesNotDependOnTheScaleOfStrengths) {
     const auto scaled = [](double factor, const std::string& window) {
         const PointSet set = make("random", points(300, 3));
@@ -620,7 +620,7 @@ TEST(Periodogram, PowerDoesNotDependOnTheScaleOfStrengths) {
     EXPECT_EQ(refusal(0), "");
 }
 
-// Strength 1 everywhere changes nothing; strengths that are drawn leave white noise white.
+// Constant weights 1 change nothing; random weights keep white noise white.
 TEST(Periodogram, WhiteNoiseStaysWhiteWithStrengths) {
     double sum = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -635,8 +635,8 @@ TEST(Periodogram, WhiteNoiseStaysWhiteWithStrengths) {
 }
 
 // The definition, point by point; then white noise, whose mean is 1 at every frequency, also next
-// to 0: 2000 sets, deviation 1 / sqrt(2000) at each of 12 frequencies, 5 of them once in 1e5 runs.
-// Without the window's own transform taken off, power there would be near n / 4.
+// to 0: 2000 sets, standard deviation 1 / sqrt(2000) at each of 12 frequencies; false alarm 1e-5 at
+// 5 of them. Without subtraction of the window's own transform, power there would be near n / 4.
 TEST(Periodogram, HannWindowIsTheDefinitionAndLeavesNoiseWhite) {
     const PointSet set = make("random", points(50, 2));
     const Report report = spectrum(set, {{"window", "hann"}, {"max-frequency", "5"}});
@@ -667,7 +667,7 @@ TEST(Periodogram, HannWindowIsTheDefinitionAndLeavesNoiseWhite) {
     for (std::size_t i = 0; i < 12; ++i) EXPECT_NEAR(means[i], 1, 5.5 / std::sqrt(2000)) << i;
 }
 
-// The same in space, at frequencies along one axis and along two.
+// The same in three dimensions, at frequencies along one axis and along two.
 TEST(Periodogram, HannWindowIsTheDefinitionInSpace) {
     const PointSet set = make("random", points(40, 3));
     const Report report = spectrum(set, {{"window", "hann"}, {"max-frequency", "2"}});
@@ -692,7 +692,7 @@ TEST(Periodogram, HannWindowIsTheDefinitionInSpace) {
     }
 }
 
-// A box is stretched onto the cube: frequencies are cycles a side.
+// A box is mapped to the cube: frequencies are cycles per side.
 TEST(Periodogram, BoxesAreMeasuredAsTheCubeThatTheyAre) {
     PointSet set = make("random", points(100, 2));
     const Report cube = spectrum(set);
@@ -706,7 +706,8 @@ TEST(Periodogram, BoxesAreMeasuredAsTheCubeThatTheyAre) {
         EXPECT_NEAR(box.curve("radial.power")[i], cube.curve("radial.power")[i], 1e-7);
 }
 
-// Beyond the points that are kept, the plan does not know their number: same result, told or not.
+// Beyond the buffered points, the number of points is unknown in advance: same result with and
+// without it.
 TEST(Periodogram, LargeSetsComeInPieces) {
     const PointSet set = make("random", points(1'100'000, 1));
     const Analyzer& unit = find_analyzer("periodogram");
@@ -728,7 +729,7 @@ TEST(Periodogram, LargeSetsComeInPieces) {
     }
 }
 
-// Sets of other sizes are measured at the first one's frequencies.
+// Sets of other sizes are measured at the frequencies of the first one.
 TEST(Periodogram, FollowsTheFrequenciesOfTheFirstSetOfAMean) {
     const Analyzer& unit = find_analyzer("periodogram");
     Values values = unit.options.defaults();

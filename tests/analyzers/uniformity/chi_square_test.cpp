@@ -15,7 +15,7 @@
 namespace stipple::testing::chi_square_test {
 namespace {
 
-/// Oracle: the digits of i in base b, mirrored at the point.
+/// Oracle: radical inverse of i in base b.
 double radical_inverse(std::size_t i, std::size_t b) {
     double value = 0;
     double digit = 1;
@@ -52,13 +52,13 @@ std::string verdict(const PointSet& points, const Settings& settings = {}) {
     return analyze("chi-square", points, settings).text("verdict");
 }
 
-/// A domain's points replaced, its domain kept.
+/// The points with another domain.
 PointSet on(DomainPtr domain, PointSet points) {
     points.domain = std::move(domain);
     return points;
 }
 
-/// `counts` points in the middle of each of as many cells.
+/// counts[i] points at the centre of cell i.
 PointSet in_cells(const std::vector<int>& counts, DomainPtr domain) {
     std::vector<double> flat;
     for (std::size_t c = 0; c < counts.size(); ++c)
@@ -86,8 +86,7 @@ double statistic_by_definition(const PointSet& points, int a, int b, int size) {
 
 }  // namespace
 
-// Known values: Halton sets on grids that nearly line up with their strata; tails of the chi-square
-// distribution by mpmath.
+// Known values: Halton sets on grids that nearly match their strata; chi-square tails by mpmath.
 TEST(ChiSquare, HaltonValuesAndTinyTails) {
     const Report thousand = analyze("chi-square", halton(1, 1000), {{"cells", "10x10"}});
     EXPECT_NEAR(thousand.number("statistic"), 20.0, 1e-12);
@@ -115,7 +114,7 @@ TEST(ChiSquare, JitterOnItsOwnStrataIsZero) {
     EXPECT_EQ(report.number("pooled_cells"), 50) << "2 points each";
 }
 
-// Two cells, counts 6 and 14: (16 + 16) / 10 = 3.2 with one degree of freedom, whose upper tail is
+// Two cells, counts 6 and 14: (16 + 16) / 10 = 3.2 with one degree of freedom, with upper tail
 // erfc(sqrt(1.6)).
 TEST(ChiSquare, TwoCellsByHand) {
     std::vector<double> flat(6, 0.25);
@@ -124,7 +123,7 @@ TEST(ChiSquare, TwoCellsByHand) {
     EXPECT_DOUBLE_EQ(report.number("statistic"), 3.2);
     EXPECT_EQ(report.number("degrees_of_freedom"), 1);
     EXPECT_NEAR(report.number("p_upper"), std::erfc(std::sqrt(1.6)), 1e-15);
-    // All but 0 to 5 and 15 to 20 of 20.
+    // All counts except 0 to 5 and 15 to 20 of 20.
     EXPECT_NEAR(report.number("p_lower"), 1 - 2 * 21700.0 / (1 << 20), 1e-14);
     EXPECT_EQ(report.text("p_method"), "exact");
     EXPECT_NEAR(report.number("p_value"), 2 * std::erfc(std::sqrt(1.6)), 1e-15);
@@ -132,7 +131,8 @@ TEST(ChiSquare, TwoCellsByHand) {
 }
 
 TEST(ChiSquare, EdgesBelongToTheCellAboveAndOneToTheLast) {
-    // Five points on each of 0, 1/4, 1/2, 3/4 fill the four cells evenly; those on 1 join the last.
+    // Five points on each of 0, 1/4, 1/2, 3/4 fill the four cells evenly; those on 1 belong to the
+    // last.
     std::vector<double> flat;
     for (const double x : {0.0, 0.25, 0.5, 0.75})
         for (int i = 0; i < 5; ++i) flat.push_back(x);
@@ -179,8 +179,8 @@ TEST(ChiSquare, DefaultGridIsOfOddPrimesAndNeverPooled) {
         for (const std::size_t d : {1U, 2U, 3U}) grid_of(n, d);
 }
 
-// 200 seeds at level 0.01: the number of false alarms is binomial(200, 0.01), above 10 with
-// probability 6e-6, if the p-values are right.
+// 200 seeds at level 0.01: if p-values are right, the number of false alarms is binomial(200,
+// 0.01), above 10 with probability 6e-6.
 TEST(ChiSquare, FalseAlarmsAreAsManyAsTheLevelSays) {
     int alarms = 0;
     int low = 0;
@@ -234,14 +234,14 @@ TEST(ChiSquare, RejectsWarpsThatAreWrong) {
     }
     EXPECT_EQ(verdict(on(triangle, wrong), strict), "non-uniform") << "no square root";
 
-    // A disk of which a sliver is missing.
+    // A disk without a sliver.
     const PointSet round = warped(*mapping("disk"), cube);
     std::vector<double> flat;
     for (std::size_t i = 0; i < round.count(); ++i)
         if (round[i][0] < 0.9) flat.insert(flat.end(), round[i].begin(), round[i].end());
     EXPECT_EQ(verdict(on(disk, PointSet(flat, 2)), strict), "non-uniform") << "truncated";
 
-    // Swapping the unit coordinates is right; taking the root of the other one is not.
+    // Swapping the unit coordinates is right; taking the square root of the other one is wrong.
     PointSet swapped = cube;
     for (std::size_t i = 0; i < cube.count(); ++i) std::swap(swapped[i][0], swapped[i][1]);
     EXPECT_EQ(verdict(warped(*mapping("disk"), swapped), strict), "uniform") << "symmetric";
@@ -306,9 +306,9 @@ TEST(ChiSquare, LevelDecidesTheVerdict) {
     EXPECT_EQ(verdict(some, {{"cells", "2"}, {"level", "0.15"}}), "non-uniform");
 }
 
-// Cells with probabilities (1 +- e) / 4, where e is the smallest detectable effect, are found in
-// about 90 of 100 sets: 300 sets give 270 with standard deviation 5.2; 6 of them are 31. Half the
-// effect is found in few.
+// Cells with probabilities (1 +- e) / 4, where e is the smallest detectable effect, are detected in
+// about 90 of 100 sets: 270 of 300 with standard deviation 5.2; 6 of these are 31. Half the effect
+// is detected rarely.
 TEST(ChiSquare, SmallestDetectableEffectIsFoundNineTimesOfTen) {
     const std::size_t n = 2000;
     const Settings settings = {{"cells", "4"}, {"level", "0.01"}};
@@ -318,7 +318,8 @@ TEST(ChiSquare, SmallestDetectableEffectIsFoundNineTimesOfTen) {
         int count = 0;
         for (std::uint64_t seed = 1; seed <= 300; ++seed) {
             PointSet points = uniform(n, seed, 1);
-            for (double& x : points.flat()) {  // lower half of each half is taken with (1 + e) / 2
+            for (double& x :
+                 points.flat()) {  // the lower half of each half has probability (1 + e) / 2
                 const double half = x < 0.5 ? 0 : 0.5;
                 const double u = 2 * (x - half), a = (1 + e) / 2;
                 x = half + 0.5 * (u < a ? 0.5 * u / a : 0.5 + 0.5 * (u - a) / (1 - a));
@@ -423,8 +424,8 @@ TEST(ChiSquare, UnequalCellsByHand) {
     EXPECT_EQ(report.number("mass_error"), 0);
 }
 
-// Expectations 70, 1, 4, 3, 22: sorted 1 3 4 22 70; 1 + 3 + 4 are the first group, of counts 2 + 0
-// + 9, and nothing is left over. With 70, 22, 2, 3, 3 the first group is 2 + 3.
+// Expectations 70, 1, 4, 3, 22: sorted 1 3 4 22 70; 1 + 3 + 4 are the first group, with counts 2 +
+// 0 + 9, and nothing remains. With 70, 22, 2, 3, 3 the first group is 2 + 3.
 TEST(ChiSquare, PoolsTheLeastProbableCellsFirst) {
     const auto steps = [](std::vector<double> masses) {
         return std::make_shared<Steps>(std::move(masses));
@@ -435,11 +436,11 @@ TEST(ChiSquare, PoolsTheLeastProbableCellsFirst) {
     EXPECT_NEAR(three.number("statistic"), 9.0 / 8 + 49.0 / 22 + 100.0 / 70, 1e-12);
     EXPECT_EQ(three.number("degrees_of_freedom"), 2);
     EXPECT_EQ(three.number("pooled_cells"), 3);
-    // The cells 3 and 22 become one group, for 3 alone is too few.
+    // The cells 3 and 22 become one group, because 3 alone is too small.
     const Report two = analyze(
         "chi-square", in_cells({60, 7, 4, 29}, steps({0.7, 0.02, 0.06, 0.22})), {{"cells", "4"}});
     EXPECT_NEAR(two.number("statistic"), 9.0 / 8 + 49.0 / 22 + 100.0 / 70, 1e-12);
-    // 2.7 + 2.85 and 3 + 3.15, and 3.3 is left over: it goes to the last group.
+    // 2.7 + 2.85 and 3 + 3.15 are groups; the remaining 3.3 is added to the last one.
     const Report left =
         analyze("chi-square", in_cells({5, 3, 1, 2, 4}, steps({0.18, 0.19, 0.2, 0.21, 0.22})),
                 {{"cells", "5"}});
@@ -464,7 +465,7 @@ TEST(ChiSquare, OnePointWhereNoneCanBeIsEnough) {
     EXPECT_EQ(hit.number("impossible_points"), 1);
     EXPECT_EQ(hit.number("p_value"), 0);
     EXPECT_EQ(hit.text("verdict"), "non-uniform");
-    // And so it is for many sets of which one holds such a point.
+    // The same for many sets, one of which contains such a point.
     const Analyzer& unit = find_analyzer("chi-square");
     Report mean = fine;
     mean.add("impossible_points", 0.01);
@@ -472,7 +473,8 @@ TEST(ChiSquare, OnePointWhereNoneCanBeIsEnough) {
     EXPECT_EQ(mean.text("verdict"), "non-uniform");
 }
 
-// Wherever the cells' edges are: a gap is told by the domain. Points on its edges are none.
+// For any edges of cells, gaps are known from the domain. Points on the edge of a gap are not in
+// it.
 TEST(ChiSquare, OnePointInAGapIsEnough) {
     for (const std::string spec :
          {"table-1d:rows=[0,1 1,1 1.0000001,0 2,0 2.0000001,1 3,1]",
@@ -495,7 +497,8 @@ TEST(ChiSquare, OnePointInAGapIsEnough) {
     }
 }
 
-// A bright square in the middle of 3 x 3 pixels: points off its edges by rounding are no gap's.
+// A bright square in the middle of 3 x 3 pixels: points beyond its edges by rounding are not in a
+// gap.
 TEST(ChiSquare, PointsOnTheEdgesOfPixelsAreInNoGap) {
     const TemporaryFile file(
         npy_of<double>("<f8", "(3, 3)", std::vector<double>{0, 0, 0, 0, 1, 0, 0, 0, 0}));
@@ -516,7 +519,8 @@ TEST(ChiSquare, PointsOnTheEdgesOfPixelsAreInNoGap) {
     }
 }
 
-// False alarm: 20 seeds at level 1e-6. The shifted grid wraps around, where the density jumps.
+// False alarm: 20 seeds at level 1e-6. The shifted grid wraps around, where the density is
+// discontinuous.
 TEST(ChiSquare, UnevenDomainsAreTestedLikeEvenOnes) {
     const auto domain =
         std::make_shared<Steps>(std::vector<double>{0.4, 0.3, 0, 0.1, 0.15, 0.05}, 2);
@@ -552,8 +556,8 @@ TEST(ChiSquare, MassesThatContradictEachOtherAreRefused) {
     EXPECT_NE(error(0, -3), "") << "negative";
 }
 
-// Of two cells of 1/2 within e, a statistic X^2 of 100 points: the root moves by at most
-// D = sqrt(2 (100 e)^2 / 50) = 20 e, and r = 2 e.
+// Two cells with probability 1/2 within e, a statistic X^2 of 100 points: its root changes by at
+// most D = sqrt(2 (100 e)^2 / 50) = 20 e, and r = 2 e.
 TEST(ChiSquare, AVerdictThatErrorsOfMassesCouldTurnIsRefused) {
     const auto judged = [&](std::vector<int> counts, double error) {
         const auto domain = std::make_shared<Steps>(std::vector<double>{0.5, 0.5}, 1, error);
@@ -579,7 +583,7 @@ TEST(ChiSquare, AVerdictThatErrorsOfMassesCouldTurnIsRefused) {
     EXPECT_NE(error_of([&] { judged({50, 50}, 0.6); }), "") << "may be anything";
 }
 
-// Oracle: the points themselves shifted by half a cell.
+// Oracle: the points themselves, shifted by half a cell.
 TEST(ChiSquare, ShiftedGridIsTheGridOfShiftedPoints) {
     const PointSet points = uniform(3000, 4);
     PointSet moved = points;
@@ -593,11 +597,11 @@ TEST(ChiSquare, ShiftedGridIsTheGridOfShiftedPoints) {
     EXPECT_NEAR(both.number("combined_p_value"), 1 - (1 - least) * (1 - least), 1e-12);
 }
 
-// Points in the middles of cells, all alike: the plain grid sees nothing, the shifted one all.
+// Points at the same positions within all cells: undetected by the plain grid, detected by the
+// shifted one.
 TEST(ChiSquare, ShiftedGridSeesWhatCellsHide) {
     std::vector<double> flat;
-    for (int i = 0; i < 100;
-         ++i)  // 0.19 and 0.21 are in cells of their own; half a cell on, in one
+    for (int i = 0; i < 100; ++i)  // 0.19 and 0.21 share a cell only in the shifted grid
         flat.insert(flat.end(), {0.19, 0.21, 0.59, 0.61, 0.85});
     const PointSet points(flat, 1);
     EXPECT_EQ(verdict(points, {{"cells", "5"}}), "stratified");
@@ -606,7 +610,7 @@ TEST(ChiSquare, ShiftedGridSeesWhatCellsHide) {
     EXPECT_LT(report.number("shifted.p_upper"), 1e-10);
 }
 
-// 15 points, 5 in each of 3 cells: 15! / (5!^3 3^15); of 16, one cell has 6, any of three.
+// 15 points, 5 in each of 3 cells: 15! / (5!^3 3^15); of 16 points, any of three cells has 6.
 TEST(ChiSquare, EvenCountsInFewCellsAreNotRare) {
     const Report even = analyze("chi-square", in_cells({5, 5, 5}, unit_cube(1)));
     EXPECT_EQ(even.number("statistic"), 0);
@@ -614,7 +618,7 @@ TEST(ChiSquare, EvenCountsInFewCellsAreNotRare) {
     EXPECT_EQ(even.text("verdict"), "uniform");
     EXPECT_NEAR(measure("chi-square", "p_lower", in_cells({5, 6, 5}, unit_cube(1))), 0.14063900,
                 1e-6);
-    int alarms = 0;  // of 2000 sets at level 0.001, more than 10 with a chance of 1e-5
+    int alarms = 0;  // of 2000 sets at level 0.001; above 10 with probability 1e-5
     for (std::uint64_t seed = 1; seed <= 2000; ++seed)
         alarms += verdict(uniform(15, seed, 1)) != "uniform";
     EXPECT_LE(alarms, 10);
@@ -622,7 +626,7 @@ TEST(ChiSquare, EvenCountsInFewCellsAreNotRare) {
 
 namespace {
 
-/// So many points at each outcome of a discrete law.
+/// `counts` points at each outcome of a discrete distribution.
 PointSet outcomes(const DomainPtr& law, const std::vector<std::uint64_t>& counts) {
     std::vector<double> flat;
     for (std::size_t i = 0; i < counts.size(); ++i)
@@ -630,7 +634,7 @@ PointSet outcomes(const DomainPtr& law, const std::vector<std::uint64_t>& counts
     return on(law, PointSet(std::move(flat), 1));
 }
 
-/// The chance of these counts.
+/// Probability of these counts.
 double multinomial(const std::vector<double>& p, const std::vector<std::uint64_t>& counts) {
     double n = 0;
     double log = 0;
@@ -642,8 +646,8 @@ double multinomial(const std::vector<double>& p, const std::vector<std::uint64_t
     return std::exp(log + std::lgamma(n + 1));
 }
 
-/// Oracle: the chance that n independent outcomes are called stratified, all counts up to `reach`
-/// from what is expected looked at, of which the last outcome takes what is left.
+/// Oracle: probability that n independent outcomes are called stratified, over all counts up to
+/// `reach` from their expectation, the last being determined by the others.
 double false_strata(const std::vector<double>& p, std::uint64_t n, double level, int reach) {
     std::vector<std::string> words;
     for (const double x : p) words.push_back(fmt::format("{}", x));
@@ -671,7 +675,7 @@ double false_strata(const std::vector<double>& p, std::uint64_t n, double level,
 
 }  // namespace
 
-// Counts are whole: a statistic of 0 has a chance, which is large where groups are few.
+// Counts are integers: a statistic of 0 has a positive probability, large for few groups.
 TEST(ChiSquare, RandomOutcomesAreNotCalledStratified) {
     for (const auto& [p, n, reach] :
          {std::tuple<std::vector<double>, std::uint64_t, int>{{0.999, 0.001}, 5000, 8},
@@ -688,8 +692,8 @@ TEST(ChiSquare, RandomOutcomesAreNotCalledStratified) {
                 << n << " points, " << p.size() << " outcomes, the first " << p[0];
 }
 
-// Where even counts are rare they are seen: 125 points at each of 8 outcomes, (2 pi 1000)^(-7/2)
-// 8^4 = 2e-10; 2^22 points in two equal parts, (pi 2^21)^(-1/2) = 0.00039.
+// Even counts that are improbable are detected: 125 points at each of 8 outcomes, (2 pi
+// 1000)^(-7/2) 8^4 = 2e-10; 2^22 points in two equal parts, (pi 2^21)^(-1/2) = 0.00039.
 TEST(ChiSquare, EvenOutcomesAreCalledStratified) {
     const DomainPtr eight =
         parse_domain("discrete:probabilities=[.125 .125 .125 .125 .125 .125 .125 .125]", 1);
@@ -727,7 +731,7 @@ TEST(ChiSquare, SetsAreCombinedAsAsked) {
     EXPECT_NEAR(combined("fisher").number("p_upper"), std::exp(-h) * (1 + h + h * h / 2), 1e-14);
 }
 
-// Three sets with statistic 0 are not rarer than the product of their chances says.
+// Three sets with statistic 0 are not less probable than the product of their probabilities.
 TEST(ChiSquare, SummedSetsHaveALowerTailToo) {
     const Analyzer& unit = find_analyzer("chi-square");
     const auto sum = [&](double statistic, double p_lower) {
@@ -749,7 +753,7 @@ TEST(ChiSquare, SummedSetsHaveALowerTailToo) {
 
 namespace {
 
-/// The report on points that come in batches, and nobody knows how many.
+/// Report on points that arrive in blocks, with an unknown number.
 Report streamed(const PointSet& points, const Settings& settings = {}, unsigned threads = 2) {
     const Analyzer& unit = find_analyzer("chi-square");
     Values options = unit.options.defaults();

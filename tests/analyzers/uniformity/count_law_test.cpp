@@ -10,8 +10,8 @@
 namespace stipple::analyzers {
 namespace {
 
-/// All ways in which n points fall into groups of these probabilities, with the statistic and the
-/// chance of each.
+/// Visits all counts of n points in groups of these probabilities, with the statistic and
+/// probability of each.
 void for_all_counts(std::size_t n, const std::vector<double>& p,
                     const std::function<void(double statistic, double chance)>& take) {
     const std::function<void(std::size_t, std::size_t, double, double)> go =
@@ -52,7 +52,7 @@ TEST(CountLaw, EqualGroupsAreThoseOfAllCounts) {
         }
 }
 
-// The statistics that occur are told apart though their rounding is not that of the sum.
+// Different statistics are distinguished, although they are rounded differently than the sum.
 TEST(CountLaw, CountsInEqualStatistics) {
     const std::vector<double> p(3, 1.0 / 3);
     for_all_counts(17, p, [&](double x, double) {
@@ -76,8 +76,8 @@ TEST(CountLaw, UnequalGroupsAreThoseOfAllCounts) {
         }
 }
 
-// 101 points in 5 cells with the statistic 0.1386, 90 in 3 with 0.0667: chi-square says 0.00231 and
-// 0.0328.
+// 101 points in 5 cells with the statistic 0.1386, 90 in 3 with 0.0667: the chi-square distribution
+// gives 0.00231 and 0.0328.
 TEST(CountLaw, ValuesAboveTheSmallestStatistic) {
     EXPECT_NEAR(*exact_lower_tail(0.13861386, 101, 5), 0.00448, 5e-6);
     EXPECT_NEAR(*exact_lower_tail(0.06666667, 90, 3), 0.0621, 5e-5);
@@ -85,19 +85,21 @@ TEST(CountLaw, ValuesAboveTheSmallestStatistic) {
     EXPECT_NEAR(*exact_lower_tail(0.06666667, 90, thirds), 0.0621, 5e-5);
 }
 
-// Two equal parts of 2^40 points: (pi n / 2)^(-1/2) to 1 / (4 n); the normal law farther out.
+// Two equal parts of 2^40 points: (pi n / 2)^(-1/2) with relative error 1 / (4 n); the normal
+// distribution farther out.
 TEST(CountLaw, ManyPointsAreCountedToo) {
     const double n = 0x1p40;
     const double even = std::sqrt(2 / (M_PI * n));
     EXPECT_NEAR(*exact_lower_tail(0, std::uint64_t{1} << 40, 2) / even, 1, 1e-11);
     const std::vector<double> halves(2, n / 2);
     EXPECT_NEAR(*exact_lower_tail(0, std::uint64_t{1} << 40, halves) / even, 1, 1e-8);
-    // Up to 1000 points more on either side. of 2 / sqrt(n) to either side
+    // Up to 1000 more points on either side.
     EXPECT_NEAR(*exact_lower_tail(4e6 / n, std::uint64_t{1} << 40, halves) / (2001 * even), 1,
                 1e-6);
 }
 
-// All counts together have the chance 1; fewer than none is impossible.
+// The probabilities of all counts sum to 1; too many counts are not enumerated; 11 points in 10
+// cells never have the statistic 0.
 TEST(CountLaw, SumsToOneAndIsNoneWhereCountsAreTooMany) {
     EXPECT_NEAR(*exact_lower_tail(9 * 45.0, 10, 10), 1, 1e-12);
     EXPECT_FALSE(exact_lower_tail(100, 1'000'000, 100));

@@ -17,7 +17,7 @@ using analyzers::smirnov_upper;
 
 namespace {
 
-/// Oracle: Massey's count of the ways in which n points fall into n cells of [0, 1] so that the
+/// Oracle: Massey's count of the ways in which n points fall into n cells of [0, 1] such that the
 /// number up to the end of the m-th always differs from m by less than k: P(D_n <= k / n).
 double massey(int n, int k) {
     std::vector<double> ways(static_cast<std::size_t>(2 * k - 1), 0.0);
@@ -25,7 +25,8 @@ double massey(int n, int k) {
     for (int m = 0; m < n; ++m) {
         std::vector<double> next(ways.size(), 0.0);
         for (std::size_t from = 0; from < ways.size(); ++from) {
-            double weight = std::exp(-1.0);  // Poisson, so that n! / n^n comes out at the end
+            double weight =
+                std::exp(-1.0);  // Poisson weights, so that the result has the factor n! / n^n
             std::size_t points = from == 0 ? 1 : 0;
             for (; points + from < ways.size() + 1; ++points) {
                 weight = std::exp(-1.0 - std::lgamma(static_cast<double>(points) + 1));
@@ -78,13 +79,13 @@ TEST(Kolmogorov, AgreesWithCountingCellByCell) {
 
 TEST(Kolmogorov, OneSidedIsPlainForFewPoints) {
     EXPECT_NEAR(smirnov_upper(1, 0.3), 0.7, 1e-15);
-    // Two points: 1 - x - ... integrated by hand: 0.49 + 2 * 0.2 * 0.3 * ... for x < 1/2 is
-    // (1 - x)^2 + 2 x (1/2 - x).
+    // Two points, integrated by hand: for x < 1/2 the probability is (1 - x)^2 + 2 x (1/2 - x).
     for (const double x : {0.1, 0.25, 0.4})
         EXPECT_NEAR(smirnov_upper(2, x), (1 - x) * (1 - x) + 2 * x * (0.5 - x), 1e-14) << x;
 }
 
-// The two ways meet where one is left for the other, and the expansion is as near as promised.
+// The two methods agree where one is replaced by the other, and the expansion is as accurate as
+// promised.
 TEST(Kolmogorov, WaysOfWorkingItOutAgree) {
     for (const std::uint64_t n : {100U, 1000U, 3000U}) {
         const double x = std::sqrt(4 / static_cast<double>(n));
@@ -93,7 +94,8 @@ TEST(Kolmogorov, WaysOfWorkingItOutAgree) {
     for (const double z : {0.3, 0.5, 0.8, 1.2}) {
         const double x = z / 100;
         EXPECT_NEAR(kolmogorov_expansion(10'000, x), kolmogorov_exact(10'000, x, {}), 1e-9) << z;
-        // Four times fewer points, 16 times the error: the terms up to n^(-3/2) are right.
+        // With a quarter of the points the error is 16 times as large: terms up to n^(-3/2) are
+        // right.
         const double few = kolmogorov_expansion(400, z / 20) - kolmogorov_exact(400, z / 20, {});
         EXPECT_LT(std::abs(few), 1e-6) << z;
     }
@@ -119,8 +121,8 @@ TEST(KolmogorovSmirnov, IsTheStarDiscrepancyOfTheUnitInterval) {
                     measure("star-discrepancy", "value", PointSet(flat, 1)), 1e-15);
 }
 
-// Counted in cells, the statistic is below the exact one by no more than it says; on lattices of
-// dyadic places, where no point is inside a cell, by what one cell makes.
+// Counted in cells, the statistic is below the exact one by at most the stated error; on dyadic
+// lattices, without points inside of cells, by the effect of one cell.
 TEST(KolmogorovSmirnov, CountsManyPointsWithinTheErrorThatItTells) {
     for (const char* generator : {"random", "sobol"})
         for (const std::uint64_t n : {16U, 1000U, 20'000U}) {
@@ -132,7 +134,7 @@ TEST(KolmogorovSmirnov, CountsManyPointsWithinTheErrorThatItTells) {
                 const double error = counted.curve("statistic_error")[k];
                 EXPECT_EQ(exact.curve("statistic_error")[k], 0);
                 EXPECT_GT(error, 0);
-                // A cell, and the points of the fullest: a handful beside what all expect.
+                // One cell's width, and the points in the fullest cell, a few more than expected.
                 const double cells = 4096;
                 EXPECT_LE(error, 2 / cells + 20 / static_cast<double>(n)) << generator << n;
                 EXPECT_LE(counted.curve("statistic")[k], is);
@@ -188,8 +190,8 @@ TEST(KolmogorovSmirnov, TakesEveryEvenDomainAndNamesPointsOutside) {
               std::string::npos);
 }
 
-// 200 sets at level 0.01 again, of outcomes: above 10 false alarms with probability 6e-6. A wrong
-// probability of outcomes is found.
+// 200 sets of outcomes at level 0.01: above 10 false alarms with probability 6e-6. A wrong
+// probability of an outcome is detected.
 TEST(KolmogorovSmirnov, OutcomesAreSpreadEvenly) {
     const auto map = mapping("binomial:trials=4,probability=0.3");
     const auto other = mapping("binomial:trials=4,probability=0.35");
@@ -205,7 +207,7 @@ TEST(KolmogorovSmirnov, OutcomesAreSpreadEvenly) {
     PointSet wrong = warped(*other, make("random", {5000, 2}));
     wrong.domain = map->domain();
     EXPECT_EQ(analyze("kolmogorov-smirnov", wrong).text("verdict"), "non-uniform");
-    // All in one outcome of probability 1: the numbers that outcomes are spread by, which are random.
+    // With a single outcome of probability 1, the random numbers that spread outcomes are tested.
     const auto sure = mapping("integers:low=3,high=3");
     EXPECT_EQ(
         analyze("kolmogorov-smirnov", warped(*sure, make("random", {1000, 2}))).text("verdict"),

@@ -94,15 +94,15 @@ TEST(Moments, DoNotDependOnWhatSumsAreTakenAbout) {
     }
 }
 
-// 1e16 + 1 - 1e16 = 1: what rounding takes from a sum is carried along.
+// 1e16 + 1 - 1e16 = 1: rounding errors of sums are compensated.
 TEST(Moments, CarryWhatRoundingTakes) {
     analyzers::MomentSums sums({0.0});
     for (const double x : {1e16, 1.0, -1e16, 0.0}) sums.add(std::vector{x}, {});
     EXPECT_EQ(sums.moments().value.mean[0], 0.25);
 }
 
-// 100 sets: each standard error is that of the spread between the sets within 30 %, which 100
-// values miss with a chance of 2e-5.
+// 100 sets: each standard error is within 30 % of the standard deviation between sets; with 100
+// values this fails with probability 2e-5.
 TEST(Moments, StandardErrorsAreTheSpreadBetweenSets) {
     const char* keys[] = {"mean", "variance", "skewness", "covariance"};
     for (const char* key : keys) {
@@ -136,7 +136,7 @@ TEST(Moments, BoxesAndProductsHaveExactValues) {
     EXPECT_LT(report.number("cube.largest_z"), 4.5);
 }
 
-// largest_z of 9 values of random points is above 5 with a chance of 1e-5 or so.
+// largest_z of 9 values of random points exceeds 5 with a probability of about 1e-5.
 TEST(Moments, CubeCoordinatesTellRightWarpsFromWrong) {
     const PointSet cube = make("random", {20'000, 2});
     EXPECT_LT(measure("moments", "cube.largest_z", warped(*mapping("disk"), cube)), 5);
@@ -170,16 +170,16 @@ TEST(Moments, NeedTwoPointsOnTheirDomain) {
               "limit: the sixth powers of coordinates are beyond the largest double");
 }
 
-// Points all alike have no spread of their own, and still a finite distance from what is right:
-// (1/2 - 0.25) sqrt(12 * 3) = 1.5, and of the variance (1/12) / sqrt((1/80) / 3) = 1.29.
+// Equal points have no variance, but a finite distance from the expected moments: (1/2 - 0.25)
+// sqrt(12 * 3) = 1.5, and for the variance (1/12) / sqrt((1/80) / 3) = 1.29.
 TEST(Moments, LargestZIsFiniteWhateverThePoints) {
     const PointSet same = points_of({{0.25}, {0.25}, {0.25}});
     EXPECT_DOUBLE_EQ(measure("moments", "cube.largest_z", same), 1.5);
 }
 
-// Each in turn is the farthest off: the variance 1/2 of 0 and 1, of standard error
-// sqrt((1/80 + 1/144) / 2) for two points; the covariance 1/8 of two points on the diagonal, of
-// 1/12; the skewness of one point far from three, of sqrt(72 / (35 n)).
+// Each moment in turn has the largest deviation: the variance 1/2 of 0 and 1, with standard error
+// sqrt((1/80 + 1/144) / 2) for two points; the covariance 1/8 of two points on the diagonal, with
+// 1/12; the skewness of one point far from three, with sqrt(72 / (35 n)).
 TEST(Moments, LargestZIsThatOfAnyMoment) {
     const auto largest = [](const PointSet& set) {
         return measure("moments", "cube.largest_z", set);
@@ -187,7 +187,7 @@ TEST(Moments, LargestZIsThatOfAnyMoment) {
     EXPECT_NEAR(largest(points_of({{0}, {1}})), (5 / 12.) / std::sqrt(7 / 720.), 1e-13);
     EXPECT_NEAR(largest(points_of({{0.25, 0.25}, {0.75, 0.75}})), 1.5, 1e-13);
     EXPECT_NEAR(largest(points_of({{0.25, 0.75}, {0.75, 0.25}})), 1.5, 1e-13);
-    // About the mean 1/2: three at -0.1 and one at 0.3.
+    // Deviations from the mean 1/2: three of -0.1 and one of 0.3.
     const double skewness = 0.006 / std::pow(0.03, 1.5);
     EXPECT_NEAR(largest(points_of({{0.4}, {0.4}, {0.4}, {0.8}})), skewness / std::sqrt(72 / 140.),
                 1e-12);
