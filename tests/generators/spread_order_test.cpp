@@ -10,8 +10,8 @@
 
 namespace stipple::testing::spread_order_test {
 
-// By the definition of the order: point m keeps a distance from those before it that never rises by
-// more than the step of the radii, 2^(1/4), above the least one so far.
+// By the definition of the order: the distance from point m to earlier ones never exceeds the
+// minimum so far by more than the step of the radii, 2^(1/4).
 TEST(SpreadOrder, DistancesFallLittleByLittle) {
     for (const std::size_t d : {1, 2, 3})
         for (const bool torus : {true, false}) {

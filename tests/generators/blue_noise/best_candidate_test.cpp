@@ -11,7 +11,7 @@ namespace {
 constexpr const char* unit = "best-candidate";
 const Space square{{{0, 0}, {1, 1}}, true};
 
-/// Oracle: Mitchell's method as it is written down, with max(1, c i) candidates in the unit cube.
+/// Oracle: Mitchell's method as published, with max(1, c i) candidates in the unit cube.
 PointSet all_candidates(std::size_t count, const Space& space, std::size_t c, std::uint64_t seed) {
     const std::size_t d = space.box.dimension();
     const Rng rng(seed, 99);
@@ -33,7 +33,7 @@ PointSet all_candidates(std::size_t count, const Space& space, std::size_t c, st
     return set;
 }
 
-/// Sum and sum of squares, over runs, of what point i keeps from those before it.
+/// Sum and sum of squares, over runs, of the distance from point i to earlier ones.
 struct Tally {
     double sum = 0;
     double squares = 0;
@@ -44,7 +44,7 @@ struct Tally {
         ++runs;
     }
     [[nodiscard]] double mean() const { return sum / runs; }
-    [[nodiscard]] double error() const {  // squared, of the mean
+    [[nodiscard]] double error() const {  // squared standard error of the mean
         return (squares / runs - mean() * mean()) / runs;
     }
 };
@@ -72,8 +72,8 @@ double largest_deviation(const Space& space, const char* c, std::size_t oracle_c
 
 }  // namespace
 
-// The law is that of all candidates made. Six spaces and factors, 23 points each, at 5 standard
-// errors: a false alarm has a chance of 138 x 6e-7 = 8e-5. Half as many candidates are found out.
+// The distribution is that of generating all candidates. Six spaces and factors, 23 points each, at
+// 5 standard errors: false alarm 138 x 6e-7 = 8e-5. Half as many candidates are detected.
 TEST(BestCandidate, DistancesFollowTheLawOfAllCandidates) {
     const Space line{{{0}, {1}}, false};
     const Space cube{{{0, 0, 0}, {1, 1, 1}}, true};
@@ -88,8 +88,8 @@ TEST(BestCandidate, DistancesFollowTheLawOfAllCandidates) {
     EXPECT_GT(largest_deviation(line, "1", 2), 5);
 }
 
-// With very many candidates each point is as far from all before as a point can be: half of the
-// diagonal, then the centre of what is left.
+// With very many candidates each point is as far from all earlier ones as possible: at half the
+// diagonal, then the centre of the largest gap.
 TEST(BestCandidate, EndlessCandidatesFindTheFarthestPlace) {
     const PointSet set = make(unit, points(4, 2), {{"candidates", "1e6"}});
     EXPECT_NEAR(distance_to_earlier(set, 1, square), std::sqrt(0.5), 2e-3);
@@ -101,7 +101,7 @@ TEST(BestCandidate, EndlessCandidatesFindTheFarthestPlace) {
     EXPECT_NEAR(distance_to_earlier(three, 2, line), 0.25, 1e-4);
 }
 
-// Oracle: no place of 10 i tried at random is much farther from the first i points than point i.
+// Oracle: no position of 10 i random ones is much farther from the first i points than point i.
 TEST(BestCandidate, EveryPointIsNearTheFarthestPlaceOfItsTime) {
     const std::size_t n = 300;
     const PointSet set = make(unit, points(n, 2), {{"candidates", "10"}});
@@ -121,7 +121,7 @@ TEST(BestCandidate, EveryPointIsNearTheFarthestPlaceOfItsTime) {
     EXPECT_NEAR(lost / static_cast<double>(n), 0, 0.02);
 }
 
-// Oracle: the same numbers drawn, every candidate compared with every point.
+// Oracle: uses the same random numbers and compares every candidate with every point.
 TEST(BestCandidate, TakesTheBestOfAllCandidatesInFourDimensions) {
     for (const bool torus : {true, false}) {
         const Space space{{{0, -1, 2, 0}, {1, 3, 2.5, 1}}, torus};
@@ -168,8 +168,8 @@ TEST(BestCandidate, EveryPrefixIsTheSetOfItsCount) {
     }
 }
 
-// Mean coordinates of 200 sets of 20 points: within 5 standard deviations of points at random,
-// which these vary less than.
+// Mean coordinates of 200 sets of 20 points are within 5 standard deviations of random points,
+// which vary more.
 TEST(BestCandidate, FavoursNoPlaceOfTheTorus) {
     double sum[2] = {0, 0};
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {

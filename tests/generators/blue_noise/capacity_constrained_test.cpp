@@ -12,7 +12,8 @@
 namespace stipple::testing::capacity_constrained_test {
 namespace {
 
-/// Mean of | sum over a point's neighbours of exp(6 i theta) | / (their number): hexagons have 1.
+/// Mean over points of | sum over neighbours of exp(6 i theta) | / (number of neighbours): 1 for a
+/// hexagonal lattice.
 double bond_order(const PointSet& set) {
     const PeriodicVoronoi sites({1, 1}, true, set.flat());
     VoronoiCell cell;
@@ -27,7 +28,7 @@ double bond_order(const PointSet& set) {
     return sum / static_cast<double>(set.count());
 }
 
-/// Least distance over that of the densest packing.
+/// Minimum distance relative to the densest packing.
 double relative_distance(const PointSet& set) {
     double least = 1;
     for (std::size_t i = 0; i < set.count(); ++i)
@@ -42,7 +43,7 @@ double relative_distance(const PointSet& set) {
     return least / std::sqrt(2 / (std::sqrt(3.0) * static_cast<double>(set.count())));
 }
 
-/// n times the cost of transport to the points, for an even density.
+/// n times the cost of transport to the points, for a constant density.
 double cost(const PointSet& set) {
     const std::optional<DensityMoments> even;
     const std::vector<double> rows(set.flat().begin(), set.flat().end());
@@ -55,8 +56,8 @@ double cost(const PointSet& set) {
 
 }  // namespace
 
-// Costs near that of hexagons, 0.1604, with half of the order of bonds: random points have 0.37,
-// and without shaking it is above 0.7.
+// Costs are near that of the hexagonal lattice, 0.1604, with half of its bond order: random points
+// have 0.37, and without shaking it exceeds 0.7.
 TEST(CapacityConstrained, CostIsLowAndBondsAreNotHexagonal) {
     const PointSet set = make("capacity-constrained", points(1024, 2));
     EXPECT_LT(cost(set), 0.167);
@@ -76,7 +77,8 @@ TEST(CapacityConstrained, OneIterationMovesPointsToTheMiddlesOfEqualCells) {
     EXPECT_NEAR(set[1][1], 0.5, 1e-6);
 }
 
-// Every half and quarter of the square has its part of the density, within the points on the line.
+// Every half and quarter of the square has points in proportion to its mass, up to the points along
+// the border.
 TEST(CapacityConstrained, PointsGoByTheDensity) {
     const TemporaryFile density(npy_of<double>("<f8", "(2, 2)", {1, 7, 3, 5}));
     for (const char* bounded : {"false", "true"}) {
@@ -106,8 +108,8 @@ TEST(CapacityConstrained, EmptyRegionsStayEmpty) {
     EXPECT_EQ(outside, 0);
 }
 
-// A checkered half and a white one; points in the white, where their centroids are, would be dots in
-// the margins of a picture.
+// A checkered half and a white one. Centroids may be in white areas, but points there would be dots
+// in a picture's margins.
 TEST(CapacityConstrained, PutsNoPointIntoPureWhite) {
     std::vector<double> values(256, 0.0);
     for (std::size_t k = 0; k < 128; ++k) values[k] = (k / 16 + k) % 2 == 0 ? 1 : 0;

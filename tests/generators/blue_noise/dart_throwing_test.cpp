@@ -37,14 +37,14 @@ TEST(DartThrowing, FixedRadiusHoldsForEveryPairInAnyBox) {
     }
 }
 
-// The first two points in [0, 1) keep less than half of it, and of a square half the diagonal.
+// The distance of the first two points is at most 1/2 in [0, 1), and half the diagonal in a square.
 TEST(DartThrowing, TwoPointsStartAsFarApartAsDartsReach) {
     const Space line{{{0}, {1}}, true};
     EXPECT_GT(smallest_distance(make_in("dart-throwing", line, 2), line), 0.45);
     EXPECT_GT(smallest_distance(make_in("dart-throwing", square, 2), square), 0.6);
 }
 
-// Memory and progress go by the densities at which no place is left.
+// Estimates of memory and progress use the densities at which no space is left.
 TEST(DartThrowing, ComesNearTheSaturatedDensityInAnyDimension) {
     const std::vector<double> radii{0.002, 0.03, 0.1, 0.2, 0.3, 0.4};
     for (std::size_t d = 1; d <= 6; ++d) {
@@ -57,7 +57,7 @@ TEST(DartThrowing, ComesNearTheSaturatedDensityInAnyDimension) {
     }
 }
 
-// What a fixed radius makes is the plain process: the first point that fits, dart by dart.
+// A fixed radius gives the plain process: each dart that fits is kept.
 TEST(DartThrowing, FixedRadiusIsThePlainProcess) {
     const PointSet set = make("dart-throwing", {}, {{"radius", "0.07"}}, {.seed = 5});
     const Rng rng(5);
@@ -74,7 +74,7 @@ TEST(DartThrowing, FixedRadiusIsThePlainProcess) {
 
 // Jamming densities of random sequential addition: Renyi's constant 0.7476 for cars on a line, and
 // n r^2 = 0.6966 in the plane (A. M. Feder, J. Theor. Biol. 87 (1980): coverage 0.547), which is
-// approached as slowly as darts^(-1/2).
+// approached slowly, as darts^(-1/2).
 TEST(DartThrowing, ManyMissesComeNearTheJammingDensity) {
     const auto packed = [](std::size_t d, const char* r, const char* misses) {
         return static_cast<double>(
@@ -85,7 +85,7 @@ TEST(DartThrowing, ManyMissesComeNearTheJammingDensity) {
     EXPECT_LT(packed(2, "0.02", "1") * 0.0004, 0.4);
 }
 
-// Point i does not depend on n, and keeps the radius of its own time: the prefixes are spread.
+// Point i does not depend on n, and keeps the radius of its step: prefixes are spread, too.
 TEST(DartThrowing, EveryPrefixIsTheSetOfItsCount) {
     const PointSet whole = make("dart-throwing", points(500, 2));
     double last = 1;
@@ -119,25 +119,25 @@ TEST(DartThrowing, RadiusShrinksByTheFactorAsked) {
     EXPECT_EQ(r, std::sqrt(0.5));
 }
 
-// Densities 1 and 4 side by side, and nothing on the right.
+// Densities 1 and 4 side by side, and 0 on the right.
 struct ThreeColumns {
     TemporaryFile file{npy_of<double>("<f8", "(1, 3)", {1, 4, 0})};
     Space space;
 
-    [[nodiscard]] double middle(double part) const {  ///< of the first axis
+    [[nodiscard]] double middle(double part) const {  ///< centre of a part of the first axis
         return space.box.low[0] + part * (space.box.high[0] - space.box.low[0]);
     }
-    /// The radius at a point, that of the densest place being 1.
+    /// Radius at a point, relative to that at the largest density.
     [[nodiscard]] double times(std::span<const double> p) const {
         return p[0] < middle(1.0 / 3) ? 2 : 1;
     }
-    /// Whether two points are not nearer than the smaller of their radii.
+    /// Whether the distance of two points is at least the smaller of their radii.
     [[nodiscard]] bool fits(std::span<const double> p, std::span<const double> q, double r) const {
         return distance(p, q, space) >= r * std::min(times(p), times(q));
     }
 };
 
-// Where the radius stays, darts are those of the density, by hand, and the first that fit stay.
+// With a fixed radius, darts are distributed like the density, and each that fits is kept.
 TEST(DartThrowing, WithADensityIsThePlainProcessOfDartsThatFollowIt) {
     for (const bool torus : {true, false}) {
         const ThreeColumns columns{.space = {{{-3, 10}, {6, 13}}, torus}};
@@ -161,8 +161,8 @@ TEST(DartThrowing, WithADensityIsThePlainProcessOfDartsThatFollowIt) {
     }
 }
 
-// Every pair keeps the rule for the radius that is told, though it relaxed by a factor of a hundred
-// meanwhile; a fifth of the points are on the left, and prefixes are those of smaller numbers.
+// Every pair keeps the reported radius, although it was relaxed by a factor of a hundred. A fifth
+// of the points is on the left, and prefixes are the sets of smaller counts.
 TEST(DartThrowing, RelaxedRadiusFollowsADensity) {
     for (const bool torus : {true, false}) {
         const ThreeColumns columns{.space = {{{-3, 10}, {6, 13}}, torus}};
@@ -178,13 +178,13 @@ TEST(DartThrowing, RelaxedRadiusFollowsADensity) {
             for (std::size_t j = 0; j < i; ++j)
                 EXPECT_TRUE(columns.fits(set[i], set[j], r * (1 - 1e-12))) << i << " " << j;
         }
-        EXPECT_NEAR(left / 1200, 0.2, 0.04);  // of random points, 3.5 standard deviations
+        EXPECT_NEAR(left / 1200, 0.2, 0.04);  // 3.5 standard deviations of random points
         const PointSet part = make_in("dart-throwing", columns.space, 400, settings);
         EXPECT_TRUE(std::ranges::equal(part.flat(), set.flat().first(800)));
     }
 }
 
-// In six dimensions more darts find a place than 0.8 to r^6: 475 points, of 420 bytes each.
+// In six dimensions more darts fit than 0.8 / r^6: 475 points with 420 bytes each.
 TEST(DartThrowing, MemoryIsThereForAllPointsOfARadius) {
     const auto within = [](std::uint64_t bytes) {
         return [bytes] {

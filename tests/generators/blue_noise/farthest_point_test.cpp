@@ -40,7 +40,7 @@ std::vector<Place> without(const std::vector<Place>& places, std::size_t i) {
     return others;
 }
 
-/// Distances of nearest neighbours over that of the densest packing: the least, and the mean.
+/// Distances to nearest neighbours relative to the densest packing: minimum and mean.
 struct Spread {
     double least = 9;
     double mean = 0;
@@ -58,7 +58,8 @@ Spread spread_of(const PointSet& set) {
     return spread;
 }
 
-/// Oracle: the largest circle without points, of those through all triples and all their copies.
+/// Oracle: the largest circle without points, among those through all triples of points and their
+/// copies.
 double largest_gap(const std::vector<Place>& places) {
     std::vector<Place> copies;
     for (const auto& [x, y] : places)
@@ -92,7 +93,7 @@ std::string text_of(const PointSet& set) {
 
 }  // namespace
 
-// As far apart as two points of the torus can be.
+// Two points have the largest possible distance on the torus.
 TEST(FarthestPoint, TwoPointsAreHalfADiagonalApart) {
     const auto places = places_of(make("farthest-point", points(2, 2), {{"iterations", "1"}}));
     EXPECT_NEAR(distance(places[0], places[1]), std::sqrt(0.5), 1e-15);
@@ -118,7 +119,8 @@ TEST(FarthestPoint, TheLeastDistanceNeverFalls) {
         }
 }
 
-// A point put to the farthest place is as far from others as the largest gap was, by the oracle.
+// A point moved to the farthest position has a distance equal to the largest gap, computed by the
+// oracle.
 TEST(FarthestPoint, AtTheEndEveryPointIsWhereItsGapIsLargest) {
     for (const std::uint64_t n : {3, 4, 7, 12}) {
         const auto places =
@@ -130,7 +132,7 @@ TEST(FarthestPoint, AtTheEndEveryPointIsWhereItsGapIsLargest) {
     }
 }
 
-// Relative to hexagons; the paper's sets have a least distance of 0.93 as well.
+// Relative to the hexagonal lattice; the paper's sets have a minimum distance of 0.93, too.
 TEST(FarthestPoint, LeastDistanceIsNearThatOfHexagons) {
     for (const std::uint64_t seed : {1}) {
         const Spread spread =
@@ -148,7 +150,7 @@ TEST(FarthestPoint, PointsInOnePlacePart) {
     for (const double x : set.flat()) EXPECT_TRUE(x >= 0 && x < 1);
 }
 
-// Hexagons are as good as it gets: no point moves, and the run ends at once.
+// The hexagonal lattice is optimal: no point moves, and the run ends immediately.
 TEST(FarthestPoint, HexagonsStay) {
     PointSet lattice(120, 2);  // 10 x 12, nearly regular
     for (std::size_t i = 0; i < 120; ++i) {
@@ -173,8 +175,8 @@ TEST(FarthestPoint, WorksForFewPointsInAnyBox) {
     }
 }
 
-// The farthest apart that 2 and 3 points of a square can be: a diagonal, and an equilateral
-// triangle with a corner of the square. In a long box they stand at its ends and in the middle.
+// The largest possible distances of 2 and 3 points in a square: a diagonal, and an equilateral
+// triangle with a corner of the square. In a long box they are at its ends and in the middle.
 TEST(FarthestPoint, FewPointsBetweenWallsAreAsFarApartAsCanBe) {
     const Settings walls{{"iterations", "500"}};
     const Space square{{{0, 0}, {1, 1}}, false};
@@ -203,7 +205,7 @@ TEST(FarthestPoint, TheLeastDistanceNeverFallsInAnySpace) {
     }
 }
 
-// Oracle: no place of a fine grid is farther from the others than a point is.
+// Oracle: no position of a fine grid is farther from the other points than a point is.
 TEST(FarthestPoint, BetweenWallsEveryPointIsWhereItsGapIsLargest) {
     const Space space{{{2, -1}, {4, 0}}, false};
     for (const std::uint64_t n : {4, 7, 12}) {
@@ -223,7 +225,8 @@ TEST(FarthestPoint, BetweenWallsEveryPointIsWhereItsGapIsLargest) {
     }
 }
 
-// Hexagons of n points that fill the box and half a distance around it, d^2 sqrt(3) / 2 each.
+// Hexagonal lattice of n points that fills the box and half a distance around it, d^2 sqrt(3) / 2
+// each.
 TEST(FarthestPoint, KeepsItsDistanceInAnyBox) {
     for (const bool torus : {true, false}) {
         const Space space{{{0, 0}, {5, 0.7}}, torus};
@@ -243,7 +246,7 @@ TEST(FarthestPoint, RefusesWallsOnATorus) {
               "usage: --torus contradicts --bounded; give one of them");
 }
 
-// Corners are as good as it gets for four points of a square; a move of any would be told.
+// Four points at the corners of a square are optimal; moving one would be detected.
 TEST(FarthestPoint, BetweenWallsARunEndsWhereNoPointMoves) {
     const TemporaryFile file("0 0\n1 0\n0 1\n1 1\n");
     int ticks = 0;

@@ -26,8 +26,8 @@ double largest_power(const PointSet& set, double most) {
     return largest;
 }
 
-/// |mean over the points of the mean over six nearest neighbours of exp(6 i angle)|: 1 for a
-/// hexagonal lattice.
+/// |mean over points of the mean over six nearest neighbours of exp(6 i angle)|: 1 for a hexagonal
+/// lattice.
 double hexagonal_order(const PointSet& set) {
     std::complex<double> sum;
     for (std::size_t i = 0; i < set.count(); ++i) {
@@ -68,7 +68,7 @@ PointSet make_in_box(const Box& box, const Settings& settings) {
 
 }  // namespace
 
-// Half of sqrt(n) is 16 for 1024 points. White noise has 1 everywhere.
+// Half of sqrt(n) is 16 for 1024 points. White noise has power 1 everywhere.
 TEST(GaussianBlueNoise, SpectrumIsEmptyAtLowFrequencies) {
     const PointSet set = make(name, points(1024, 2), {{"iterations", "200"}});
     EXPECT_LT(largest_power(set, 16), 1e-3);
@@ -86,7 +86,7 @@ TEST(GaussianBlueNoise, MoreIterationsEmptyMoreOfTheSpectrum) {
     }
 }
 
-// Random points have an order of about 0.02; 0.3 would be seen as grains of a lattice.
+// Random points have an order of about 0.02; 0.3 would be visible as grains of a lattice.
 TEST(GaussianBlueNoise, IsNoHexagonalLattice) {
     EXPECT_LT(hexagonal_order(make(name, points(1024, 2), {{"iterations", "200"}})), 0.2);
     EXPECT_GT(hexagonal_order(make("hexagonal", points(1024, 2))), 0.9);
@@ -97,7 +97,7 @@ TEST(GaussianBlueNoise, KeepsPointsApartInEveryDimension) {
              {1, 100}, {2, 500}, {3, 300}, {4, 40}}) {
         const PointSet set = make(name, points(n, d), {{"iterations", "60"}});
         const double spacing = std::pow(static_cast<double>(n), -1 / static_cast<double>(d));
-        // Random points: 0.01, 0.03, 0.13 and 0.4 on average.
+        // Averages of random points: 0.01, 0.03, 0.13 and 0.4.
         const double least = d > 2 ? (d > 3 ? 0.45 : 0.25) : 0.5;
         EXPECT_GT(smallest_distance(set), least * spacing) << d << "-D";
         for (const double x : set.flat()) EXPECT_TRUE(x >= 0 && x < 1);
@@ -111,12 +111,13 @@ TEST(GaussianBlueNoise, WithoutIterationsItIsRandom) {
 
 TEST(GaussianBlueNoise, MakesVeryFewPoints) {
     for (const std::uint64_t n : {1, 2, 3}) EXPECT_EQ(make(name, points(n, 2)).count(), n);
-    // Two points are best a diagonal apart, where both coordinates differ by a half.
+    // Two points are optimal at opposite ends of a diagonal: both coordinates differ by one half.
     const PointSet two = make(name, points(2, 2));
     for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(std::abs(two[0][k] - two[1][k]), 0.5, 1e-3);
 }
 
-// Random points would be a tenth as far apart, and squashed ones closer by the root of a / b.
+// Random points have a tenth of this distance; a square set squashed into the box has sqrt(a / b)
+// of it.
 TEST(GaussianBlueNoise, DistancesHoldInTheBox) {
     for (const Box& box : std::vector<Box>{{{-4, 2}, {8, 3}}, {{1e3, 0}, {1e3 + 1, 7.3}}}) {
         const PointSet plain = make_in_box(box, {{"iterations", "100"}});
@@ -142,7 +143,7 @@ TEST(GaussianBlueNoise, ABoxOfEqualSidesIsAScaledSquare) {
     }
 }
 
-// Ink: the left half is black, the right white.
+// The density is ink: the left half is black, the right white.
 TEST(GaussianBlueNoise, FollowsADensity) {
     const TemporaryFile file(png_of(2, 1, {0, 255}));
     const Settings settings{{"density", file.path()}, {"iterations", "5"}};

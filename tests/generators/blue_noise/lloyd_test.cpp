@@ -21,7 +21,7 @@ Settings with(Settings settings, const std::string& name, const std::string& val
     return settings;
 }
 
-/// n times the energy of points of the unit square, from cells of the unit square: a pure number.
+/// n times the energy of points in the unit square, from their cells: a pure number.
 double energy(const PointSet& set, bool torus) {
     const PeriodicVoronoi sites({1, 1}, torus, set.flat());
     VoronoiCell cell;
@@ -33,7 +33,7 @@ double energy(const PointSet& set, bool torus) {
     return sum * static_cast<double>(set.count());
 }
 
-/// Sum over 4 x 4 equal boxes of (points - n / 16)^2; random points have 15 n / 16 in the mean.
+/// Sum over 4 x 4 equal boxes of (points - n / 16)^2; the mean for random points is 15 n / 16.
 double unevenness(const PointSet& set) {
     std::array<double, 16> boxes{};
     for (std::size_t i = 0; i < set.count(); ++i)
@@ -69,7 +69,7 @@ double distance_on_torus(std::span<const double> p, std::span<const double> q) {
     return std::sqrt(sum);
 }
 
-/// Least distance over that of the densest packing, 2 / (sqrt(3) r^2) points an area.
+/// Minimum distance relative to the densest packing, with 2 / (sqrt(3) r^2) points per unit area.
 double relative_distance(const PointSet& set) {
     double least = 1;
     for (std::size_t i = 0; i < set.count(); ++i)
@@ -80,7 +80,7 @@ double relative_distance(const PointSet& set) {
 
 }  // namespace
 
-// Worked by hand: sites at 1/8 and 1/2 between walls meet at 5/16; the halves' middles follow.
+// By hand: cells of sites at 1/8 and 1/2 between walls meet at 5/16; sites move to their midpoints.
 TEST(Lloyd, OneStepByHand) {
     const TemporaryFile file("0.125 0.5\n0.5 0.5\n");
     const std::string& path = file.path();
@@ -106,8 +106,8 @@ TEST(Lloyd, TheEnergyNeverRises) {
         }
 }
 
-// No set has less energy than the hexagonal lattice, n E = 5 / (18 sqrt(3)) = 0.16038 (L. Fejes
-// Toth); a random one has 1 / pi. Relaxed sets come within 3 %.
+// The hexagonal lattice has the least energy of all sets, n E = 5 / (18 sqrt(3)) = 0.16038 (L.
+// Fejes Toth); a random set has 1 / pi. Relaxed sets come within 3 %.
 TEST(Lloyd, EnergyApproachesThatOfHexagons) {
     const double hexagons = 5 / (18 * std::sqrt(3.0));
     const PointSet set = make("lloyd", points(1000, 2), {{"iterations", "400"}});
@@ -128,7 +128,7 @@ TEST(Lloyd, TheHexagonalLatticeStays) {
         EXPECT_LT(distance_on_torus(set[i], lattice[i]), 1e-12) << i;
 }
 
-// Points in one place part, also on corners that are one place of the torus.
+// Points at the same position separate, also at corners, which are one position on the torus.
 TEST(Lloyd, PointsInOnePlacePart) {
     const TemporaryFile file("x,y\n0,0\n1,0\n0,1\n1,1\n0.5,0.5\n0.5,0.5\n");
     const std::string& path = file.path();
@@ -160,7 +160,7 @@ TEST(Lloyd, WorksInAnyRectangle) {
         }
 }
 
-// A square torus times four is the same pattern: cells do not depend on units.
+// Scaling the torus by four gives the same pattern: cells do not depend on units.
 TEST(Lloyd, ScalesWithTheBox) {
     Request request = points(100, 2);
     request.bounds = Box{{0, 0}, {4, 4}};
@@ -178,7 +178,7 @@ TEST(Lloyd, StartsAtRandomWhenAsked) {
     EXPECT_LT(unevenness(jittered), 200);
 }
 
-// Every one of the strata, columns with their rows, has its point inside or in the next ones.
+// Each stratum, a cell of a column, has its point inside or in the next one.
 TEST(Lloyd, JitteredStartsKeepToStrataOfEqualArea) {
     const auto reaches = [](double x, std::uint64_t low, std::uint64_t width, std::uint64_t side) {
         const double beyond = x - static_cast<double>(low);
@@ -201,8 +201,8 @@ TEST(Lloyd, JitteredStartsKeepToStrataOfEqualArea) {
     }
 }
 
-// Points started in their own strata had a power of hundreds at (32, 0). Else it is exponential
-// with a mean of 3, like those around it: a sum of 8 is above 90 with a probability of 1e-7.
+// Points started in separate strata had a power of hundreds at (32, 0). Otherwise it is
+// exponentially distributed with mean 3, as nearby: a sum of 8 exceeds 90 with probability 1e-7.
 TEST(Lloyd, ForgetsTheStrataItStartsFrom) {
     double sum = 0;
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -238,8 +238,8 @@ TEST(Lloyd, RefusesWhatContradictsOrIsOutside) {
     EXPECT_EQ(refusal(thin, {}).substr(0, 15), "usage: --bounds");
 }
 
-// A density of 1 on the left and 3 on the right: a quarter and three quarters of the points, but
-// for the two columns of some 25 each where the halves meet.
+// A density of 1 on the left and 3 on the right: a quarter and three quarters of the points, except
+// for the two columns of about 25 points where the halves meet.
 TEST(Lloyd, PointsGoByTheDensity) {
     const TemporaryFile density(npy_of<double>("<f8", "(1, 2)", {1, 3}));
     for (const Settings& settings : {Settings{}, walls}) {
@@ -266,7 +266,7 @@ TEST(Lloyd, PointsMoveToWhereTheDensityIs) {
     EXPECT_NEAR(held[2], 22.5, 3.5);
 }
 
-// A density that is the same everywhere changes nothing but rounding.
+// A constant density only changes rounding.
 TEST(Lloyd, EvenDensitiesAreNone) {
     const TemporaryFile density(npy_of<double>("<f8", "(2, 3)", {7, 7, 7, 7, 7, 7}));
     const TemporaryFile start(text_of(make("random", points(100, 2))));

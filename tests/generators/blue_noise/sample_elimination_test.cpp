@@ -27,8 +27,8 @@ std::string csv_of(const PointSet& set) {
     return text;
 }
 
-/// Oracle: the formula of eliminator.hpp, all weights from scratch for every point that goes. Sums
-/// of multiples of 2^-40 below 2^13 are exact in doubles.
+/// Oracle: the formula in eliminator.hpp, with all weights recomputed after each removal. Sums of
+/// multiples of 2^-40 below 2^13 are exact in doubles.
 std::vector<std::uint32_t> eliminate_plainly(const PointSet& set, const Space& space, double r_max,
                                              std::size_t kept,
                                              const std::vector<double>& shares = {}) {
@@ -91,7 +91,7 @@ TEST(SampleElimination, GoesAsTheFormulaSaysPointByPoint) {
         }
 }
 
-// With radii of their own, from a hundredth to a hundred times the others, and across the faces.
+// Radii of individual points, from a hundredth to a hundred times the others, also across faces.
 TEST(SampleElimination, GoesAsTheFormulaSaysWithRadiiOfTheirOwn) {
     for (const Space& space : some_spaces()) {
         const std::size_t d = space.box.dimension();
@@ -103,7 +103,7 @@ TEST(SampleElimination, GoesAsTheFormulaSaysWithRadiiOfTheirOwn) {
                                       : std::pow(10.0, -2 * Rng(4).uniform(i)));
         const BoxSpace box{space.box, space.torus};
         const double r = packing_radius(20, d, volume_of(box.box));
-        // A radius beyond the box counts as its largest distance.
+        // A radius larger than the box counts as its largest distance.
         std::vector<double> cut = shares;
         for (double& share : cut) share = std::min(share, box.largest_distance() / r);
         EXPECT_EQ(eliminate(set.flat(), box, r, 20, {}, shares),
@@ -116,7 +116,7 @@ TEST(SampleElimination, GoesAsTheFormulaSaysWithRadiiOfTheirOwn) {
     }
 }
 
-// On a lattice all weights are equal, and the first of them goes; with two points, too.
+// On a lattice all weights are equal, and the first point is removed; also with two points.
 TEST(SampleElimination, OfEqualWeightsTheFirstGoes) {
     std::vector<std::vector<double>> rows;
     for (int i = 0; i < 8; ++i)
@@ -130,8 +130,8 @@ TEST(SampleElimination, OfEqualWeightsTheFirstGoes) {
     EXPECT_EQ(eliminate(same.flat(), torus, 0.1, 1, {}), (std::vector<std::uint32_t>{0, 1}));
 }
 
-// Densest packings: 2 r = 1/n on the circle of length 1; hexagonal; face-centred cubic, whose four
-// points a cube are sqrt(1/2) apart; the volume of the ball is pi^2 / 2 in 4-D, pi^3 / 6 in 6-D.
+// Densest packings: 2 r = 1/n on the circle of length 1; hexagonal; face-centred cubic, with four
+// points per cube, sqrt(1/2) apart. The ball's volume is pi^2 / 2 in 4-D and pi^3 / 6 in 6-D.
 TEST(SampleElimination, PackingRadiusByHand) {
     EXPECT_DOUBLE_EQ(packing_radius(10, 1, 1), 0.05);
     EXPECT_DOUBLE_EQ(packing_radius(2, 2, 2 * std::sqrt(3.0)), std::sqrt(0.5));
@@ -151,8 +151,8 @@ TEST(SampleElimination, MakesExactlyAsManyAsAskedInAnyBox) {
             }
 }
 
-// What is left is part of the random points, in their order, and far from random: the relative
-// radius of random points is below 0.02 at this count; eliminated ones have about 0.7 or more.
+// The remaining points are a subset of the random points, in their order, with a relative radius of
+// about 0.7 or more; random points have less than 0.02 at this count.
 TEST(SampleElimination, KeepsRandomPointsThatAreFarApart) {
     for (const std::size_t d : {1, 2, 3}) {
         const Space cube{{std::vector<double>(d, 0), std::vector<double>(d, 1)}, true};
@@ -192,8 +192,8 @@ TEST(SampleElimination, ProgressivePrefixesAreSpread) {
         return rows;
     };
     EXPECT_EQ(sorted(set), sorted(plain));
-    // Prefixes at whole halvings keep more than half of the largest distance, those between more
-    // than 0.35 of it; in the plain order 0.35 is missed by far.
+    // Prefixes after whole halvings have more than half of the largest distance, others more than
+    // 0.35; the plain order fails 0.35 by far.
     for (const std::size_t n : {8, 16, 24, 32, 64, 100, 128, 200, 256, 400}) {
         const auto prefix = [&](const PointSet& s) {
             return PointSet(
@@ -226,7 +226,7 @@ TEST(SampleElimination, TorusSpreadsAcrossTheFaces) {
     EXPECT_LT(smallest_distance(open, square), 0.4 * most);
 }
 
-// A file in a box of its own is what the same points are in memory.
+// Points of a file in its own box give the same as those points in memory.
 TEST(SampleElimination, ChoosesFromTheSpecifiedFile) {
     const Space space{{{-3, 10}, {4, 12}}, false};
     const PointSet all = random_in(space, 300, 8);
@@ -251,7 +251,7 @@ TEST(SampleElimination, ChoosesFromTheSpecifiedFile) {
     EXPECT_EQ(make(unit, points(300, 2), {{"from", file.path()}}), all);
 }
 
-// A table's density is no coordinate; the program's other formats hold the same points.
+// A table's density column is not a coordinate; other formats of stipple contain the same points.
 TEST(SampleElimination, ReadsPointsInEveryFormat) {
     const PointSet all = random_in(square, 40, 8);
     std::string with_pdf = "x,y,pdf\n";
@@ -291,7 +291,8 @@ TEST(SampleElimination, RefusesSeveralSetsAndStandardInput) {
     }
 }
 
-// 2000 points of the unit sphere to 200: r_max of the surface, not of the cube around it.
+// Reduces 2000 points on the unit sphere to 200: r_max belongs to the surface, not to the cube
+// around it.
 TEST(SampleElimination, SpreadsPointsOfASurface) {
     const Rng rng(3);
     PointSet sphere(2000, 3);
@@ -313,13 +314,13 @@ TEST(SampleElimination, SpreadsPointsOfASurface) {
     const double good = spread({{"manifold-dimension", "2"}, {"measure", "12.566370614359172"}});
     EXPECT_GT(good, 0.65 * 2 * packing_radius(200, 2, area));
     EXPECT_GT(good, spread({{"manifold-dimension", "2"}, {"measure", "0.1"}}));
-    // Nobody has to say it.
+    // The sphere's area is also found without an option.
     EXPECT_GT(spread({}), 0.6 * 2 * packing_radius(200, 2, area));
     EXPECT_GT(spread({{"manifold-dimension", "2"}}), 0.6 * 2 * packing_radius(200, 2, area));
 }
 
-// The measure of what points fill, of their own dimension; a jittered set is as good as a random
-// one.
+// Estimates the measure of the region that points fill, in its own dimension, from random and
+// jittered points.
 TEST(SampleElimination, FindsWhatPointsFill) {
     const Rng rng(5);
     const auto expect = [&](const PointSet& set, std::size_t d, double truth, double share) {
@@ -365,8 +366,8 @@ double mean_nearest(const PointSet& set) {
     return sum / static_cast<double>(set.count());
 }
 
-// As well spread as a run that is told what the points are on, at every ratio of counts; a curve, a
-// surface and a body, few points and many.
+// Points are spread as well as with a known region, at every ratio of counts: on a curve, a surface
+// and in a body, for few points and many.
 TEST(SampleElimination, FindsTheManifoldAtEveryRatio) {
     constexpr double turn = 6.283185307179586;
     struct Shape {
@@ -419,7 +420,7 @@ TEST(SampleElimination, FindsTheManifoldAtEveryRatio) {
         }
 }
 
-// Of equal points all but one go before any other does.
+// Of equal points all except one are removed before any other.
 TEST(SampleElimination, CopiesGoFirst) {
     const PointSet some = random_in(square, 60, 3);
     std::vector<std::vector<double>> rows;
@@ -459,9 +460,9 @@ TEST(SampleElimination, SpreadsPointsOfADisk) {
     EXPECT_LT(spread({{"measure", "4"}}), 0.2 * most) << "that of the box is too large";
 }
 
-// Densities 1 and 4 side by side, and nothing on the right: a fifth and four fifths of the points,
-// half as far from each other where there are four times as many. (Of random points 0.04 would be
-// five standard deviations; at the border the denser side keeps a little more.)
+// Densities 1 and 4 side by side, and 0 on the right: a fifth and four fifths of the points, with
+// half the distance where the density is four times as large. (0.04 would be five standard
+// deviations of random points; the denser side keeps a few more at the border.)
 TEST(SampleElimination, FollowsADensity) {
     const TemporaryFile density(npy_of<double>("<f8", "(1, 3)", {1, 4, 0}));
     for (const char* order : {"random", "progressive"}) {
@@ -483,7 +484,7 @@ TEST(SampleElimination, FollowsADensity) {
         }
         EXPECT_NEAR(counts[1] / 1500, 0.8, 0.04) << order;
         EXPECT_NEAR(nearest[0] / counts[0] / (nearest[1] / counts[1]), 2, 0.2) << order;
-        // Nearly as spread as without a density: random points are half as far from each other.
+        // Nearly as spread as without a density: random points have half the distance.
         const double r = packing_radius(1500 * 0.8, 2, 6);
         EXPECT_GT(nearest[1] / counts[1], 1.5 * r) << order;
     }

@@ -22,7 +22,7 @@ std::vector<Vec2> random_tile(std::size_t n) {
     return tile;
 }
 
-/// Ten columns and eight rows of any densities, some of them 0.
+/// Ten columns and eight rows of random densities, some of them 0.
 Map random_map() {
     std::vector<double> values(80);
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -96,7 +96,7 @@ TEST(ThinnedTiles, TakesEveryPointWithADensityAndNoMore) {
     EXPECT_FALSE(thinned_tiles(tile, tiling, map, all + 1, 1, {}));
 }
 
-// Densities without order, as far apart as doubles are.
+// Densities in random order, spread over the range of double.
 TEST(ThinnedTiles, TakesAnyContrast) {
     const auto map =
         std::make_shared<DensityMap>(3, 2, std::vector<double>{1e-300, 1, 0, 1e-9, 4e-320, 1e-100});
@@ -111,7 +111,7 @@ TEST(ThinnedTiles, TakesAnyContrast) {
     }
 }
 
-// A whole tile in the place of another has the same scores where the density repeats.
+// If the density repeats, points of different tiles have equal scores; these are ordered by tile.
 TEST(ThinnedTiles, EqualScoresStandByTile) {
     const std::vector<Vec2> tile(9, Vec2{0.5, 0.5});
     const auto map = std::make_shared<DensityMap>(1, 1, std::vector<double>{1});

@@ -23,7 +23,7 @@ double smallest_distance(const PointSet& set) {
     return stipple::testing::smallest_distance(set, {{{0, 0}, {1, 1}}, true});
 }
 
-/// A density on 16 x 16 cells: steep, with a band of nothing.
+/// A steep density on 16 x 16 cells, with a band of zeros.
 std::vector<double> steep() {
     std::vector<double> values(256);
     for (std::size_t i = 0; i < 256; ++i) {
@@ -43,7 +43,7 @@ std::string array_of(std::size_t width, std::size_t height, const std::vector<do
     return npy_of("<f8", fmt::format("({}, {})", height, width), values);
 }
 
-/// Pearson's statistic of the points of 16 x 16 cells against densities.
+/// Pearson's statistic of the counts in 16 x 16 cells relative to the densities.
 double statistic(const PointSet& set, const std::vector<double>& densities) {
     std::vector<double> found(256);
     for (std::size_t i = 0; i < set.count(); ++i)
@@ -62,7 +62,7 @@ double statistic(const PointSet& set, const std::vector<double>& densities) {
     return total;
 }
 
-/// How often each place of the tile is taken, in units of 2^-28.
+/// Number of uses of each position in the tile, in units of 2^-28.
 std::map<std::pair<double, double>, std::size_t> places(const PointSet& set, double side) {
     std::map<std::pair<double, double>, std::size_t> found;
     for (std::size_t i = 0; i < set.count(); ++i) {
@@ -77,7 +77,7 @@ std::map<std::pair<double, double>, std::size_t> places(const PointSet& set, dou
 
 }  // namespace
 
-// 64 in a tile at most: 1000 points need 4 x 4 tiles of 63, eight of which lack one point.
+// At most 64 points per tile: 1000 points need 4 x 4 tiles of 63, eight of which omit one point.
 TEST(Tiled, RepeatsOneTileAndThinsItsLastPoint) {
     const PointSet set = make(name, points(1000, 2), small);
     const auto found = places(set, 4);
@@ -110,7 +110,7 @@ TEST(Tiled, KeepsTheTilesDistanceAcrossItsSeams) {
     EXPECT_GE(smallest_distance(make(name, points(64 * 25 - 24, 2), small)), 0.5 / 40);
 }
 
-// Ranks: the first half of the tile is spread better than a random half of it.
+// Ranks: the first half of the tile is spread better than a random half.
 TEST(Tiled, EveryRankIsWellSpread) {
     const PointSet tile = make(name, points(1024, 2), {{"iterations", "100"}});
     for (const std::size_t n : {4U, 16U, 64U, 256U, 512U}) {
@@ -120,7 +120,7 @@ TEST(Tiled, EveryRankIsWellSpread) {
     }
 }
 
-// The last rank's points are spread over the tiles: each half of the square has its share.
+// Points of the last rank are spread over the tiles: each half of the square has its fraction.
 TEST(Tiled, HolesAreSpreadOverTheSquare) {
     const std::uint64_t n = 64 * 400 - 200;
     const PointSet set = make(name, points(n, 2), small);
@@ -148,9 +148,9 @@ TEST(Tiled, ManyPointsStayBelowOne) {
     }
 }
 
-// Of independent points the statistic has 240 - 1 degrees of freedom. These are far evener: it is
-// in the lower tail for all seeds, and in the upper for a density that is half as much at one side.
-// No false alarm: the sets are fixed.
+// For independent points the statistic has 240 - 1 degrees of freedom. These are much more even: it
+// is in the lower tail for all seeds, and in the upper one for a density that is halved at one
+// side. No false alarm, since the sets are fixed.
 TEST(Tiled, PointsPerAreaFollowTheDensity) {
     const TemporaryFile file(array_of(16, 16, steep()));
     auto tilted = steep();
@@ -163,9 +163,9 @@ TEST(Tiled, PointsPerAreaFollowTheDensity) {
     }
 }
 
-// Two of 2000 points are to be where 31 tiles of 64 points lie: no rank in a thousandth of them is
-// low enough by itself. Their number differs from set to set by one or two, so the sum over 50 sets
-// by less than 14, one standard deviation of independent points being 10.
+// Two of 2000 points belong to an area of 31 tiles with 64 points: no single rank is low enough.
+// Their number differs between sets by one or two, so the sum over 50 sets by less than 14; one
+// standard deviation of independent points would be 10.
 TEST(Tiled, FaintRegionsGetTheirShare) {
     const TemporaryFile file(array_of(2, 1, {1, 0.001}));
     double faint = 0;
@@ -194,8 +194,8 @@ TEST(Tiled, GivesExactlyAsManyPointsWhateverTheDensity) {
     }
 }
 
-// Points that are thinned stay as far apart as they were, and those of a faint region come to be
-// spread on their own: random ones would be a tenth as far apart.
+// Thinned points keep their distances, and those in a region of low density are well spread: random
+// ones would have a tenth of the distance.
 TEST(Tiled, ThinnedPointsAreSpread) {
     const TemporaryFile file(array_of(2, 1, {0.1, 1.9}));
     const PointSet set = make(name, points(1000, 2),
@@ -231,7 +231,7 @@ TEST(Tiled, DensitiesDoNotDependOnThreads) {
     EXPECT_EQ(one, make(name, points(30'000, 2), with_density(file), {.threads = 5}));
 }
 
-// Distances in the box, of points that the unit square stands for.
+// Distances are those in the box, not in the unit square.
 TEST(Tiled, IsEvenInABoxOfAnyProportions) {
     for (const auto& [a, b] : std::vector<std::pair<double, double>>{
              {2, 1}, {1, 3.7}, {30, 0.4}, {0.001, 0.0013}, {7, 7}})
@@ -246,7 +246,7 @@ TEST(Tiled, IsEvenInABoxOfAnyProportions) {
         }
 }
 
-// Three tiles side by side, though no squares, are fewer than two by two.
+// Three tiles side by side, although not squares, are fewer than two by two.
 TEST(Tiled, RepeatsATileInABoxNoMoreThanNeeded) {
     Request request = points(3 * 64, 2);
     request.bounds = Box{{0, 0}, {2, 1}};

@@ -67,7 +67,7 @@ TEST(VoidAndCluster, FewerPointsAreTheFirstOfMoreOnTheSameTorus) {
     }
 }
 
-// Measured over 10 seeds: at most 0.06 for every prefix; white noise has 1.
+// Measured with 10 seeds: at most 0.06 for every prefix; white noise has 1.
 TEST(VoidAndCluster, EveryPrefixLacksLowFrequencies) {
     const PointSet all = make(name, points(2048, 2), {{"size", "64x64"}});
     for (const std::size_t n : {64U, 256U, 409U, 1024U, 2048U}) {
@@ -94,7 +94,7 @@ TEST(VoidAndCluster, MaskHoldsTheRankOfEveryCell) {
     EXPECT_TRUE(make(name, points(5, 2)).side_files.empty());
 }
 
-// Oracle: of a ramp, the share of the right half is 3/4; of a mask, all is inside.
+// Expected: three quarters of the points in the right half of a ramp; all points inside a mask.
 TEST(VoidAndCluster, FollowsADensity) {
     std::vector<double> ramp(64);
     for (std::size_t i = 0; i < 64; ++i) ramp[i] = static_cast<double>(i) + 0.5;
@@ -109,7 +109,8 @@ TEST(VoidAndCluster, FollowsADensity) {
         right += set[i][0] >= 0.5;
         left += inverse[i][0] < 0.5;
     }
-    EXPECT_NEAR(static_cast<double>(right), 750, 8);  // random points would have a spread of 14
+    EXPECT_NEAR(static_cast<double>(right), 750,
+                8);  // the standard deviation of random points is 14
     EXPECT_NEAR(static_cast<double>(left), 755, 8);
 
     const TemporaryFile corner(npy_of<std::uint8_t>("|u1", "(2, 2)", {0, 1, 0, 0}));
@@ -117,8 +118,8 @@ TEST(VoidAndCluster, FollowsADensity) {
     for (std::size_t i = 0; i < few.count(); ++i) EXPECT_TRUE(few[i][0] >= 0.5 && few[i][1] < 0.5);
 }
 
-// Cells of the torus are wider than the picture's: what counts is how much they hold, not what
-// stands at their middle. Of the left half each second column is bright, of the right the others.
+// Cells of the torus are wider than pixels: the mass in a cell counts, not the pixel at its centre.
+// Every second column is bright, even ones on the left, odd ones on the right.
 TEST(VoidAndCluster, SeesPicturesThatAreFinerThanItsCells) {
     std::vector<double> stripes(128);
     for (std::size_t i = 0; i < 128; ++i) stripes[i] = i % 2 == (i < 64 ? 0 : 1) ? 1 : 0;
@@ -170,7 +171,7 @@ TEST(VoidAndCluster, CellsAreSquaresInABox) {
     EXPECT_EQ(set.domain->bounding_box(), *request.bounds);
 }
 
-// Squares that --size makes long and thin are seen as they are in the box.
+// Cells that --size makes long and thin use the distances in the box.
 TEST(VoidAndCluster, DistancesHoldInABox) {
     for (const Settings& settings : {Settings{}, Settings{{"size", "64x64"}}})
         for (const Box& box : std::vector<Box>{{{0, 0}, {4, 1}}, {{0, 0}, {1, 9}}}) {

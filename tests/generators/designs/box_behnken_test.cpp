@@ -8,14 +8,14 @@
 
 namespace stipple::testing::box_behnken_test {
 
-// Box and Behnken 1960, table 4, three factors: the four combinations of each two.
+// Box and Behnken 1960, table 4, three factors: the four combinations of each pair.
 TEST(BoxBehnken, ThreeFactorsAsPublished) {
     EXPECT_EQ(signs_of(coded_design("box-behnken", {}, {{"center", "3"}})),
               (std::vector<std::string>{"--0", "+-0", "-+0", "++0", "-0-", "+0-", "-0+", "+0+",
                                         "0--", "0+-", "0-+", "0++", "000", "000", "000"}));
 }
 
-// Runs without the centre, as the article's table has them.
+// Numbers of runs without the centre, from the article's table.
 TEST(BoxBehnken, RunsAreThoseOfThePublishedDesigns) {
     const std::map<std::size_t, std::size_t> runs = {{3, 12},   {4, 24},  {5, 40},   {6, 48},
                                                      {7, 56},   {9, 120}, {10, 160}, {11, 176},
@@ -24,8 +24,7 @@ TEST(BoxBehnken, RunsAreThoseOfThePublishedDesigns) {
         EXPECT_EQ(make("box-behnken", {.dimension = k}, {{"center", "0"}}).count(), n) << k;
 }
 
-// Factors are uncorrelated, take part equally often, and no run comes twice but where blocks do
-// (9).
+// Factors are uncorrelated and occur equally often, and runs are distinct except in blocks (9).
 TEST(BoxBehnken, IsOrthogonalToFirstOrder) {
     for (const std::size_t k : {3, 4, 5, 6, 7, 9, 10, 11, 12, 16}) {
         const PointSet set = coded_design("box-behnken", {.dimension = k}, {{"center", "0"}});

@@ -43,8 +43,7 @@ TEST(CentralComposite, RotatableAlphaIsTheFourthRootOfTheCorners) {
     EXPECT_EQ(make(unit, {.dimension = 3}, {{"fraction", "true"}}).count(), 8U + 6 + 1);
 }
 
-// A design is rotatable if, of its moments of fourth order, [iiii] = 3 [iijj] (Box and Hunter
-// 1957).
+// A design is rotatable if its fourth moments satisfy [iiii] = 3 [iijj] (Box and Hunter 1957).
 TEST(CentralComposite, RotatableDesignsHaveTheMomentsOfOne) {
     for (const std::size_t k : {2, 3, 4, 6}) {
         const PointSet set = coded_design(unit, {.dimension = k});

@@ -14,7 +14,7 @@ TEST(Factorial, IsInStandardOrderFirstFactorFastest) {
               (std::vector<std::string>{"--", "0-", "+-", "-+", "0+", "++"}));
 }
 
-// The middles of m equal cells, which inversion onto m equal outcomes takes to those numbers.
+// Midpoints of m equal cells, which inversion maps to the numbers of m equally probable outcomes.
 TEST(Factorial, LevelsAreWhatDiscreteWarpsTake) {
     const PointSet set = make("factorial", {}, {{"levels", "5"}});
     ASSERT_EQ(set.count(), 25U);

@@ -12,8 +12,8 @@ namespace stipple::testing::fast_test {
 
 using std::numbers::pi;
 
-// The definition, with frequencies worked out by hand: N = 65 and M = 4 give w = 8, others up to 1;
-// N = 1025 gives w = 128 and 16: four others are 1, 6, 11, 16.
+// By the definition, with frequencies computed by hand: N = 65 and M = 4 give w = 8, others up to
+// 1; N = 1025 gives w = 128 and 16: four others are 1, 6, 11, 16.
 TEST(Fast, CurvesAreThoseOfTheDefinition) {
     const auto check = [](std::size_t n, std::size_t k, double own,
                           const std::vector<double>& others) {
@@ -46,7 +46,7 @@ TEST(Fast, TellsItsFrequencies) {
     EXPECT_EQ(found_in(six, "highest_other_frequency"), "1");
 }
 
-// Every coordinate of a curve is evenly distributed: a line that is reflected at the faces.
+// Every coordinate of a curve is uniformly distributed: a line reflected at the faces.
 TEST(Fast, CoordinatesAreEvenOnEachCurve) {
     const PointSet set = make("fast", {.dimension = 3});
     for (std::size_t i = 0; i < 3; ++i) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* unit = "fractional-factorial";
 
-/// Oracle: words of each length, by looking for products of columns that are constant.
+/// Oracle: words of each length, found as constant products of columns.
 std::string words_by_products(const PointSet& coded) {
     std::map<int, int> lengths;
     for (std::uint32_t set = 1; set < 1U << coded.dimension(); ++set) {
@@ -71,8 +71,8 @@ TEST(FractionalFactorial, HalfOfTwoToTheFive) {
     EXPECT_EQ(found_in(set, "aliases").substr(0, 16), "A=BCDE; B=ACDE; ");
 }
 
-// Runs that are needed: Box, Hunter and Hunter's table of fractions (III and IV), and the largest
-// codes of distance 5 (V): 5, 6, 8, 11 and 17 factors in 16, 32, 64, 128 and 256 runs.
+// Required runs: Box, Hunter and Hunter's table of fractions (III and IV), and the largest codes of
+// distance 5 (V): 5, 6, 8, 11 and 17 factors in 16, 32, 64, 128 and 256 runs.
 TEST(FractionalFactorial, FewestRunsForAResolution) {
     const std::map<std::pair<std::size_t, int>, std::size_t> runs = {
         {{3, 3}, 4},  {{4, 3}, 8},  {{7, 3}, 8},   {{8, 3}, 16},   {{15, 3}, 16}, {{4, 4}, 8},
@@ -86,8 +86,8 @@ TEST(FractionalFactorial, FewestRunsForAResolution) {
     }
 }
 
-// The largest least distances of binary linear codes with r check digits (Brouwer and Verhoeff's table as
-// of 2006): from each number of factors on, up to the next or 50, the resolution in 2^r runs.
+// Largest minimum distances of binary linear codes with r check digits (Brouwer and Verhoeff's
+// table as of 2006): resolution in 2^r runs from each number of factors up to the next, or 50.
 TEST(FractionalFactorial, HasTheResolutionOfTheBestCodes) {
     using From = std::pair<std::size_t, std::size_t>;
     const std::map<std::size_t, std::vector<From>> resolutions = {
@@ -118,7 +118,7 @@ TEST(FractionalFactorial, HasTheResolutionOfTheBestCodes) {
         }
 }
 
-// What catalogues have: Xu (Technometrics 51 (2009) 266-277) and Chen, Sun, Wu.
+// Values in catalogues: Xu (Technometrics 51 (2009) 266-277) and Chen, Sun, Wu.
 TEST(FractionalFactorial, HasFewShortWords) {
     const auto words = [](std::size_t k, std::size_t basic, std::size_t length) {
         return generators::word_lengths(generators::known_fraction(k, basic)->design)[length];
@@ -160,8 +160,8 @@ TEST(FractionalFactorial, SaysWhatIsOpen) {
                          "factors at resolution V; it is open whether 2048 suffice"));
 }
 
-// Word lengths of designs of least aberration, as tables of Chen, Sun and Wu (Int. Stat. Rev. 61
-// (1993) 131-145) have them for 16 and 32 runs.
+// Word lengths of designs of minimum aberration, from tables of Chen, Sun and Wu (Int. Stat. Rev.
+// 61 (1993) 131-145) for 16 and 32 runs.
 TEST(FractionalFactorial, HasTheLeastAberration) {
     const auto words = [](std::uint64_t n, std::size_t k) {
         return found_in(make(unit, points(n, k)), "word_lengths");

@@ -12,7 +12,7 @@
 namespace stipple::testing::morris_test {
 namespace {
 
-/// The one coordinate in which two runs differ.
+/// The only coordinate in which two runs differ.
 std::size_t moved(std::span<const double> a, std::span<const double> b) {
     std::size_t at = a.size();
     for (std::size_t k = 0; k < a.size(); ++k) {
@@ -25,8 +25,8 @@ std::size_t moved(std::span<const double> a, std::span<const double> b) {
 
 }  // namespace
 
-// Each factor moves once in a trajectory, by p/2 levels: delta = p / (2 (p - 1)) of the range, and 1/2
-// with --middles.
+// Each factor moves once per trajectory, by p/2 levels: delta = p / (2 (p - 1)) of the range, or
+// 1/2 with --middles.
 TEST(Morris, EveryFactorMovesOnceByDelta) {
     for (const int p : {2, 4, 6, 10})
         for (const bool middles : {false, true})
@@ -62,8 +62,8 @@ TEST(Morris, LevelsGoFromEndToEnd) {
     for (const auto& [x, times] : seen) EXPECT_NEAR(x, level++ / 5, 1.2e-16);
 }
 
-// Effects of 7 sin(x)^2, x = pi (2 u - 1), by hand: u = 0, 1/3, 2/3, 1 give 0, 21/4, 21/4, 0, so that
-// every step of 2/3 changes it by 21/4. A step of 1/2 changes nothing.
+// Effects of 7 sin(x)^2, x = pi (2 u - 1), by hand: u = 0, 1/3, 2/3, 1 give 0, 21/4, 21/4, 0, so
+// every step of 2/3 changes it by 21/4. A step of 1/2 would change nothing.
 TEST(Morris, SeesWhatHasHalfTheRangeAsItsPeriod) {
     const PointSet set = make("morris", {.dimension = 1});
     const auto f = [](double u) {
@@ -82,8 +82,8 @@ TEST(Morris, LevelsMayBeTheMiddlesOfEqualCells) {
     }
 }
 
-// Start levels, directions and the order of factors are each equally likely. With p = 4, k = 2
-// there are 2^2 lower levels, 2^2 directions and 2 orders: 32 kinds of trajectory, chi-square of 31
+// Start levels, directions and orders of factors are equally likely. With p = 4, k = 2 there are
+// 2^2 lower levels, 2^2 directions and 2 orders: 32 kinds of trajectories, chi-square with 31
 // degrees of freedom; 95 is exceeded with probability 2e-8.
 TEST(Morris, AllTrajectoriesAreEquallyLikely) {
     const std::size_t r = 32000;

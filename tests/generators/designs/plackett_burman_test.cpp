@@ -14,7 +14,7 @@ constexpr const char* unit = "plackett-burman";
 
 }  // namespace
 
-// The first rows that the article prints for cyclic designs.
+// First rows of cyclic designs, as published in the article.
 TEST(PlackettBurman, PublishedRowsMoveOnByOneAndEndWithMinus) {
     for (const std::string row :
          {"+++-+--", "++-+++---+-", "++--++++-+-+----++-", "+++++-+-++--++--+-+----",
@@ -28,8 +28,8 @@ TEST(PlackettBurman, PublishedRowsMoveOnByOneAndEndWithMinus) {
     }
 }
 
-// H H^T = n I, and the first column is 1, for all orders below 668, the least that nobody knows a matrix
-// of, and for some beyond by each construction.
+// H H^T = n I, and the first column is 1, for all orders below 668, the lowest for which no matrix
+// is known, and for some higher ones by each construction.
 TEST(PlackettBurman, MatricesAreHadamards) {
     constexpr std::size_t most = 1076;
     std::vector<std::uint64_t> orders{724, 916, 932, most};

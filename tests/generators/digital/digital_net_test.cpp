@@ -18,7 +18,7 @@ PointSet net(const TemporaryFile& file, Request request, Settings more = {}) {
     return make("digital-net", std::move(request), more);
 }
 
-/// The message, with the file's name cut to FILE.
+/// Error message, with FILE in place of the file's name.
 std::string refusal(const std::string& text, Settings more = {}, Request request = {}) {
     const TemporaryFile file(text);
     std::string error = error_of([&] { net(file, request, more); });
@@ -27,7 +27,7 @@ std::string refusal(const std::string& text, Settings more = {}, Request request
     return error;
 }
 
-/// Pascal's triangle to the powers 0 and 1 modulo 3, of 3 x 3 digits: Faure's matrices.
+/// Pascal's triangle to the powers 0 and 1 modulo 3, with 3 x 3 digits: Faure's matrices.
 const char* const pascal_digits =
     "# digits\n3 2 3 3\n"
     "1 0 0\n0 1 0\n0 0 1\n\n"
@@ -35,8 +35,8 @@ const char* const pascal_digits =
 
 }  // namespace
 
-// Worked by hand from the polynomials and numbers of Joe and Kuo: m = 1, 3, 5 for the second
-// coordinate, 1, 3, 3 for the third and 1, 3, 1 for the fourth. SciPy has the same eight points.
+// By hand from the polynomials and numbers of Joe and Kuo: m = 1, 3, 5 for the second coordinate,
+// 1, 3, 3 for the third and 1, 3, 1 for the fourth. SciPy makes the same eight points.
 TEST(DigitalNet, WithSobolsMatricesGivesSobolsPoints) {
     EXPECT_EQ(make("digital-net", {.count = 8}, {{"matrices", sobol_file}}),
               points_of({{0, 0, 0, 0},
@@ -49,8 +49,8 @@ TEST(DigitalNet, WithSobolsMatricesGivesSobolsPoints) {
                          {7. / 8, 7. / 8, 1. / 8, 3. / 8}}));
 }
 
-// Sobol's first two coordinates are a (0, 2)-sequence, in three and four dimensions t is 1 and 3
-// (the sum of the polynomials' degrees, each less one).
+// Sobol's first two coordinates are a (0, 2)-sequence; in three and four dimensions t is 1 and 3
+// (the sum of the polynomials' degrees, each minus one).
 TEST(DigitalNet, WithSobolsMatricesIsANetOfSobolsQuality) {
     const std::vector<std::size_t> sobols_t = {0, 0, 1, 3};
     for (std::size_t m = 4; m <= 9; ++m)
@@ -73,7 +73,7 @@ TEST(DigitalNet, WithFauresMatricesGivesFauresPoints) {
     EXPECT_EQ(net(file, points(7, 1, 20)), make("faure", points(7, 1, 20), {{"base", "3"}}));
 }
 
-// One net, five ways: coordinates diag(1, 1, 1) and Pascal's triangle modulo 2.
+// One net in five layouts: the coordinates have the identity matrix and Pascal's triangle modulo 2.
 TEST(DigitalNet, ReadsEveryLayout) {
     const std::string head = "\n2 # base\n2 # matrices\n";
     const std::string rows = "1 0 0\n0 1 0\n0 0 1\n1 1 1\n0 1 0\n0 0 1\n";
@@ -111,7 +111,8 @@ TEST(DigitalNet, ReadsEveryLayout) {
 }
 
 TEST(DigitalNet, ReadsColumnsAndRowsOfOtherBases) {
-    // Columns (1, 0), (1, 1) and (2, 0), (1, 2) of base 3: with the first row on top, 3, 4, 6, 5.
+    // Columns (1, 0), (1, 1) and (2, 0), (1, 2) in base 3: with the first row as the highest digit
+    // 3, 4, 6, 5.
     const auto wanted = [](double a, double b) {
         return points_of({{0, 0}, {3 / 9., 6 / 9.}, {6 / 9., 3 / 9.}, {a / 9, b / 9}});
     };
@@ -147,7 +148,7 @@ TEST(DigitalNet, InterlacesTheDigitsOfItsMatrices) {
               1U);
 }
 
-// LatNet Builder's files tell the factor; the option, where it is given, wins.
+// LatNet Builder's files contain the factor; the option overrides it.
 TEST(DigitalNet, InterlacesWhatAFileSaysIsToBe) {
     const std::string rest = "3\n3\n4 2 1\n4 6 5\n4 2 3\n4 6 7\n";
     const TemporaryFile plain("# dnet\n2\n4\n" + rest);
@@ -161,7 +162,8 @@ TEST(DigitalNet, InterlacesWhatAFileSaysIsToBe) {
 }
 
 // Dick 2008: interlacing alpha = 2 coordinates of a (t, m, 2)-net gives a rule of order 2. The mean
-// of x^2 over such nets in one dimension is off 1/3 by little more than n^-2, over others by n^-1.
+// of x^2 over such nets in one dimension differs from 1/3 by little more than n^-2, over others by
+// n^-1.
 TEST(DigitalNet, InterlacedNetsIntegrateSmoothFunctionsToHigherOrder) {
     const auto error = [](std::uint64_t n, const char* alpha) {
         const PointSet set =
@@ -182,7 +184,7 @@ TEST(DigitalNet, WithSobolsMatricesIsSobolScrambledOrNot) {
             << scramble;
 }
 
-// TemporaryFile of fewer rows than digits are filled up by scrambling.
+// Scrambling fills up digits that are missing in a file with few rows.
 TEST(DigitalNet, ScrambledPointsAreItsPointsScrambled) {
     const TemporaryFile file("# digits\n3 2 3 4\n1 2 0\n0 1 1\n2 2 2\n1 0 0\n" +
                              std::string("1 1 1\n2 1 0\n2 0 1\n0 0 2\n"));

@@ -10,8 +10,8 @@
 namespace stipple::testing::faure_test {
 namespace {
 
-/// Oracle: Faure's recipe. Coordinate after coordinate, the digits are multiplied once more by
-/// Pascal's triangle of binomial coefficients, and reversed behind the point.
+/// Oracle: Faure's construction. For each further coordinate, the digits are multiplied once more
+/// by Pascal's triangle of binomial coefficients, then mirrored at the radix point.
 std::vector<Fraction> by_recipe(std::uint64_t index, std::uint64_t base, std::size_t dimension) {
     std::vector<std::uint64_t> digits;
     for (; index > 0; index /= base) digits.push_back(index % base);
@@ -31,7 +31,7 @@ std::vector<Fraction> by_recipe(std::uint64_t index, std::uint64_t base, std::si
                 sum = (sum + binomial % base * digits[j]) % base;
                 binomial = binomial * (j + 1) / (j + 1 - r);
             }
-            digits[r] = sum;  // later rows do not look at this one
+            digits[r] = sum;  // not used by later rows
         }
     }
     return point;
@@ -39,7 +39,7 @@ std::vector<Fraction> by_recipe(std::uint64_t index, std::uint64_t base, std::si
 
 }  // namespace
 
-// Worked by hand: in base 3, index 3 has the digits (0, 1), index 5 the digits (2, 1).
+// By hand: in base 3, index 3 has the digits (0, 1), index 5 the digits (2, 1).
 TEST(Faure, FirstPointsByHand) {
     EXPECT_EQ(make("faure", points(9, 3)), points_of({{0, 0, 0},
                                                       {3. / 9, 3. / 9, 3. / 9},
@@ -125,7 +125,8 @@ TEST(Faure, ScrambledPointsAreItsPointsScrambledAndStillANet) {
     EXPECT_TRUE(stretches_agree("faure", points(500, 3), {{"scramble", "matrix"}}));
 }
 
-// Whole blocks of low digits are scrambled at once; here they are whole, cut at either end, or few.
+// Low digits are scrambled in whole blocks; tests whole blocks, blocks cut at either end, and short
+// ranges.
 TEST(Faure, NestedScramblingIsThatOfItsPointsInStretchesOfAnySize) {
     for (const auto& [d, base] :
          {std::pair<std::size_t, std::uint32_t>{3, 3}, {6, 7}, {20, 23}, {2, 1009}, {2, 1031}})
@@ -179,7 +180,7 @@ TEST(Faure, RefusesBasesThatAreNoPrimesOrTooSmall) {
               "usage: --base: 1 is outside [2, 65521]");
 }
 
-// In base 3; two nets of 9 points are as good as one each.
+// In base 3; two nets of 9 points are as good as one.
 TEST(Faure, SaysWhereARequestMissesTheNets) {
     const auto said = [](std::uint64_t count, std::uint64_t start) {
         std::string sentence;

@@ -18,9 +18,9 @@ std::size_t bound(std::size_t dimension) {
 
 }  // namespace
 
-// Points 2, 3 and 6 are those that the tests of the GNU Scientific Library (qrng/test.c) expect
-// from its version of Algorithm 738; the others by hand from v = 1 1 0 1 1 0 ... of 1 + x + x^2 and
-// v = 0 0 1 1 1 1 0 ... of its square.
+// Points 2, 3 and 6 are the expected values in the tests of the GNU Scientific Library
+// (qrng/test.c) for its version of Algorithm 738; the others by hand from v = 1 1 0 1 1 0 ... of 1
+// + x + x^2 and v = 0 0 1 1 1 1 0 ... of its square.
 TEST(Niederreiter, FirstPointsAsPublished) {
     EXPECT_EQ(make("niederreiter", points(7, 3), {{"order", "gray"}}),
               points_of({{0, 0, 0},
@@ -35,7 +35,7 @@ TEST(Niederreiter, FirstPointsAsPublished) {
     EXPECT_EQ(natural[3][2], 0.3125);
 }
 
-// The theorem. All 53 digits matter here: columns reach below their diagonal.
+// The theorem. All 53 digits matter here, because columns extend below the diagonal.
 TEST(Niederreiter, EveryAlignedBlockIsANet) {
     for (const char* order : {"natural", "gray"})
         for (const char* scramble : {"none", "digital-shift", "matrix", "owen"})
@@ -54,7 +54,7 @@ TEST(Niederreiter, EveryAlignedBlockIsANet) {
                 }
 }
 
-// Each polynomial is irreducible and new: each coordinate alone, and each pair, keeps its own
+// Polynomials are irreducible and distinct: each coordinate, and each pair, satisfies its own
 // bound.
 TEST(Niederreiter, ProjectionsKeepTheirBound) {
     const std::size_t d = std::size(degrees);
@@ -101,7 +101,7 @@ TEST(Niederreiter, IsANetInOtherPrimeBases) {
     EXPECT_FALSE(is_net(make("niederreiter", points(625, 6), {{"base", "5"}}), 5, 0));
 }
 
-// With linear polynomials alone, x - c, the entries are binomials times powers of c, as Faure's:
+// With only linear polynomials x - c, the entries are binomials times powers of c, like Faure's:
 // v_r of (x - c)^(Q+1) from Q zeros and a one is C(r, Q) c^(r-Q).
 TEST(Niederreiter, EqualsFaureInTheSameBaseUpToTheOrderOfCoordinates) {
     const PointSet own = make("niederreiter", points(500, 5), {{"base", "5"}});

@@ -28,8 +28,8 @@ TEST(Pmj02, HoldsForAMillionPoints) {
     EXPECT_TRUE(is_net(make("pmj02", points(1 << 20, 2), {}, {.seed = 8}), 2, 0));
 }
 
-// The mean of a point's coordinate over 4000 seeds is within 5 standard deviations of 1/2, and so
-// is that of their product of 1/4: false alarm 6 * 6e-7.
+// Means over 4000 seeds of a point's coordinates and of their product are within 5 standard
+// deviations of 1/2 and 1/4: false alarm 6 * 6e-7.
 TEST(Pmj02, EachPointIsUniformOverSeeds) {
     for (const std::uint64_t i : {0, 1, 1000}) {
         double x = 0;
@@ -47,8 +47,8 @@ TEST(Pmj02, EachPointIsUniformOverSeeds) {
     }
 }
 
-// At one seed, as studies compare them. The correlation of two independent uniform numbers over 4000
-// seeds scatters by 1 / sqrt(4000) about 0: false alarms of 5 deviations 6e-7.
+// With the same seed, as in studies. Over 4000 seeds, the correlation of two independent uniform
+// numbers has the standard deviation 1 / sqrt(4000): false alarm 6e-7 at 5 of them.
 TEST(Pmj02, IsIndependentOfScrambledSobolPoints) {
     constexpr int seeds = 4000;
     double covariance = 0;

@@ -11,7 +11,7 @@
 namespace stipple::testing::pmj_test {
 namespace {
 
-/// Oracle for 2 * 4^k points: two in each square, in opposite quarters.
+/// Oracle for 2 * 4^k points: two per square, in opposite quarters.
 bool is_chequered(const PointSet& set, std::uint64_t side) {
     std::vector<std::vector<std::array<std::uint64_t, 2>>> squares(side * side);
     for (std::size_t i = 0; i < set.count(); ++i) {
@@ -24,7 +24,7 @@ bool is_chequered(const PointSet& set, std::uint64_t side) {
     });
 }
 
-/// What the header promises of the first 2^m points.
+/// Promise of the header for the first 2^m points.
 bool is_progressive(const PointSet& set, std::size_t m) {
     const std::uint64_t side = std::uint64_t{1} << (m / 2);
     return is_latin(set) && (m % 2 == 0 ? is_balanced(set, side, {0, 1}) : is_chequered(set, side));
@@ -51,8 +51,9 @@ TEST(Pmj, SoIsEveryAlignedStretchHoweverFarOut) {
             EXPECT_TRUE(is_progressive(stretch(*sequence, 2, block << m, std::size_t{1} << m), m));
 }
 
-// The other elementary intervals are met by chance. Each further condition on a matrix holds for
-// about one in two, so that 256 points, with six of them, hold them all for few of 40 seeds.
+// Other elementary intervals contain one point only by chance. Each further condition on a matrix
+// holds with probability of about one half, so 256 points, with six of them, satisfy all for few of
+// 40 seeds.
 TEST(Pmj, IsNotPmj02) {
     int nets = 0;
     for (std::uint64_t seed = 1; seed <= 40; ++seed)

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* scramblings[] = {"none", "digital-shift", "matrix", "owen"};
 
-/// Degrees of the polynomials of the first coordinates, as published; the bound on t adds them up.
+/// Published degrees of the first coordinates' polynomials; the bound on t is a sum of them.
 constexpr std::size_t degrees[] = {1, 1, 2, 3, 3, 4, 4, 5, 5, 5, 5};
 
 std::size_t bound(std::size_t dimension) {
@@ -23,7 +23,7 @@ std::size_t bound(std::size_t dimension) {
     return t;
 }
 
-/// The head of the file new-joe-kuo-6.21201.
+/// First lines of the file new-joe-kuo-6.21201.
 const std::string published =
     "d       s       a       m_i         \n"
     "2       1       0       1 \n"
@@ -36,7 +36,7 @@ const std::string published =
     "9       5       4       1 1 5 5 5 \n"
     "10      5       7       1 1 7 11 19 \n";
 
-/// What is said of such a file, without its folder.
+/// Error about such a file, without its folder.
 std::string complaint(const std::string& text, std::size_t dimension = 2) {
     const TemporaryFile file(text);
     std::string error = error_of([&] {
@@ -67,7 +67,7 @@ TEST(Sobol, FirstPointsByHand) {
         EXPECT_TRUE(std::ranges::equal(gray[i], natural[i ^ (i >> 1)])) << i;
 }
 
-// The theorem, for blocks anywhere, up to the last one there is.
+// The theorem, for blocks at any position, up to the last one.
 TEST(Sobol, EveryAlignedBlockIsANet) {
     for (const char* order : {"natural", "gray"})
         for (const char* scramble : scramblings)
@@ -86,7 +86,7 @@ TEST(Sobol, EveryAlignedBlockIsANet) {
                 }
 }
 
-// A scrambling moves points within the intervals of a net only: t is the same, not just bounded.
+// Scrambling moves points within the elementary intervals of a net, so t stays exactly the same.
 TEST(Sobol, ScramblingKeepsTheExactT) {
     for (const std::size_t d : {2U, 4U, 6U}) {
         const std::size_t t = exact_t(make("sobol", points(256, d)), 2);
@@ -99,7 +99,7 @@ TEST(Sobol, ScramblingKeepsTheExactT) {
     }
 }
 
-// What the user is told: without the first point, or at another count, it is no such net.
+// The note to the user: without the first point, or with another count, it is not such a net.
 TEST(Sobol, UnalignedBlocksAreNoNets) {
     for (const std::size_t m : {4U, 6U, 8U}) {
         const std::uint64_t n = std::uint64_t{1} << m;
@@ -109,7 +109,7 @@ TEST(Sobol, UnalignedBlocksAreNoNets) {
     }
 }
 
-// Two polynomials alone bound t of a projection; the first two coordinates reach 0.
+// t of a projection is bounded by its two polynomials alone; the first two coordinates have t = 0.
 TEST(Sobol, ProjectionsOnTwoCoordinatesKeepTheirBound) {
     const std::size_t d = std::size(degrees);
     for (const std::size_t m : {6U, 10U}) {
@@ -123,10 +123,9 @@ TEST(Sobol, ProjectionsOnTwoCoordinatesKeepTheirBound) {
     }
 }
 
-// Sobol's Property A: the first 2^d points put one into each of the 2^d cubes of side 1/2. It holds
-// for the first 1111 dimensions of Joe and Kuo's numbers: the first digits of d columns in d
-// dimensions are a nonsingular matrix, for each d. Elimination goes on from d to d
-// + 1.
+// Sobol's Property A: each of the 2^d cubes of side 1/2 contains one of the first 2^d points. It
+// holds for the first 1111 dimensions of Joe and Kuo's numbers: the first digits of d columns in d
+// dimensions form a nonsingular matrix for each d. Elimination continues from d to d + 1.
 TEST(Sobol, HasPropertyAInThePublishedDimensions) {
     constexpr std::size_t d = 1111;
     const BinaryMatrices matrices = sobol_matrices(d, d);
@@ -192,7 +191,7 @@ TEST(Sobol, SaysWhereARequestMissesTheNets) {
     EXPECT_EQ(said(1024, 1),
               "1024 points from index 1 on do not form a net; start at a multiple of 1024: 0 or "
               "1024");
-    // Nets, and pieces of sets that are made in several runs.
+    // Nets, and parts of sets made in several runs.
     for (const auto& [count, start] : {std::pair{1024, 0}, {1, 0}, {1, 5}, {512, 1536}, {1000, 24}})
         EXPECT_EQ(said(static_cast<std::uint64_t>(count), static_cast<std::uint64_t>(start)), "");
 }
@@ -207,7 +206,7 @@ TEST(Sobol, ReadsDirectionNumbersAsPublished) {
     EXPECT_TRUE(is_net(mine, 2, 1));
 }
 
-// Of LDData's two forms one leaves the polynomials to a table.
+// One of LDData's two formats refers to a table for the polynomials.
 TEST(Sobol, ReadsDirectionNumbersOfOtherPackages) {
     const PointSet table = make("sobol", points(64, 5));
     for (const char* text :
@@ -217,7 +216,8 @@ TEST(Sobol, ReadsDirectionNumbersOfOtherPackages) {
         const TemporaryFile numbers(text);
         EXPECT_EQ(make("sobol", points(64, 5), {{"directions", numbers.path()}}), table) << text;
     }
-    // LatNet Builder tells the dimension, and later versions the digits of the number of points.
+    // LatNet Builder's files contain the dimension, later versions also the digits of the number of
+    // points.
     for (const char* text :
          {"# Merit: 5\n# Parameters m_{j,c} for Sobol points\n5    # 5 dimensions\n# m_{j,c}\n1\n1 "
           "3\n"
@@ -233,7 +233,7 @@ TEST(Sobol, ReadsDirectionNumbersOfOtherPackages) {
     EXPECT_EQ(complaint("# sobol\n1\n1 2\n"), "input: FILE:3:3: '2' is even; expected an odd m_2");
 }
 
-// The points that LatNet Builder's own scripts make of these numbers.
+// Points made of these numbers by LatNet Builder's own scripts.
 TEST(Sobol, InterlacesWhatAFileSaysIsToBe) {
     const std::string text =
         "# Parameters m_{j,c} for Sobol points\n2  # 2 dimensions\n2  # Interlacing factor\n"

@@ -13,7 +13,7 @@ namespace {
 
 using Pair = std::pair<std::int64_t, std::int64_t>;
 
-/// The points as whole numbers of 1/n, checked to be the nearest doubles.
+/// The points as integer multiples of 1/n; checks that they are the nearest doubles.
 std::set<Pair> numerators(const PointSet& set) {
     const auto n = static_cast<std::int64_t>(set.count());
     std::set<Pair> out;
@@ -28,21 +28,21 @@ std::set<Pair> numerators(const PointSet& set) {
     return out;
 }
 
-/// Squared distance from the origin on the torus, in 1/n.
+/// Squared distance from the origin on the torus, in units of 1/n.
 std::int64_t squared(Pair p, std::int64_t n) {
     const std::int64_t x = std::min(p.first, n - p.first);
     const std::int64_t y = std::min(p.second, n - p.second);
     return x * x + y * y;
 }
 
-/// Oracle: the best of all lattices of n points, each row by row with every shift.
+/// Oracle: the best of all lattices of n points, tried row by row with every shift.
 std::int64_t best_by_definition(std::int64_t n) {
     std::int64_t best = 0;
     for (std::int64_t in_row = 1; in_row <= n; ++in_row) {
         if (n % in_row != 0) continue;
         const std::int64_t gap = n / in_row;
         for (std::int64_t shift = 0; shift < gap; ++shift) {
-            std::int64_t least = n * n;  // to its own image
+            std::int64_t least = n * n;  // distance to its own image
             for (std::int64_t row = 0; row < gap; ++row) {
                 const std::int64_t start = row * shift % gap;
                 for (std::int64_t x = start; x < n; x += gap)
@@ -54,7 +54,7 @@ std::int64_t best_by_definition(std::int64_t n) {
     return best;
 }
 
-/// The smallest distance over that of a perfect hexagonal lattice.
+/// Minimum distance relative to a perfect hexagonal lattice.
 double relative(std::uint64_t n) {
     return std::sqrt(static_cast<double>(densest_torus_packing(n).shortest) * std::sqrt(3.) / 2 /
                      static_cast<double>(n));
@@ -76,15 +76,15 @@ TEST(Hexagonal, KeepsTheLargestDistanceOfAllLattices) {
     }
 }
 
-/// Oracle: the largest smallest distance of all lattices of n points in a box of this width and of
-/// height 1, each row by row with every shift.
+/// Oracle: largest minimum distance of all lattices of n points in a box of this width and height
+/// 1, tried row by row with every shift.
 double best_in_box(std::int64_t n, double width) {
     double best = 0;
     for (std::int64_t in_row = 1; in_row <= n; ++in_row) {
         if (n % in_row != 0) continue;
         const std::int64_t gap = n / in_row;
         for (std::int64_t shift = 0; shift < gap; ++shift) {
-            double least = std::min(width, 1.0);  // to its own image
+            double least = std::min(width, 1.0);  // distance to its own image
             for (std::int64_t row = 0; row < gap; ++row)
                 for (std::int64_t x = row * shift % gap; x < n; x += gap)
                     if (x != 0 || row != 0) {
@@ -100,7 +100,7 @@ double best_in_box(std::int64_t n, double width) {
     return best;
 }
 
-// In a box, too: of its sides, not of those of a square that is scaled.
+// In a box the distance is optimal for its sides, not for a scaled square.
 TEST(Hexagonal, KeepsTheLargestDistanceInABox) {
     for (const double width : {2.0, 0.3, 8.0, 1.0 / 17, 1.7320508075688772})
         for (std::uint64_t n = 1; n <= 60; ++n) {
@@ -132,7 +132,7 @@ TEST(Hexagonal, IsClosedUnderAddition) {
     }
 }
 
-// As the header says: nearer to perfect the more points there are.
+// As stated in the header: the ratio approaches 1 with more points.
 TEST(Hexagonal, IsNearlyPerfect) {
     for (std::uint64_t n = 1; n < 40'000; n += n < 3000 ? 1 : 37) {
         EXPECT_LE(relative(n), 1);

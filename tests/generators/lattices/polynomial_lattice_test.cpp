@@ -27,7 +27,7 @@ Settings given(std::uint64_t modulus, const std::vector<std::uint64_t>& vector) 
     return {{"modulus", std::to_string(modulus)}, {"vector", listed(vector)}};
 }
 
-/// The largest degree of a partial quotient of q / p, by Euclid's algorithm.
+/// Largest degree of a partial quotient of q / p, by Euclid's algorithm.
 int largest_quotient(std::uint64_t p, std::uint64_t q) {
     int largest = 0;
     while (q != 0) {
@@ -37,7 +37,7 @@ int largest_quotient(std::uint64_t p, std::uint64_t q) {
     return largest;
 }
 
-/// Oracle: e^2 from the points themselves.
+/// Oracle: e^2 computed from the points.
 double error_of_points(const PointSet& set, const std::vector<double>& weights) {
     double sum = 0;
     for (std::size_t i = 0; i < set.count(); ++i) {
@@ -60,7 +60,7 @@ std::vector<std::uint64_t> by_trying_all(std::uint64_t modulus,
     for (std::size_t k = 0; k < weights.size(); ++k) {
         std::uint64_t best = 0;
         double least = 1e300;
-        std::vector<std::uint64_t> candidates;  // those that are there least often
+        std::vector<std::uint64_t> candidates;  // components used least often so far
         for (std::ptrdiff_t times = 0; candidates.empty(); ++times)
             for (std::uint64_t q = 1; q < n; ++q)
                 if (std::ranges::count(vector, q) == times) candidates.push_back(q);
@@ -81,8 +81,8 @@ std::vector<std::uint64_t> by_trying_all(std::uint64_t modulus,
 
 }  // namespace
 
-// By hand: 1 / (x^3 + x + 1) has the digits 0010111 of period 7, so that of i = 1, x, x^2 are 001,
-// 010 and 101; (x + 1) / (x^3 + x + 1) has the digits 0111001, which gives 011, 111 and 110.
+// By hand: 1 / (x^3 + x + 1) has the digits 0010111 with period 7, so those of i = 1, x, x^2 are
+// 001, 010 and 101; (x + 1) / (x^3 + x + 1) has the digits 0111001, which give 011, 111 and 110.
 TEST(PolynomialLattice, FirstPointsByHand) {
     const PointSet set = make("polynomial-lattice", {.count = 8}, given(11, {1, 3}));
     const std::vector<double> first = {0, 1, 2, 3, 5, 4, 7, 6};
@@ -93,7 +93,7 @@ TEST(PolynomialLattice, FirstPointsByHand) {
     }
 }
 
-// The definition itself: x is the first m digits of the Laurent series of i(x) q(x) / p(x).
+// The definition: x is the first m digits of the Laurent series of i(x) q(x) / p(x).
 TEST(PolynomialLattice, IsTheQuotientOfPolynomials) {
     for (const std::uint64_t p : {2ULL, 7ULL, 19ULL, 24ULL, 283ULL, 1ULL << 10, 1033ULL}) {
         const int m = gf2::degree(p);
@@ -102,7 +102,7 @@ TEST(PolynomialLattice, IsTheQuotientOfPolynomials) {
             const PointSet set = make("polynomial-lattice", {.count = n}, given(p, {q}));
             for (std::uint64_t i = 0; i < n; ++i) {
                 std::uint64_t rest = gf2::product(i, q, p);
-                std::uint64_t quotient = 0;  // of rest x^m by p
+                std::uint64_t quotient = 0;  // of the remainder times x^m by p
                 for (int digit = 0; digit < m; ++digit) {
                     rest <<= 1;
                     quotient = quotient << 1 | rest >> m;
@@ -116,7 +116,7 @@ TEST(PolynomialLattice, IsTheQuotientOfPolynomials) {
 }
 
 // Niederreiter 1992, section 4.4: with (1, q), t + 1 is the largest degree of a partial quotient in
-// the continued fraction of q / p. So t = 0 where all of them are linear.
+// the continued fraction of q / p. So t = 0 if all of them are linear.
 TEST(PolynomialLattice, InThePlaneTIsThatOfTheContinuedFraction) {
     for (const std::uint64_t p : {67ULL, 64ULL, 73ULL, 131ULL}) {
         const std::uint64_t n = std::uint64_t{1} << gf2::degree(p);
@@ -132,7 +132,7 @@ TEST(PolynomialLattice, InThePlaneTIsThatOfTheContinuedFraction) {
     }
 }
 
-// Against the points themselves; with the lattice that is its own mirror image, and one point.
+// Compared with the points, also for a lattice that is its own mirror image, and for one point.
 TEST(PolynomialLattice, ErrorOfAVectorIsThatOfItsPoints) {
     const std::vector<double> weights = {1, 0.5, 0.25, 0.7};
     for (const std::uint64_t modulus : {2ULL, 3ULL, 11ULL, 16ULL, 283ULL, 1033ULL}) {
@@ -179,8 +179,8 @@ TEST(PolynomialLattice, EveryCoordinateOfASearchedOneTakesEveryValueOnce) {
     }
 }
 
-// The search by Fourier transforms finds what trying all finds, ties to the smallest number. 283
-// has a generator that is not x.
+// The search by Fourier transforms finds the same as trying all, with ties resolved to the smallest
+// number. 283 has a generator other than x.
 TEST(PolynomialLattice, ComponentByComponentIsTheBestOfEachComponent) {
     const std::vector<double> square = {1, 1. / 4, 1. / 9, 1. / 16, 1. / 25};
     for (const std::uint64_t p : {2ULL, 7ULL, 11ULL, 19ULL, 37ULL, 61ULL, 67ULL, 131ULL})
@@ -192,9 +192,9 @@ TEST(PolynomialLattice, ComponentByComponentIsTheBestOfEachComponent) {
     EXPECT_EQ(polynomial_components(67, rising, {}), by_trying_all(67, rising));
 }
 
-// What the kernel stands for: the mean over all shifts s of the kernel of the Sobolev space,
-// B_1(y) B_1(z) + B_2(|y - z|) / 2 at y = s, z = s XOR x. For x of m digits, s XOR x - s is
-// constant on stretches of 2^-m, where Simpson's rule is exact.
+// The kernel's definition: the mean over all shifts s of the kernel of the Sobolev space, B_1(y)
+// B_1(z) + B_2(|y - z|) / 2 at y = s, z = s XOR x. For x of m digits, s XOR x - s is constant on
+// intervals of length 2^-m, on which Simpson's rule is exact.
 TEST(PolynomialLattice, KernelIsTheMeanOverShiftsOfTheSobolevSpaces) {
     const auto b2 = [](double u) { return u * u - u + 1. / 6; };
     for (unsigned x = 0; x < 32; ++x) {
@@ -211,7 +211,7 @@ TEST(PolynomialLattice, KernelIsTheMeanOverShiftsOfTheSobolevSpaces) {
     }
 }
 
-// Here products reach 2^3000 without their common factor taken out.
+// Here products reach 2^3000 unless a common factor is removed.
 TEST(PolynomialLattice, SearchesInManyDimensionsWithoutOverflow) {
     const auto vector = polynomial_components(1033, std::vector<double>(3000, 6.0), {});
     const auto front = polynomial_components(1033, std::vector<double>(30, 6.0), {});
@@ -272,7 +272,7 @@ TEST(PolynomialLattice, ReadsLatticesOfOtherPackages) {
     const std::string latnet =
         "# Parameters for a polynomial lattice rule in base 2\n2  # 2 dimensions\n3\n11\n1\n5\n";
     EXPECT_EQ(from(latnet), expected);
-    // The points that LatNet Builder's own scripts make of an interlaced one.
+    // Points of an interlaced lattice made by LatNet Builder's own scripts.
     const std::string woven =
         "# Parameters for a polynomial lattice rule in base 2\n2  # 2 dimensions\n2 # Interlacing "
         "factor\n4 # Number of components\n10 # k = 10\n1033\n1\n800\n839\n753\n";

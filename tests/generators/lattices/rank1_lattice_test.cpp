@@ -33,8 +33,8 @@ double by_definition(std::uint64_t n, const Vector& z, const std::vector<double>
     return sum / static_cast<double>(n) - 1;
 }
 
-/// Oracle: all components that are there least often, tried one after the other; the first of those
-/// within rounding.
+/// Oracle: tries all components that have been used least often; takes the first of those that are
+/// equal within rounding.
 Vector by_trial(std::uint64_t n, const std::vector<double>& weights) {
     Vector z{1};
     while (z.size() < weights.size()) {
@@ -83,8 +83,8 @@ TEST(Rank1Lattice, FibonacciLatticeOfEightByHand) {
     EXPECT_EQ(make("rank1-lattice", {}, {{"rule", "fibonacci"}}).count(), 987U);
 }
 
-// The integers h with h . z = 0 mod n, except 0: for F_k they keep max(1, |h_1|) max(1, |h_2|) at
-// least F_(k-2) (S. K. Zaremba 1966); a lattice with another vector fails.
+// Integers h with h . z = 0 mod n, except 0: for F_k, max(1, |h_1|) max(1, |h_2|) is at least
+// F_(k-2) (S. K. Zaremba 1966); a lattice with another vector fails.
 TEST(Rank1Lattice, DualOfFibonacciLatticesIsFarFromTheOrigin) {
     std::int64_t before = 1;
     std::int64_t n = 2;
@@ -185,13 +185,13 @@ TEST(ComponentByComponent, IsTheChoiceByTrialForCountsOfEveryKind) {
         }
 }
 
-// A larger one for the table of what a mistake in a small group would not show.
+// Larger counts, which reveal errors that small groups would not show.
 TEST(ComponentByComponent, IsTheChoiceByTrialForLargerCounts) {
     for (const std::uint64_t n : {1009U, 1024U, 1155U})
         EXPECT_EQ(component_by_component(n, decaying(4, 1), {}), by_trial(n, decaying(4, 1))) << n;
 }
 
-// Products of 600 factors overflow, or lose all differences, where they are not kept in scale.
+// Products of 600 factors overflow, or lose all differences, unless they are rescaled.
 TEST(ComponentByComponent, DoesNotDegenerateInHighDimensions) {
     for (const std::uint64_t n : {1021U, 4096U})
         for (const auto& weights : {decaying(600, 2), std::vector<double>(600, 0.6)}) {
@@ -248,7 +248,7 @@ TEST(Rank1Lattice, ReadsVectorsFromFiles) {
     }
 }
 
-// The header of LDData and LatNet Builder says how many points and coordinates there are.
+// Headers of LDData and LatNet Builder have the numbers of points and coordinates.
 TEST(Rank1Lattice, ReadsLatticesOfOtherPackages) {
     const PointSet expected = make("rank1-lattice", points(8, 3), {{"vector", "1,3,5"}});
     for (const char* text :
@@ -339,7 +339,7 @@ TEST(Rank1Lattice, RefusesWhatItCannotMake) {
               "korobov");
 }
 
-// 32 multipliers of 16384 that are prime to n, and 64, among which are better ones.
+// 32 multipliers of 16384 that are coprime to n, and 64, which include better ones.
 TEST(Rank1Lattice, SaysWhatASearchFoundAndWhatItLeftOut) {
     const auto found = [](const Settings& settings, std::vector<std::string>& notes) {
         RunContext run;
@@ -376,7 +376,8 @@ TEST(Rank1Lattice, SaysWherePointsCoincide) {
                                        "numbers of the vector: every point occurs 4 times"});
 }
 
-// Where there are enough components, no coordinate is another one; else a note names the first.
+// If there are enough components, all coordinates are different; otherwise a note names the first
+// repeated one.
 TEST(Rank1Lattice, RepeatsNoCoordinateInSilence) {
     std::vector<std::string> notes;
     RunContext run;
@@ -392,7 +393,7 @@ TEST(Rank1Lattice, RepeatsNoCoordinateInSilence) {
               std::vector<std::string>{"rank1-lattice: coordinate 3 equals coordinate 1: the 3 "
                                        "numbers of the vector have 2 different values"});
     notes.clear();
-    generate("rank1-lattice", points(8, 5), {}, run);  // 1 and 3 are all that are prime to 8
+    generate("rank1-lattice", points(8, 5), {}, run);  // only 1 and 3 are coprime to 8 up to sign
     EXPECT_EQ(notes.size(), 1U);
 }
 

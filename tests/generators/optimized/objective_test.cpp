@@ -18,7 +18,7 @@ PointSet random_set(std::size_t n, std::size_t d, std::uint64_t seed) {
     return make("random", points(n, d), {}, {.seed = seed});
 }
 
-/// The slope of a value by two differences.
+/// Derivative of the value by a central difference.
 double slope_of(Objective& objective, PointSet set, std::size_t i, double sharpness) {
     std::vector<double> gradient(set.flat().size());
     const double step = 1e-6;
@@ -28,7 +28,7 @@ double slope_of(Objective& objective, PointSet set, std::size_t i, double sharpn
     return (up - objective.value(set.flat(), sharpness, gradient, {})) / (2 * step);
 }
 
-/// All of them: each coordinate's slope is off by what the differences leave out.
+/// Compares all derivatives with differences, within `error`.
 void expect_gradient(Objective& objective, const PointSet& set, double sharpness, double error) {
     std::vector<double> gradient(set.flat().size());
     objective.value(set.flat(), sharpness, gradient, {});
@@ -54,7 +54,7 @@ TEST(L2Objective, IsTheSquareAndItsGradient) {
             }
 }
 
-// The gradient of a maximum is that of the worst box, if no other is near.
+// The gradient of a maximum is that of the worst box, if no other one is close.
 TEST(AnchoredObjective, IsTheStarDiscrepancyAndItsGradient) {
     for (const std::size_t d : {2, 3})
         for (const std::uint64_t seed : {1, 2, 3, 4}) {
@@ -67,8 +67,8 @@ TEST(AnchoredObjective, IsTheStarDiscrepancyAndItsGradient) {
         }
 }
 
-// With weights of at least 1 the box that ends just below 1 on an axis counts with its weight, too: all
-// boxes do with all of them.
+// With weights of at least 1, a box that ends just below 1 on an axis counts with that axis'
+// weight, too: every box has all weights.
 TEST(AnchoredObjective, CountsBoxesThatEndJustBelowOneWithTheirWeight) {
     for (const std::size_t d : {2, 3}) {
         const PointSet set = random_set(20, d, d);
@@ -117,7 +117,7 @@ TEST(BoxObjective, FindsTheWorstBoxOfEveryFamily) {
     }
 }
 
-// On the torus 1 is 0, and boxes around the whole of an axis have no side among the points.
+// On the torus 1 is 0, and boxes around a whole axis have no side at a point.
 TEST(BoxObjective, OfFewPointsAndOfPointsAtOneIsRight) {
     for (const Family family : {Family::anchored, Family::cube, Family::torus})
         for (const std::size_t n : {1, 2, 3, 4})

@@ -21,7 +21,7 @@ double said(const PointSet& points) {
     return std::stod(points.provenance.found.at(0).second);
 }
 
-/// As a file of it.
+/// The points as text of a file.
 std::string text_of(const PointSet& points) {
     std::string text;
     for (std::size_t i = 0; i < points.count(); ++i)
@@ -31,7 +31,7 @@ std::string text_of(const PointSet& points) {
 
 }  // namespace
 
-// Optima that are proven: F. Clement, C. Doerr, K. Klamroth, L. Paquete, arXiv:2311.17463, table 1.
+// Proven optima: F. Clement, C. Doerr, K. Klamroth, L. Paquete, arXiv:2311.17463, table 1.
 TEST(Optimized, FindsTheOptimaThatAreKnown) {
     const double known[] = {.6180, .3660, .2847, .2500, .2000, .1667, .1500, .1328,
                             .1235, .1111, .1030, .0952, .0889, .0837, .0782, .0739};
@@ -69,7 +69,7 @@ TEST(Optimized, OnTheLineIsTheGridOfMiddles) {
 struct Judged {
     const char* objective;
     std::size_t dimension;
-    const char* found;  ///< in the provenance
+    const char* found;  ///< option in the provenance
     const char* analyzer;
     const char* key;
     Settings settings;
@@ -89,7 +89,7 @@ const Judged objectives[] = {
     {"l2-mixture", 3, "l2_mixture_discrepancy", "l2-discrepancy", "mixture.value", {}},
     {"l2-average", 2, "l2_average_discrepancy", "l2-discrepancy", "average.value", {}}};
 
-// Ten thousandths of the usual steps leave all of them well below what Kronecker sets have.
+// A ten-thousandth of the usual steps suffices to be well below Kronecker sets.
 TEST(Optimized, SaysWhatTheAnalyzersSayAndIsBelowLatticesAndNets) {
     for (const Judged& one : objectives) {
         const auto judge = [&](const PointSet& set) {
@@ -224,7 +224,8 @@ TEST(Optimized, WeightsMakeACoordinateMoreEven) {
     }
 }
 
-/// By all boxes that end at coordinates, just below 1 with the axis' weight, or at 1 without it.
+/// Discrepancy over all boxes that end at coordinates, just below 1 with the axis' weight, or at 1
+/// without it.
 double weighted_star(const PointSet& set, const std::vector<double>& weights) {
     const auto n = static_cast<double>(set.count());
     const auto worst_from = [&](auto self, std::size_t axis, std::vector<double> corner,
@@ -265,7 +266,7 @@ TEST(Optimized, ReportsTheWeightedDiscrepancyToTheLastDigits) {
     }
 }
 
-// Of all lattices of the plane, as the analyzer measures them.
+// Best of all lattices of the plane, measured by the analyzer.
 TEST(Optimized, FindsTheLatticeOfLeastPeriodicDiscrepancy) {
     const auto value_of = [](const PointSet& set) {
         return measure("star-discrepancy", "value", set, {{"kind", "periodic"}});
@@ -312,7 +313,7 @@ TEST(Optimized, TellsWhatIsPublishedAndWhatIsCertain) {
     EXPECT_EQ(entries(make("optimized", points(50, 3), {{"effort", "0.001"}})).size(), 1U);
 }
 
-// A stop after the first progress: nothing, or where the best will do the best so far.
+// A stop after the first progress report: cancelled, or the best set so far if the run keeps it.
 TEST(Optimized, KeepsTheBestWhenItIsStopped) {
     for (const Judged& one : {objectives[0], objectives[1], objectives[7]})
         for (const bool keeps : {false, true}) {
@@ -335,7 +336,7 @@ TEST(Optimized, KeepsTheBestWhenItIsStopped) {
         }
 }
 
-// On the line the points are known, and as many as memory holds.
+// On a line the optimal points are known, for as many as fit into memory.
 TEST(Optimized, AsksForTheMemoryOfItsPoints) {
     EXPECT_TRUE(error_of([&] {
                     make("optimized", points(std::uint64_t{1} << 31, 1), {},
@@ -343,7 +344,7 @@ TEST(Optimized, AsksForTheMemoryOfItsPoints) {
                 }).starts_with("limit: the point set needs 16 GiB"));
 }
 
-// A stop that comes before anything is known leaves nothing to keep.
+// A stop before the first result leaves nothing to keep.
 TEST(Optimized, IsCancelledWhereAStopComesBeforeTheFirstSet) {
     std::stop_source source;
     source.request_stop();

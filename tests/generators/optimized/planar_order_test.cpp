@@ -9,7 +9,7 @@
 namespace stipple::testing::planar_order_test {
 namespace {
 
-/// By its definition, over all boxes with corners at coordinates.
+/// By the definition, over all boxes with corners at coordinates.
 double star_discrepancy(const std::vector<double>& rows) {
     const std::size_t n = rows.size() / 2;
     std::vector<double> x{1}, y{1};
@@ -40,7 +40,7 @@ PlanarOrder::Ranks shuffled(std::size_t n, SplitMix64& draws) {
 
 }  // namespace
 
-// The least over all orders is the least of all sets: 0.6180, 0.3660, 0.2847, 0.2500, 0.2000,
+// The minimum over all orders is the minimum over all sets: 0.6180, 0.3660, 0.2847, 0.2500, 0.2000,
 // 0.1667 for 1, ..., 6 points (B. E. White, Numer. Math. 27 (1977) 157-164).
 TEST(PlanarOrder, TheBestOfAllOrdersIsTheOptimum) {
     const double known[] = {0.6180, 0.3660, 0.2847, 0.2500, 0.2000, 0.1667};
@@ -70,8 +70,8 @@ TEST(PlanarOrder, PointsHaveTheDiscrepancyThatItSays) {
     }
 }
 
-// What a swap makes of the level is what solving the new order afresh gives, and one that is refused
-// changes nothing.
+// The level after a swap equals that of solving the new order from scratch; a rejected swap changes
+// nothing.
 TEST(PlanarOrder, SwapsGiveTheLevelOfTheNewOrder) {
     SplitMix64 draws(11);
     for (const std::size_t n : {3, 8, 30}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The sampler for any box on its own, also where another one is chosen.
+// The general box sampler, also for boxes for which another sampler would be chosen.
 #include <gtest/gtest.h>
 
 #include "core/rng.hpp"
@@ -22,7 +22,7 @@ PointSet sampled(const Space& space, double radius, std::uint64_t seed,
     return PointSet(poisson_disk::box_sample(task, run), D);
 }
 
-/// Distance of a place from the nearest point.
+/// Distance from a position to the nearest point.
 double distance_to(const PointSet& set, std::span<const double> place, const Space& space) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < set.count(); ++i)
@@ -63,7 +63,7 @@ TEST(BoxSampler, GivesTheSamePointsOnAnyNumberOfThreads) {
     EXPECT_NE(sampled<3>(space, 0.08, 6), alone);
 }
 
-// A torus that is one cell wide, where a disk meets its own image.
+// A torus one cell wide, where a disk meets its own image.
 TEST(BoxSampler, FillsBoxesThatAreNarrowerThanTheRadius) {
     const Space space{{{0, 0}, {10, 0.05}}, true};
     const PointSet set = sampled<2>(space, 0.2, 1);

@@ -19,7 +19,7 @@ SubcellBits random_bits(std::uint64_t seed, double chance) {
     return bits;
 }
 
-/// Sub-cell i of a gap by its lowest corner, in the units of gaps.
+/// Lowest corner of sub-cell i of a gap, in the units of gaps.
 template <std::size_t D>
 std::array<double, D> corner_of(const Gap<D>& gap, std::size_t i) {
     std::array<double, D> low;
@@ -37,7 +37,8 @@ bool holds(const Gap<D>& gap, const std::array<double, D>& low, double side) {
     return inside;
 }
 
-/// What is open stays within exactly one gap, and each gap within the old one has something open.
+/// Each open sub-cell is in exactly one of the new gaps, each of which is within the old gap and
+/// has an open sub-cell.
 template <std::size_t D>
 void expect_nothing_lost(std::uint64_t seed, double chance, bool may_split) {
     Gap<D> gap{.corner = {}, .place = 7, .level = 3};
@@ -91,7 +92,7 @@ TEST(Gaps, NarrowingLosesNothingAndKeepsNothingCovered) {
             }
 }
 
-// 8 x 8 sub-cells, open where x = 5, 6 and y = 6: a gap of a quarter of the side holds them.
+// 8 x 8 sub-cells, open at x = 5, 6 and y = 6: contained in a gap of a quarter of the side.
 TEST(Gaps, NarrowToTheOpenSubcellsInThePlane) {
     std::vector<Gap<2>> left;
     narrow<2>(Gap<2>{{0, 0}, 0, 0}, SubcellBits{0b0110'0000} << 48, false, left);

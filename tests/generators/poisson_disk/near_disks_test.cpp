@@ -15,7 +15,7 @@ namespace {
 template <std::size_t D>
 using Place = std::array<double, D>;
 
-/// A gap somewhere, and disks of which some reach into it; all numbers are floats.
+/// A gap and disks, some of which overlap it; all numbers are floats.
 template <std::size_t D>
 struct Scene {
     std::vector<Place<D>> centers;
@@ -50,7 +50,7 @@ struct Scene {
     }
 };
 
-/// 1 - the squared distance that decides on a sub-cell: the farthest corner of it from the center.
+/// 1 - the squared distance that decides on a sub-cell: from the centre to its farthest corner.
 template <std::size_t D>
 double depth(const Place<D>& center, const Place<D>& low, double side) {
     double squared = 0;
@@ -62,7 +62,8 @@ double depth(const Place<D>& center, const Place<D>& low, double side) {
     return 1 - squared;
 }
 
-/// Sub-cell by sub-cell: one that some disk covers with room to spare is not open, one that none covers is.
+/// Checks each sub-cell: one clearly covered by a single disk is not open; one that no disk covers
+/// is open.
 template <std::size_t D, class Real>
 void compare_subcells(std::uint64_t seed, Real slack) {
     const Scene<D> scene(seed, 1 + seed % 23);

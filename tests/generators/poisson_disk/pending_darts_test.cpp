@@ -12,7 +12,7 @@ using namespace stipple::poisson_disk;
 
 namespace {
 
-/// Darts in random cells, looked for about some cells, also beyond the tile.
+/// Darts in random cells, searched from several cells, also outside the tile.
 template <std::size_t D, unsigned side_bits, unsigned block_bits>
 void expect_found_by_their_cells(int reach) {
     using Pending = PendingDarts<D, side_bits, block_bits>;
@@ -72,7 +72,7 @@ TEST(PendingDarts, TheSearchEndsWithWhatItLooksFor) {
 TEST(PendingDarts, TheEarlierOneComesFirst) {
     const PendingDart<2> first{{0.5, 0.1}, 1, 0};
     EXPECT_TRUE(first.before({{0.1, 0.1}, 2, 0}));
-    EXPECT_FALSE(first.before({{0.1, 0.1}, 1, 0}));  // the same time: by coordinates
+    EXPECT_FALSE(first.before({{0.1, 0.1}, 1, 0}));  // equal times are ordered by coordinates
     EXPECT_FALSE(first.before(first));
 }
 

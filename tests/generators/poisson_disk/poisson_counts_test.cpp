@@ -10,9 +10,9 @@
 namespace stipple::testing::poisson_counts_test {
 using namespace stipple::poisson_disk;
 
-// 200 000 numbers of each mean against the Poisson probabilities: the chi-square statistic of the
-// cells with an expectation above 10 is below its mean by 6 of its standard deviations sqrt(2 dof)
-// but for 1e-8 or so. Means above 16 are drawn in portions.
+// Compares 200 000 numbers of each mean with Poisson probabilities: the chi-square statistic of
+// cells with an expectation above 10 exceeds its mean by 6 standard deviations, sqrt(2 dof) each,
+// with a probability of about 1e-8. Means above 16 are drawn in portions.
 TEST(PoissonCounts, NumbersArePoisson) {
     constexpr std::size_t draws = 200'000;
     for (const double to_a_part : {0.01, 0.3, 5.0})

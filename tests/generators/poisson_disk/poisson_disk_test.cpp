@@ -17,7 +17,7 @@
 namespace stipple::testing::poisson_disk_test {
 namespace {
 
-/// Odd proportions, small and large against a radius of 1; far from the origin; thin.
+/// Odd proportions, small and large relative to a radius of 1; far from the origin; thin.
 const std::vector<Space> spaces = [] {
     std::vector<Space> all;
     for (const bool torus : {true, false})
@@ -41,7 +41,7 @@ PointSet fill(const Space& space, std::optional<std::uint64_t> count, const Sett
     return make_in("poisson-disk", space, count, settings, seed);
 }
 
-/// The distance of the farthest place from all points, or a little more.
+/// Upper bound, nearly exact, on the distance from any position to the nearest point.
 double coverage(const PointSet& set, const Space& space) {
     return measure("coverage", "upper", set,
                    {{"metric", space.torus ? "torus" : "euclidean"}, {"tolerance", "1e-9"}});
@@ -61,8 +61,8 @@ TEST(PoissonDisk, EveryPairKeepsTheRadiusInAnyBox) {
         }
 }
 
-// Nothing is farther than the radius from all points, as another program part finds by the vertices
-// of the Voronoi diagram (in the plane) and by bounds for boxes.
+// Every position is within the radius of a point, verified by separate code: the vertices of the
+// Voronoi diagram (in the plane) and bounds for boxes.
 TEST(PoissonDisk, NoPlaceIsLeftInAnyBox) {
     for (const Space& space : spaces)
         for (const std::uint64_t seed : {1, 2, 3})
@@ -74,7 +74,7 @@ TEST(PoissonDisk, NoPlaceIsLeftInManyDimensions) {
     for (const auto& [dimension, side] : std::vector<std::pair<std::size_t, double>>{
              {4, 2.6}, {4, 1}, {5, 2.1}, {5, 1.3}, {6, 1.7}, {6, 0.9}})
         for (const bool torus : {true, false}) {
-            if (dimension == 6 && !torus && side > 1) continue;  // takes long
+            if (dimension == 6 && !torus && side > 1) continue;  // slow
             const Space space{
                 {std::vector<double>(dimension, 0), std::vector<double>(dimension, side)}, torus};
             const PointSet set = fill(space, {}, {{"radius", "1"}});
@@ -91,8 +91,8 @@ TEST(PoissonDisk, LargeSetsAreMaximal) {
     EXPECT_GE(measure("nearest-neighbor", "minimum", set), 0.004);
 }
 
-// One more cell than a tile has, few rows, faces between tiles, and several threads: the box is cut
-// in all ways that it can be.
+// One more cell than a tile has, few rows, faces between tiles, and several threads: the box is
+// split in all possible ways.
 TEST(PoissonDisk, SetsOfSeveralTilesAreMaximalForAnyNumberOfThreads) {
     for (const bool torus : {true, false})
         for (const auto& [columns, rows] :
@@ -110,7 +110,7 @@ TEST(PoissonDisk, SetsOfSeveralTilesAreMaximalForAnyNumberOfThreads) {
     EXPECT_EQ(with(1), with(3));
 }
 
-// The same in space: tiles of five to sixteen cells, their own neighbours or not, thin ones too.
+// The same in space: tiles of five to sixteen cells, adjacent to themselves or not, also thin ones.
 TEST(PoissonDisk, SetsOfSeveralTilesInSpaceAreMaximalForAnyNumberOfThreads) {
     const double r = std::sqrt(3.0);
     for (const bool torus : {true, false})
@@ -137,13 +137,13 @@ TEST(PoissonDisk, RadiiLargerThanHalfTheBoxWork) {
                 EXPECT_GE(smallest_distance(set, square), radius_of(set)) << square.name();
             }
         }
-    // Half the diagonal is as far as it goes on the torus.
+    // Half the diagonal is the largest distance on the torus.
     EXPECT_EQ(make("poisson-disk", {}, {{"radius", "0.71"}}).count(), 1);
 }
 
-// The densities at which random sequential addition ends, n r^d: the packed fraction 0.5470 times
-// 4 / pi in the plane, 0.3841 times 6 / pi in space (S. Torquato, O. U. Uche, F. H. Stillinger,
-// Phys. Rev. E 74 (2006) 061308). Numbers vary by sqrt(0.04 n) about, of which five are allowed.
+// Final densities of random sequential addition, n r^d: the packing fraction 0.5470 times 4 / pi in
+// the plane, 0.3841 times 6 / pi in space (S. Torquato, O. U. Uche, F. H. Stillinger, Phys. Rev. E
+// 74 (2006) 061308). Counts vary by about sqrt(0.04 n), five of which are allowed.
 TEST(PoissonDisk, DensityIsThatOfRandomSequentialAddition) {
     const PointSet plane = make("poisson-disk", {}, {{"radius", "0.005"}});
     EXPECT_NEAR(static_cast<double>(plane.count()) * 2.5e-5, 0.5470 * 4 / M_PI, 0.004);
@@ -151,8 +151,8 @@ TEST(PoissonDisk, DensityIsThatOfRandomSequentialAddition) {
     EXPECT_NEAR(static_cast<double>(space.count()) * 6.4e-5, 0.3841 * 6 / M_PI, 0.012);
 }
 
-// Estimates of memory and first radii rest on them. In few points of many dimensions the torus
-// itself moves the numbers by some percent.
+// Estimates of memory and first radii are based on these densities. For few points in many
+// dimensions, the torus itself changes the counts by some percent.
 TEST(PoissonDisk, SaturatedDensitiesHoldInAllDimensions) {
     for (const auto& [d, radius] : {std::pair{2U, 0.02}, {3, 0.06}, {4, 0.2}, {5, 0.4}, {6, 0.6}}) {
         const double sets = 2;
@@ -168,7 +168,7 @@ TEST(PoissonDisk, SaturatedDensitiesHoldInAllDimensions) {
     }
 }
 
-// The radius search makes cells for less than the radius: more of them, which take more memory.
+// The radius search uses cells for a smaller radius: more of them, which need more memory.
 TEST(PoissonDisk, MemoryIsThatOfTheCells) {
     const BoxSpace cube{{{0, 0, 0}, {18, 18, 18}}, true};  // one tile or eight
     const auto refusal = [&](double cell_radius) {
@@ -198,7 +198,7 @@ TEST(PoissonDisk, MakesExactlyAsManyAsAskedWithARadiusThatHolds) {
     EXPECT_EQ(make("poisson-disk", {}).count(), 1024);
 }
 
-// The search for exactly so many points needs it: one disk more or less changes what is near it.
+// The search for an exact count needs this: one disk more or less only changes its surroundings.
 TEST(PoissonDisk, SetsForRadiiThatHardlyDifferHardlyDiffer) {
     for (const std::size_t d : {2, 3}) {
         const double side = d == 2 ? 150 : 30;
@@ -221,14 +221,14 @@ TEST(PoissonDisk, SetsForRadiiThatHardlyDifferHardlyDiffer) {
     }
 }
 
-// Exactly N points are maximal as well: the set leaves no place for the radius that it notes.
+// Sets with an exact count are maximal, too, for the radius in their provenance.
 TEST(PoissonDisk, ExactCountsAreMaximal) {
     for (const bool torus : {true, false})
         for (const std::uint64_t n : {50, 333, 1024, 5000}) {
             const Space square{{{0, 0}, {1, 1}}, torus};
             const PointSet set = fill(square, n, {});
             ASSERT_EQ(set.count(), n);
-            // A root may be rounded up, the radius is not.
+            // The distance is a rounded square root; the radius is not rounded up.
             EXPECT_DOUBLE_EQ(measure("nearest-neighbor", "minimum", set,
                                      {{"metric", torus ? "torus" : "euclidean"}}),
                              radius_of(set));
@@ -247,8 +247,8 @@ TEST(PoissonDisk, AboutSoManyPointsAreMadeInOneGo) {
         }
 }
 
-// The points that fit into [0, 1] / 4 are a quarter of all within 10 standard deviations of a
-// random set: one clump or one hole would miss that by far.
+// The box [0, 1/4] contains a quarter of the points within 10 standard deviations of a random set:
+// a cluster or hole would deviate by much more.
 TEST(PoissonDisk, ExactCountsSpreadEvenly) {
     const PointSet set = make("poisson-disk", points(5000, 2));
     for (const double x : {0.0, 0.5})
@@ -269,8 +269,8 @@ TEST(PoissonDisk, SeedAloneDecides) {
     EXPECT_NE(with(1, 1), with(2, 1));
 }
 
-// Rotation on the torus changes nothing: the mean of 30 sets' coordinates is 1/2 within 5 standard
-// deviations of points at random, which these spread less than.
+// Translations of the torus change nothing: mean coordinates of 30 sets are 1/2 within 5 standard
+// deviations of random points, which vary more.
 TEST(PoissonDisk, FavoursNoPlace) {
     double sum[2] = {0, 0};
     double count = 0;
@@ -342,7 +342,7 @@ TEST(PoissonDisk, RefusesContradictionsAndImpossibleRadii) {
     EXPECT_NE(refusal({.bounds = Box{{0, 0}, {1e200, 1}}}, {}), "");
 }
 
-// Grids with few cells along a direction are not worked on in tiles that all have the same size.
+// Grids with few cells along a direction are not split into tiles of equal size.
 TEST(PoissonDisk, LongThinBoxesNeedOnlyWhatTheyTake) {
     for (const std::size_t d : {2U, 3U}) {
         Box box{std::vector<double>(d, 0), std::vector<double>(d, 1)};
@@ -375,7 +375,7 @@ namespace {
 
 const Space unit_torus{{{0, 0}, {1, 1}}, true};
 
-/// Oracle: darts thrown one by one at the torus, some 4000 for each that can stay.
+/// Oracle: darts thrown one by one on the torus, about 4000 for each that fits.
 std::vector<std::array<double, 2>> thrown(double radius, std::uint64_t seed) {
     const Rng rng(seed, 5);
     std::vector<std::array<double, 2>> kept;
@@ -389,7 +389,7 @@ std::vector<std::array<double, 2>> thrown(double radius, std::uint64_t seed) {
     return kept;
 }
 
-/// What sets look like near the radius: number of points, and of pairs in four shells of 0.1 r.
+/// Statistics of a set near the radius: number of points, and of pairs in four shells of 0.1 r.
 using Looks = std::array<double, 5>;
 
 template <class Points>
@@ -403,7 +403,7 @@ Looks looks_of(const Points& set, std::size_t count, double radius) {
     return looks;
 }
 
-/// The largest difference of the means of two samples, in its standard deviations.
+/// Largest difference between the means of two samples, in standard deviations.
 double difference(const std::vector<Looks>& a, const std::vector<Looks>& b) {
     double worst = 0;
     for (std::size_t k = 0; k < a[0].size(); ++k) {
@@ -424,9 +424,9 @@ double difference(const std::vector<Looks>& a, const std::vector<Looks>& b) {
 
 }  // namespace
 
-// The process is that of plain dart throwing: counts and pairs just above the radius agree. Five
-// normal numbers are all below 4.5 in 99.997 % of cases. Sets that are as dense and as far apart
-// but made around points that are there (the shell from r to 1.1 r) are told from them.
+// The process is plain dart throwing: counts and pairs just beyond the radius agree. Five normal
+// numbers are all below 4.5 with probability 99.997 %. Equally dense sets with the same radius, but
+// made around existing points (the shell from r to 1.1 r), are detected.
 void expect_plain_dart_throwing(double radius) {
     std::vector<Looks> ours;
     std::vector<Looks> plain;
@@ -458,7 +458,7 @@ void expect_plain_dart_throwing(double radius) {
 
 TEST(PoissonDisk, IsPlainDartThrowing) { expect_plain_dart_throwing(0.2); }
 
-// The same where there are fewer than five cells along each direction.
+// The same with fewer than five cells along each direction.
 TEST(PoissonDisk, IsPlainDartThrowingInFewCells) { expect_plain_dart_throwing(0.38); }
 
 namespace {
@@ -466,8 +466,8 @@ namespace {
 const Space unit_cube{{{0, 0, 0}, {1, 1, 1}}, true};
 using Place3 = std::array<double, 3>;
 
-/// Oracle: darts thrown one by one at boxes of equal size, until all lie within one ball each.
-/// Boxes are cut into eight when as many darts as there are boxes were in vain.
+/// Oracle: darts thrown one by one at boxes of equal size, until each box is within a ball. Boxes
+/// are split into eight after as many failed darts as there are boxes.
 std::vector<Place3> thrown_in_space(double radius, std::uint64_t seed) {
     const Rng rng(seed, 7);
     std::uint64_t drawn = 0;
@@ -526,8 +526,8 @@ Looks looks_in_space(const Points& set, std::size_t count, double radius) {
 
 }  // namespace
 
-// The same in space, in one tile and in eight. Without what falls on small gaps, a twentieth of the
-// points, the numbers differ by far more.
+// The same in space, with one tile and with eight. Without the points in small gaps, a twentieth of
+// all, the counts would differ by far more.
 TEST(PoissonDisk, IsPlainDartThrowingInSpace) {
     for (const auto& [radius, sets] : {std::pair{0.34, 200}, {0.107, 6}}) {
         std::vector<Looks> ours;
@@ -562,9 +562,9 @@ TEST(PoissonDisk, OrderIsRandomOrProgressive) {
                                     set.flat().begin() + static_cast<std::ptrdiff_t>(2 * n)),
                 2);
         };
-        // 0.62 of the densest packing, as maximal sets have, less a quarter of an octave
+        // 0.62 of the densest packing, as for maximal sets, minus a quarter of an octave
         EXPECT_GT(measure("nearest-neighbor", "relative_radius", prefix(spread)), 0.6) << n;
-        // In random order the beginning is spread like random points are, over the whole square:
+        // In random order the first points are spread over the whole square like random points:
         // uniform points fail in 2 of 10^4 sets.
         EXPECT_LT(measure("nearest-neighbor", "relative_radius", prefix(random)), 0.6) << n;
         if (n >= 100) {
@@ -574,7 +574,7 @@ TEST(PoissonDisk, OrderIsRandomOrProgressive) {
     }
 }
 
-// The provenance says what makes the set again: the files, and the least radius.
+// Provenance contains everything needed to make the set again: files, and the least radius.
 TEST(PoissonDisk, NotesFilesAndTheLeastRadius) {
     const TemporaryFile density(npy_of("<f8", "(1, 2)", std::vector<double>{1, 4}));
     const TemporaryFile mask(npy_of("<f8", "(2, 1)", std::vector<double>{1, 0}));
@@ -592,8 +592,8 @@ TEST(PoissonDisk, NotesFilesAndTheLeastRadius) {
                                              {"invert", "true"}}));
 }
 
-// A mask that leaves all is no other rule: n r^2 of the uniform set and of this one agree,
-// within 5 of the standard deviations of each, 0.3 % of 4353 points.
+// A mask without holes does not change the process: n r^2 agrees with the uniform set within 5
+// standard deviations, each 0.3 % for 4353 points.
 TEST(PoissonDisk, AMaskOfAllLeavesTheProcessAsItIs) {
     const TemporaryFile mask(npy_of("<f8", "(1, 1)", std::vector<double>{3}));
     for (const std::uint64_t seed : {1, 2, 3}) {

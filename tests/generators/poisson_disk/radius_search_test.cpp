@@ -14,7 +14,7 @@ using namespace stipple::poisson_disk;
 
 namespace {
 
-/// About r^-2 points of the plane, their number divided by `step`; numbered, so that they differ.
+/// About r^-2 points in the plane, divided by `step`; with numbers, so that they differ.
 Pack pack_of(std::uint64_t step) {
     return [=](double r, double, std::uint64_t, const RunContext&) {
         const auto count = static_cast<std::uint64_t>(1 / (r * r)) / step * step;
@@ -25,7 +25,7 @@ Pack pack_of(std::uint64_t step) {
     };
 }
 
-/// What a search finds, and what the user is told.
+/// Result of a search, and its warnings.
 struct Found {
     Packing packing;
     std::vector<std::string> told;
@@ -49,7 +49,7 @@ TEST(RadiusSearch, EndsAtARadiusThatLeavesTheCount) {
     }
 }
 
-// A set from which points were removed is not maximal, and nobody is left to believe it.
+// A set from which points were removed is not maximal, so a warning says so.
 TEST(RadiusSearch, TellsWhenTheSurplusHadToGo) {
     const Found found(99, pack_of(4));
     const auto rows = found.packing.rows.numbers();
@@ -57,7 +57,7 @@ TEST(RadiusSearch, TellsWhenTheSurplusHadToGo) {
     std::set<double> points;
     for (std::size_t i = 0; i < rows.size(); i += 2) points.insert(rows[i]);
     EXPECT_EQ(points.size(), 99U);
-    EXPECT_LT(*points.rbegin(), 100);  // of the set with the least surplus
+    EXPECT_LT(*points.rbegin(), 100);  // from the set with the smallest surplus
     EXPECT_NEAR(found.packing.radius, 0.1, 1e-6);
     ASSERT_EQ(found.told.size(), 1U);
     EXPECT_EQ(found.told[0],

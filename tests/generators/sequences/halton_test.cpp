@@ -14,7 +14,7 @@
 
 namespace stipple::testing::halton_test {
 
-// Radical inverses of 0..5 in bases 2 and 3, worked by hand.
+// Radical inverses of 0..5 in bases 2 and 3, by hand.
 TEST(Halton, FirstPointsByHand) {
     EXPECT_EQ(make("halton", points(6, 2)), points_of({{0, 0},
                                                        {1. / 2, 1. / 3},
@@ -26,8 +26,8 @@ TEST(Halton, FirstPointsByHand) {
               points_of({{1. / 2}, {1. / 4}, {3. / 4}, {1. / 8}, {5. / 8}}));
 }
 
-// The theorem that makes it low-discrepancy, for aligned and unaligned blocks alike. Boxes by exact
-// arithmetic: floor(x b^m) is wrong where k / 3^m rounds to just under the edge it lies on.
+// The theorem that makes it a low-discrepancy sequence, for aligned and unaligned blocks. Boxes by
+// exact arithmetic: floor(x b^m) is wrong if k / 3^m is rounded to just below its edge.
 TEST(Halton, EveryBlockMeetsEachElementaryBoxOnce) {
     for (const std::uint64_t start : {0, 1, 1000, 777777})
         for (const auto& [nx, ny] : {std::pair{8, 9}, {32, 27}, {1, 81}, {64, 1}}) {
@@ -55,7 +55,7 @@ TEST(Halton, CoordinatesAreRadicalInversesInTheFirstPrimes) {
     }
 }
 
-// So do permuted and leaped ones.
+// The same for permuted and leaped sequences.
 TEST(Halton, EveryBlockMeetsEachElementaryBoxOnceWhateverIsPermutedOrLeaptOver) {
     for (const char* scramble : {"none", "faure", "reverse", "permutation", "owen"})
         for (const char* leap : {"1", "7", "409"})
@@ -92,7 +92,7 @@ TEST(Halton, FaurePermutationsByHand) {
     EXPECT_EQ(part_of(set, 0, 6, {0, 1}), make("halton", points(6, 2)));
 }
 
-// In base 3 digits 1 and 2 change places, in base 5 the digits 1 to 4 become 4 to 1.
+// In base 3 digits 1 and 2 are exchanged, in base 5 the digits 1 to 4 become 4 to 1.
 TEST(Halton, ReversedDigitsByHand) {
     const PointSet set = make("halton", points(6, 3), {{"scramble", "reverse"}});
     EXPECT_EQ(set, points_of({{0, 0, 0},
@@ -130,8 +130,9 @@ TEST(Halton, OwenIsTheScrambleOfTheSameSeedAndCoordinate) {
     }
 }
 
-// Kolmogorov's statistic over 3000 seeds, of 2 points in 3 coordinates under 2 scrambles: false
-// alarm 12 x 2 exp(-2 x 2.6^2) = 3e-5. Faure's permutations, which know no seed, must fail.
+// Kolmogorov-Smirnov statistic over 3000 seeds, for 2 points in 3 coordinates under 2 scrambles:
+// false alarm 12 x 2 exp(-2 x 2.6^2) = 3e-5. Faure's permutations do not depend on the seed and
+// must fail.
 TEST(Halton, RandomPermutationsMakeEachPointUniform) {
     const auto images = [](const char* scramble, std::uint64_t index) {
         std::vector<std::vector<double>> x(3);

@@ -11,7 +11,7 @@ namespace {
 
 using Whole = boost::multiprecision::cpp_int;
 
-/// Oracle: g with g^d (1 + g) = 1 to 300 bits, by halving; then its powers.
+/// Oracle: g with g^d (1 + g) = 1 to 300 bits, by bisection; then its powers.
 std::vector<Fraction> golden_powers(unsigned d) {
     constexpr unsigned bits = 300;
     Whole low = 0;
@@ -29,7 +29,7 @@ std::vector<Fraction> golden_powers(unsigned d) {
     return powers;
 }
 
-/// frac(x), cut off after 53 bits.
+/// frac(x), truncated to 53 bits.
 double first_bits(const Fraction& x) {
     const Whole scaled = (numerator(x) << 53) / denominator(x);
     return std::ldexp(static_cast<double>(static_cast<std::int64_t>(scaled % (Whole(1) << 53))),
@@ -40,7 +40,7 @@ constexpr std::uint64_t last = (std::uint64_t{1} << 53) - 1;
 
 }  // namespace
 
-// Printed in Roberts' article: phi_1 = 1.61803398874989..., phi_2 = 1.32471795724474...
+// Published in Roberts' article: phi_1 = 1.61803398874989..., phi_2 = 1.32471795724474...
 TEST(Kronecker, FirstPointsOfR1AndR2) {
     const PointSet r1 = make("kronecker", points(3, 1));
     EXPECT_EQ(r1[0][0], 0);
@@ -124,8 +124,8 @@ TEST(Kronecker, SaysWherePointsRepeat) {
     EXPECT_TRUE(notes(1 << 20, "golden").empty());
 }
 
-// Three distances (V. T. Sos 1958, with others): multiples of a number modulo 1 leave gaps of at
-// most three lengths, the largest of which is the sum of the others.
+// Three-distance theorem (V. T. Sos 1958 and others): multiples of a number modulo 1 leave gaps of
+// at most three lengths, the largest of which is the sum of the others.
 TEST(Kronecker, OneDimensionLeavesAtMostThreeGaps) {
     for (const std::uint64_t n : {2U, 10U, 100U, 233U, 1000U})
         for (const Settings& settings : {Settings{}, {{"alpha", "0.2345678"}}}) {

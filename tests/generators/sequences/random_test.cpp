@@ -16,7 +16,7 @@ PointSet with(const std::string& rng, const Request& request, std::uint64_t seed
 
 }  // namespace
 
-// The numbers that the C library's drand48 prints, dealt to the coordinates in turn.
+// Numbers of the C library's drand48, assigned to the coordinates in turn.
 TEST(Random, Drand48DealsItsNumbersInTurn) {
     EXPECT_EQ(with("drand48", points(1, 3), 1),
               points_of({{0.041630344771878214, 0.45449244472862915, 0.8348172181669149}}));
@@ -25,7 +25,7 @@ TEST(Random, Drand48DealsItsNumbersInTurn) {
     EXPECT_EQ(with("drand48", points(1, 1), 0), points_of({{0.17082803610628972}}));
 }
 
-// First numbers known from the C library and from the standard's engines.
+// First numbers, known from the C library and from the standard's engines.
 TEST(Random, EveryEngineIsTheOneThatIsNamed) {
     EXPECT_EQ(with("philox", points(1, 2), 5), points_of({{Rng(5).uniform(0), Rng(5).uniform(1)}}));
     EXPECT_EQ(with("random", points(1, 2), 1),
@@ -73,7 +73,7 @@ TEST(Random, FarIndicesWork) {
         const PointSet points = with(rng, stipple::testing::points(2, 1000, far), 1);
         for (const double x : points.flat()) EXPECT_TRUE(x >= 0 && x < 1) << rng;
     }
-    // 2^48 numbers make drand48 come round.
+    // drand48 has the period 2^48.
     EXPECT_EQ(with("drand48", points(2, 1, std::uint64_t{1} << 48), 7),
               with("drand48", points(2, 1), 7));
 }
@@ -97,9 +97,9 @@ TEST(Random, RefusesSeedsThatAnEngineDoesNotTake) {
     EXPECT_NE(refusal("rand", 1), "");
 }
 
-// The mean of 2e5 numbers is off 1/2 by less than 5 standard deviations, sqrt(1 / (12 N)), and
-// neighbours are uncorrelated as well: false alarm 6 engines x 2 x 6e-7. Dealing every second
-// number only, or halving a range, fails by far.
+// The mean of 2e5 numbers differs from 1/2 by less than 5 standard deviations, sqrt(1 / (12 N)),
+// and neighbours are uncorrelated: false alarm 6 engines x 2 x 6e-7. Using every second number
+// only, or halving a range, fails by far.
 TEST(Random, NumbersAreUniformAndUncorrelated) {
     for (const auto& rng : engines) {
         const PointSet set = with(rng, points(200'000, 1), 11);

@@ -24,7 +24,7 @@ TEST(VanDerCorput, AlignedBlocksAreShiftedGrids) {
             const PointSet set = make("van-der-corput", points(block, 1, number * block),
                                       {{"base", std::to_string(b)}});
             const auto side = static_cast<double>(block);
-            // The digits above the block's stand behind its own.
+            // The digits above those of the block come after its own in the radical inverse.
             const double shift = RadicalInverse(static_cast<std::uint32_t>(b)).of(number) / side;
             std::set<std::int64_t> seen;
             for (const double x : set.flat()) {

@@ -33,7 +33,7 @@ TEST(CorrelatedMultiJittered, GridsHaveOnePointInEachCellAndStrip) {
     EXPECT_TRUE(is_latin(make(name, {}, {{"shape", "5x31"}})));
 }
 
-// Any n: strips along y are all met; those along x, of which there are m r, at most once.
+// Any n: each strip along y has a point; each of the m r strips along x at most one.
 TEST(CorrelatedMultiJittered, AnyCountIsMadeExactly) {
     for (std::uint64_t n = 1; n <= 200; ++n) {
         const PointSet set = make(name, points(n, 2), {}, {.seed = n});
@@ -57,8 +57,8 @@ TEST(CorrelatedMultiJittered, AnyCountIsMadeExactly) {
     }
 }
 
-// Strips of neighbouring rows have the same order in all columns: points of a row, in the middles
-// of their strips, are at the same place in their columns.
+// Strips of neighbouring rows have the same order in all columns: points of a row, centred in their
+// strips, have the same position in their columns.
 TEST(CorrelatedMultiJittered, ColumnsAreOrderedAlike) {
     const auto distinct = [](const char* generator) {
         const PointSet set =
@@ -71,8 +71,8 @@ TEST(CorrelatedMultiJittered, ColumnsAreOrderedAlike) {
     EXPECT_GT(distinct("multi-jittered"), 1U);
 }
 
-// That is what keeps points apart: over 50 seeds the mean of the least distance is larger by more
-// than half (of centred sets; a wide margin, no statistics needed).
+// This order keeps points apart: over 50 seeds the mean of the minimum distance is larger by more
+// than half (for centred sets; a wide margin, without statistics).
 TEST(CorrelatedMultiJittered, PointsKeepFartherApart) {
     const auto mean = [](const char* generator) {
         double sum = 0;

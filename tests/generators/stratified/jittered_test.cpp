@@ -14,7 +14,7 @@ struct Rectangle {
     Fraction x0, x1, y0, y1;
 };
 
-/// Oracle: the cells of n points in the plane, row after row, from the header's words.
+/// Oracle: cells of n points in the plane, row after row, as described in the header.
 std::vector<Rectangle> cells_of(std::int64_t n) {
     const auto rows = static_cast<std::int64_t>(rounded_root(static_cast<std::uint64_t>(n)));
     std::vector<Rectangle> cells;
@@ -48,7 +48,7 @@ TEST(Jittered, PutsOnePointIntoEachCellOfEqualArea) {
     }
 }
 
-// Of any shape, the first coordinate fastest.
+// Grids of any shape; the first coordinate varies fastest.
 TEST(Jittered, PutsOnePointIntoEachCellOfAShape) {
     for (const auto& shape : {std::vector<std::int64_t>{7}, {16, 4}, {1, 5, 3}, {3, 2, 1, 2}}) {
         std::string text;
@@ -114,8 +114,8 @@ TEST(Jittered, OnePointInEachCellInAnyDimension) {
     }
 }
 
-// Where in its cell each point is, is uniform: the mean of 2e5 offsets is within 5 standard
-// deviations of 1/2 (false alarm 1.2e-6), and no two are the same number.
+// Offsets in cells are uniform: the mean of 2e5 offsets is within 5 standard deviations of 1/2
+// (false alarm 1.2e-6), and no two are equal.
 TEST(Jittered, OffsetsAreUniform) {
     const PointSet set = make("jittered", points(100, 2), {}, {.seed = 3});
     std::set<double> offsets;

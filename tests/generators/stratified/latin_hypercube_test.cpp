@@ -30,7 +30,7 @@ PointSet part_of(const PointSet& set, std::size_t first, std::size_t last) {
     return {std::vector<double>(rows.begin(), rows.end()), d};
 }
 
-/// As a file of it.
+/// The points as text of a file.
 std::string text_of(const PointSet& points) {
     std::string text;
     for (std::size_t i = 0; i < points.count(); ++i)
@@ -42,7 +42,7 @@ double said(const PointSet& set, std::size_t i = 0) {
     return std::stod(set.provenance.found.at(i).second);
 }
 
-/// The least squared distance of two strata.
+/// Minimum squared distance of two strata.
 double least_square(const PointSet& set) {
     const std::size_t n = set.count();
     double least = 1e300;
@@ -93,8 +93,8 @@ TEST(LatinHypercube, StrengthTwoFillsEachSquareOfEachPairOnce) {
     EXPECT_FALSE(has_strength(make("latin-hypercube", points(49, 8)), 7, 2));
 }
 
-// All six permutations of three strata against each other; a chi-square with 5 degrees of freedom
-// is above 36 with a chance of 1e-6.
+// All six permutations of three strata relative to each other; a chi-square with 5 degrees of
+// freedom exceeds 36 with probability 1e-6.
 TEST(LatinHypercube, EveryPermutationIsEquallyLikely) {
     std::map<std::vector<std::uint64_t>, double> seen;
     for (std::uint64_t seed = 0; seed < 6000; ++seed) {
@@ -109,8 +109,8 @@ TEST(LatinHypercube, EveryPermutationIsEquallyLikely) {
     EXPECT_LT(statistic, 36);
 }
 
-// Coordinates are independent: n^(1/2) times their correlation is nearly normal. 45 pairs
-// within 5.5 standard deviations: false alarm 2e-6. One permutation for all coordinates would give
+// Coordinates are independent: n^(1/2) times their correlation is nearly normal. 45 pairs within
+// 5.5 standard deviations: false alarm 2e-6. The same permutation for all coordinates would give
 // 141.
 TEST(LatinHypercube, CoordinatesAreNotCorrelated) {
     const PointSet set = make("latin-hypercube", points(20'000, 10), {}, {.seed = 4});
@@ -175,7 +175,7 @@ TEST(LatinHypercube, SaysWhatItsStrataAreWorth) {
     };
     const PointSet far = make_by("maximin");
     EXPECT_EQ(said(far), least_square(far));
-    EXPECT_GE(said(far), 230);  // random ones: 2 to 60
+    EXPECT_GE(said(far), 230);  // random ones have 2 to 60
     const PointSet even = make_by("centered-l2");
     EXPECT_NEAR(said(even), measure("l2-discrepancy", "centered.squared", even), 1e-15);
     EXPECT_NEAR(said(even, 1), measure("l2-discrepancy", "centered.value", even), 1e-15);
@@ -185,8 +185,8 @@ TEST(LatinHypercube, SaysWhatItsStrataAreWorth) {
     EXPECT_LT(said(make_by("correlation")), 0.002);
 }
 
-// The table's values for d = 2, 3, 5 and n = 10, 20 (data/latin_hypercubes.md), which short searches
-// find.
+// Published values for d = 2, 3, 5 and n = 10, 20 (data/latin_hypercubes.md), which short searches
+// reach.
 TEST(LatinHypercube, FindsPublishedDistances) {
     const auto square = [](std::uint64_t n, std::size_t d, const char* effort) {
         return said(
@@ -216,7 +216,7 @@ TEST(LatinHypercube, OnTheLineAndOfOnePointThereIsNothingToOptimize) {
         }
 }
 
-// Every slice is a Latin hypercube of n / K strata, and all are one of n.
+// Every slice is a Latin hypercube of n / K strata, and their union is one of n.
 TEST(LatinHypercube, SlicesAreLatinHypercubes) {
     for (const auto& [n, slices] : {std::pair{12, 3}, {12, 12}, {12, 1}, {700, 7}, {1000, 10}})
         for (const char* effort : {"", "0.0005"}) {
@@ -234,8 +234,8 @@ TEST(LatinHypercube, SlicesAreLatinHypercubes) {
     EXPECT_TRUE(stretches_agree("latin-hypercube", points(60, 3), {{"sliced", "5"}}));
 }
 
-// By hand: of two slices of one point each there are two designs a coordinate; 5000 of 10000 seeds
-// have either, within 5 standard deviations of 50.
+// By hand: two slices of one point each have two designs per coordinate, with probability 1/2 each;
+// 10000 seeds, 5 standard deviations of 50.
 TEST(LatinHypercube, SlicesTakeStrataAtRandom) {
     int first = 0;
     for (std::uint64_t seed = 0; seed < 10'000; ++seed)
@@ -269,7 +269,7 @@ TEST(LatinHypercube, SearchesOfPartsAreBetterThanNone) {
     }
 }
 
-// Each new point is in a stratum of its own along each coordinate, and the old ones stay.
+// Each new point is in a stratum of its own along each coordinate, and the old ones are unchanged.
 TEST(LatinHypercube, ExtensionsFillEmptyStrata) {
     for (const auto& [old, more] : {std::pair{10, 20}, {10, 10}, {10, 1}, {1, 5}, {12, 7}})
         for (const char* criterion : {"", "maximin", "centered-l2"}) {
@@ -324,7 +324,7 @@ TEST(LatinHypercube, LevelsSpreadCategories) {
         set, make("latin-hypercube", points(12, 2), {{"optimize", "maximin"}, {"effort", "0.01"}}));
 }
 
-// A stop after the first progress: nothing, or where the best will do the best so far.
+// A stop after the first progress report: cancelled, or the best design so far if the run keeps it.
 TEST(LatinHypercube, KeepsTheBestWhenItsSearchIsStopped) {
     for (const bool keeps : {false, true}) {
         std::stop_source source;

@@ -12,13 +12,13 @@
 namespace stipple::testing::multi_jittered_test {
 namespace {
 
-/// The strips of width 1/n of point i.
+/// The strips of width 1/n that contain point i.
 std::pair<std::uint64_t, std::uint64_t> strips(const PointSet& set, std::size_t i) {
     return {stratum_of(set[i][0], set.count()), stratum_of(set[i][1], set.count())};
 }
 
-/// Whether for some turn of the torus along x, columns of floor(n/a) strips or one more hold one
-/// point each of every full row, and at most one of the last.
+/// Whether for some shift of the torus along x, columns of floor(n/a) or one more strips contain
+/// one point of every full row, and at most one of the last row.
 bool has_full_rows(const PointSet& set, std::uint64_t columns) {
     const std::size_t n = set.count();
     std::map<std::uint64_t, std::vector<std::uint64_t>> rows;
@@ -26,8 +26,8 @@ bool has_full_rows(const PointSet& set, std::uint64_t columns) {
         const auto [x, y] = strips(set, i);
         rows[y / columns].push_back(x);
     }
-    // Column by column, in the order in which a full row has them: its c-th points are near each
-    // other in all rows, no farther than two columns' width on the torus.
+    // Column by column, in the order of a full row: the c-th points of all rows are near each
+    // other, within two columns' width on the torus.
     const std::uint64_t width = n / columns + 1;
     for (auto& [row, xs] : rows) {
         if (xs.size() != (row < n / columns ? columns : n % columns)) return false;
@@ -73,8 +73,8 @@ TEST(MultiJittered, OtherCountsHaveFullRowsAndOneMore) {
     EXPECT_FALSE(has_full_rows(make("latin-hypercube", points(997, 2)), 31));
 }
 
-// In cell order with no turn of the torus the columns are known: point i of a full row is in column
-// i mod a. Turned, all points of a column are within its width of each other.
+// In cell order without a shift the columns are known: point i of a full row is in column i mod a.
+// With a shift, points of a column are within its width of each other.
 TEST(MultiJittered, ColumnsOfOtherCountsHoldTheirPoints) {
     for (const std::uint64_t n : {97, 997}) {
         const std::uint64_t a = floor_root(n, 2);
@@ -92,9 +92,9 @@ TEST(MultiJittered, ColumnsOfOtherCountsHoldTheirPoints) {
     }
 }
 
-// Points of 5, 6 and 7 over many seeds, in cells of a 5 x 6 grid that are not theirs: chi-square
-// with 29 degrees of freedom; points of a set are not independent, which makes it smaller rather
-// than larger. False alarm below 3e-6.
+// Points of sets of 5, 6 and 7 over many seeds, in cells of a 5 x 6 grid that is not theirs:
+// chi-square with 29 degrees of freedom, reduced rather than increased by the dependence within a
+// set. False alarm below 3e-6.
 TEST(MultiJittered, IsUniformForCountsThatAreNoGrid) {
     for (const std::uint64_t n : {5, 7, 11}) {
         std::vector<double> held(30);

@@ -70,7 +70,8 @@ TEST(OrthogonalArray, CenteredPointsAreTheMiddlesOfTheirStrata) {
     }
 }
 
-// In cell order the first coordinate's level changes with every point, the last one's after s.
+// In cell order the first coordinate's level changes with every point, the last one's after s
+// points.
 TEST(OrthogonalArray, OrderIsByCellsOrShuffled) {
     const auto level = [](const PointSet& set, std::size_t i) { return stratum_of(set[i][1], 7); };
     const PointSet cells = make("orthogonal-array", points(49, 2), {{"order", "cells"}});

@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* unit = "subset";
 
-/// The points as text, a point a line, that reads back to the same numbers.
+/// The points as text, one per line, which reads back to the same numbers.
 std::string text_of(const PointSet& set) {
     std::string text;
     for (std::size_t i = 0; i < set.count(); ++i)
@@ -38,7 +38,7 @@ PointSet choice_of(const PointSet& set, const std::vector<std::size_t>& rows) {
     return chosen;
 }
 
-/// The value of a measure, by the analyzer that has it.
+/// Value of a measure, by its analyzer.
 double value_of(const std::string& by, const PointSet& set) {
     if (by == "star") return measure("star-discrepancy", "value", set);
     if (by.starts_with("l2-"))
@@ -50,7 +50,7 @@ constexpr const char* measures[] = {"star",       "l2-star",    "l2-centered", "
                                     "l2-mixture", "l2-average", "periodic",    "gaussian",
                                     "matern",     "stein"};
 
-/// Calls `look` for all choices of n of so many rows.
+/// Calls `look` for all choices of n rows.
 void for_choices(std::size_t all, std::size_t n,
                  const std::function<void(const std::vector<std::size_t>&)>& look) {
     std::vector<bool> in(all, false);
@@ -69,7 +69,7 @@ double found_value(const PointSet& set, std::string_view name) {
     return -1;
 }
 
-/// Points and scores of the standard normal distribution.
+/// Points of the standard normal distribution with their scores.
 PointSet normal_rows(std::size_t n, std::size_t d, std::uint64_t seed) {
     PointSet rows(n, 2 * d);
     const PointSet uniform = make("random", points(n, d), {}, {.seed = seed});
@@ -118,14 +118,14 @@ TEST(Subset, TellsTheValueThatTheAnalyzerFinds) {
             make(unit, {.count = 20}, {{"from", file.path()}, {"by", by}, {"effort", "0.01"}});
         const double told = found_value(found, by == "star" ? "star_discrepancy" : "squared");
         EXPECT_NEAR(told, value_of(by, found), 1e-9 * told) << by;
-        // Far from what the first 20 have.
+        // Far below the value of the first 20 points.
         std::vector<std::size_t> first(20);
         for (std::size_t i = 0; i < 20; ++i) first[i] = i;
         EXPECT_LT(told, 0.5 * value_of(by, choice_of(all, first))) << by;
     }
 }
 
-// Oracle: of every prefix, that with the one more point that l2-discrepancy judges best.
+// Oracle: each prefix is extended by the point that l2-discrepancy rates best.
 TEST(Subset, WithoutEffortChoosesGreedily) {
     const PointSet all = make("random", points(60, 2), {}, {.seed = 3});
     const TemporaryFile file(text_of(all));
@@ -139,7 +139,7 @@ TEST(Subset, WithoutEffortChoosesGreedily) {
                 std::vector<std::size_t> more = rows;
                 more.push_back(i);
                 const double value = value_of(by, choice_of(all, more));
-                // By the periodic kernel single points are alike: then the first.
+                // By the periodic kernel single points are equal: then the first.
                 if (value < least * (1 - 1e-12)) least = value, best = i;
             }
             rows.push_back(best);
@@ -151,14 +151,16 @@ TEST(Subset, WithoutEffortChoosesGreedily) {
     }
 }
 
-// 512 of 2^18 in small. Random points have (1 + pi^2/3)^2 - 1 = 17.4 over n on average.
+// A small version of choosing 512 of 2^18. The mean of random points is (1 + pi^2/3)^2 - 1 = 17.4
+// over n.
 TEST(Subset, IsFarMoreEvenThanRandomPoints) {
     const PointSet found = make(unit, points(64, 2), {{"candidates", "8192"}, {"effort", "0.1"}});
     EXPECT_LT(value_of("periodic", found), 0.037);
     EXPECT_GT(value_of("periodic", make("random", points(64, 2))), 0.15);
 }
 
-// Clement, Doerr and Paquete: subsets of Sobol' points in six dimensions beat the first ones.
+// Clement, Doerr and Paquete: subsets of Sobol' points in six dimensions are better than the first
+// points.
 TEST(Subset, HasASmallerStarDiscrepancyThanSobolPoints) {
     const PointSet found =
         make(unit, points(40, 6),
@@ -253,7 +255,7 @@ TEST(Subset, SplitPartsAllPointsIntoSetsThatAreEvenAlike) {
     }
 }
 
-// Two sets of three: all ten ways.
+// Two sets of three points: all ten splits.
 TEST(Subset, SplitFindsTheBestHalves) {
     for (const std::uint64_t seed : {1, 2, 3, 4}) {
         const PointSet all = make("random", points(6, 2), {}, {.seed = seed});
@@ -270,7 +272,7 @@ TEST(Subset, SplitFindsTheBestHalves) {
         });
         const PointSet parted =
             make(unit, {}, {{"from", file.path()}, {"by", "l2-star"}, {"split", "2"}});
-        std::ranges::sort(sums);  // each comes twice; exchanges end at a local optimum
+        std::ranges::sort(sums);  // each occurs twice; exchanges end at a local optimum
         EXPECT_LE(sum(parted), sums[3] * (1 + 1e-12)) << seed;
     }
 }
@@ -322,7 +324,7 @@ TEST(Subset, RefusesWhatCannotBeChosenAndSaysWhy) {
     EXPECT_TRUE(refusal({.bounds = Box{{0, 0}, {2, 2}}}, {}).starts_with("usage: --bounds: "));
 }
 
-// A first round of trades takes n^2 values of the kernel, here a second or more.
+// A first round of swaps needs n^2 kernel values, here a second or more.
 TEST(Subset, StopsAtOnceInARoundOfTrades) {
     std::stop_source source;
     const RunContext run{.threads = 1, .stop = source.get_token()};
@@ -338,7 +340,7 @@ TEST(Subset, StopsAtOnceInARoundOfTrades) {
     EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 0.5);
 }
 
-// Searches that would go on for hours; --split by a kernel is done after a few rounds.
+// Searches that would take hours; --split by a kernel ends after a few rounds.
 TEST(Subset, StopsWhileItSearches) {
     const std::pair<const char*, const char*> searches[] = {
         {"star", "1"}, {"star", "2"}, {"periodic", "1"}};

@@ -42,7 +42,7 @@ double smallest_distance(const std::vector<double>& rows, double x0, double x1) 
 
 }  // namespace
 
-// 256 = 4^4 points: the leaves are equal, their pull cancels, and what is left is the plain step.
+// 256 = 4^4 points: the leaves are equal, their forces cancel, and the plain step remains.
 TEST(DensityRelaxation, AConstantDensityGivesThePlainSteps) {
     const DensityMap map(3, 5, std::vector<double>(15, 2));
     auto rows = scattered(map, 256);
@@ -81,7 +81,7 @@ TEST(DensityRelaxation, EveryRegionOfABoxGetsItsShare) {
     }
 }
 
-// Four squares with 40, 120, 240 and 400 of 800 points. Random points would be off by some 15.
+// Four squares with 40, 120, 240 and 400 of 800 points. Random points would deviate by about 15.
 TEST(DensityRelaxation, EveryRegionGetsItsShare) {
     const DensityMap map(2, 2, {0.1, 0.3, 0.6, 1});
     auto rows = scattered(map, 800);
@@ -96,7 +96,7 @@ TEST(DensityRelaxation, EveryRegionGetsItsShare) {
     }
 }
 
-// Each half has a distance of its own: both keep 0.4 of it, which random points never do.
+// Each half has its own distance; both keep at least 0.4 of it, unlike random points.
 TEST(DensityRelaxation, DistancesFollowTheDensity) {
     const DensityMap map(2, 1, {0.2, 1.8});
     auto rows = scattered(map, 500);
@@ -118,8 +118,8 @@ TEST(DensityRelaxation, NoPointLiesWhereTheDensityIsNothing) {
     for (std::size_t i = 0; i < rows.size(); i += 2) EXPECT_GT(map.at(rows[i], rows[i + 1]), 0);
 }
 
-// A slanted bar a few points wide, whose rim is grey as that of a drawn letter is: where sigma
-// jumps, points drift along it and gather at one end.
+// A slanted bar a few points wide, with a grey rim like an antialiased letter: where sigma is
+// discontinuous, points might drift along it and gather at one end.
 TEST(DensityRelaxation, ThinShapesKeepTheirShareAllAlong) {
     std::vector<double> bar(128 * 128);
     for (std::size_t i = 0; i < bar.size(); ++i) {

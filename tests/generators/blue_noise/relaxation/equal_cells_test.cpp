@@ -24,8 +24,8 @@ std::vector<double> rescue_for(std::size_t n) {
     return rows;
 }
 
-/// Oracle: mass of the rectangle about a site (torus), or of all, cut by every site there is and by
-/// its copies, in no order.
+/// Oracle: mass of a site's rectangle (on the torus), or of the whole one, cut by all sites and
+/// their copies, in any order.
 double mass_by_all(const EqualCells& cells, std::size_t i, const Planar& planar,
                    const std::optional<DensityMoments>& density) {
     const auto [a, b] = planar.sides;
@@ -69,9 +69,9 @@ TEST(EqualCells, EveryCellHasItsShareByItsDefinition) {
             }
 }
 
-// Two sites a quarter apart on a torus of side 1: each cell is half of it by symmetry, so the
-// weights are equal. Between walls, with sites at 1/8 and 3/8, the line is to be at 1/2: then
-// w_1 - w_0 = |1/2 - 3/8|^2 - |1/2 - 1/8|^2 = -1/8.
+// Two sites a quarter apart on a torus of side 1: by symmetry each cell is half of it, and weights
+// are equal. Between walls, with sites at 1/8 and 3/8, the border must be at 1/2: w_1 - w_0 = |1/2
+// - 3/8|^2 - |1/2 - 1/8|^2 = -1/8.
 TEST(EqualCells, WeightsByHand) {
     const std::optional<DensityMoments> even;
     for (const bool torus : {true, false}) {
@@ -82,7 +82,7 @@ TEST(EqualCells, WeightsByHand) {
     }
 }
 
-// Weights and centroids in turn: both lower the cost of transport.
+// Alternates weights and centroids; both lower the cost of transport.
 TEST(EqualCells, TheCostNeverRises) {
     const std::optional<DensityMoments> even;
     for (const bool torus : {true, false}) {

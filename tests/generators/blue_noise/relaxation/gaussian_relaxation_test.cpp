@@ -17,7 +17,7 @@ std::vector<double> random_rows(std::size_t n, std::size_t d, std::uint64_t seed
     return rows;
 }
 
-/// Oracle: the sum over images of one coordinate's factor, in units of the points' distance.
+/// Oracle: one coordinate's factor, summed over images, in units of the mean distance.
 double factor(double difference, double side) {
     const int images = static_cast<int>(std::ceil(20 / side));
     double sum = 0;
@@ -28,7 +28,7 @@ double factor(double difference, double side) {
     return sum;
 }
 
-/// Sides of the torus in units of the points' distance, as its extents are to each other.
+/// Sides of the torus in units of the mean distance, with the ratios of the extents.
 std::vector<double> sides_of(std::size_t n, const std::vector<double>& extents) {
     double volume = 1;
     for (const double extent : extents) volume *= extent;
@@ -39,8 +39,8 @@ std::vector<double> sides_of(std::size_t n, const std::vector<double>& extents) 
     return sides;
 }
 
-/// Oracle: the energy by its definition, with images at any distance. A point's own images are of
-/// the pair that it is with itself.
+/// Oracle: energy by its definition, with images at any distance. A point also interacts with its
+/// own images.
 double energy(const std::vector<double>& rows, std::size_t d, std::vector<double> extents = {}) {
     const std::size_t n = rows.size() / d;
     if (extents.empty()) extents.assign(d, 1);
@@ -79,7 +79,8 @@ TEST(GaussianRelaxation, TheFirstStepGoesDownTheGradient) {
 }
 
 TEST(GaussianRelaxation, EnergyFallsTowardsThatOfAnEvenDensity) {
-    // An even density has (2 pi)^(d/2) / 2 a point, minus 1/2 for the pair of a point with itself.
+    // A constant density has (2 pi)^(d/2) / 2 per point, minus 1/2 for the pair of a point with
+    // itself.
     for (const std::size_t d : {1U, 2U, 3U}) {
         const std::size_t n = 300;
         const double even = (std::pow(2 * M_PI, static_cast<double>(d) / 2) - 1) / 2;
@@ -144,7 +145,7 @@ TEST(GaussianRelaxation, EqualExtentsAreAsNone) {
     EXPECT_EQ(with, without);
 }
 
-// On the line the points come to rest at equal distances.
+// On a line, points converge to equal distances.
 TEST(GaussianRelaxation, EvensOutPointsOfALine) {
     auto rows = random_rows(20, 1);
     relax_gaussian(rows, 1, 2000, {});

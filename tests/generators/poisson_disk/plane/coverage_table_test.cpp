@@ -8,8 +8,8 @@
 namespace stipple::testing::coverage_table_test {
 using namespace stipple::poisson_disk;
 
-// Every bit against the farthest corner of its sub-cell: what has its bit set is covered; what has
-// none is not, or less than the width of a place of the table deep.
+// Compares every bit with the farthest corner of its sub-cell: sub-cells with a bit set are
+// covered; the others are not, or by less than the table's resolution.
 TEST(CoverageTable, BitsAreCoveredAndWhatIsWellCoveredHasItsBit) {
     for (const auto& [columns, rows] : {std::pair{9.5, 9.5}, {9.1, 30.9}, {200.5, 300.5}}) {
         const BoxSpace space{{{0, 0}, {columns, rows}}, true};

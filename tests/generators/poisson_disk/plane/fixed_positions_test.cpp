@@ -14,9 +14,9 @@ using namespace stipple::poisson_disk;
 namespace {
 
 constexpr std::size_t rows = 12;
-using Place = std::array<double, 2>;  // in cells from the first of the tile
+using Place = std::array<double, 2>;  // in cells, relative to the first of the tile
 
-/// Positions of a tile, of which some cells have a point.
+/// Positions in a tile, some of whose cells have a point.
 struct Field {
     Field(const Place& origin, const Place& cell, double share, std::uint64_t seed)
         : room(FixedPositions::needed(rows)), sides(cell) {
@@ -35,7 +35,7 @@ struct Field {
             }
     }
 
-    /// Distance of two places, in radii.
+    /// Distance of two positions, in radii.
     [[nodiscard]] double distance(const Place& p, const Place& q) const {
         return std::hypot((p[0] - q[0]) * sides[0], (p[1] - q[1]) * sides[1]);
     }
@@ -59,8 +59,8 @@ std::int32_t squared(double radii, double more) {
 
 }  // namespace
 
-// A disk that covers a place has its centre in one of the 25 cells about it; what is said for
-// certain is so, and only within a thousandth of the rim nothing is said.
+// A disk that covers a position has its centre in one of the 25 cells around it. Certain answers
+// must be right, and uncertain ones only occur within a thousandth of the rim.
 TEST(FixedPositions, TellWhetherAPlaceIsHit) {
     for (const Place& cell : {Place{0.7071, 0.7071}, Place{0.501, 0.66}, Place{0.7, 0.55}})
         for (const double share : {0.02, 0.1, 1.0}) {

@@ -14,13 +14,14 @@ namespace {
 
 constexpr double radius = 1.4142135623730951;  // cells of side 1, or a little less
 
-/// Points in a quarter of the cells of a box, and what they cover of the box as one whole.
+/// Points in a quarter of the cells of a box, and the part of the box that they cover, computed as
+/// a whole.
 struct Scene {
     BoxSpace space;
     poisson_disk::Grid<2> grid{space, radius, radius, plane_side};
     PlaneRules rules{grid, 1e-15};
     std::vector<std::array<double, 2>> points;
-    std::vector<std::array<std::uint32_t, 2>> cells;  ///< of the points
+    std::vector<std::array<std::uint32_t, 2>> cells;  ///< cell of each point
     std::vector<SubcellBits> covered = std::vector<SubcellBits>(grid.cell_count);
 
     Scene(double columns, double rows, bool torus)
@@ -58,7 +59,7 @@ struct Scene {
             }
     }
 
-    /// The points that a tile is to know, with the images of those of a torus.
+    /// Points that a tile needs, including periodic images on the torus.
     [[nodiscard]] std::vector<Addition<2>> additions(PlaneTile& tile) const {
         std::vector<Addition<2>> all;
         for (std::size_t i = 0; i < points.size(); ++i)
@@ -83,8 +84,8 @@ struct Scene {
 
 }  // namespace
 
-// Every tile gets the points of its cells and, as those of others, all that are two cells from
-// them; it then covers what the box as one whole covers, and hits what is too near.
+// Every tile receives the points in its cells and all points within two cells of them; then it
+// covers the same as the box as a whole, and detects the same conflicts.
 TEST(PlaneTile, CoversAndHitsWhatOneWholeDoes) {
     for (const bool torus : {true, false})
         for (const auto& [columns, rows] : {std::pair{5, 7}, {64, 65}, {130, 12}}) {
@@ -103,8 +104,8 @@ TEST(PlaneTile, CoversAndHitsWhatOneWholeDoes) {
                         const std::size_t number = PlaneTile::number_of({x, y});
                         const auto column = first[0] + static_cast<std::uint32_t>(x);
                         const auto row = first[1] + static_cast<std::uint32_t>(y);
-                        // The numbers of a point tell its place to some last digits, so that one
-                        // at the edge of a place of the table may be counted to the next.
+                        // Points are stored with few digits, so a point near the edge of a table
+                        // entry may be assigned to the next one.
                         const SubcellBits whole =
                             scene.covered[std::size_t{row} * grid.cells[0] + column];
                         ASSERT_EQ(*tile.covered(number), whole) << x << ", " << y << " of " << t;

@@ -15,7 +15,7 @@ using namespace stipple::poisson_disk;
 
 namespace {
 
-/// Balls about a cell, and the sides of that.
+/// Balls around a cell, and its sides.
 struct Scene {
     NearDisks<3, float> near;
     std::vector<std::array<float, 3>> centers;
@@ -35,7 +35,7 @@ struct Scene {
         near.close();
     }
 
-    /// The largest 1 - d^2 that is true for all of a box and the same ball, d from its centre.
+    /// Largest 1 - d^2 that holds for a whole box and a single ball at distance d.
     [[nodiscard]] double depth(const std::array<double, 3>& low,
                                const std::array<double, 3>& sides) const {
         double deepest = -1e9;
@@ -64,7 +64,7 @@ struct Scene {
     }
 };
 
-/// What is covered is so for certain, and what is deep enough in a ball is.
+/// Covered sub-cells must be certain, and those deep inside a ball must be covered.
 void expect_right(bool is_open, double depth, const std::string& which) {
     if (depth < 3e-6) {
         EXPECT_TRUE(is_open) << which;

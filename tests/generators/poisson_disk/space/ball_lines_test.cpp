@@ -40,7 +40,7 @@ double farthest(const PlacedBall& ball, const std::array<int, 3>& part,
     return squared;
 }
 
-/// One in any cell of a tile, or of the two layers about it.
+/// A ball in any cell of a tile, or of the two layers around it.
 PlacedBall ball_anywhere(const Rng& rng, std::uint64_t i, const std::array<float, 3>& scales) {
     PlacedBall ball{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -52,7 +52,7 @@ PlacedBall ball_anywhere(const Rng& rng, std::uint64_t i, const std::array<float
 
 }  // namespace
 
-// All parts of the tile that the ball covers, and no other one.
+// Exactly those parts of the tile that the ball covers.
 TEST(BallLines, AreWhatABallCoversOfATile) {
     const Rng rng(1);
     for (const std::array<float, 3>& scales :
@@ -88,7 +88,7 @@ TEST(BallLines, AreWhatABallCoversOfATile) {
                     }
             std::size_t all = 0;
             for (const std::uint32_t word : lines) all += std::popcount(word);
-            EXPECT_EQ(all, here) << i;  // nothing far away, nothing beyond the tile
+            EXPECT_EQ(all, here) << i;  // no bits far from the ball or outside the tile
             set += all;
         }
         EXPECT_GT(set / 120, 400U);

@@ -18,7 +18,7 @@ struct Scene {
     poisson_disk::Grid<3> grid{space, 1, 1, space_side};
     SpaceRules rules{grid};
     SpaceTile tile{rules, 0};
-    std::vector<std::array<double, 3>> places;  ///< of the points, in cells
+    std::vector<std::array<double, 3>> places;  ///< positions of the points, in cells
 
     Scene(std::uint64_t seed, double side) : space{{{0, 0, 0}, {side, side, side}}, true} {
         const Rng rng(seed);

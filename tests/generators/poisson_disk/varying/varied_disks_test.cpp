@@ -17,7 +17,7 @@ using namespace stipple::poisson_disk;
 
 namespace {
 
-/// Oracle of a field: its cells, looked up as a user would; 0 where no point may lie.
+/// Oracle: cells of a field with their radii; 0 where points are not allowed.
 struct Radii {
     Space space;
     std::size_t width;
@@ -43,7 +43,7 @@ Space space_named(std::vector<double> low, std::vector<double> high, bool torus 
     return {{std::move(low), std::move(high)}, torus};
 }
 
-/// Values by a formula of the place in the unit square.
+/// Values by a formula of the position in the unit square.
 template <class Value>
 Radii radii(const Space& space, std::size_t width, std::size_t height, const Value& value) {
     Radii all{space, width, height, {}};
@@ -55,7 +55,7 @@ Radii radii(const Space& space, std::size_t width, std::size_t height, const Val
     return all;
 }
 
-/// Steps, slopes, steep ones, holes, single cells; grids finer and coarser than the radii.
+/// Steps, gentle and steep slopes, holes, single cells; grids finer and coarser than the radii.
 std::vector<Radii> some_radii() {
     const Space square = space_named({0, 0}, {1, 1});
     const Space walled = space_named({0, 0}, {1, 1}, false);
@@ -84,13 +84,13 @@ std::vector<Radii> some_radii() {
             })};
 }
 
-/// As the generator makes them, from files.
+/// Set made by the generator from files.
 PointSet make_set(const Radii& field, std::uint64_t seed) {
     std::vector<double> lengths = field.values;
     std::vector<double> open;
     for (double& r : lengths) {
         open.push_back(r > 0);
-        if (r == 0) r = 1e-3 * field.least();  // under the mask, where it must not count
+        if (r == 0) r = 1e-3 * field.least();  // under the mask, so it must have no effect
     }
     const std::string shape = fmt::format("({}, {})", field.height, field.width);
     const TemporaryFile map(npy_of("<f8", shape, lengths));
@@ -103,7 +103,7 @@ double pair_radius(const PointSet& set, std::size_t i, std::size_t j, const Radi
     return std::min(field.at(set[i][0], set[i][1]), field.at(set[j][0], set[j][1]));
 }
 
-/// The least distance of two points in units of the smaller of their radii.
+/// Minimum distance of two points in units of the smaller of their radii.
 double worst_pair(const PointSet& set, const Radii& field) {
     double worst = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < set.count(); ++i)
@@ -113,8 +113,8 @@ double worst_pair(const PointSet& set, const Radii& field) {
     return worst;
 }
 
-/// A proof that each place has a point nearer than the smaller of the two radii: cell by cell of
-/// the field, halves of halves until one disk covers the part. Gives up on parts of 1e-9 of a side.
+/// Proves that each position is closer to some point than the smaller of both radii: bisects each
+/// cell of the field until one disk covers the part. Gives up at parts of 1e-9 of a side.
 class Cover {
   public:
     Cover(const PointSet& set, const Radii& field) : set_(set), field_(field) {}
@@ -170,7 +170,7 @@ class Cover {
     const Radii& field_;
 };
 
-/// Points of a density that has these values, by the options.
+/// Points of the generator with these values as --density.
 template <class Run = Seeded>
 PointSet of_density(const std::string& shape, const std::vector<double>& values,
                     const Request& request, Settings settings, const Run& run = {}) {
@@ -188,8 +188,8 @@ double count_in(const PointSet& set, double x0, double x1, double y0, double y1)
 
 }  // namespace
 
-// Two thirds and halves: lines at 1/3, 1/2 and 2/3. By hand: 8 is the largest density that the mask
-// leaves, so that f = sqrt(8 / density).
+// Cells of thirds and halves give lines at 1/3, 1/2 and 2/3. By hand: 8 is the largest density
+// inside the mask, so f = sqrt(8 / density).
 TEST(RadiusField, SeesADensityThroughAMaskOfOtherCells) {
     const FieldSource source{.density = DensityMap(2, 1, {2, 8}),
                              .mask = DensityMap(3, 1, {1, 0, 1})};
@@ -204,7 +204,7 @@ TEST(RadiusField, SeesADensityThroughAMaskOfOtherCells) {
     EXPECT_EQ(field.most(field.root()), 2);
 }
 
-// Each node has the bounds of the places that its children have, and these fill it.
+// Each node is the union of its children, and has bounds that hold for them.
 TEST(RadiusField, NodesHoldWhatTheyJoin) {
     const Radii radii_of = some_radii()[9];
     FieldSource source;
@@ -238,7 +238,7 @@ TEST(RadiusField, NodesHoldWhatTheyJoin) {
     EXPECT_NEAR(area, 13.3 * 1.1, 1e-9);
 }
 
-// Against all disks one by one, for radii of seven decades.
+// Compared with checking all disks one by one, for radii over seven decades.
 TEST(VariedIndex, FindsWhatBlocksADisk) {
     for (const bool torus : {true, false}) {
         const BoxSpace space{{{-1, 2}, {2, 3}}, torus};
@@ -248,7 +248,7 @@ TEST(VariedIndex, FindsWhatBlocksADisk) {
         for (std::uint64_t i = 0; i < 8000; i += 4) {
             const double size = std::pow(10, -6 + 7 * rng.uniform(i));
             Disk disk{{-1 + 3 * rng.uniform(i + 1), 2 + rng.uniform(i + 2)}, size};
-            if (i > 4000)  // near one that is there
+            if (i > 4000)  // near an existing one
                 for (std::size_t k = 0; k < 2; ++k)
                     disk.at[k] = std::clamp(index.disks()[i / 8].at[k] + size * (k == 0 ? 1 : 0.5),
                                             space.box.low[k], space.box.high[k]);
@@ -283,7 +283,7 @@ TEST(VariedDisks, EveryPlaceIsNearerThanTheSmallerRadiusToAPoint) {
         }
 }
 
-// Without one of its points a set is maximal no more: the oracle of the test above sees that.
+// After removing a point the set is not maximal; the oracle of the test above must detect that.
 TEST(VariedDisks, ASetWithoutOneOfItsPointsIsNotMaximal) {
     const Radii field = some_radii()[4];
     const PointSet set = make_set(field, 1);
@@ -308,7 +308,7 @@ TEST(VariedDisks, NoPointLiesWhereTheDensityIsZeroOrTheMaskIs) {
     EXPECT_EQ(count_in(kept, 0, 0.5, 0, 0.5) + count_in(kept, 0.5, 1, 0.5, 1), 0);
 }
 
-// PNG: the top row of the picture is the top of the square; inverted, dark is dense.
+// PNG: the top row of the picture is at the top of the square; inverted, dark pixels are dense.
 TEST(VariedDisks, PicturesStandUprightAndInvert) {
     const TemporaryFile file(png_of(1, 2, {255, 0}));
     const Settings settings{{"density", file.path()}, {"radius", "0.02"}};
@@ -320,8 +320,8 @@ TEST(VariedDisks, PicturesStandUprightAndInvert) {
     EXPECT_EQ(count_in(make("poisson-disk", {}, inverted), 0, 1, 0.5, 1), 0);
 }
 
-// Dart throwing ends at n r^2 = 0.6966 in the mean; one set of 17'000 points is within 0.003 of
-// that (its standard deviation is 0.0014).
+// Dart throwing ends at a mean n r^2 of 0.6966; one set of 17'000 points is within 0.003 of that
+// (its standard deviation is 0.0014).
 TEST(VariedDisks, ConstantDensityHasTheDensityOfTheProcess) {
     for (const std::uint64_t seed : {1, 2, 3}) {
         const PointSet set = of_density("(3, 2)", std::vector<double>(6, 7.5), {},
@@ -330,9 +330,9 @@ TEST(VariedDisks, ConstantDensityHasTheDensityOfTheProcess) {
     }
 }
 
-// Cells of densities 1 : 2 : 4, each with many points: of a cell of mean count m, which spreads
-// less than at random, counts are off by less than 3 sqrt(m) beside what edges between cells take
-// or give: at most one point in eight to the length of r along them.
+// Cells with densities 1 : 2 : 4, each with many points. The count in a cell of mean m varies less
+// than for random points; it deviates by less than 3 sqrt(m), plus the effect of edges between
+// cells: at most one point per eight radii of edge.
 TEST(VariedDisks, PointsAreInProportionToTheDensity) {
     const double r = 0.005;
     const std::vector<double> values{1, 4, 2, 1};
@@ -391,8 +391,8 @@ TEST(VariedDisks, SeedAloneDecides) {
     EXPECT_NE(with(1, 1), with(2, 1));
 }
 
-// Every prefix keeps a distance in proportion to the radii: of the first m points of a progressive
-// order the worst pair is far better than of the first m at random.
+// Every prefix has distances in proportion to the radii: the worst pair of the first m points in
+// progressive order is far better than in random order.
 TEST(VariedDisks, ProgressivePrefixesAreWellSpread) {
     const std::vector<double> values{1, 25};
     const Radii field{space_named({0, 0}, {1, 1}), 2, 1, {5, 1}};
@@ -421,9 +421,9 @@ TEST(VariedDisks, OrdersHoldTheSamePoints) {
     EXPECT_EQ(sorted("random"), sorted("progressive"));
 }
 
-// First darts fall in proportion to 1 / r^2, and where one falls it stays: of sets that have room
-// for one point, columns of nine times the density of those between hold 9 of 10. 400 sets; off by
-// at most 5 standard deviations of 0.015 (false alarm 6e-7).
+// First darts are distributed like 1 / r^2 and always fit: of sets with room for a single point, 9
+// of 10 are in columns with nine times the density of those between. 400 sets; deviation at most 5
+// standard deviations of 0.015 (false alarm 6e-7).
 TEST(VariedDisks, DartsFallInProportion) {
     std::vector<double> values;
     for (int i = 0; i < 32 * 32; ++i) values.push_back(i % 2 == 0 ? 1 : 9);
@@ -439,7 +439,7 @@ TEST(VariedDisks, DartsFallInProportion) {
 
 namespace {
 
-/// Half the torus with radius 0.1, where darts fall 16 times as densely, half with 0.4.
+/// Half the torus with radius 0.1, where darts are 16 times as dense, half with 0.4.
 const Radii halves =
     radii(space_named({0, 0}, {1, 1}), 2, 1, [](double x, double) { return x < 0.5 ? 0.1 : 0.4; });
 
@@ -450,8 +450,8 @@ bool keeps(const std::vector<std::vector<double>>& rows, const std::vector<doubl
     });
 }
 
-/// Corners of the squares of a lattice of m x m that no disk covers, one of the dense half 16
-/// times.
+/// Corners of squares of an m x m lattice that no disk covers; those in the dense half are listed
+/// 16 times.
 std::vector<std::array<double, 2>> open_squares(const std::vector<std::vector<double>>& rows,
                                                 std::size_t m) {
     std::vector<std::array<double, 2>> open;
@@ -470,7 +470,7 @@ std::vector<std::array<double, 2>> open_squares(const std::vector<std::vector<do
     return open;
 }
 
-/// Oracle: darts one by one; where nothing is covered for certain, once most is.
+/// Oracle: darts one by one; at first anywhere, and in uncovered squares once most are covered.
 PointSet thrown(std::uint64_t seed, bool to_the_end) {
     const Rng rng(seed, 5);
     std::vector<std::vector<double>> rows;
@@ -489,7 +489,8 @@ PointSet thrown(std::uint64_t seed, bool to_the_end) {
     return points_of(rows);
 }
 
-/// Points; those of the dense half; pairs less than 1.1 of the smaller radius apart.
+/// Number of points, of those in the dense half, and of pairs less than 1.1 of the smaller radius
+/// apart.
 std::array<double, 3> measures(const PointSet& set) {
     double near = 0;
     for (std::size_t i = 0; i < set.count(); ++i)
@@ -498,7 +499,7 @@ std::array<double, 3> measures(const PointSet& set) {
     return {static_cast<double>(set.count()), count_in(set, 0, 0.5, 0, 1), near};
 }
 
-/// The largest difference of mean measures of 200 sets each, in its standard deviations.
+/// Largest difference between mean statistics of 200 sets each, in standard deviations.
 template <class One, class Other>
 double difference(const One& one, const Other& other) {
     constexpr double sets = 200;
@@ -523,8 +524,8 @@ double difference(const One& one, const Other& other) {
 
 }  // namespace
 
-// Differences of more than 5 standard deviations come by chance at most once in 500'000 times.
-// Sets of plain darts that stop early are told apart.
+// Differences of more than 5 standard deviations have a probability of at most 2e-6. Sets of plain
+// darts that stop early are detected.
 TEST(VariedDisks, IsTheProcessOfPlainDartThrowing) {
     const auto ours = [](std::uint64_t seed) { return make_set(halves, seed); };
     const auto plain = [](std::uint64_t seed) { return thrown(seed, true); };

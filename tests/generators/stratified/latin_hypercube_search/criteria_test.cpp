@@ -9,7 +9,7 @@
 namespace stipple::testing::latin_criteria_test {
 namespace {
 
-/// The first number that describes a design.
+/// The first number in the description of a design.
 double described_value(const Objective& objective, const Design& design, const Rules& rules = {}) {
     return std::stod(described(objective, design, rules, {}).at(0).second);
 }
@@ -58,7 +58,7 @@ TEST(LatinCriteria, OfOnePointThereAreNoPairs) {
         EXPECT_TRUE(described({.kind = kind}, Design(1, 1, 3), {}, {}).empty());
 }
 
-/// A design with three fixed rows and spare ones along some coordinates.
+/// A design with three fixed rows, and spare levels along some coordinates.
 Design with_spare_rows() {
     Design design(14, 16, 4);
     for (std::size_t k = 0; k < 4; ++k) {
@@ -69,7 +69,7 @@ Design with_spare_rows() {
     return design;
 }
 
-// What an exchange changes is the difference of two energies that are worked out anew.
+// The change by an exchange is the difference of two energies computed from scratch.
 TEST(LatinCriteria, ExchangesChangeEnergiesByTheDifference) {
     const std::vector<double> outcomes = {0, 0, 0, 5, 5, 1, 1, 1, 1, 1, 1, 2, 3, 3};
     const Rules cases[] = {
@@ -120,7 +120,7 @@ TEST(LatinCriteria, EnergiesOfDistancesAreWholeNumbers) {
     EXPECT_EQ(criterion->score().second, 4);
 }
 
-// Twelve levels of three parts count as their middles 1.5, 5.5, 9.5, rounded down.
+// Twelve levels in three parts count as the midpoints 1.5, 5.5, 9.5, rounded down.
 TEST(LatinCriteria, LevelsOfAPartCountAsItsMiddle) {
     for (Level level = 0; level < 12; ++level) {
         EXPECT_EQ(even_parts(12, 0).place(level), level);
@@ -138,7 +138,8 @@ TEST(LatinCriteria, LevelsOfAPartCountAsItsMiddle) {
         }
 }
 
-// Of ten levels, 12 pairs of 45 have the same outcome, and two levels are 110 / 6 apart on average.
+// Of ten levels, 12 of 45 pairs have the same outcome, and the mean squared distance of two levels
+// is 110 / 6.
 TEST(LatinCriteria, CategoriesAreAsFarApartAsOtherAxesAreOnAverage) {
     const std::vector<double> outcomes = {2, 2, 2, 2, 7, 7, 7, 4, 4, 4};
     const Axis ordered = parts_by(outcomes, false);

@@ -24,7 +24,7 @@ Design found(Kind kind, const Design& start, double trials, const Rules& rules =
     return best_design({{.kind = kind}, rules, start, seed, trials}, "", {}).design;
 }
 
-/// The least value of all designs of two coordinates.
+/// Minimum over all designs of two coordinates.
 double least_of_all(Kind kind, std::size_t n) {
     std::vector<Level> y(n);
     std::iota(y.begin(), y.end(), Level{0});
@@ -63,7 +63,7 @@ TEST(LatinSearch, TriesAllDesignsOfFewPoints) {
             const auto result =
                 best_design({{.kind = kind}, {}, random_design(n, 3, n), 1, 1000}, "", {});
             EXPECT_TRUE(result.optimal);
-            if (n == 1) continue;  // no pair
+            if (n == 1) continue;  // there is no pair
             EXPECT_NEAR(value_of(kind, result.design), least, 1e-12 * std::abs(least))
                 << static_cast<int>(kind) << " " << n;
         }
@@ -86,7 +86,7 @@ TEST(LatinSearch, IsNeverWorseWithMoreTrials) {
         }
 }
 
-/// The largest least squared distance of n points of the plane: row by row, through all designs.
+/// Largest minimum squared distance of n points in the plane: row by row, over all designs.
 int largest_by_exhaustion(int n) {
     std::vector<int> y;
     std::vector<bool> used(static_cast<std::size_t>(n));
@@ -161,7 +161,7 @@ TEST(LatinSearch, KeepsFixedRows) {
 }
 
 TEST(LatinSearch, GivesNewPointsLevelsOfSpareRowsWhereTheyAreBetter) {
-    Design start(2, 4, 2);  // the first point in the corner; the other may go to three strata
+    Design start(2, 4, 2);  // the first point is in the corner; the other may be in three strata
     for (std::size_t k = 0; k < 2; ++k)
         std::ranges::copy(std::vector<Level>{0, 1, 2, 3}, start.along(k).begin());
     const Design design = found(Kind::maximin, start, 1000, {.fixed = 1});
@@ -169,7 +169,7 @@ TEST(LatinSearch, GivesNewPointsLevelsOfSpareRowsWhereTheyAreBetter) {
     EXPECT_EQ(design.along(1)[1], 3);
 }
 
-// The sum of two levels is to be below n: half of all rows are not feasible at first.
+// Constraint: the sum of two levels is below n. Half of all rows are infeasible at first.
 TEST(LatinSearch, KeepsRowsFeasible) {
     const auto below = [](std::size_t, std::span<const Level> row) {
         return std::abs(row[0] - row[1]) < 10;
@@ -189,7 +189,8 @@ TEST(LatinSearch, KeepsRowsFeasible) {
         "constraints");
 }
 
-// Eight points of two coordinates of two categories: each of the four cells is to hold two of them.
+// Eight points, two coordinates with two categories each: each of the four cells should have two
+// points.
 TEST(LatinSearch, SpreadsCategories) {
     const Design design = found(Kind::maxpro, random_design(8, 2, 1), 50'000,
                                 {.axes = {even_parts(8, 2), even_parts(8, 2)}});

@@ -36,7 +36,7 @@ inline Design random_design(std::size_t points, std::size_t dimension, std::uint
     return design;
 }
 
-/// Levels 0, 1, ... beside others, such as {2, 0, 1}.
+/// First coordinate 0, 1, ..., and these others, such as {2, 0, 1}.
 inline Design design_of(const std::vector<std::vector<Level>>& others) {
     Design design(others[0].size(), others[0].size(), 1 + others.size());
     std::iota(design.along(0).begin(), design.along(0).end(), Level{0});
@@ -45,7 +45,7 @@ inline Design design_of(const std::vector<std::vector<Level>>& others) {
     return design;
 }
 
-/// Whether each level 0, ..., n - 1 comes once along each coordinate.
+/// Whether each level 0, ..., n - 1 occurs once along each coordinate.
 inline bool is_latin(const Design& design) {
     for (std::size_t k = 0; k < design.dimension; ++k) {
         const auto along = design.along(k).first(design.points);
@@ -72,7 +72,7 @@ inline double correlation_of(const Design& design, std::size_t k, std::size_t l)
     return 12 * sum / (n * (n * n - 1));
 }
 
-/// The criterion's value by its definition; less is better. Of centered_l2 the square.
+/// The criterion's value by its definition, to be minimized; the square for centered_l2.
 inline double value_of(Kind kind, const Design& design, double p = 15) {
     const std::size_t n = design.points;
     const std::size_t d = design.dimension;
