@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Charts: what is drawn of reports, and that it is what they say.
+// Charts of reports: choice and correctness of the drawn shapes.
 #include "plot/chart.hpp"
 
 #include <gmock/gmock.h>
@@ -124,7 +124,7 @@ TEST(ReadDocument, RefusesWhatIsNoReport) {
     const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
     EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"options\":" + deep + "}"),
                 HasSubstr("lists are nested too deeply; expected the JSON"));
-    // The parser copies a value where another key follows it.
+    // The parser copies a value recursively if another key follows it.
     EXPECT_THAT(
         bad_json("{\"format\":\"stipple.report\",\"input\":{\"source\":" + deep + ",\"count\":2}}"),
         HasSubstr("byte 64 of a report: lists are nested too deeply"));
@@ -133,7 +133,7 @@ TEST(ReadDocument, RefusesWhatIsNoReport) {
     EXPECT_FALSE(looks_like_reports("{\"format\":\"stipple.points\",\"version\":1}"));
 }
 
-// ---------------------------------------------------------------- what is drawn
+// ---------------------------------------------------------------- shapes
 
 TEST(ReportCharts, SpectrumHasPowerAndAnisotropyAsReported) {
     std::vector<Measurement> ms = {spectrum("dir/a.csv", {0.5, 1.5, 1})};
@@ -157,7 +157,7 @@ TEST(ReportCharts, SpectrumHasPowerAndAnisotropyAsReported) {
     EXPECT_NEAR(chart.panels[1].guides.at(0).y[0], -10 * std::log10(4.0), 1e-12);
 }
 
-// Chi-square of 20 degrees of freedom over 20: 2.5 % points 9.591 and 34.170 of tables.
+// Chi-square with 20 degrees of freedom, divided by 20: 2.5 % points 9.591 and 34.170 from tables.
 TEST(ReportCharts, WhiteNoiseBandIsThatOfChiSquare) {
     const auto [low, high] = white_noise_band(20, 1);
     EXPECT_NEAR(low, 9.591 / 20, 2e-3);
@@ -181,7 +181,7 @@ TEST(ReportCharts, SeveralReportsAreSeveralCurvesOfOneLegend) {
     EXPECT_EQ(drawing.title, "Power spectrum");
 }
 
-// A curve's ends stand where the axes say: x from 1 to 3, y from 0 to 1.4 and 6 %.
+// The ends of a curve are at the positions of the axes: x from 1 to 3, y from 0 to 1.4 and 6 %.
 TEST(ReportCharts, CurvesAreWhereTheAxesSay) {
     const std::vector<Measurement> ms = {spectrum("a.csv", {0, 0.7, 1.4})};
     const Drawing drawing = draw_chart(chart_of(ms), {});
@@ -214,7 +214,7 @@ TEST(ReportCharts, PrefixesAreLogarithmicWithBoundsAsABand) {
     EXPECT_TRUE(panel.log_x && panel.log_y);
     EXPECT_THAT(panel.series.at(0).high, ElementsAre(0.5, 0.3, 0.2));
     EXPECT_EQ(panel.y_name, "star discrepancy");
-    // Lines that fall as n^(-1/2) and n^(-1), from half as much again as the first value.
+    // Guides fall as n^(-1/2) and n^(-1), starting at 1.5 times the first value.
     EXPECT_THAT(panel.guides.at(0).y, ElementsAre(DoubleEq(0.6), DoubleEq(0.3)));
     EXPECT_THAT(panel.guides.at(1).y, ElementsAre(DoubleEq(0.6), DoubleEq(0.15)));
 }
@@ -232,7 +232,7 @@ TEST(ReportCharts, PairCorrelationHasWhatUniformPointsHave) {
     EXPECT_THAT(panel.bands.at(0).high, ElementsAre(1.6, 1.1));
 }
 
-// Lists of any analyzer, over the rising one before them.
+// Lists of any analyzer are drawn over the ascending list before them.
 TEST(ReportCharts, AnyListsAreCurves) {
     Report results;
     results.add("exponent", 1.5);
@@ -267,8 +267,8 @@ TEST(ReportCharts, NumbersOfSeveralSizesAreACurveOverTheSize) {
     EXPECT_TRUE(panel.log_x && panel.log_y);
 }
 
-// Files of one name but for its digits are one curve; of several sets of one size, means with
-// their standard errors: of 0.1, 0.2 and 0.3 that is sqrt(0.02 / 6).
+// Files whose names differ only in digits are one curve; several sets of one size give a mean with
+// its standard error: for 0.1, 0.2 and 0.3 it is sqrt(0.02 / 6).
 TEST(ReportCharts, FilesOfOneNameAreOneCurveOfMeans) {
     const std::vector<Measurement> ms = {
         number(0.5, 16, "d/halton_16.csv"), number(0.1, 64, "d/halton_64.csv"),
@@ -324,7 +324,7 @@ TEST(ReportCharts, NoPowerIsAGapInTheAnisotropy) {
     EXPECT_EQ(chart.panels[1].series.at(0).y[1], -3);
 }
 
-// A ring of one dimension is a frequency and its opposite, which have one power.
+// A ring in one dimension has a frequency and its negative, with equal power.
 TEST(ReportCharts, NoAnisotropyInOneDimension) {
     std::vector<Measurement> ms = {spectrum("a.csv", {0.5, 1, 1})};
     EXPECT_EQ(chart_of(ms).panels.size(), 2U);
@@ -381,7 +381,7 @@ TEST(ReportCharts, NumbersOfOneSizeAreAHistogramThatCountsThem) {
 
 namespace {
 
-/// Indices of two inputs and their pair, of the outputs y and z.
+/// Indices of two inputs and their pair, for the outputs y and z.
 Measurement indices() {
     Report results;
     for (const char* output : {"y", "z"}) {
@@ -436,7 +436,7 @@ TEST(ReportCharts, KeysPickOutputsAndIndices) {
                 HasSubstr("--key: the report of sensitivity has no output or index 'mu'"));
 }
 
-// Four bars in two groups, each with an interval of three lines; heights are those of the axis.
+// Four bars in two groups, each with an interval of three lines; heights match the axis.
 TEST(ReportCharts, BarsStandWhereTheAxesSay) {
     std::vector<Area> frames;
     const Chart chart = chart_of(std::vector{indices()}, "y.first");
@@ -490,7 +490,7 @@ TEST(Chart, GapsSplitACurve) {
     EXPECT_EQ(curves, 2);
 }
 
-// A curve of a million values is drawn by what can be seen of it, its extremes among that.
+// A curve of a million values is reduced to its visible points, including its extremes.
 TEST(Chart, LongCurvesKeepTheirExtremes) {
     Series series{.name = {}, .x = {}, .y = {}};
     for (int i = 0; i < 1'000'000; ++i) {
@@ -506,7 +506,7 @@ TEST(Chart, LongCurvesKeepTheirExtremes) {
     EXPECT_LT(longest->vertices.size(), 8000U);
     std::vector<double> heights;
     for (const Position& position : longest->vertices) heights.push_back(position.y);
-    std::ranges::sort(heights);  // upward is less
+    std::ranges::sort(heights);  // y decreases upward
     EXPECT_NEAR(heights.back() - heights[0], 5 * (heights.back() - heights[1]), 1e-6);
 }
 
@@ -522,7 +522,7 @@ TEST(SpectrumPicture, IsGreyByShareWithTheLastRowOnTop) {
     Grid power{.rows = 3, .columns = 3, .values = {0, 1, 3, 1, 9, 1, 3, 1, 0}};
     const Drawing drawing = draw_spectrum(power, "t", "", {});
     const PixelImage& raster = *shapes_of<PixelImage>(drawing).at(0);
-    EXPECT_EQ(raster.pixels[0].red, 191);  // 3 / 4 of 255, up and to the left
+    EXPECT_EQ(raster.pixels[0].red, 191);  // 3 / 4 of 255, at the upper left
     EXPECT_EQ(raster.pixels[1].red, 128);
     EXPECT_EQ(raster.pixels[2].red, 0);
     EXPECT_EQ(raster.pixels[4].red, 0);  // frequency zero
@@ -531,7 +531,7 @@ TEST(SpectrumPicture, IsGreyByShareWithTheLastRowOnTop) {
     power = {.rows = 2, .columns = 2, .values = {1, 1, 1, 1}};
     EXPECT_THROW(draw_spectrum(power, "t", "", {}), Error);
 }
-// A mark at an end of the axis is seen whole; so it is on a linear one.
+// A mark at an end of the axis is drawn completely, also on a linear axis.
 TEST(ReportCharts, MarksAtTheEndsAreWithinTheFrame) {
     const std::vector<Measurement> ms = {number(0.3, 100), number(0.2, 1024), number(0.1, 2000)};
     for (const bool log : {false, true}) {
@@ -551,7 +551,7 @@ TEST(ReportCharts, MarksAtTheEndsAreWithinTheFrame) {
     }
 }
 
-// However long names are, and however small the picture is: every letter is there, within it.
+// For long names and small pictures, every letter is drawn inside the picture.
 TEST(Chart, CutsNoNameOff) {
     const std::string name =
         "a_very/long.name of-a set, of which nobody would think: 0123456789abcdef";

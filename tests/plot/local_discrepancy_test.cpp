@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The image of the local discrepancy against counts of points by the definition, and its worst
-// boxes against those of the analyzer.
+// The image of the local discrepancy is compared with counts of points by the definition, and its
+// worst boxes with those of the analyzer.
 #include "plot/local_discrepancy.hpp"
 
 #include <gmock/gmock.h>
@@ -22,7 +22,7 @@ using ::testing::HasSubstr;
 
 namespace {
 
-/// delta(c) by the definition, or with the closed box.
+/// delta(c) by the definition, for the open or the closed box.
 double delta(const PointSet& points, double x, double y, bool closed = false) {
     double inside = 0;
     for (std::size_t i = 0; i < points.count(); ++i)
@@ -31,7 +31,7 @@ double delta(const PointSet& points, double x, double y, bool closed = false) {
     return inside / static_cast<double>(points.count()) - x * y;
 }
 
-/// The least delta of open boxes and the largest of closed ones, over all corners.
+/// Minimum of delta over open boxes and maximum over closed ones, for all corners.
 std::pair<double, double> extremes(const PointSet& points) {
     std::vector<double> xs = {1};
     std::vector<double> ys = {1};
@@ -48,7 +48,7 @@ std::pair<double, double> extremes(const PointSet& points) {
     return found;
 }
 
-/// Points on the borders, at middles of pixels, and equal ones among them.
+/// Points on the border and at pixel centres, and equal ones.
 std::vector<PointSet> hard_sets() {
     std::vector<PointSet> sets = {
         points_of({{0.5, 0.25}}),
@@ -81,7 +81,7 @@ Drawing drawn(const PointSet& points, bool bar = true) {
 
 }  // namespace
 
-// One point in the middle, 2 x 2 pixels, whose middles are 1/4 and 3/4.
+// One point in the middle, 2 x 2 pixels with centres 1/4 and 3/4.
 TEST(LocalDiscrepancy, OfOnePointByHand) {
     const Grid grid = local_discrepancy(points_of({{0.5, 0.5}}), 2, 2, {});
     EXPECT_EQ(grid, (Grid{2, 2, {-1. / 16, -3. / 16, -3. / 16, 1 - 9. / 16}}));
@@ -129,7 +129,7 @@ TEST(LocalDiscrepancy, WorstBoxesOfBothSidesAreThoseOfAllCorners) {
     }
 }
 
-// Also of so many points that the sweep has two parts.
+// Also with so many points that the sweep is split in two.
 TEST(LocalDiscrepancy, TheGreaterOfTheWorstBoxesIsTheAnalyzers) {
     std::vector<PointSet> sets = hard_sets();
     sets.push_back(make("random", {100'001, 2}));
@@ -146,7 +146,8 @@ TEST(LocalDiscrepancy, TheGreaterOfTheWorstBoxesIsTheAnalyzers) {
     }
 }
 
-// All points in the origin: no box has too few of them; in the opposite corner, none too many.
+// With all points at the origin no box has too few; with all in the opposite corner none has too
+// many.
 TEST(LocalDiscrepancy, MayBeOfOneSignAlone) {
     const WorstBoxes low = worst_boxes_of(points_of({{0, 0}, {0, 0}}), {});
     EXPECT_FALSE(low.open);
@@ -163,12 +164,12 @@ TEST(LocalDiscrepancy, ADrawingHasTheImageThePointsAndBothBoxes) {
     const WorstBoxes worst = worst_boxes_of(points, {});
     const Drawing drawing = drawn(points);
     const auto images = shapes_of<PixelImage>(drawing);
-    ASSERT_EQ(images.size(), 2U);  // and the bar of colours
+    ASSERT_EQ(images.size(), 2U);  // with the bar of colours
     const Area area = images[0]->area;
     EXPECT_EQ(images[0]->columns, static_cast<std::size_t>(2 * area.width));
     ASSERT_EQ(shapes_of<Disks>(drawing).size(), 1U);
     EXPECT_EQ(shapes_of<Disks>(drawing)[0]->centres.size(), 40U);
-    // The upper right corner of the outlines, solid and dashed.
+    // Upper right corner of the outlines, solid and dashed.
     for (const auto& box : {std::pair{worst.closed, Dash::none}, {worst.open, Dash::dashed}})
         EXPECT_TRUE(std::ranges::any_of(shapes_of<Line>(drawing), [&](const Line* line) {
             const auto corner = box.first->corner;
@@ -181,7 +182,7 @@ TEST(LocalDiscrepancy, ADrawingHasTheImageThePointsAndBothBoxes) {
     EXPECT_THAT(svg, HasSubstr(text_of(*worst.open, 4)));
 }
 
-// The first row of pixels is at the top; blue is too few, orange too many.
+// The first row of pixels is at the top; blue means too few, orange too many.
 TEST(LocalDiscrepancy, ColoursHaveTheSignsOfTheValues) {
     const Drawing drawing = drawn(points_of({{0.75, 0.25}}));
     const PixelImage& image = *shapes_of<PixelImage>(drawing)[0];
@@ -217,7 +218,7 @@ TEST(LocalDiscrepancy, TheBarIsSymmetricAboutZero) {
     EXPECT_EQ(bar.pixels.front(), light_theme.series_colour(1));
     EXPECT_EQ(bar.pixels.back(), light_theme.series_colour(0));
     EXPECT_EQ(shapes_of<PixelImage>(drawn(make("random", {9, 2}), false)).size(), 1U);
-    // Small numbers are given times a power of ten.
+    // Small numbers are shown with a power of ten.
     EXPECT_THAT(svg_bytes(drawn(make("sobol", {4096, 2})), 1), HasSubstr("(×10⁻³)"));
 }
 

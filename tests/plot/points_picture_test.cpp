@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Pictures of points: in the plane, in space, in pairs of coordinates, in letters.
+// Pictures of points: in the plane, in space, in pairs of coordinates, with characters.
 #include "plot/points_picture.hpp"
 
 #include <gmock/gmock.h>
@@ -47,7 +47,7 @@ std::vector<Position> marks_of(const Drawing& drawing) {
     return all;
 }
 
-/// Area that closed lines go round.
+/// Area enclosed by closed lines.
 double area_of(const std::vector<std::vector<Position>>& lines) {
     double sum = 0;
     for (const auto& line : lines)
@@ -73,7 +73,7 @@ TEST(PointsPicture, HasADiskForEachPointWhereItIs) {
     EXPECT_GT(side, 400);
 }
 
-// A box that goes on from 1 to 0 along both axes has a part in each corner.
+// A box that wraps around along both axes has a part in each corner.
 TEST(PointsPicture, BoxesAcrossTheRimHaveSeveralParts) {
     const PointSet points = points_of({{0.5, 0.5}});
     PointsPicture picture = picture_of({&points});
@@ -107,7 +107,7 @@ TEST(PointsPicture, DrawsDegenerateSets) {
         }
 }
 
-// Points of a file that says nothing about its domain are shown for themselves.
+// Points of a file without a domain are shown in their own bounding box.
 TEST(PointsPicture, ShowsTheBoxOfPointsOutsideOfTheCube) {
     const PointSet far = points_of({{1000, 5}, {1001, 7}});
     const PointSet near = points_of({{0.4, 0.5}, {0.5, 0.6}});
@@ -138,7 +138,7 @@ TEST(PointsPicture, ManyPointsAreADensityThatCountsThemAll) {
     const PointSet points = make("random", {400'000, 2});
     const Drawing drawing = draw_points(picture_of({&points}), {}, {});
     EXPECT_TRUE(marks_of(drawing).empty());
-    EXPECT_EQ(shapes_of<PixelImage>(drawing).size(), 2U);  // and the bar of colours
+    EXPECT_EQ(shapes_of<PixelImage>(drawing).size(), 2U);  // with the bar of colours
     EXPECT_LT(svg_bytes(drawing, 1).size(), 400'000U);
     const PointSet fewer = make("random", {50'000, 2});
     const Drawing pixels_of_points = draw_points(picture_of({&fewer}), {}, {});
@@ -149,7 +149,7 @@ TEST(PointsPicture, ManyPointsAreADensityThatCountsThemAll) {
     EXPECT_LE(dark, 50'000U);
 }
 
-// Seen from the side of high x, low y and high z.
+// The viewer is at high x, low y and high z.
 TEST(PointsPicture, SpaceIsSeenFromAFixedPlace) {
     const Box box{{0, 0, 0}, {1, 1, 1}};
     const auto projected = [&](double x, double y, double z) {
@@ -160,7 +160,7 @@ TEST(PointsPicture, SpaceIsSeenFromAFixedPlace) {
     EXPECT_GT(projected(0, 1, 0).right, projected(0, 0, 0).right);
     EXPECT_GT(projected(0, 0, 1).up, projected(0, 0, 0).up);
     EXPECT_GT(projected(1, 0, 1).depth, projected(0, 1, 0).depth);
-    // A length is as long in every direction at right angles to the view.
+    // Equal lengths have equal images in all directions perpendicular to the view.
     const Projected a = projected(1, 0, 0);
     EXPECT_NEAR(a.right * a.right + a.up * a.up + a.depth * a.depth, 1, 1e-12);
     const PointSet points = make("random", {500, 3});
@@ -174,7 +174,7 @@ TEST(PointsPicture, EveryPairOfCoordinatesHasAPanel) {
     EXPECT_EQ(marks_of(draw_points(picture_of({&more}), {}, {})).size(), 280U);  // of 8
 }
 
-// One scale for all panels: a coordinate that bunches is darker than the others.
+// One scale for all panels: panels with a coordinate that is concentrated are darker.
 TEST(PointsPicture, PairsOfManyPointsAreDensitiesInOneScale) {
     PointSet points = make("random", {100'000, 4});
     for (std::size_t i = 0; i < points.count(); ++i)
@@ -188,7 +188,7 @@ TEST(PointsPicture, PairsOfManyPointsAreDensitiesInOneScale) {
         for (const Colour& pixel : rasters[panel]->pixels) least = std::min<int>(least, pixel.blue);
         return least;
     };
-    EXPECT_LT(darkest(0), 60);   // both bunch: 16 times as dense
+    EXPECT_LT(darkest(0), 60);   // both are concentrated: 16 times as dense
     EXPECT_GT(darkest(5), 180);  // none does
 }
 
@@ -214,7 +214,7 @@ TEST(DistanceChart, CountsEveryPoint) {
     double sum = 0;
     for (const double height : bars.heights) sum += height * (bars.edges[1] - bars.edges[0]);
     EXPECT_NEAR(sum, 1, 1e-9);
-    // The density of independent points has its maximum at 1 / sqrt(2 pi n).
+    // The density for independent points has its maximum at 1 / sqrt(2 pi n).
     const Guide& guide = chart.panels[0].guides.at(0);
     const auto top = std::ranges::max_element(guide.y) - guide.y.begin();
     EXPECT_NEAR(guide.x[static_cast<std::size_t>(top)], 1 / std::sqrt(2 * std::numbers::pi * 1000),
@@ -237,7 +237,7 @@ TEST(DomainOutline, GoesRoundTheDomainsArea) {
     EXPECT_NEAR(area("annulus:inner=0.5"), 0.75 * std::numbers::pi, 1e-4);  // a hole
 }
 
-// The corner of a triangle is there, not cut off.
+// The corner of a triangle is drawn, not cut off.
 TEST(DomainOutline, HasCorners) {
     double nearest = 1;
     for (const auto& line : outline_of(*parse_domain("triangle:vertices=[0,0 1,0 0,1]", 2)))
@@ -251,9 +251,9 @@ TEST(DomainOutline, IsNoneForALineInThePlane) {
     EXPECT_TRUE(outline_of(*unit_cube(3)).empty());
 }
 
-// ---------------------------------------------------------------- letters
+// ---------------------------------------------------------------- characters
 
-// Dots of one letter, by hand: the left column is 1 2 3 7, the right one 4 5 6 8.
+// Dots of a Braille character, by hand: the left column is 1 2 3 7, the right one 4 5 6 8.
 namespace {
 
 std::size_t dots_in(const DotMatrix& matrix) {
@@ -298,8 +298,8 @@ TEST(DotMatrix, LinesHaveNoGaps) {
 TEST(TextPicture, HasADotForEachPoint) {
     const PointSet points = points_of({{0, 0}, {1, 1}, {0, 1}, {1, 0}, {0.5, 0.5}});
     const std::string text = points_as_text(picture_of({&points}), {.columns = 26, .rows = 14});
-    EXPECT_THAT(text, HasSubstr("│⠁"));  // the point on top, to the left
-    EXPECT_THAT(text, HasSubstr("⢀│"));  // at the bottom, to the right
+    EXPECT_THAT(text, HasSubstr("│⠁"));  // the point at the upper left
+    EXPECT_THAT(text, HasSubstr("⢀│"));  // at the lower right
     EXPECT_THAT(text, HasSubstr("⡀"));
     EXPECT_THAT(text, HasSubstr("⠈│"));
     std::size_t longest = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Tables of spectra among points: what is one, of which dimension, and what is not.
+// Spectral tables stored as points: recognition, and dimension.
 #include "plot/spectral_table.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace stipple::testing::spectral_table_test {
 using namespace plot;
 namespace {
 
-/// A table about its middle: its numbers are 1, 2, 3, ... up to the middle and back again.
+/// A symmetric table: its numbers are 1, 2, 3, ... up to the middle and back again.
 PointSet table(std::size_t rows, std::size_t columns) {
     PointSet set(rows, columns);
     const auto flat = set.flat();
@@ -47,7 +47,7 @@ TEST(SpectralTable, KnowsATableOfPowerFromPoints) {
     EXPECT_FALSE(found(table(9, 8)));
 }
 
-// The power at frequency zero is the number of points: at least 1, and the largest.
+// The power at frequency zero is the number of points: at least 1, and the maximum.
 TEST(SpectralTable, IsNotMadeOfEqualOrMirroredPoints) {
     PointSet equal(11, 1);
     for (double& x : equal.flat()) x = 0.25;
@@ -94,7 +94,7 @@ TEST(SpectralTable, OfSpaceIsDrawnByItsMiddlePlane) {
     EXPECT_EQ(space->dimension, 3U);
     EXPECT_EQ(space->values.rows, 9U);
     EXPECT_EQ(space->values.values[0], 5);  // 1 + 4, of plane 4
-    planes[2].flat()[7] += 1;               // and not in its mirror image
+    planes[2].flat()[7] += 1;               // breaks the symmetry
     EXPECT_FALSE(spectral_table(sets));
 }
 

@@ -15,7 +15,7 @@ using ::testing::ElementsAre;
 
 namespace {
 
-/// A mean at n points that is `first` / n^power, with an interval of ten percent.
+/// A mean at n points with the value `first` / n^power, and an interval of ten percent.
 MeanRow mean_at(std::uint64_t n, double first, double power, const std::string& generator = "a",
                 const std::string& key = "value", std::uint64_t dimension = 2) {
     const double mean = first * std::pow(static_cast<double>(n), -power);
@@ -88,8 +88,8 @@ TEST(StudyChart, OfErrorsTheRootMeanSquareCounts) {
     }
 }
 
-// Slopes differ from panel to panel, so each has its legend, in the same colours; a generator that one
-// of them lacks changes none.
+// Slopes differ between panels, so each has its own legend, with the same colours; a generator that
+// is missing in one panel does not change the others.
 TEST(StudyChart, EachPanelHasItsOwnSlopes) {
     std::vector<MeanRow> means;
     for (const std::uint64_t n : {10, 20, 40}) {
@@ -102,7 +102,7 @@ TEST(StudyChart, EachPanelHasItsOwnSlopes) {
     ASSERT_EQ(chart.panels.size(), 2U);
     EXPECT_TRUE(needs_legend(chart, 0) && needs_legend(chart, 1));
     EXPECT_EQ(chart.panels[0].series[1].set, chart.panels[1].series[0].set);
-    std::vector<std::pair<std::string, Colour>> legend;  // names behind their lines
+    std::vector<std::pair<std::string, Colour>> legend;  // names after their lines
     const Drawing drawing = draw_chart(chart, {});
     for (std::size_t i = 1; i < drawing.shapes.size(); ++i)
         if (const auto* label = std::get_if<Label>(&drawing.shapes[i]))

@@ -22,7 +22,7 @@ TEST(Orientation, TakesCoordinatesInAnotherOrderAndDirection) {
             EXPECT_EQ((*map)->density(point), plain->density(point));
             EXPECT_EQ((*map)->domain()->spec(), plain->domain()->spec());
         }
-        // 1 - 0 is the next below 1, as warps take it.
+        // 1 - 0 becomes the largest double below 1, because warps need coordinates below 1.
         EXPECT_EQ(image_of(*mirrored, {0, 0.5}), image_of(*plain, {1 - 0x1p-53, 0.5})) << warp;
     }
 }

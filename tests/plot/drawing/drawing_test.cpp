@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Drawings as SVG and as pixels, the letters in them, and the numbers on axes.
+// Drawings as SVG and as pixels, their letters, and the numbers on axes.
 #include "plot/drawing/drawing.hpp"
 
 #include <fmt/format.h>
@@ -45,7 +45,7 @@ double grey_at(const PngPicture& picture, std::size_t x, std::size_t y) {
     return picture.grey[y * picture.width + x];
 }
 
-/// How much ink there is, in pixels.
+/// Amount of ink, in pixels.
 double ink(const PngPicture& picture) {
     double sum = 0;
     for (const double grey : picture.grey) sum += 1 - grey;
@@ -105,7 +105,7 @@ TEST(PngDrawing, NothingIsDrawnOutsideOfAWindow) {
     EXPECT_EQ(ink(pixels(drawing)), 29);
 }
 
-// What lies outside of the picture, however far, is no place in it.
+// Shapes outside the picture, however far, have no effect.
 TEST(PngDrawing, TakesShapesOutsideOfThePicture) {
     Drawing drawing = page(10, 10);
     drawing.add(Line{.vertices = {{-1e12, 5}, {1e12, 5}}, .colour = black, .width = 2});
@@ -181,7 +181,7 @@ TEST(Letters, EveryPrintableLetterHasStrokesWithinItsBox) {
     EXPECT_EQ(strokes_of(U'Σ'), strokes_of(U'\uFFFD'));
 }
 
-// A quarter of a circle: the pen stays at its distance from the middle.
+// A quarter of a circle: the pen keeps its distance from the centre.
 TEST(Letters, CurvesAreEllipses) {
     const auto strokes = strokes_of(U'o');
     for (const Position& position : strokes[0]) {
@@ -191,7 +191,7 @@ TEST(Letters, CurvesAreEllipses) {
     }
 }
 
-// Broken at blanks and behind signs, within longer words anywhere; no letter is lost.
+// Text is broken at blanks and after signs, and anywhere in longer words; no letter is lost.
 TEST(Letters, LongTextsAreWrapped) {
     EXPECT_THAT(wrapped("abc", 12, 100), ElementsAre("abc"));
     EXPECT_THAT(wrapped("", 12, 100), ElementsAre());
@@ -242,7 +242,7 @@ TEST(Ticks, OfALogarithmicAxisArePowersOfTen) {
     EXPECT_GE(log_ticks(5.1, 5.9, 8).numbers.size(), 2U);
 }
 
-// No step of 1, 2 or 5 has from two to so many numbers in these ranges.
+// In these ranges, no step of 1, 2 or 5 gives between two and the requested number of ticks.
 TEST(Ticks, AreTwoAtLeast) {
     EXPECT_THAT(texts(linear_ticks(-4.5, 4.1, 4)), ElementsAre("−4", "0", "4"));
     EXPECT_THAT(texts(linear_ticks(1.5, 6.5, 2)), ElementsAre("2", "6"));
@@ -268,7 +268,7 @@ TEST(Ticks, AreTwoToSoManyInAnyRangeAndWithinIt) {
                 }
 }
 
-// Whatever the range and the room, numbers side by side keep their distance.
+// For any range and size, neighbouring numbers keep their distance.
 TEST(Ticks, NeverOverlap) {
     for (const double high : {1e-9, 0.0123, 1.0, 7.3, 99.9, 12345.6, 9.99e9})
         for (const double length : {60.0, 100.0, 333.0, 900.0})
@@ -298,7 +298,7 @@ TEST(Panel, PutsTheEndsOfItsAxesAtTheFramesCorners) {
     EXPECT_NEAR(log.y(0.1), 50, 1e-9);
 }
 
-// A single value, nothing at all, zeros on a logarithmic axis: there is an axis nevertheless.
+// A single value, no value, zeros on a logarithmic axis: there is still an axis.
 TEST(Panel, MendsAxesWithoutExtent) {
     for (const auto& [low, high] :
          {std::pair{2.0, 2.0},
@@ -316,7 +316,7 @@ TEST(Panel, MendsAxesWithoutExtent) {
 
 namespace {
 
-/// Pairs of doubles of every kind: any bits, equal, neighbours, tiny, huge, of both signs.
+/// Pairs of doubles of every kind: random bits, equal, adjacent, tiny, huge, of both signs.
 std::vector<std::pair<double, double>> ranges_of_every_kind() {
     constexpr double none = std::numeric_limits<double>::denorm_min();
     const double ends[] = {0, none,      1e-320, 1e-308, 1e-300,       1e-10, 0.1,  1 - 1e-13,
@@ -337,7 +337,7 @@ std::vector<std::pair<double, double>> ranges_of_every_kind() {
     return found;
 }
 
-/// What holds of an axis whatever it was made of.
+/// Properties of every axis.
 void expect_axis(const Axis& axis, double length, const std::string& what) {
     ASSERT_LT(axis.low, axis.high) << what;
     ASSERT_TRUE(std::isfinite(axis.high - axis.low)) << what;
@@ -359,8 +359,8 @@ void expect_axis(const Axis& axis, double length, const std::string& what) {
 
 }  // namespace
 
-// Whatever two doubles a range is made of, there is an axis with few, rising, finite numbers, or a
-// sentence that says why there cannot be one.
+// Every pair of doubles gives an axis with few, ascending, finite numbers, or an error that
+// explains why there is none.
 TEST(Panel, HasAnAxisForEveryPairOfDoubles) {
     std::size_t drawn = 0;
     for (const auto& [low, high] : ranges_of_every_kind())
@@ -404,7 +404,7 @@ TEST(Ticks, SayWhyARangeIsNotShown) {
     EXPECT_EQ(rounded_ends(-1, 2), (std::pair<std::string, std::string>("−1", "2")));
 }
 
-// A line that leaves the frame for 1e300 ends, dashed, too.
+// Drawing a line that leaves the frame for 1e300 ends, also if it is dashed.
 TEST(PngDrawing, EndsLinesThatGoFarOutside) {
     const Panel panel({10, 10, 80, 80}, {.low = 0, .high = 1}, {.low = 0, .high = 1});
     for (const Dash dash : {Dash::none, Dash::dashed, Dash::dotted}) {
@@ -433,7 +433,7 @@ TEST(HtmlText, Base64AsPrinted) {
     EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
 }
 
-// Accents stand over their letters, small and capital ones; i has one in place of its dot.
+// Accents are above their letters, small and capital; for i the accent replaces the dot.
 TEST(Letters, HaveTheirAccents) {
     const auto top = [](char32_t letter) {
         double highest = 0;

@@ -56,7 +56,7 @@ TEST(Ball, DensityIsOneOverTheVolume) {
     EXPECT_EQ(ball->density(Point{2, 1, 0}), 0);
 }
 
-// False alarm 1e-5. Wrong: the exponent 1/3 is 3 % more.
+// False alarm 1e-5. Wrong: the exponent 1/3 increased by 3 %.
 TEST(Ball, ChiSquareAcceptsItAndRejectsWrongRadii) {
     EXPECT_GT(p_of_random(*mapping("ball:radius=2,center=[1,2,3]"), 200'000), 1e-5);
     PointSet cube = make("random", points(1'000'000, 3));

@@ -85,8 +85,8 @@ TEST(Cone, DensityIsOneOverTheSolidAngle) {
     EXPECT_EQ(cone->density(Point{0, 0, 0.5}), 0);
 }
 
-// False alarm 1e-5 for each right set. 1 % more angle is 2 % more solid angle: xi0^1.01 tilts the
-// height as far.
+// False alarm 1e-5 for each right set. Wrong: 1 % more angle is 2 % more solid angle, as large a
+// tilt of the height as xi0^1.01.
 TEST(Cone, ChiSquareAcceptsItAndRejectsATilt) {
     EXPECT_GT(p_of_random(*mapping("cone:half-angle=1e-3"), 100'000), 1e-5);
     EXPECT_GT(p_of_random(*mapping("cone:half-angle=120,axis=[1,1,1]"), 100'000), 1e-5);

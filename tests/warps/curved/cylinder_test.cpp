@@ -73,7 +73,7 @@ TEST(Cylinder, DensityIsOneOverTheArea) {
     EXPECT_EQ(mapping("cylinder:radius=2,height=3")->density(Point{0, 0, 1.5}), 0);
 }
 
-// False alarm 1e-5 for each right set. Wrong: caps filled with uniform radius.
+// False alarm 1e-5 for each right set. Wrong: caps with uniform radius.
 TEST(Cylinder, ChiSquareAcceptsItAndRejectsNaiveCaps) {
     EXPECT_GT(p_of_random(*mapping("cylinder:radius=3,axis=[1,2,3]"), 100'000), 1e-5);
     const auto whole = mapping("cylinder:radius=3,caps=true,center=[1,2,3]");
@@ -88,7 +88,7 @@ TEST(Cylinder, ChiSquareAcceptsItAndRejectsNaiveCaps) {
     EXPECT_LT(measure("chi-square", "p_value", image), 1e-100);
 }
 
-// The share of the points on the caps is R / (R + H) = 3/4; 5 standard errors of 1e5 points are
+// The fraction of points on the caps is R / (R + H) = 3/4; 5 standard errors of 1e5 points are
 // 6.9e-3: false alarm 6e-7.
 TEST(Cylinder, CapsHaveTheirShare) {
     const PointSet image =

@@ -110,7 +110,8 @@ TEST(Hemisphere, MeanCosine) {
     EXPECT_NEAR(mean_cosine(all_methods[5]), 21. / 22, 4.6e-3);
 }
 
-// False alarm 1e-5 for each right one. Wrong: uniform directions for cosine, one power for another.
+// False alarm 1e-5 for each right one. Wrong: uniform directions instead of cosine, and another
+// power.
 TEST(Hemisphere, ChiSquareAcceptsTheRightLawAndRejectsOthers) {
     for (const auto& spec : all_methods) {
         EXPECT_GT(p_of_random(*mapping(spec), 50'000), 1e-5) << spec;

@@ -15,8 +15,8 @@ const std::vector<std::string> lobes = {"0",   "1e-12", "1e-300", "-1e-9",   "0.
 
 }  // namespace
 
-// The textbook's inverse for the share eta counted from behind:
-// cos theta = (1 + g^2 - ((1 - g^2) / (1 - g + 2 g eta))^2) / (2 g).
+// The textbook's inverse for the fraction eta, counted from the back: cos theta = (1 + g^2 - ((1 -
+// g^2) / (1 - g + 2 g eta))^2) / (2 g).
 TEST(HenyeyGreenstein, CosineIsTheTextbooks) {
     for (const double g : {0.3, -0.3, 0.8, -0.8})
         for (const double xi : {0.0, 0.1, 0.5, 0.77, 1.0}) {
@@ -33,7 +33,7 @@ TEST(HenyeyGreenstein, NumbersByHand) {
     EXPECT_EQ(image_of(*uniform, {0.5, 0.25}), (std::vector{0.0, 1.0, 0.0}));
     EXPECT_EQ(image_of(*uniform, {1, 0.3}), (std::vector{0.0, 0.0, -1.0}));
     EXPECT_DOUBLE_EQ(uniform->density(std::vector{0.0, 1.0, 0.0}), 1 / (4 * std::numbers::pi));
-    const auto half = mapping("henyey-greenstein:g=0.5");  // (3/4) / (4 pi (1/2)^3) ahead
+    const auto half = mapping("henyey-greenstein:g=0.5");  // forward density (3/4) / (4 pi (1/2)^3)
     EXPECT_DOUBLE_EQ(half->density(std::vector{0.0, 0.0, 1.0}), 1.5 / std::numbers::pi);
     const auto along_x = mapping("henyey-greenstein:axis=[2,0,0]");
     EXPECT_EQ(image_of(*along_x, {0, 0.3}), (std::vector{1.0, 0.0, 0.0}));

@@ -13,7 +13,7 @@ namespace {
 using Point = std::vector<double>;
 const std::string tetrahedron = "mesh:file=" STIPPLE_SOURCE_DIR "/tests/support/tetrahedron.obj";
 
-/// A file that is gone with the test.
+/// A file that is removed with the object.
 class MeshFile : public TemporaryFile {
   public:
     explicit MeshFile(const std::string& text) : TemporaryFile(text, ".obj") {}
@@ -25,7 +25,7 @@ void expect_near(const Point& p, const Point& q, double tolerance) {
     for (std::size_t k = 0; k < p.size(); ++k) EXPECT_NEAR(p[k], q[k], tolerance) << k;
 }
 
-/// A bumpy sphere of 2 x rows x 2 rows triangles, some at the poles without area.
+/// A bumpy sphere of 2 x rows x 2 rows triangles, some of area 0 at the poles.
 std::string bumpy_sphere(int rows) {
     std::string text;
     for (int i = 0; i <= rows; ++i)
@@ -53,7 +53,8 @@ TEST(Mesh, PointsByHand) {
     EXPECT_DOUBLE_EQ(map->density(Point{0.25, 0.25, 0}), 1 / area);
     EXPECT_EQ(map->density(Point{0.25, 0.25, 0.25}), 0);
     EXPECT_EQ(image_of(*map, {0, 0.5}), (Point{0, 0, 0}));
-    // A quarter of the first face 0, y, x: root 1/2, then 3/4 of the way to corner 1, which is y.
+    // A quarter of the first face 0, y, x: square root 1/2, then 3/4 of the way to corner 1, which
+    // is y.
     expect_near(image_of(*map, {0.125 / area, 0.75}), {0.125, 0.375, 0}, 1e-15);
     expect_near(image_of(*map, {(1 + 0.125) / area, 0.5}), {0, 0.25, 0.25}, 1e-15);
     expect_near(image_of(*map, {1, 0}), {0, 0, 1}, 1e-15);
@@ -89,7 +90,7 @@ TEST(Mesh, TrianglesWithoutAreaGetNoPoints) {
         EXPECT_EQ(image_of(*map, {u, 0.5})[3], 1) << u;
 }
 
-// A triangle of 1e-9 of the area between two others is found where its share is.
+// A triangle with 1e-9 of the area, between two others, gets its fraction of the unit interval.
 TEST(Mesh, SharesOfTinyTrianglesAreExact) {
     const MeshFile file(
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1e-9 0 5\nv 0 1 5\nv 0 0 5\nv 1 0 9\nv 0 1 9\nv 0 0 9\n"
@@ -102,7 +103,8 @@ TEST(Mesh, SharesOfTinyTrianglesAreExact) {
     EXPECT_EQ(image_of(*map, {share + 1e-9 * share + 1e-12, 0.5})[2], 9);
 }
 
-// 1000 triangles of 1e-17 of the area have 1e-14 of it, though each is lost when added to 1.
+// 1000 triangles of 1e-17 of the area have 1e-14 of it together, though each alone vanishes when
+// added to 1.
 TEST(Mesh, ManyTrianglesTooSmallToAddHaveTheirShareTogether) {
     std::string text = "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 0 5\nv 2e-8 0 5\nv 0 1e-9 5\nf 1 2 3\n";
     for (int i = 0; i < 1000; ++i) text += "f 4 5 6\n";
@@ -127,9 +129,9 @@ TEST(Mesh, DensityIsOneOverTheStretch) {
             EXPECT_NEAR(stretch_at(*map, {u, v}), map->domain()->measure(), 1e-5) << u;
 }
 
-// Mean over the surface of the tetrahedron: (3 (1/2) (0 + 1/3 + 1/3)/... by symmetry the same for
-// x, y, z: faces 0, x, y; 0, x, z; x, y, z have mean x 1/3, face 0, y, z has 0, so that the mean is
-// (1 + sqrt(3)/2) / 3 / (3/2 + sqrt(3)/2). Standard error of 1e5 points below 7.5e-4; 5 of them.
+// Mean over the tetrahedron's surface, by symmetry the same for x, y, z: the faces 0, x, y; 0, x,
+// z; x, y, z have mean x 1/3, and face 0, y, z has 0, so it is (1 + sqrt(3)/2) / 3 / (3/2 +
+// sqrt(3)/2). Standard error of 1e5 points below 7.5e-4; 5 of them.
 TEST(Mesh, MeansOfTheTetrahedron) {
     const PointSet image = warped(*mapping(tetrahedron), make("random", points(100'000, 2)));
     const double mean = (1 + std::sqrt(0.75)) / 3 / (1.5 + std::sqrt(0.75));
@@ -140,7 +142,7 @@ TEST(Mesh, MeansOfTheTetrahedron) {
     }
 }
 
-// False alarm 1e-5 for each right one. Wrong: triangles picked with equal chances.
+// False alarm 1e-5 for each right one. Wrong: triangles chosen with equal probabilities.
 TEST(Mesh, ChiSquareAcceptsItAndRejectsEqualChancesOfTriangles) {
     const MeshFile bumps(bumpy_sphere(12));
     EXPECT_GT(p_of_random(*mapping(bumps.spec()), 50'000), 1e-5);
@@ -156,7 +158,7 @@ TEST(Mesh, ChiSquareAcceptsItAndRejectsEqualChancesOfTriangles) {
     EXPECT_LT(measure("chi-square", "p_value", warped(*mapping(tetrahedron), cube)), 1e-100);
 }
 
-// Faces upon each other, the same or in part: each of them gets its share of points back.
+// Coincident or partly overlapping faces: the inverse assigns each its fraction of the points.
 TEST(Mesh, ChiSquareAcceptsFacesUponEachOther) {
     const MeshFile file("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 3 1 2\nf 2 4 3\nf 1 2 4\n");
     EXPECT_GT(p_of_random(*mapping(file.spec()), 50'000), 1e-5);

@@ -85,8 +85,8 @@ TEST(Sphere, RejectionKeepsTheShellAndMarksTheRest) {
     EXPECT_FALSE(mapping("sphere")->drops());
 }
 
-// The share kept, (pi / 6) 0.999 = 0.5230752, of 500 000: standard deviation 353; 5 of them, false
-// alarm 6e-7.
+// The expected fraction of points kept is (pi / 6) 0.999 = 0.5230752; for 500 000 points the
+// standard deviation is 353 points; 5 of them, false alarm 6e-7.
 TEST(Sphere, RejectionKeepsAShareOf05230752) {
     const PointSet kept =
         warped(*mapping("sphere:method=rejection"), make("random", points(500'000, 3)));
@@ -122,8 +122,8 @@ TEST(Sphere, DensityIsOneOverTheStretch) {
     EXPECT_DOUBLE_EQ(naive->density(Point{1, 0, 0}), 1 / (2 * pi * pi));
 }
 
-// E z^2 is 1/3 where points are uniform by area, 1/2 for the naive method; the standard errors of
-// 1e5 points are 9.4e-4 and 1.1e-3; 5 of them, false alarm 6e-7 each.
+// E z^2 is 1/3 for points uniform by area, 1/2 for the naive method; the standard errors of 1e5
+// points are 9.4e-4 and 1.1e-3; 5 of them, false alarm 6e-7 each.
 TEST(Sphere, NaiveIsBiasedTheOthersAreNot) {
     for (const std::string method : {"z", "rejection", "naive-lat-long"}) {
         const auto map = mapping("sphere:method=" + method);

@@ -33,12 +33,13 @@ const std::string shapes[] = {
     "spherical-rectangle:corner=[1000,2000,3000],edges=[1,2,0 -2,1,0]",
 };
 
-/// The point of the plane of the rectangle that a direction meets, along its edges; of `face`.
+/// Intersection of a direction with the rectangle's plane, in coordinates along its edges; for
+/// `face`.
 Point on_face(const Point& w) { return {w[0] / w[2], w[1] / w[2]}; }
 
 }  // namespace
 
-// A face of the cube fills a sixth of the sphere; xi = 1/2 is its middle line.
+// A face of the cube covers a sixth of the sphere; xi = 1/2 is its middle line.
 TEST(SphericalRectangle, CubeFaceByHand) {
     const auto map = mapping(face);
     EXPECT_NEAR(map->domain()->measure(), 4 * pi / 6, 1e-15);
@@ -51,7 +52,7 @@ TEST(SphericalRectangle, CubeFaceByHand) {
     expect_near(image_of(*map, {0.5, 0.75}), {0, std::sqrt(0.125), std::sqrt(0.875)}, 4e-16);
 }
 
-// The half next to x = -1 of the face: F(x, y) = atan(x y / (z r)) at its corners, by hand.
+// Part of the face between x = -1 and a line: F(x, y) = atan(x y / (z r)) at its corners, by hand.
 TEST(SphericalRectangle, SolidAngleBehindALineIsXi0) {
     for (const double x : {-0.9, -0.5, 0.2, 0.7}) {
         const auto solid = [](double to) {
@@ -96,7 +97,7 @@ TEST(SphericalRectangle, RoundTripOverTheWholeSquare) {
     expect_round_trip(*mapping("spherical-rectangle:corner=[1,2,1e-6],edges=[2,0,0 0,2,0]"), 1e-14);
 }
 
-// Seen at a flat angle from beside it, and from above it, where only xi is to come back.
+// Seen at a grazing angle from the side, and from above, where only xi must come back.
 TEST(SphericalRectangle, NearlyFlatRectanglesKeepTheirDigits) {
     const PointSet cube = telling_points();
     const std::pair<const char*, bool> places[] = {
@@ -118,7 +119,7 @@ TEST(SphericalRectangle, NearlyFlatRectanglesKeepTheirDigits) {
     }
 }
 
-// Large, askew and endless ones, of which rounding must not leave the sides.
+// Large, oblique and nearly infinite rectangles, whose points rounding must not move outside.
 TEST(SphericalRectangle, KeepsItsPointsOnTheRim) {
     for (const char* shape : {"corner=[0.717,-1.533,1.483],edges=[-4,2,4 -1.5,3,-3]",
                               "corner=[-1e10,-1e10,1],edges=[2e10,0,0 0,2e10,0]",
@@ -131,7 +132,7 @@ TEST(SphericalRectangle, KeepsItsPointsOnTheRim) {
                     << shape << ": " << cube[i][0] << ", " << cube[i][1];
             }
     }
-    // What is left of the hemisphere beyond a square of half-width h is 4 sqrt(2) / h.
+    // The part of the hemisphere outside a square of half-width h is 4 sqrt(2) / h.
     const double left = 2 * std::numbers::pi -
                         mapping("spherical-rectangle:corner=[-1e3,-1e3,1],edges=[2e3,0,0 0,2e3,0]")
                             ->domain()
@@ -162,8 +163,8 @@ TEST(SphericalRectangle, DensityIsOneOverTheSolidAngle) {
     EXPECT_EQ(mapping(face)->density(unit({1.01, 0, 1})), 0);
 }
 
-// False alarm 1e-5 for each right one; cells cut along the other edge first. Wrong: points uniform
-// on the rectangle.
+// False alarm 1e-5 for each right one; cells are first divided along the other edge. Wrong: points
+// uniform on the rectangle.
 TEST(SphericalRectangle, ChiSquareAcceptsItAndRejectsPointsUniformByArea) {
     for (const auto& spec : shapes) EXPECT_GT(p_of_random(*mapping(spec), 50'000), 1e-5) << spec;
     PointSet flat = make("random", points(50'000, 3));
@@ -175,8 +176,8 @@ TEST(SphericalRectangle, ChiSquareAcceptsItAndRejectsPointsUniformByArea) {
     EXPECT_LT(measure("chi-square", "p_value", flat), 1e-100);
 }
 
-// By symmetry the mean of x/z over a face is 0, and the share with |x/z| < 1/2, |y/z| < 1/2 is
-// 4 asin((1/5)) / (2 pi / 3) for the half-size square at distance 1: sin of F = xy / ((x^2+z^2)
+// By symmetry the mean of x/z over a face is 0. The fraction with |x/z| < 1/2, |y/z| < 1/2 is 4
+// asin(1/5) / (2 pi / 3) for the half-size square at distance 1: the sine of F is xy / ((x^2+z^2)
 // (y^2+z^2))^(1/2) = 1/5. 5 standard errors of 1e5 points are 7.7e-3.
 TEST(SphericalRectangle, ShareOfTheInnerSquare) {
     const PointSet image = warped(*mapping(face), make("random", points(100'000, 2)));

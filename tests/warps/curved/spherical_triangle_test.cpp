@@ -16,7 +16,7 @@ void expect_near(const Point& p, const Point& q, double tolerance) {
     for (std::size_t k = 0; k < p.size(); ++k) EXPECT_NEAR(p[k], q[k], tolerance) << k;
 }
 
-/// Girard: the sum of the angles less pi, each angle between the planes of two edges.
+/// Girard: the sum of the angles minus pi, each angle being between the planes of two edges.
 double area_by_girard(const std::vector<std::vector<long double>>& v) {
     const auto cross = [](const auto& a, const auto& b) {
         return std::vector<long double>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
@@ -98,7 +98,7 @@ TEST(SphericalTriangle, RoundTripOverTheWholeSquare) {
                       1e-12);
 }
 
-// Corners that are nearly in line with each other, next to each other, or nearly opposite.
+// Corners that are nearly collinear, very close together, or nearly opposite.
 TEST(SphericalTriangle, KeepsItsPointsOnTheRim) {
     for (const char* vertices :
          {"2,-3,4 -9,-9,-9 -7,-7,-6",
@@ -133,7 +133,7 @@ TEST(SphericalTriangle, UnitCoordinatesComeBack) {
             const Point xi(cube[i].begin(), cube[i].end());
             const Point back = inverse_of(*map, image_of(*map, xi));
             EXPECT_NEAR(back[1], xi[1], 2e-14) << shapes[shape] << " " << xi[0];
-            if (xi[1] > 1e-4) {  // all xi0 meet in b
+            if (xi[1] > 1e-4) {  // all xi0 meet at b
                 EXPECT_NEAR(back[0], xi[0], 1e-13) << shapes[shape] << " " << xi[1];
             }
         }
@@ -147,7 +147,7 @@ TEST(SphericalTriangle, DensityIsOneOverTheArea) {
     EXPECT_EQ(mapping(shapes[0])->density(Point{0.1, 0.1, 0.1}), 0);
 }
 
-/// Random directions on the sphere that lie in the triangle, and those that do not.
+/// Random directions on the sphere, inside and outside the triangle.
 TEST(SphericalTriangle, ContainsTheShareOfTheSphereThatItsAreaIs) {
     const auto map = mapping(shapes[2]);
     const PointSet sphere = warped(*mapping("sphere"), make("random", points(200'000, 2)));
@@ -157,8 +157,9 @@ TEST(SphericalTriangle, ContainsTheShareOfTheSphereThatItsAreaIs) {
     EXPECT_NEAR(inside / 2e5, map->domain()->measure() / (4 * pi), 5.6e-3);
 }
 
-// False alarm 1e-5 for each right one; cells are about another corner than strata. Wrong: xi0 along
-// the edge by angle, which is right for the octant alone, and points of the plane triangle.
+// False alarm 1e-5 for each right one; cells and strata start from different corners. Wrong: xi0 as
+// an angle along the edge, which is right only for the octant, and projected points of the plane
+// triangle.
 TEST(SphericalTriangle, ChiSquareAcceptsItAndRejectsProjectedPoints) {
     for (const char* spec : shapes) EXPECT_GT(p_of_random(*mapping(spec), 50'000), 1e-5) << spec;
     PointSet flat = warped(*mapping("triangle:vertices=[1,0,0 0,1,0 0,0,1]"),

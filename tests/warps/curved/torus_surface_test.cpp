@@ -19,7 +19,7 @@ TEST(TorusSurface, PointsByHand) {
     EXPECT_EQ(image_of(*torus, {0, 0}), (Point{4, 0, 0}));
     EXPECT_EQ(image_of(*torus, {0.5, 0.25}), (Point{0, 2, 0}));
     EXPECT_EQ(image_of(*torus, {1, 0.5}), (Point{-4, 0, 0}));
-    // theta = pi / 2: (3 pi / 2 + 1) / (6 pi) of the area lies before.
+    // theta = pi / 2: (3 pi / 2 + 1) / (6 pi) of the area is before it.
     const Point top = image_of(*torus, {0.25 + 1 / (6 * pi), 0});
     EXPECT_NEAR(top[0], 3, 1e-15);
     EXPECT_NEAR(top[2], 1, 1e-15);
@@ -49,14 +49,14 @@ TEST(TorusSurface, UnitCoordinatesComeBack) {
         for (std::size_t i = 0; i < cube.count(); ++i) {
             const Point xi(cube[i].begin(), cube[i].end());
             const Point back = inverse_of(*map, image_of(*map, xi));
-            // Both ends of a turn are one place.
+            // Both ends of a full turn are the same position.
             for (std::size_t k = 0; k < 2; ++k)
                 EXPECT_NEAR(std::remainder(back[k] - xi[k], 1), 0, 1e-13) << spec << " " << xi[k];
         }
     }
 }
 
-// The definition: the equation holds for the angle that the point has.
+// The definition: the point's angle satisfies the equation.
 TEST(TorusSurface, SolvesItsEquation) {
     for (const double r : {1e-3, 0.4, 0.999, 1.0}) {
         const auto map = mapping("torus-surface:minor-radius=" + std::to_string(r));

@@ -11,7 +11,7 @@
 namespace stipple::testing::triangle_tree_test {
 namespace {
 
-/// Triangles of random corners in the unit cube.
+/// Triangles with random corners in the unit cube.
 TriangleMesh random_triangles(std::uint32_t count) {
     TriangleMesh mesh;
     const Rng rng(5);

@@ -15,7 +15,7 @@ const std::string edges = "discrete:probabilities=[0,0.25,0,0,0.75,0]";
 
 double at(const std::string& spec, double u) { return image_of(*mapping(spec), {u, 0.5})[0]; }
 
-/// Share of the unit interval that goes to each outcome, by 7919 x 64 equal steps.
+/// Fraction of the unit interval for each outcome, by 7919 x 64 equal steps.
 std::map<double, double> shares(const std::string& spec) {
     const auto map = mapping(spec);
     const int n = 7919 * 64;

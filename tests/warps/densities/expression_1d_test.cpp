@@ -38,7 +38,7 @@ TEST(Expression1d, DensityIsTheFormulaOverItsIntegral) {
     EXPECT_EQ(map->density(std::vector{8.1}), 0);
 }
 
-// Probabilities of cells are those of the formula, whatever the table: exp(-x) on [0, 3].
+// Probabilities of cells are the formula's, regardless of the table: exp(-x) on [0, 3].
 TEST(Expression1d, ProbabilityIsTheFormulas) {
     for (const std::string rough : {"1e-9", "0.1"}) {
         const DomainPtr domain =
@@ -78,7 +78,7 @@ TEST(Expression1d, GoesThereAndBack) {
     }
 }
 
-// Moments of 2 - 2 x: 1/3 and 1/18. 10^5 midpoints of strata leave errors below 1e-8.
+// Moments of the density 2 - 2 x: 1/3 and 1/18. 10^5 midpoints of strata leave errors below 1e-8.
 TEST(Expression1d, MomentsAreThoseOfTheFormula) {
     const auto map = mapping("expression-1d:density=2-2*x");
     double mean = 0;

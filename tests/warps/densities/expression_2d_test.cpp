@@ -37,8 +37,8 @@ PlaneMoments moments_of(const Mapping& map, std::size_t n = 1000) {
 
 }  // namespace
 
-// p = 2 on x + y < 1: p(x) = 2 - 2 x, p(y | x) = 1 / (1 - x). What F(x, y) / F(x, y_max) gives
-// instead puts 22.7 % of the points outside.
+// p = 2 on x + y < 1: p(x) = 2 - 2 x, p(y | x) = 1 / (1 - x). Inverting F(x, y) / F(x, y_max)
+// instead would put 22.7 % of the points outside.
 TEST(Expression2d, TriangleHasItsMomentsAndNoPointOutside) {
     const auto map = mapping("expression-2d:density=[x + y < 1 ? 1 : 0]");
     const PlaneMoments m = moments_of(*map);
@@ -69,7 +69,7 @@ TEST(Expression2d, SumOfCoordinatesHasItsConditional) {
     EXPECT_EQ(image[0], 0);
     EXPECT_NEAR(image[1], 0.7, 1e-14);
     EXPECT_NEAR(image[2], 0.5, 1e-14);                                // (x^2 + x) / 2 = 3/8
-    EXPECT_NEAR(image[3] * image[3] / 2 + image[3] / 2, 0.5, 1e-14);  // of a whole of 1
+    EXPECT_NEAR(image[3] * image[3] / 2 + image[3] / 2, 0.5, 1e-14);  // half of the total 1
 }
 
 // p(x) = 0 at x = 0, where the conditional is the limit, 2 y.
@@ -81,7 +81,7 @@ TEST(Expression2d, TakesTheLimitWhereTheMarginalIsZero) {
     mapping("expression-2d:density=(1-x)*y")->forward(std::vector{1.0, 0.25}, image, {});
     EXPECT_NEAR(image[0], 1, 2e-8);  // (1 - x)^2 = 2^-53
     EXPECT_NEAR(image[1], 0.5, 1e-15);
-    // At x = 1 itself, where the density is 0, the way back takes the same limit.
+    // At x = 1 itself, where the density is 0, the inverse uses the same limit.
     mapping("expression-2d:density=(1-x)*y")->inverse(std::vector{1.0, 0.5}, image);
     EXPECT_EQ(image[0], 1);
     EXPECT_NEAR(image[1], 0.25, 1e-15);
@@ -104,7 +104,7 @@ TEST(Expression2d, GoesThereAndBack) {
     }
 }
 
-/// The share of points in a disk, by 2^17 points of a net.
+/// Fraction of points in a disk, by 2^17 points of a net.
 double share_in_disk(const Mapping& map, double x, double y, double r) {
     const PointSet image = warped(map, make("sobol", points(1U << 17, 2)));
     std::size_t inside = 0;
@@ -113,9 +113,9 @@ double share_in_disk(const Mapping& map, double x, double y, double r) {
     return static_cast<double>(inside) / static_cast<double>(image.count());
 }
 
-// Of f = h inside a disk of area a and 1 outside, the disk has h a / (h a + 1 - a). One of these is
-// between the lines of a first strip, whose patches may get flatter than the places in it; the others
-// are as small as is promised, and right to 3 % of their mass.
+// With f = h inside a disk of area a and 1 outside, the disk has h a / (h a + 1 - a) of the mass.
+// One disk is between the lines of a first strip, whose patches may become thinner than the spacing
+// of their samples; the others are as small as promised, and accurate to 3 % of their mass.
 TEST(Expression2d, FindsDisksOf1Over256) {
     const double least = 0.5 / 256;
     for (const auto& [x, y, r] :
@@ -132,7 +132,7 @@ TEST(Expression2d, FindsDisksOf1Over256) {
     }
 }
 
-// Thinner than what the grid of places resolves, and still on many of those looked at afterwards.
+// Thinner than the grid of samples resolves, but hit by many samples taken later.
 TEST(Expression2d, FindsAThinLine) {
     const auto map =
         mapping("expression-2d:density=[abs(x-0.30171)<0.0001?5000:1],tolerance=0.002");
@@ -143,7 +143,7 @@ TEST(Expression2d, FindsAThinLine) {
     EXPECT_NEAR(static_cast<double>(inside) / 32768, 1 / (2 - 0.0002), 0.004);
 }
 
-// The integral of its domain is right, too, or is refused.
+// The domain's integral is right, too, or throws an error.
 TEST(Expression2d, DomainKnowsWhatIsNarrow) {
     const double r = 0.5 / 256;
     const double area = std::numbers::pi * r * r;
@@ -154,7 +154,8 @@ TEST(Expression2d, DomainKnowsWhatIsNarrow) {
     }
 }
 
-// A lower tolerance must bring the points nearer to the law: the mean of x under a slanting jump.
+// A lower tolerance must bring the points nearer to the distribution: the mean of x under an
+// oblique jump.
 TEST(Expression2d, ToleranceIsKept) {
     for (const std::string tolerance : {"0.05", "0.005"}) {
         const auto map = mapping("expression-2d:density=[x+y<1?1:0],tolerance=" + tolerance);
@@ -162,8 +163,8 @@ TEST(Expression2d, ToleranceIsKept) {
     }
 }
 
-// Small disks and a narrow bell between the places that the first patches know. Of a disk's area a,
-// a / (a + 0.001 (1 - a)) is its share of the mass, which is looked at by 160 000 points of a grid.
+// Small disks and a narrow bell between the first samples. A disk of area a has a / (a + 0.001 (1 -
+// a)) of the mass, measured with 160 000 points of a grid.
 TEST(Expression2d, SeesWhatIsNarrow) {
     for (const auto& [x, y, r] : {std::array{0.31, 0.7, 0.02}, std::array{0.883, 0.117, 0.004}}) {
         const auto map = mapping(fmt::format(
@@ -189,8 +190,8 @@ TEST(Expression2d, SeesWhatIsNarrow) {
     EXPECT_NEAR(bell->domain()->density(std::array{0.3, 0.7}), 1e6 / M_PI, 10);
 }
 
-// dx dy = dxi / density: x depends on xi0 alone, so that the area that a small square of the cube
-// becomes is dx/dxi0 dy/dxi1 of it.
+// dx dy = dxi / density: x depends only on xi0, so a small square of the cube is mapped to dx/dxi0
+// dy/dxi1 times its area.
 TEST(Expression2d, DensityIsThatOfThePointsAsTheyAre) {
     const PointSet cube = make("random", points(500, 2));
     for (const std::string spec :

@@ -10,7 +10,7 @@
 namespace stipple::testing::image_test {
 namespace {
 
-/// An array of values as a file; rows from y = 0.
+/// An array of values as a file; the first row is at y = 0.
 TemporaryFile array_of(std::size_t width, std::size_t height, const std::vector<double>& values) {
     return TemporaryFile(npy_of<double>("<f8", fmt::format("({}, {})", height, width), values));
 }
@@ -23,7 +23,7 @@ std::unique_ptr<Mapping> bilinear(const TemporaryFile& file) {
     return mapping("image:interpolation=bilinear,file=" + file.path());
 }
 
-/// 9 x 11 pixels, some of them empty, a row and a column, too.
+/// 9 x 11 pixels, some of them empty, including a row and a column.
 std::vector<double> spotty() {
     std::vector<double> values(99);
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -31,8 +31,8 @@ std::vector<double> spotty() {
     return values;
 }
 
-/// Chi-square over the pixels of positive mass of the images of random points; infinite if one
-/// falls on an empty pixel.
+/// Chi-square over pixels of positive mass, for images of random points; infinite if one is on an
+/// empty pixel.
 double statistic_of(const Mapping& map, const std::vector<double>& values, std::size_t width) {
     const std::size_t height = values.size() / width;
     const PointSet image = warped(map, make("random", points(100'000, 2)));
@@ -53,7 +53,7 @@ double statistic_of(const Mapping& map, const std::vector<double>& values, std::
 
 }  // namespace
 
-// Row sums 4 and 4: half of the mass below 1/2. In the lower row 3/4 of it left of 1/2.
+// Row sums 4 and 4: half of the mass is below 1/2. In the lower row, 3/4 of it is left of 1/2.
 TEST(Image, PointsByHand) {
     const auto file = array_of(2, 2, {3, 1, 0, 4});
     const auto map = image_of(file);
@@ -67,7 +67,7 @@ TEST(Image, PointsByHand) {
 }
 
 TEST(Image, PictureStandsUprightAndInverts) {
-    const TemporaryFile file(png_of(2, 2, {255, 0, 0, 0}));  // light on top left
+    const TemporaryFile file(png_of(2, 2, {255, 0, 0, 0}));  // bright at the upper left
     const auto light = mapping("image:file=" + file.path());
     EXPECT_EQ(light->density(std::vector{0.25, 0.75}), 4);
     const auto ink = mapping("image:invert,file=" + file.path());
@@ -83,7 +83,7 @@ TEST(Image, RoundTripOverTheWholeSquare) {
     expect_round_trip(*image_of(array_of(1, 7, {0, 0, 1, 2, 3, 0, 0})), 1e-14);
 }
 
-// Where the density is small, a step of xi is a large one of x: xi is what comes back.
+// If the density is small, a step of xi is a large step of x; so xi is compared.
 TEST(Image, UnitCoordinatesComeBack) {
     std::vector<double> values(64 * 64);
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -97,9 +97,9 @@ TEST(Image, UnitCoordinatesComeBack) {
         ASSERT_NEAR(back.flat()[i], cube.flat()[i], 1e-14) << i;
 }
 
-// 71 pixels are not empty: the statistic has mean 70 and standard deviation 12; 160 is passed with
-// probability 5e-9. Turned by half a turn, the same picture gives tens of thousands, or points on
-// empty pixels.
+// 71 pixels are not empty: the statistic has mean 70 and standard deviation 12, and exceeds 160
+// with probability 5e-9. The same picture rotated by 180 degrees gives tens of thousands, or points
+// on empty pixels.
 TEST(Image, PointsFollowThePictureAndNoneIsWhereItIsEmpty) {
     const auto values = spotty();
     const double right = statistic_of(*image_of(array_of(9, 11, values)), values, 9);
@@ -107,13 +107,13 @@ TEST(Image, PointsFollowThePictureAndNoneIsWhereItIsEmpty) {
     EXPECT_GT(right, 20);
     const std::vector<double> turned(values.rbegin(), values.rend());
     EXPECT_GT(statistic_of(*image_of(array_of(9, 11, turned)), values, 9), 1000);
-    auto tilted = values;  // by 10 %
+    auto tilted = values;  // tilted by 10 %
     for (std::size_t i = 0; i < tilted.size(); ++i)
         tilted[i] *= 1 + 0.1 * static_cast<double>(i % 9) / 4;
     EXPECT_GT(statistic_of(*image_of(array_of(9, 11, tilted)), values, 9), 160);
 }
 
-// The conditional is p(x, y) / p(y): in each row apart, xi1 alone says where x is.
+// The conditional is p(x, y) / p(y): in each row, xi1 alone determines x.
 TEST(Image, EachRowHasItsOwnConditional) {
     const auto map = image_of(array_of(2, 2, {1, 0, 1, 1}));
     std::vector<double> image(4);
@@ -141,8 +141,8 @@ TEST(Image, DensityIntegratesToOneAndIsTheStretch) {
     }
 }
 
-// Values 1 and 3 at the pixels' middles 1/4 and 3/4: p = 1/2 up to 1/4, then a line to 3/2 at 3/4,
-// in all heights. P(x < 1/4) = 1/8, P(x < 1/2) = 5/16, P(x < 3/4) = 5/8.
+// Values 1 and 3 at the pixel centres 1/4 and 3/4: p = 1/2 up to 1/4, then linear to 3/2 at 3/4,
+// for all y. P(x < 1/4) = 1/8, P(x < 1/2) = 5/16, P(x < 3/4) = 5/8.
 TEST(BilinearImage, ByHand) {
     const auto map = bilinear(array_of(2, 1, {1, 3}));
     std::vector<double> image(8);
@@ -163,9 +163,9 @@ TEST(BilinearImage, RoundTripOverTheWholeSquare) {
     expect_round_trip(*bilinear(array_of(3, 1, {1, 2, 4})), 1e-14);
 }
 
-// Cells of the domain's cube have the probability of their volume: 16 x 16 of them, so the statistic
-// has mean 255 and deviation 22.6; above 390 with probability 1e-7. Constant pixels are not the same
-// distribution, and fail.
+// Cells of the domain's cube have their volume as probability: 16 x 16 of them, so the statistic
+// has mean 255 and standard deviation 22.6, and exceeds 390 with probability 1e-7. Constant pixels
+// are another distribution, and fail.
 TEST(BilinearImage, PointsFollowTheDensity) {
     const auto values = spotty();
     const auto map = bilinear(array_of(9, 11, values));
@@ -185,8 +185,9 @@ TEST(BilinearImage, PointsFollowTheDensity) {
     EXPECT_GT(statistic(*image_of(array_of(9, 11, values))), 1000);
 }
 
-// The density by its definition at the nodes and between, its integrals over boxes by the midpoint
-// rule on cells that no bend crosses (36 = 4 x 9 and 44 = 4 x 11), exact for what is bilinear there.
+// The density by its definition at nodes and between; its integrals over boxes by the midpoint rule
+// on cells inside single patches (36 = 4 x 9 and 44 = 4 x 11), which is exact for bilinear
+// functions.
 TEST(BilinearImage, DensityAndMassesAreThoseOfTheDefinition) {
     const auto values = spotty();
     const auto map = bilinear(array_of(9, 11, values));
@@ -216,7 +217,7 @@ TEST(BilinearImage, DensityAndMassesAreThoseOfTheDefinition) {
         EXPECT_NEAR(map->density(point), value(point[0], point[1]) / total, 1e-13);
     }
     EXPECT_TRUE(bilinear(array_of(2, 2, {1, 2, 3, 4}))->domain()->support().whole);
-    // Two corners of the square are beyond middles of empty pixels.
+    // Two corners of the square are beyond the centres of empty pixels.
     const Support corners = bilinear(array_of(2, 2, {1, 0, 0, 1}))->domain()->support();
     EXPECT_EQ(corners.measure->value, 0.875);
     const Support gap = bilinear(array_of(1, 4, {1, 0, 0, 1}))->domain()->support();

@@ -50,8 +50,8 @@ TEST(Mixture, DensityIsTheWeightedSum) {
                                              0.4 * mapping("henyey-greenstein:g=0.5")->density(x));
 }
 
-// Cells of 9 x 7 over the cube; the masses sum to 1, and random points fit them: 62 degrees of
-// freedom, above 135 with probability 3e-7. A mixture with other weights does not.
+// 9 x 7 cells of the cube: the probabilities sum to 1, and random points fit them: 62 degrees of
+// freedom, above 135 with probability 3e-7. A mixture with other weights does not fit.
 TEST(Mixture, CellsHaveTheProbabilitiesOfThePoints) {
     for (const std::string& spec : {lobes, plane}) {
         const auto map = mapping(spec);
@@ -85,7 +85,7 @@ TEST(Mixture, CellsHaveTheProbabilitiesOfThePoints) {
     }
 }
 
-/// Components of each kind of space that overlap, are turned and lie off the middle.
+/// Components of each kind of space that overlap, rotated and not centred.
 const std::vector<std::string> overlapping = {
     "disk|disk:center=[1,0.25]",
     "triangle:vertices=[-1,-1 2,0 0,1]|disk",
@@ -104,7 +104,7 @@ const std::vector<std::string> overlapping = {
 
 std::string half_and_half(const std::string& parts) { return "mixture:components=[" + parts + "]"; }
 
-// Oracle: the centres of 700 x 700 squares, each half of which goes to one component.
+// Oracle: centres of 700 x 700 squares, half of which go to each component.
 TEST(Mixture, MassesOfOverlappingShapesAreTheirShares) {
     constexpr std::size_t m = 700;
     PointSet centres(m * m, 2);
@@ -153,8 +153,9 @@ TEST(Mixture, MassesOfSolidsAreTheirShares) {
     EXPECT_EQ(mass({1, 0, 0}, {2, 1, 1}), 0);
 }
 
-// False alarm: 14 x 2e-6, by the level; the same points as another mixture, 0.4 to 0.6, are found
-// out: noncentrality 2e5 (0.1 / 0.5)^2 times the share where the components differ, 0.02 and more.
+// False alarm 14 x 2e-6, by the level. The same points as samples of another mixture, 0.4 to 0.6,
+// are rejected: noncentrality 2e5 (0.1 / 0.5)^2 times the fraction where the components differ, at
+// least 0.02.
 TEST(Mixture, ChiSquareTellsRightWeightsFromWrongOnes) {
     for (const std::string& parts : overlapping) {
         const auto verdict = [&](const std::string& spec) {

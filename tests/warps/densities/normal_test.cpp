@@ -103,7 +103,7 @@ TEST(Normal, CovarianceIsTheOneAskedFor) {
     EXPECT_NEAR(cov[2], 10, 0.225);
 }
 
-// False alarm 1e-4 each; the wrong ones: 1 % too wide, and axes swapped.
+// False alarm 1e-4 each. Wrong: 1 % too wide, and swapped axes.
 TEST(Normal, ChiSquareAcceptsItAndRejectsWrongOnes) {
     const auto map = mapping(correlated);
     EXPECT_GT(p_of_random(*map, 200'000), 1e-4);
@@ -115,7 +115,7 @@ TEST(Normal, ChiSquareAcceptsItAndRejectsWrongOnes) {
     EXPECT_LT(measure("chi-square", "p_upper", swapped), 1e-4);
 }
 
-// x_k depends on xi_1 ... xi_k alone.
+// x_k depends only on xi_1 ... xi_k.
 TEST(Normal, FactorIsLower) {
     const auto map = mapping(correlated);
     EXPECT_EQ(image_of(*map, {0.3, 0.1})[0], image_of(*map, {0.3, 0.9})[0]);

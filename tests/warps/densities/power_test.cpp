@@ -160,7 +160,8 @@ TEST(Power, RefusesWhatHasNoDensity) {
               "usage: --exponent: 1e9 is outside [-1000, 1000]");
 }
 
-// Near k = -1 half of the law is within a few decades of its lower end; nothing may underflow.
+// Near exponent -1 half of the mass is within a few decades of the lower end; nothing may
+// underflow.
 TEST(Power, ExponentsNearMinusOneKeepPointsAndDensities) {
     for (const char* spec :
          {"power:exponent=-0.99,range=[1e-150,1]", "power:exponent=-0.95", "power:exponent=-0.954",

@@ -31,7 +31,7 @@ TEST(Rejection, EfficiencyIsTheIntegralOverTheBound) {
     EXPECT_NEAR(static_cast<double>(in_shell.count()) / 4e5, 0.5230752, 0.004);
 }
 
-// f = x + y: mean 7/12, of 100 000 kept points; 5 standard errors are 0.0044.
+// f = x + y has mean 7/12; for 100 000 kept points, 5 standard errors are 0.0044.
 TEST(Rejection, PointsFollowTheFormula) {
     const auto map = mapping("rejection:density=x+y,bound=2");
     const PointSet kept = warped(*map, make("random", points(100'000, 3)));

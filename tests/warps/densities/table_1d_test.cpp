@@ -10,7 +10,7 @@
 namespace stipple::testing::table_1d_test {
 namespace {
 
-// Masses 1, 0, 3 and 2 of 6: a ramp, a gap, a jump to a plateau, a fall.
+// Masses 1, 0, 3 and 2 sixths: a ramp, a gap, a jump to a plateau, a fall.
 const std::string mixed = "table-1d:rows=[0,0 1,2 1,0 2,0 2,3 3,3 4,1]";
 const std::string steps = "table-1d:interpolation=constant,rows=[-1,2 0,0 2,6 3,0]";
 
@@ -71,7 +71,7 @@ TEST(Table1d, DensityIsOneOverTheStretchAndIntegratesToOne) {
     EXPECT_NEAR(mass, 1, 1e-13);
 }
 
-// False alarm 1e-4 each; wrong: xi -> 1 - sqrt(xi), and a table that is 2 % off.
+// False alarm 1e-4 each. Wrong: xi -> 1 - sqrt(xi), and a table with an error of 2 %.
 TEST(Table1d, ChiSquareAcceptsItAndRejectsWrongOnes) {
     for (const std::string& spec : {std::string("table-1d"), mixed, steps})
         EXPECT_GT(p_of_random(*mapping(spec), 100'000), 1e-4) << spec;
@@ -81,7 +81,7 @@ TEST(Table1d, ChiSquareAcceptsItAndRejectsWrongOnes) {
     EXPECT_LT(measure("chi-square", "p_upper", wrong), 1e-4);
 }
 
-// Uniform halves of any height, and a ramp: what squares of the densities over- or underflow with.
+// Uniform halves of any height, and a ramp: squares of these densities would overflow or underflow.
 TEST(Table1d, TakesDensitiesOfAnySize) {
     for (const char* f : {"1e-285", "1e-200", "1e-160", "1", "1e150"}) {
         const std::string size = f;
@@ -95,7 +95,7 @@ TEST(Table1d, TakesDensitiesOfAnySize) {
         }
         EXPECT_DOUBLE_EQ(at("table-1d:rows=[0,0 1," + size + "]", 0.25), 0.5) << size;
     }
-    // Beside one of 1, one of 1e-200 and then of 1e-300: masses of 1e-200 and 1e-300 of the whole.
+    // Next to a density of 1, one of 1e-200 or 1e-300, which has that fraction of the mass.
     for (const char* f : {"1e-200", "1e-300"}) {
         const std::string beside =
             "table-1d:interpolation=constant,rows=[0," + std::string(f) + " 1,1 2,0]";

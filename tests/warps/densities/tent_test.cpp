@@ -8,7 +8,7 @@
 namespace stipple::testing::tent_test {
 namespace {
 
-/// The map for so many coordinates at hand.
+/// The map for a given number of coordinates.
 std::unique_ptr<Mapping> tent_of(std::string_view text, std::size_t given) {
     const Spec spec = parse_spec(text);
     const Warp& warp = find_warp(spec.name);
@@ -31,7 +31,7 @@ TEST(Tent, IsSymmetricToTheLastBit) {
     const PointSet cube = telling_points();
     for (const double x : cube.flat()) {
         const double mirrored = 1 - x;
-        if (1 - mirrored != x) continue;  // the mirror image is no double
+        if (1 - mirrored != x) continue;  // the mirror image is not exact in double
         EXPECT_EQ(image_of("tent", {x, 0})[0], -image_of("tent", {mirrored, 0})[0]) << x;
     }
 }
@@ -71,7 +71,8 @@ TEST(Tent, DensityIsTheTent) {
     expect_density_is_one_over_jacobian(*map);
 }
 
-// Of the tent: variance r^2 / 6, E|x| = r / 3, no covariance. Five standard errors at n = 1e5.
+// Moments of the tent: variance r^2 / 6, E|x| = r / 3, no covariance. Five standard errors at n =
+// 1e5.
 TEST(Tent, MomentsAreThoseOfTheTent) {
     const PlaneMoments m = plane_moments(*mapping("tent:radius=[1,3],center=[0,5]"));
     EXPECT_NEAR(m.x, 0, 0.0065);

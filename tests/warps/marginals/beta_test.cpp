@@ -33,7 +33,7 @@ TEST(BetaWarp, BothWaysAndDensity) {
     }
 }
 
-// Where the density is infinite at an end, points keep off it.
+// If the density is infinite at an end, no point is at that end.
 TEST(BetaWarp, PointsHaveADensity) {
     const auto map = mapping("beta:a=0.1,b=0.1");
     for (const double u : {1e-300, 1e-20, 1e-9, 0.5, one_minus_ulp}) {
@@ -43,8 +43,8 @@ TEST(BetaWarp, PointsHaveADensity) {
     }
 }
 
-// Mean a / (a + b), variance a b / ((a + b)^2 (a + b + 1)); of (1, 3) the skewness is
-// 4 sqrt(5) / (6 sqrt(3)).
+// Mean a / (a + b), variance a b / ((a + b)^2 (a + b + 1)); the skewness for (1, 3) is 4 sqrt(5) /
+// (6 sqrt(3)).
 TEST(BetaWarp, MomentsByHand) {
     const auto m = *mapping("beta:a=1,b=3,high=4")->domain()->moments();
     EXPECT_DOUBLE_EQ(m.mean[0], 1);

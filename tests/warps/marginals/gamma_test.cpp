@@ -24,7 +24,7 @@ TEST(GammaWarp, OfShape1IsExponential) {
     EXPECT_EQ(image_of(*a, {0, 0})[0], 0);
 }
 
-// Half of a square of a normal variable: P(1/2, x) = erf(sqrt(x)).
+// Half the square of a normal variable: P(1/2, x) = erf(sqrt(x)).
 TEST(GammaWarp, OfShapeOneHalfIsTheSquareOfTheNormal) {
     const auto map = mapping("gamma:shape=0.5,scale=2");
     for (const double u : {0.01, 0.5, 0.99}) {

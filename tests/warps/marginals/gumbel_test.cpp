@@ -32,7 +32,7 @@ TEST(GumbelWarp, BothWaysAndDensity) {
     EXPECT_DOUBLE_EQ(m.covariance[0], 4 * std::numbers::pi * std::numbers::pi / 6);
 }
 
-// 0 counts as 2^-54 and 1 as 1 - 2^-55, and a note says so.
+// 0 is replaced by 2^-54 and 1 by 1 - 2^-55, with a note.
 TEST(GumbelWarp, EndlessTailsEndWhereRandomNumbersDo) {
     const auto map = mapping("gumbel");
     const auto ends = image_of(*map, {0, 1});

@@ -27,7 +27,8 @@ TEST(PoissonWarp, NumbersByHand) {
     EXPECT_EQ(map->density(std::vector{0.5, 2.0}), 0);
 }
 
-// P(X > 17) = 6e-17 at mean 1, so that P(X <= 17) is 1 - 2^-53 as a double, where 18 begins.
+// P(X > 17) = 6e-17 for mean 1, so P(X <= 17) is 1 - 2^-53 as a double, from which 18 is the
+// outcome.
 TEST(PoissonWarp, TheLastNumberBelow1) {
     EXPECT_EQ(image_of("poisson:mean=1", {one_minus_ulp, 1}), (std::vector{18.0, 18.0}));
 }
@@ -41,7 +42,7 @@ TEST(PoissonWarp, BothWaysAndItsMoments) {
     EXPECT_NEAR(m.skewness[0], 1 / std::sqrt(2), 1e-14);
 }
 
-// Probabilities of cells of the domain's cube sum to 1, and are those of their outcomes.
+// Probabilities of cells of the domain's cube sum to 1, and are sums over whole outcomes.
 TEST(PoissonWarp, CellsHoldWholeOutcomes) {
     const DomainPtr domain = mapping("poisson:mean=[1,1]")->domain();
     double sum = 0;

@@ -16,7 +16,7 @@ std::string refusal(std::string_view spec) {
 
 }  // namespace
 
-// 1 degree: tan(pi (u - 1/2)). 2 degrees: (2 u - 1) / sqrt(2 u (1 - u)).
+// 1 degree of freedom: tan(pi (u - 1/2)). 2 degrees: (2 u - 1) / sqrt(2 u (1 - u)).
 TEST(StudentTWarp, NumbersByHand) {
     const auto cauchy = mapping("student-t:degrees=1");
     const auto two = mapping("student-t:degrees=2");
@@ -29,7 +29,7 @@ TEST(StudentTWarp, NumbersByHand) {
     EXPECT_EQ(image_of("student-t:location=3,scale=2", {0.5, 0.5}), (std::vector{3.0, 3.0}));
 }
 
-// t of the tables: 10 degrees, 97.5 %: 2.228139.
+// From tables: 10 degrees of freedom, 97.5 %: 2.228139.
 TEST(StudentTWarp, APrintedQuantile) {
     EXPECT_NEAR(image_of("student-t:degrees=10", {0.975, 0.5})[0], 2.228139, 5e-7);
 }

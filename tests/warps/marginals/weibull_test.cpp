@@ -30,7 +30,7 @@ TEST(WeibullWarp, BothWaysAndDensity) {
     }
 }
 
-// Of shape 2, Rayleigh's distribution: mean sqrt(pi) / 2, variance 1 - pi / 4.
+// Shape 2 is Rayleigh's distribution: mean sqrt(pi) / 2, variance 1 - pi / 4.
 TEST(WeibullWarp, MomentsOfRayleighs) {
     const auto m = *mapping("weibull")->domain()->moments();
     EXPECT_NEAR(m.mean[0], std::sqrt(std::numbers::pi) / 2, 1e-10);

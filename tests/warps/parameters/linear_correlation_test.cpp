@@ -72,13 +72,13 @@ TEST(LinearCorrelation, OfSmoothDistributionsHasAClosedForm) {
         EXPECT_NEAR(linear("lognormal", "lognormal", std::expm1(4 * r) / std::expm1(4)), r, 1e-6)
             << r;
         EXPECT_NEAR(linear("lognormal", "normal", 2 * r / std::sqrt(std::expm1(4))), r, 1e-6) << r;
-        // As good as continuous.
+        // A million values are nearly continuous.
         EXPECT_NEAR(spearman("million", "normal", 6 / std::numbers::pi * std::asin(r / 2)), r, 1e-5)
             << r;
     }
 }
 
-// By sums of bivariate normal probabilities and integrals of them in NumPy and SciPy.
+// Values computed with NumPy and SciPy by sums and integrals of bivariate normal probabilities.
 TEST(LinearCorrelation, OfOthersIsThatOfAnotherProgram) {
     struct Case {
         const char* a;
@@ -102,7 +102,7 @@ TEST(LinearCorrelation, OfOthersIsThatOfAnotherProgram) {
     EXPECT_NEAR(spearman("levels", "uniform", 0.818096567048), 0.9, 1e-9);
 }
 
-// By Whitt's theorem the ends are those of one common uniform number u, and of u and 1 - u.
+// By Whitt's theorem, the extremes are reached by one common uniform number u, and by u and 1 - u.
 TEST(LinearCorrelation, NamesTheEndsOfWhatIsPossible) {
     const auto says = [](const std::string& a, const std::string& b, double r, const char* range) {
         try {
@@ -112,7 +112,7 @@ TEST(LinearCorrelation, NamesTheEndsOfWhatIsPossible) {
             EXPECT_THAT(std::string(e.what()), HasSubstr(range)) << a << ' ' << b;
         }
     };
-    // p = .1 and .5: (p - p / 2) / sqrt(p (1 - p) / 4).
+    // With p = .1 and .5: (p - p / 2) / sqrt(p (1 - p) / 4).
     says("rare", "bit", 0.34, "[-0.333333, 0.333333]");
     says("bit", "normal", 0.8, "[-0.797885, 0.797885]");                 // sqrt(2 / pi)
     says("exponential", "exponential", -0.65, "[-0.644934, 1.000000]");  // 1 - pi^2 / 6

@@ -75,7 +75,7 @@ double kendall(const PointSet& points, std::size_t a, std::size_t b) {
     return sum / (n * (n - 1) / 2);
 }
 
-// 2^14 scrambled points; the correlations of such sets were within a third of these bounds.
+// 2^14 scrambled points; correlations of such sets are within a third of these bounds.
 TEST(Parameters, HaveTheCorrelationsThatAreAskedFor) {
     const PointSet cube = make("sobol", points(1 << 14, 3), {{"scramble", std::string("owen")}});
     const PointSet gauss = warped(*parameters_of(joined(copulas[0])), cube);
@@ -89,7 +89,7 @@ TEST(Parameters, HaveTheCorrelationsThatAreAskedFor) {
     EXPECT_NEAR(kendall(student, 0, 2), 0.2, 5e-3);
     EXPECT_NEAR(kendall(student, 1, 2), 0, 5e-3);
 
-    // Linear correlation of what is far from normal: skew, and a coin.
+    // Linear correlation of distributions far from normal: a skewed one and a coin.
     const PointSet skew = warped(
         *parameters_of(R"({"parameters":[{"name":"a","distribution":"lognormal","sigma":0.8},)"
                        R"({"name":"b","range":[2,7]},{"name":"c","levels":[0,1]}],)"
@@ -104,7 +104,7 @@ TEST(Parameters, HaveTheCorrelationsThatAreAskedFor) {
     EXPECT_NEAR(linear(column(1), column(2)), 0.5, 1e-3);
 }
 
-// The matrix and its nearest correlation matrix in Higham 2002, section 4.
+// The matrix of Higham 2002, section 4, and its nearest correlation matrix.
 TEST(Parameters, OfferTheNearestCorrelations) {
     const auto near = parameters::nearest_correlation({1, 1, 0, 1, 1, 1, 0, 1, 1}, 3);
     EXPECT_NEAR(near[1], 0.7607, 5e-5);
@@ -121,7 +121,7 @@ TEST(Parameters, OfferTheNearestCorrelations) {
     }
 }
 
-// What is offered for rank correlations can be asked for.
+// The rank correlations offered by the error are accepted.
 TEST(Parameters, OfferRankCorrelationsForThose) {
     try {
         parameters_of(joined(R"({"reordering":"iman-conover",)"
@@ -186,7 +186,7 @@ TEST(Parameters, HoldTheirConstraints) {
     EXPECT_THROW(static_cast<void>(map->density(kept[0])), Error);
 }
 
-// Each number as often as it stands there, or straight between them: as the warp of data has it.
+// Each number in proportion to its frequency, or interpolated linearly, like the warp empirical.
 TEST(Parameters, FollowNumbersThatWereMeasured) {
     const auto map = parameters_of(R"({"parameters":[{"name":"a","values":[3,-0.0,2,2]},)"
                                    R"({"name":"b","values":[3,1,7],"interpolation":"linear"},)"
@@ -203,7 +203,7 @@ TEST(Parameters, FollowNumbersThatWereMeasured) {
     EXPECT_FALSE(std::signbit(image_of(*map, {0, 0, 0, 0, 0})[0]));
 }
 
-// The column stands in the text that points keep, which opens no file.
+// The column is copied into the spec stored with the points, which opens no file.
 TEST(Parameters, ReadColumnsOfFilesOnce) {
     const TemporaryFile table("day,speed\n1,3.25\n2,1e-3\n", ".csv");
     const auto file = [&](const std::string& more) {
@@ -237,7 +237,7 @@ TEST(Parameters, ReadColumnsOfFilesOnce) {
     }
 }
 
-// The triangle with corners (1/2, 0), (2, 0), (1/2, 3/2), beside what is free.
+// The triangle with corners (1/2, 0), (2, 0), (1/2, 3/2), and unconstrained parameters.
 TEST(Parameters, LinearConstraintsDropNothing) {
     const auto map =
         parameters_of(R"({"parameters":[{"name":"a","range":[0,2]},{"name":"n","integers":[1,4]},)"
@@ -269,7 +269,8 @@ TEST(Parameters, LinearConstraintsDropNothing) {
     EXPECT_GT(p_of_random(*map, 50'000), 1e-4);
 }
 
-// Given its parameters before it, one that depends on them follows its law as without constraints.
+// A parameter that depends on earlier ones has its conditional distribution, as without
+// constraints.
 TEST(Parameters, LinearConstraintsBesideCopulasAndDependence) {
     const auto given =
         parameters_of(R"({"parameters":[{"name":"a","range":[0,1]},{"name":"b","range":[0,6]},)"
@@ -287,8 +288,8 @@ TEST(Parameters, LinearConstraintsBesideCopulasAndDependence) {
     expect_density_is_one_over_stretch(*beside, 2e-5);
 }
 
-// A half of the square is left: points are tried, and stay where the square has them, but their density
-// is known.
+// Half of the square is feasible: points are rejected and keep their positions in the square, but
+// their density is known.
 TEST(Parameters, LinearConstraintsThatLeaveMuchRejectPoints) {
     const auto map = parameters_of(
         R"({"parameters":[{"name":"a","range":[0,2]},{"name":"b","range":[0,2]}],"constraints":["a+b<2"]})");
@@ -306,7 +307,7 @@ TEST(Parameters, LinearConstraintsThatLeaveMuchRejectPoints) {
     EXPECT_LT(measure("chi-square", "p_value", sloping), 1e-4);
 }
 
-// Points that rejection leaves follow the same distribution: false alarm 1e-4.
+// Points from rejection follow the same distribution: false alarm 1e-4.
 TEST(Parameters, BothWaysToHoldLinearConstraintsAreOneDistribution) {
     const std::string parameters =
         R"({"parameters":[{"name":"a","range":[0,2]},{"name":"b","range":[1,)";
@@ -319,7 +320,7 @@ TEST(Parameters, BothWaysToHoldLinearConstraintsAreOneDistribution) {
     PointSet kept = warped(*tried, make("random", points(100'000, 2)));
     kept.domain = exact->domain();
     EXPECT_GT(measure("chi-square", "p_value", kept), 1e-4);
-    // And both at once: what is linear drops nothing, the rest does.
+    // Both at once: linear constraints drop nothing, the other one does.
     const auto both = parameters_of(wide + R"(["a+b<3.5","(b-a)^3<8"]})");
     PointSet mixed = warped(*both, make("random", points(100'000, 2)));
     EXPECT_GT(mixed.count(), kept.count());
@@ -369,8 +370,8 @@ TEST(Parameters, FormulasNameParametersAndLevelsInQuotes) {
     EXPECT_EQ(parse_spec(map->domain()->spec()).name, "parameters");
 }
 
-// Each is its number and one more than the one before: sums of uniform numbers; and constraints in
-// two of them. Work that grows with the square of their number would take minutes.
+// Each parameter is a uniform number plus the preceding one; with constraints on two of them. Work
+// quadratic in their number would take minutes.
 TEST(Parameters, ChainsOfFormulasTakeTimeInProportion) {
     constexpr int n = 5000;
     std::string json = R"({"parameters":[{"name":"x0","range":[0,1]})";

@@ -42,7 +42,7 @@ std::vector<double> sorted(std::vector<double> numbers) {
     return numbers;
 }
 
-/// 1 - 6 sum of squared differences of ranks / (n^3 - n), without ties.
+/// 1 - 6 sum of squared rank differences / (n^3 - n), without ties.
 double spearman(const std::vector<double>& rows, std::size_t a, std::size_t b, std::size_t d) {
     const auto x = column(rows, a, d);
     const auto y = column(rows, b, d);
@@ -60,7 +60,7 @@ double spearman(const std::vector<double>& rows, std::size_t a, std::size_t b, s
 
 const std::vector<double> asked = {1, 0.7, 0, 0.7, 1, -0.4, 0, -0.4, 1};
 
-/// The largest difference from `asked`.
+/// Largest deviation from the requested correlations.
 double worst(const std::vector<double>& rows) {
     return std::max({std::abs(spearman(rows, 0, 1, 3) - 0.7), std::abs(spearman(rows, 0, 2, 3)),
                      std::abs(spearman(rows, 1, 2, 3) + 0.4)});
@@ -72,14 +72,14 @@ std::vector<double> numbers_of(const PointSet& points) {
 
 }  // namespace
 
-// Of three points, a rank correlation is -1, -1/2, 1/2 or 1: 1 is nearest to 0.9.
+// Three points have a rank correlation of -1, -1/2, 1/2 or 1; 1 is nearest to 0.9.
 TEST(Reordering, OfThreePointsByHand) {
     const std::vector<double> rows = {0.1, 0.2, 0.5, 0.9, 0.7, 0.4};
     EXPECT_EQ(reordered(rows, {1, 0.9, 0.9, 1}),
               (std::vector<double>{0.1, 0.2, 0.5, 0.4, 0.7, 0.9}));
     EXPECT_EQ(reordered(rows, {1, -0.9, -0.9, 1}),
               (std::vector<double>{0.1, 0.9, 0.5, 0.4, 0.7, 0.2}));
-    EXPECT_EQ(reordered(rows, {1, 0.5, 0.5, 1}), rows);  // as it is
+    EXPECT_EQ(reordered(rows, {1, 0.5, 0.5, 1}), rows);  // unchanged
 }
 
 TEST(Reordering, OfOneParameterChangesNothing) {
@@ -87,7 +87,7 @@ TEST(Reordering, OfOneParameterChangesNothing) {
         EXPECT_EQ(reordered(one, {1}), one);
 }
 
-// By the same formulas in NumPy, with SciPy's normal quantiles.
+// Computed by the same formulas in NumPy, with SciPy's normal quantiles.
 TEST(Reordering, IsThatOfAnotherProgram) {
     EXPECT_EQ(
         reordered({0.1, 0.8, 0.35, 0.9, 0.2, 0.6, 0.5, 0.55, 0.05, 0.3, 0.95, 0.9,
@@ -115,8 +115,8 @@ TEST(Reordering, KeepsALatinHypercube) {
         }
 }
 
-// Of 40 Latin hypercubes in NumPy, the worst was off by 0.084, 0.012 and 0.00008; the copula, on
-// average of random points, by 0.21, 0.10 and 0.028.
+// For 40 Latin hypercubes in NumPy, the largest errors were 0.084, 0.012 and 0.00008; the copula's
+// mean errors with random points are 0.21, 0.10 and 0.028.
 TEST(Reordering, GivesTheRankCorrelationsThatAreAskedFor) {
     const std::pair<std::size_t, double> cases[] = {{20, 0.1}, {100, 0.015}, {1000, 1.5e-4}};
     for (const auto& [n, tolerance] : cases) {
@@ -147,7 +147,7 @@ TEST(Reordering, GivesTheRankCorrelationsThatAreAskedFor) {
     }
 }
 
-// Equal parameters have the mean of their ranks: half of those below and half of those not above.
+// Tied values have the mean of their ranks: half of (number below + number not above).
 TEST(Reordering, ReachesTheRankCorrelationsOfWhatIsEqual) {
     constexpr std::size_t n = 1000;
     const std::vector<MarginalPtr> laws = {integers_law(1, 8), empirical_law({0, 0, 0, 1, 1, 2}),
@@ -179,7 +179,7 @@ TEST(Reordering, ReachesTheRankCorrelationsOfWhatIsEqual) {
         }
 }
 
-// Equal numbers count as rising with the points.
+// Ties are ordered by the index of the points.
 TEST(Reordering, TakesTiesInTheOrderOfThePoints) {
     std::vector<double> tied, apart;
     for (std::size_t i = 0; i < 24; ++i) {
@@ -222,7 +222,7 @@ TEST(Reordering, SaysWhatItCannotReorder) {
         }
 }
 
-// In a chain: after what comes before, of a whole set, on the coordinates that it takes.
+// In a chain: after preceding warps, on a whole set, for its own coordinates.
 TEST(Reordering, TakesTheWholeSetOfAChain) {
     const std::string json =
         R"(parameters@3,1:json=[{"parameters":[{"name":"a","range":[0,2]},)"

@@ -56,7 +56,7 @@ TEST(Annulus, DensityIsOneOverTheArea) {
 
 TEST(Annulus, IsUniformByArea) {
     expect_chi_square_can_tell(*mapping("annulus:inner=0.8"));
-    // Variance (R^2 + q^2) / 4 along each axis; standard errors below 4e-3 and 1e-2: 5 of them.
+    // Variance (R^2 + q^2) / 4 along each axis; standard errors below 4e-3 and 1e-2; 5 of them.
     const PlaneMoments m = plane_moments(*mapping("annulus:inner=1,radius=2"));
     EXPECT_NEAR(m.x, 0, 0.018);
     EXPECT_NEAR(m.y, 0, 0.018);

@@ -24,7 +24,8 @@ TEST(Disk, PolarPointsByHand) {
     EXPECT_EQ(image_of("disk:radius=2,center=[10,20]", {0.25, 0.75}), (std::vector{10.0, 19.0}));
 }
 
-// Each side of the square becomes a quarter of the rim, each corner the point on its diagonal.
+// Each side of the square is mapped to a quarter of the rim, each corner to the point on its
+// diagonal.
 TEST(Disk, ConcentricPointsByHand) {
     const double h = std::sqrt(0.5);
     const auto at = [](double u, double v) { return image_of("disk:method=concentric", {u, v}); };
@@ -142,7 +143,7 @@ TEST(Disk, DensityIsOneOverTheAreaButForNaive) {
     EXPECT_EQ(naive->density(std::vector{4.0, 0.0}), 0);
 }
 
-// The mean of 1 / density over the points is the area; for all methods, also the biased one.
+// The mean of 1 / density over the points is the area, for all methods, including the biased one.
 // Naive: 1 / density = 2 pi R^2 xi0, mean pi R^2, standard error 2 pi R^2 / sqrt(12 n) = 0.023.
 TEST(Disk, DensityMatchesThePoints) {
     for (const auto& method : methods) {
@@ -154,8 +155,8 @@ TEST(Disk, DensityMatchesThePoints) {
     }
 }
 
-// P(r < R / 2) is 1/4 where points are uniform by area, 1/2 for the naive method.
-// 5 standard deviations of 1e5 points are 0.007 and 0.008: false alarm 1e-6 each.
+// P(r < R / 2) is 1/4 for points uniform by area, 1/2 for the naive method. 5 standard deviations
+// of 1e5 points are 0.007 and 0.008: false alarm 1e-6 each.
 TEST(Disk, NaiveIsBiasedTheOthersAreNot) {
     for (const auto& method : methods) {
         const PointSet image =

@@ -61,8 +61,8 @@ TEST(Ellipse, DensityIsOneOverTheArea) {
 
 TEST(Ellipse, IsUniformByArea) {
     for (const auto& method : methods) expect_chi_square_can_tell(*mapping(tilted(method)));
-    // Along the axes the variances are a^2 / 4 = 1 and b^2 / 4 = 1/4; turned by 30 degrees, 3/4 +
-    // 1/16, 1/4 + 3/16 and the covariance (1 - 1/4) sqrt(3) / 4. Standard errors below 4e-3.
+    // Along the axes, variances are a^2 / 4 = 1 and b^2 / 4 = 1/4; rotated by 30 degrees, 3/4 +
+    // 1/16 and 1/4 + 3/16, with the covariance (1 - 1/4) sqrt(3) / 4. Standard errors below 4e-3.
     const PlaneMoments m = plane_moments(*mapping("ellipse:axes=[2,1],rotation=30"));
     EXPECT_NEAR(m.x, 0, 0.015);
     EXPECT_NEAR(m.y, 0, 0.011);
@@ -96,8 +96,8 @@ TEST(Ellipse, RefusesWhatIsNoEllipse) {
     EXPECT_NE(error("ellipse:method=naive"), "");
 }
 
-// GCC 12 makes fused multiply-adds of a c - b s beside a s + b c, though it is told not to, so that
-// points would differ between processors. Here the formula is worked out one point at a time.
+// GCC 12 contracts a c - b s next to a s + b c to fused multiply-adds despite the flags, so that
+// points would differ between processors. Here the formula is evaluated for one point at a time.
 TEST(Ellipse, IsTurnedByPlainMultiplicationsAndAdditions) {
     const PointSet cube = make("random", points(1000, 2));
     const PointSet level = warped(*mapping("ellipse"), cube);

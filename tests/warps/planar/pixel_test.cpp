@@ -15,7 +15,7 @@ TEST(Pixel, PointsByHand) {
               (std::vector{639.5, 0.25}));
 }
 
-// A 6 x 4 grid of strata on an image of 3 x 2 pixels is 2 x 2 in each.
+// A 6 x 4 grid of strata on 3 x 2 pixels has 2 x 2 strata in each pixel.
 TEST(Pixel, GridOfStrataIsAGridInEachPixel) {
     const auto map = mapping("pixel:resolution=3x2");
     for (int i = 0; i < 6; ++i)
@@ -67,7 +67,7 @@ TEST(Pixel, IsUniform) {
     expect_chi_square_can_tell(*mapping("pixel:resolution=4x5,pixel=[3,4]"));
 }
 
-// One row of pixel, time and lens samples.
+// One row has the samples of pixel, time and lens.
 TEST(Pixel, StandsBesideTimeAndLens) {
     const std::vector<Spec> specs = {parse_spec("disk@4,5"),
                                      parse_spec("pixel@1,2:resolution=640x480")};

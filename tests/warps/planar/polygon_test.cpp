@@ -23,7 +23,7 @@ std::string error(std::string_view spec) {
     return error_of([&] { mapping(spec); });
 }
 
-/// A star around (2, -1), with a corner in each of n directions: no edges meet.
+/// A star around (2, -1), with a corner in each of n directions, so that edges do not intersect.
 Corners star(std::uint64_t seed, int n) {
     const Rng rng(seed);
     Corners corners;
@@ -53,7 +53,7 @@ double shoelace(const Corners& p) {
     return 0.5 * twice;
 }
 
-/// Oracle: what of the polygon is below a row, clipped edge by edge.
+/// Oracle: the part of the polygon below a row, clipped edge by edge.
 Corners below(const Corners& p, double row) {
     Corners kept;
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -66,7 +66,7 @@ Corners below(const Corners& p, double row) {
     return kept;
 }
 
-/// Oracle: the crossings of a ray to the right.
+/// Oracle: number of crossings of a ray to the right.
 bool inside(const Corners& p, double px, double py) {
     bool odd = false;
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -79,7 +79,7 @@ bool inside(const Corners& p, double px, double py) {
 
 }  // namespace
 
-// Of the L the lower two thirds are a 2 x 1 box, the upper third is the 1 x 1 box on its left.
+// The lower two thirds of the L are a 2 x 1 box, the upper third is the 1 x 1 box on its left.
 TEST(Polygon, PointsByHand) {
     EXPECT_EQ(image_of("polygon", {0, 0}), (std::vector{0.0, 0.0}));
     EXPECT_EQ(image_of("polygon", {1. / 3, 0.25}), (std::vector{0.5, 0.5}));
@@ -114,7 +114,7 @@ TEST(Polygon, RoundTripOverTheWholeSquare) {
     expect_unit_coordinates_back(*mapping(island), 1e-14);
 }
 
-// The rim of the L at y = 1 is on its lower part only.
+// The edge of the L at y = 1 belongs only to its lower part.
 TEST(Polygon, PointsOnLevelEdgesComeBack) {
     const auto map = mapping("polygon");
     const auto upside_down = mapping("polygon:vertices=[0,0 1,0 1,1 2,1 2,2 0,2]");
@@ -128,7 +128,7 @@ TEST(Polygon, PointsOnLevelEdgesComeBack) {
     EXPECT_EQ(inverse_of(*mapping(peak), {1, 1}), (std::vector{1.0, 0.0})) << "the tip";
 }
 
-// Parts of a row own their left ends: on a right end a share comes back that is just below.
+// Parts of a row include their left ends; the inverse of a right end is just below it.
 TEST(Polygon, EndsOfPartsComeBack) {
     for (const char* spec : {frame, apart}) {
         const auto map = mapping(spec);
@@ -154,7 +154,7 @@ TEST(Polygon, InsideIsWhatAnOddNumberOfRingsSurrounds) {
     EXPECT_FALSE(domain->contains(std::vector{1.0 + 1e-12, 3.0}));
 }
 
-// Stars of up to 60 corners, against oracles too plain to be wrong.
+// Stars with up to 60 corners, compared with simple oracles.
 TEST(Polygon, AreasAndMembershipAreThoseOfTheOracles) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         const Corners corners = star(seed, 3 + static_cast<int>(3 * seed - 3));
@@ -243,7 +243,7 @@ TEST(Polygon, RingsMayTouchInPoints) {
     }
 }
 
-// Teeth of different heights: rows meet thousands of them, and there are as many rows.
+// Teeth of different heights: rows cross thousands of them, and there are as many rows.
 TEST(Polygon, ManyVerticesAreQuick) {
     const Rng rng(1);
     Corners comb;

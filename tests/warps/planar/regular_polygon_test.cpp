@@ -64,7 +64,7 @@ TEST(RegularPolygon, DensityIsOneOverTheArea) {
 
 TEST(RegularPolygon, IsUniformByArea) {
     expect_chi_square_can_tell(*mapping(shapes[3]));
-    // The square |x| + |y| <= 1: variances 1/6. A hexagon with side 1: 5/24.
+    // The square |x| + |y| <= 1 has variances 1/6, a hexagon with side 1 has 5/24.
     for (const auto& [spec, variance] : {std::pair{"regular-polygon:sides=4", 1. / 6},
                                          std::pair{"regular-polygon:rotation=17", 5. / 24}}) {
         const PlaneMoments m = plane_moments(*mapping(spec));

@@ -62,8 +62,8 @@ TEST(Sector, DensityIsOneOverTheArea) {
 
 TEST(Sector, IsUniformByArea) {
     expect_chi_square_can_tell(*mapping("sector:angles=[30,75],inner=0.5,radius=2,center=[1,-2]"));
-    // Of a quarter disk: means 4 / (3 pi), variances 1/4 - (4 / (3 pi))^2, standard errors 8.4e-4
-    // and 7e-4, covariance 1 / (2 pi) - (4 / (3 pi))^2.
+    // A quarter disk has means 4 / (3 pi), variances 1/4 - (4 / (3 pi))^2, with standard errors
+    // 8.4e-4 and 7e-4, and covariance 1 / (2 pi) - (4 / (3 pi))^2.
     const double mean = 4 / (3 * std::numbers::pi);
     const PlaneMoments m = plane_moments(*mapping("sector"));
     EXPECT_NEAR(m.x, mean, 4.2e-3);

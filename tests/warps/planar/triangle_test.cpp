@@ -34,8 +34,8 @@ TEST(Triangle, CornersAreTheVertices) {
     EXPECT_NEAR(v2[1], 6, 2e-15);
 }
 
-// The corners of the square are v0, v1, the middle of v1 v2, and v2; halves of the square are
-// halves of the triangle.
+// The corners of the square are mapped to v0, v1, the midpoint of v1 v2, and v2; halves of the
+// square to halves of the triangle.
 TEST(Triangle, LowDistortionPointsByHand) {
     EXPECT_EQ(image_of(low_distortion, {0, 0}), (std::vector{0.0, 0.0}));
     EXPECT_EQ(image_of(low_distortion, {1, 0}), (std::vector{1.0, 0.0}));
@@ -47,8 +47,8 @@ TEST(Triangle, LowDistortionPointsByHand) {
     EXPECT_EQ(image_of(low_in_space, {0.75, 0.5}), (std::vector{0.25, 1.0, 0.75}));
 }
 
-// On the right triangle no two points move apart by more than the larger singular value of the
-// linear map (1 -1/2; 0 1/2), 1.1441.
+// On the right triangle, distances grow at most by the larger singular value of the linear map (1
+// -1/2; 0 1/2), 1.1441.
 TEST(Triangle, LowDistortionKeepsNeighbours) {
     const auto map = mapping(low_distortion);
     const PointSet cube = make("random", points(2000, 2));
@@ -88,7 +88,7 @@ TEST(Triangle, BothMethodsAreUniformByArea) {
 
 TEST(Triangle, RoundTripOverTheWholeSquare) {
     expect_round_trip(*mapping("triangle"), 1e-14);
-    expect_round_trip(*mapping("triangle:vertices=[0,0 0,1 1,0]"), 1e-14);  // turned the other way
+    expect_round_trip(*mapping("triangle:vertices=[0,0 0,1 1,0]"), 1e-14);  // the other orientation
     expect_round_trip(*mapping("triangle:vertices=[-1,-1 1,-1 0,1]"), 1e-14);
     expect_round_trip(*mapping("triangle:vertices=[100,100 101,100 100.5,101]"), 100e-14);
     expect_round_trip(*mapping(in_space), 3e-14);
@@ -107,7 +107,7 @@ TEST(Triangle, UnitCoordinatesComeBack) {
         map->inverse(image.flat(), back.flat());
         for (std::size_t i = 0; i < cube.count(); ++i) {
             EXPECT_NEAR(back[i][0], cube[i][0], 1e-14) << spec << " " << cube[i][1];
-            const double expected = cube[i][0] == 0 ? 0 : cube[i][1];  // all xi1 meet in v0
+            const double expected = cube[i][0] == 0 ? 0 : cube[i][1];  // all xi1 meet at v0
             EXPECT_NEAR(back[i][1], expected, 1e-14) << spec << " " << cube[i][0];
         }
     }
@@ -140,7 +140,7 @@ TEST(Triangle, DensityIsOneOverTheArea) {
     const auto map = mapping(in_space);  // half of |(-1,2,0) x (-1,0,3)| = |(6,3,2)| / 2 = 7/2
     EXPECT_DOUBLE_EQ(map->domain()->measure(), 3.5);
     EXPECT_DOUBLE_EQ(map->density(std::vector{0.5, 0.5, 0.75}), 1 / 3.5);
-    // A sliver with doubles for corners, by exact fractions.
+    // A sliver whose corners are rounded doubles, by exact fractions.
     const auto sliver = mapping("triangle:vertices=[0.1,0.1 1.1,1.3 0.6,0.7000000001]");
     EXPECT_DOUBLE_EQ(sliver->density(std::vector{0.6, 0.70000000005}), 19999995569.635998);
 }
@@ -181,7 +181,7 @@ TEST(Triangle, DomainSaysWhatItIsAndParsesBack) {
         EXPECT_FALSE(domain->contains(p)) << p[0];
 }
 
-// The part of the triangle with to_cube below (a, b) has area a b: corners of that part by hand.
+// The part of the triangle with to_cube below (a, b) has area a b; its corners by hand.
 TEST(Triangle, CubeOfTheDomainIsAreaFromV1) {
     const DomainPtr domain = mapping("triangle")->domain();
     std::vector<double> cube(2);

@@ -9,7 +9,7 @@
 namespace stipple::testing::dirichlet_test {
 namespace {
 
-/// The map for so many coordinates at hand.
+/// The map for a given number of coordinates.
 std::unique_ptr<Mapping> dirichlet_of(std::string_view text, std::size_t given) {
     const Spec spec = parse_spec(text);
     const Warp& warp = find_warp(spec.name);
@@ -25,7 +25,7 @@ TEST(Dirichlet, NumbersByHand) {
     EXPECT_NEAR(p[0], 0.5, 1e-15);
     EXPECT_NEAR(p[1], 0.25, 1e-15);
     EXPECT_NEAR(p[2], 0.25, 1e-15);
-    // Two coordinates: the beta distribution (2, 2), at 5/32 in 1/4.
+    // Two coordinates have the beta distribution (2, 2), with quantile 1/4 at 5/32.
     const auto q = image_of("dirichlet:alpha=[2,2]", {5 / 32.0});
     EXPECT_NEAR(q[0], 0.25, 1e-15);
     EXPECT_NEAR(q[1], 0.75, 1e-15);
@@ -53,7 +53,7 @@ TEST(Dirichlet, BothWaysInAnyDimension) {
     EXPECT_EQ(dirichlet_of("dirichlet:alpha=3", 5)->domain()->dimension(), 6U);
 }
 
-// Density with respect to area: 2 / sqrt(3) in the uniform triangle of three coordinates, of area
+// Density with respect to area: 2 / sqrt(3) in the uniform triangle of three coordinates, with area
 // sqrt(3) / 2; with alpha = (2, 2): 6 x y / sqrt(2).
 TEST(Dirichlet, DensityIsOneOverTheStretch) {
     EXPECT_DOUBLE_EQ(mapping("dirichlet")->domain()->measure(), std::sqrt(3) / 2);

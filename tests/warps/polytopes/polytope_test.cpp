@@ -25,7 +25,7 @@ double volume_of(std::size_t d, const std::string& constraints,
     return polytope_of(d, constraints, bounds)->domain()->measure();
 }
 
-/// "x1+x2+x3", with a sign for each where a bit of `minus` is set.
+/// "x1+x2+x3", with a minus for each bit of `minus` that is set.
 std::string sum_of(std::size_t d, unsigned minus = 0) {
     std::string sum;
     for (std::size_t k = 0; k < d; ++k)
@@ -33,7 +33,7 @@ std::string sum_of(std::size_t d, unsigned minus = 0) {
     return sum;
 }
 
-/// 2^d inequalities, whose facets meet in vertices of many more than d.
+/// 2^d inequalities, whose facets meet in vertices of many more than d facets.
 std::string cross_polytope(std::size_t d) {
     std::string all;
     for (unsigned minus = 0; minus < (1U << d); ++minus) all += sum_of(d, minus) + "<=1;";
@@ -50,7 +50,7 @@ std::string differences(std::size_t d, const std::string& most) {
 
 double factorial(std::size_t d) { return d == 0 ? 1 : static_cast<double>(d) * factorial(d - 1); }
 
-/// Random inequalities that leave a part of the middle.
+/// Random inequalities that leave a part around the centre.
 std::string some_cuts(std::size_t d, std::size_t count, std::uint64_t seed) {
     const Rng rng(seed);
     std::string all;
@@ -70,8 +70,8 @@ std::string some_cuts(std::size_t d, std::size_t count, std::uint64_t seed) {
 
 }  // namespace
 
-// The triangle with (0, 0): its weight is 1 - sqrt(xi_2), and xi_1 is the place between (0, 1) and
-// (1, 0).
+// The triangle with corner (0, 0), whose weight is 1 - sqrt(xi_2); xi_1 is the position between (0,
+// 1) and (1, 0).
 TEST(Polytope, NumbersByHand) {
     EXPECT_THAT(image_of(*polytope_of(2, "x+y<=1"), {0.5, 0.25}), ElementsAre(0.25, 0.25));
     EXPECT_THAT(image_of(*polytope_of(2, "x+y<=1"), {0.25, 1}), ElementsAre(0.25, 0.75));
@@ -94,7 +94,7 @@ TEST(Polytope, VolumesInClosedForm) {
         for (std::size_t k = 1; k < d; ++k) rising += fmt::format("x{}<=x{};", k, k + 1);
         EXPECT_NEAR(volume_of(d, rising) * factorial(d), 1, 1e-13) << d;
         if (d == 1) continue;
-        // All within 1/4 of each other: d h^(d-1) - (d-1) h^d.
+        // All coordinates are within 1/4 of each other: d h^(d-1) - (d-1) h^d.
         EXPECT_NEAR(volume_of(d, differences(d, "1/4")),
                     n * std::pow(4, 1 - n) - (n - 1) * std::pow(4, -n), 1e-15)
             << d;
@@ -163,8 +163,8 @@ TEST(Polytope, CoordinatesThatNoInequalityJoinsAreIndependent) {
                             "position in the simplex, x4", "x5"));
 }
 
-// Those of the simplex by its own formulas, in each dimension; and those of a polytope that is the
-// same after it is turned about its middle.
+// Moments of the simplex by its own formulas, in each dimension; and of a polytope that is
+// symmetric about its centre.
 TEST(Polytope, MomentsInClosedForm) {
     for (std::size_t d = 1; d <= 8; ++d) {
         const Warp& simplex = find_warp("simplex");
@@ -188,7 +188,7 @@ TEST(Polytope, MomentsInClosedForm) {
     }
 }
 
-/// Points of the box that satisfy the inequalities, by trying many, and their share.
+/// Random points of the box that satisfy the inequalities. @param share receives their fraction
 PointSet by_rejection(const Mapping& map, std::size_t d, std::uint64_t count, double& share) {
     const PointSet all = make("random", points(count, d), {}, {.seed = 77});
     std::vector<double> kept;
@@ -200,8 +200,8 @@ PointSet by_rejection(const Mapping& map, std::size_t d, std::uint64_t count, do
     return out;
 }
 
-// Another way to the same, which shares membership alone: volumes, means, covariances and cells.
-// False alarms: 5 deviations are 6e-7 each, of 38; and 3 times 1e-4.
+// An independent method, which only shares the membership test: volumes, means, covariances and
+// cells. False alarm: 5 standard deviations are 6e-7 for each of 38; and 3 times 1e-4.
 TEST(Polytope, RejectionGivesTheSame) {
     constexpr std::uint64_t n = 400'000;
     for (const std::size_t d : {2U, 3U, 5U}) {
@@ -240,12 +240,12 @@ TEST(Polytope, WhatCutsNothingOffChangesNothing) {
                              "x-y<=1", "x+y<=1.5+1e-13"})
         EXPECT_EQ(image_of(*polytope_of(2, fmt::format("x+y<=1.5;{}", more)), xi), plain) << more;
     EXPECT_EQ(volume_of(2, "x<2"), 1);
-    EXPECT_EQ(volume_of(2, "0.1*x+0.2*y<=0.3"), 1);  // touches in (1, 1), but for rounding
+    EXPECT_EQ(volume_of(2, "0.1*x+0.2*y<=0.3"), 1);  // touches in (1, 1), apart from rounding
     EXPECT_EQ(volume_of(3, "x+y<=2;y+z<=2;x+y+z<=3;x-y-z<=1"), 1);
 }
 
-// Each inequality again, with other last digits: the same volume but for those, or a refusal. What
-// differs by rounding alone is one.
+// Each inequality twice, with other last digits: the same volume apart from these digits, or an
+// error. Inequalities that differ only by rounding count as one.
 TEST(Polytope, InequalitiesThatNearlyCoincideGiveNoWrongVolume) {
     const Rng rng(5);
     std::uint64_t draw = 0;

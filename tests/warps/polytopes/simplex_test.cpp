@@ -8,7 +8,7 @@
 namespace stipple::testing::simplex_test {
 namespace {
 
-/// The map for so many coordinates at hand.
+/// The map for a given number of coordinates.
 std::unique_ptr<Mapping> simplex_of(std::string_view text, std::size_t given) {
     const Spec spec = parse_spec(text);
     const Warp& warp = find_warp(spec.name);
@@ -17,7 +17,7 @@ std::unique_ptr<Mapping> simplex_of(std::string_view text, std::size_t given) {
 
 }  // namespace
 
-// In the plane P(X1 > x) = (1 - x)^2, and x2 is uniform on what is left.
+// In the plane P(X1 > x) = (1 - x)^2, and x2 is uniform on the remaining interval.
 TEST(Simplex, NumbersByHand) {
     EXPECT_EQ(image_of("simplex", {0, 0.5}), (std::vector{0.0, 0.5}));
     const auto p = image_of("simplex", {0.75, 0.5});
@@ -61,7 +61,7 @@ TEST(Simplex, VolumeIsOneOverTheFactorial) {
     EXPECT_EQ(domain->spec(), "simplex:bound=2");
 }
 
-// Of three dimensions: mean 1/4, variance 3/80, covariance -1/80, skewness of the beta distribution
+// In three dimensions: mean 1/4, variance 3/80, covariance -1/80, skewness of the beta distribution
 // (1, 3).
 TEST(Simplex, MomentsByHandAndBySumming) {
     const auto map = simplex_of("simplex", 3);
@@ -70,7 +70,7 @@ TEST(Simplex, MomentsByHandAndBySumming) {
     EXPECT_DOUBLE_EQ(m.covariance[0], 3 / 80.0);
     EXPECT_DOUBLE_EQ(m.covariance[1], -1 / 80.0);
     EXPECT_DOUBLE_EQ(m.skewness[1], 4 * std::sqrt(5) / (6 * std::sqrt(3)));
-    // A hundred thousand Sobol' points integrate smooth functions to some 1e-5.
+    // A hundred thousand Sobol' points integrate smooth functions to about 1e-5.
     const PointSet x = warped(*map, make("sobol", points(1 << 17, 3)));
     double last = 0, both = 0, square = 0;
     for (std::size_t i = 0; i < x.count(); ++i) {
@@ -83,7 +83,7 @@ TEST(Simplex, MomentsByHandAndBySumming) {
     EXPECT_NEAR(square, 1 / 10.0, 2e-5);
 }
 
-// Gaps of sorted uniform numbers are uniform on the simplex, too: another way to the same. False
+// Gaps of sorted uniform numbers are uniform on the simplex, too: an independent method. False
 // alarm 1e-4 each.
 TEST(Simplex, GapsOfSortedNumbersFollowIt) {
     const DomainPtr domain = simplex_of("simplex", 3)->domain();
