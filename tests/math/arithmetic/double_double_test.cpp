@@ -41,7 +41,8 @@ TEST(DoubleDouble, TheShorterWaysAreExactToo) {
     }
 }
 
-// One name, one meaning: an inline function defined twice is whichever the linker meets first.
+// Names must be unique: of an inline function defined twice, the linker keeps whichever it sees
+// first.
 TEST(DoubleDouble, SumsInAnyOrderAreExact) {
     const double small = 0x1p-60;
     EXPECT_EQ(exact(exact_sum(small, 1.0)), Rational(small) + 1);

@@ -20,12 +20,12 @@ std::uint64_t image(std::uint64_t size, std::uint64_t key, std::uint64_t i) {
     return Permutation(size, key)(i);
 }
 
-/// What a linear congruence would give: a bijection, too, but pairs keep their distance.
+/// A linear congruence: also a bijection, but pairs keep their distance.
 std::uint64_t rotation(std::uint64_t size, std::uint64_t key, std::uint64_t i) {
     return (key % size + i) % size;
 }
 
-/// Chance that equally likely cells give a larger chi-square than `hits`.
+/// Probability that equally likely cells give a larger chi-square than `hits`.
 double upper_tail(const std::vector<std::uint64_t>& hits) {
     const double total = static_cast<double>(std::accumulate(hits.begin(), hits.end(), 0UL));
     const double expected = total / static_cast<double>(hits.size());
@@ -38,7 +38,8 @@ double upper_tail(const std::vector<std::uint64_t>& hits) {
     return boost::math::cdf(boost::math::complement(law, statistic));
 }
 
-/// Smallest tail of: the image of i, the difference of two images, and the pair of them.
+/// Smallest tail probability of three tests: the image of i, the difference of two images, and the
+/// pair.
 double worst_tail(Image of, std::uint64_t size, std::uint64_t i, std::uint64_t j,
                   std::uint64_t keys) {
     std::vector<std::uint64_t> single(size);
@@ -99,7 +100,7 @@ TEST(Permutation, LargeOnesHaveNoTwoEqualImages) {
     }
 }
 
-// All 24 orders of 4 things are as frequent as each other. False alarm 1e-6.
+// All 24 orders of 4 elements are equally frequent. False alarm 1e-6.
 TEST(Permutation, EveryOrderOfFewIsEquallyLikely) {
     std::map<std::vector<std::uint64_t>, std::uint64_t> orders;
     for (std::uint64_t k = 0; k < 100'000; ++k) {
@@ -123,7 +124,7 @@ TEST(Permutation, ImagesAndPairsOfThemAreUniform) {
     EXPECT_LT(worst_tail(rotation, 65, 0, 1, 60'000), 1e-6);
 }
 
-// Runs of three consecutive images rise, fall, ... in each of six ways; false alarm 1e-6.
+// Three consecutive images are in each of the six orders equally often; false alarm 1e-6.
 TEST(Permutation, ThreeImagesComeInAnyOrder) {
     for (const std::uint64_t size : {1000UL, 1UL << 20, (1UL << 52) + 1}) {
         std::vector<std::uint64_t> hits(6);
@@ -134,7 +135,8 @@ TEST(Permutation, ThreeImagesComeInAnyOrder) {
             const std::uint64_t c = permutation(2);
             ++hits[(a < b ? 3U : 0U) + (a < c ? 1U : 0U) + (b < c ? 1U : 0U)];
         }
-        // a < b with 0, 1, 2: c < a < b, a < c < b, a < b < c; b < a: c < b, b < c < a, a < c.
+        // For a < b, 0, 1, 2 mean c < a < b, a < c < b, a < b < c; for b < a: c < b, b < c < a, a <
+        // c.
         EXPECT_GT(upper_tail(hits), 1e-6) << size;
     }
 }

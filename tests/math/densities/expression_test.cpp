@@ -41,7 +41,7 @@ TEST(Expression, FollowsTheRulesOfArithmetic) {
     EXPECT_EQ(value("z", {1, 2, 3}), 3);
 }
 
-// Against the C library, which is right within a unit in the last place.
+// Compared with the C library, which is accurate within one unit in the last place.
 TEST(Expression, FunctionsAreRight) {
     const std::vector<std::pair<std::string, std::function<double(double)>>> functions = {
         {"sin(x)", [](double x) { return std::sin(x); }},
@@ -170,7 +170,7 @@ TEST(Expression, SaysAtWhichColumnWhatIsExpected) {
         EXPECT_NE(refused(text), "") << text;
 }
 
-// Which would be compared with 0 or 1.
+// They would compare 0 or 1 with the third number.
 TEST(Expression, RefusesChainsOfComparisons) {
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"0.2 < x < 0.5", "column 9: '<': comparisons cannot be chained; write 0.2 < x && x < 0.5"},
@@ -182,7 +182,7 @@ TEST(Expression, RefusesChainsOfComparisons) {
          "column 14: '<=': comparisons cannot be chained; write x < y && y <= (1 + 1)"}};
     for (const auto& [text, message] : cases)
         EXPECT_EQ(refused(text), "usage: --density: '" + text + "', " + message);
-    EXPECT_EQ(value("(x < y) < 2"), 1);  // which is meant
+    EXPECT_EQ(value("(x < y) < 2"), 1);  // explicit, so allowed
     EXPECT_EQ(value("x < y && y < 1 || x > 2 ? 1 > 0 : 3 < 2"), 1);
     EXPECT_EQ(value("max(x < y, y < x)"), 1);
 }

@@ -11,8 +11,8 @@
 namespace stipple::testing::guide_table_test {
 namespace {
 
-/// Holds that the search finds what a search among all sums does, at the sums, beside them and at
-/// random.
+/// Expects the table to find the same as a search among all sums: at the sums, next to them and at
+/// random numbers.
 void expect_searches(const std::vector<double>& sums, std::size_t buckets) {
     std::vector<std::uint32_t> starts(buckets + 1);
     fill_guide(sums, starts);
@@ -52,7 +52,7 @@ TEST(GuideTable, FindsWhatASearchAmongAllFinds) {
             }
 }
 
-// Equal steps, so that sums lie on the edges of buckets: there rounding could go either way.
+// Equal steps, so that sums are on the edges of buckets, where rounding could go either way.
 TEST(GuideTable, IsRightOnTheEdgesOfBuckets) {
     for (const std::size_t count : {3, 10, 49, 98, 1000}) {
         std::vector<double> sums;

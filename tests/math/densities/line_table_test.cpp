@@ -48,7 +48,7 @@ TEST(LineTable, InvertsLinearPieces) {
     EXPECT_EQ(LineTable({{0, 1, 1e-300, 1e-300, {}}}).quantile(0.25), 0.25);
 }
 
-// The tolerance bounds the area between the curves, also across a jump and beside a root.
+// The tolerance bounds the area between the curves, also across a jump and next to a root.
 TEST(TabulateLine, StaysWithinItsTolerance) {
     const std::vector<std::function<double(double)>> functions = {
         [](double x) { return std::exp(-20 * (x - 0.3) * (x - 0.3)); },
@@ -72,8 +72,8 @@ TEST(TabulateLine, StaysWithinItsTolerance) {
         }
 }
 
-// Bumps of 6/100 000 of the range, somewhere between the places that the first pieces know: their
-// mass is 2 h / (2 h + 0.001 (1 - 2 h)) of all.
+// Bumps of 6/100 000 of the range, between the samples of the first pieces: their fraction of the
+// mass is 2 h / (2 h + 0.001 (1 - 2 h)).
 TEST(TabulateLine, SeesWhatIsNarrow) {
     Rng rng(3);
     for (std::uint64_t i = 0; i < 40; ++i) {

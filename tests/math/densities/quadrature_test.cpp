@@ -8,7 +8,7 @@
 namespace stipple::testing::quadrature_test {
 namespace {
 
-/// Holds that an integral is right within what it says, and that this is little.
+/// Expects an integral to be correct within its stated error, which must be small.
 void expect_integral(const Estimate& found, double right, double most) {
     EXPECT_NEAR(found.value, right, found.error + 1e-14 * std::abs(right));
     EXPECT_LE(found.error, most);
@@ -16,7 +16,7 @@ void expect_integral(const Estimate& found, double right, double most) {
 
 }  // namespace
 
-// By hand; 1/9 and 1/3 are where jumps hide from rules that look at few points.
+// By hand; jumps at 1/9 and 1/3 are missed by rules with few points.
 TEST(Quadrature, IntervalsByHand) {
     expect_integral(integrate_interval([](double x) { return x * x; }, 0, 3), 9, 1e-9);
     expect_integral(integrate_interval([](double x) { return std::sqrt(x); }, 0, 1), 2 / 3.0, 1e-9);
@@ -36,13 +36,13 @@ TEST(Quadrature, BoxesByHand) {
     expect_integral(integrate_box(product, {{0, 0, 0}, {1, 2, 3}}), 4.5, 1e-9);
 }
 
-// Out of reach, it says so: the error is not below what was asked for.
+// If the tolerance cannot be reached, the stated error exceeds it.
 TEST(Quadrature, TellsWhatItDidNotReach) {
     const Estimate pole =
         integrate_interval([](double x) { return 1 / (std::abs(x - 0.37) + 1e-12); }, 0, 1,
                            {.tolerance = 1e-12, .most = 20});
     EXPECT_GT(pole.error, 0.01);
-    // Of the outer of two integrals nothing is amiss, but of the inner one.
+    // The outer integral is simple; only the inner one cannot be computed accurately.
     const auto inner = [](std::span<const double> p) {
         return 1 / (std::abs(p[1] - 0.37) + 1e-12);
     };

@@ -20,7 +20,7 @@ DigitMatrix random_matrix(std::uint32_t base, std::size_t rows, std::size_t colu
     return matrix;
 }
 
-/// Oracle: the sum of the definition, in fractions, over the rows that count.
+/// Oracle: the sum in the definition, in fractions, over the relevant rows.
 Fraction by_definition(const DigitMatrix& matrix, std::uint32_t base, std::uint64_t index) {
     Fraction sum = 0;
     Fraction weight(1, base);
@@ -34,7 +34,7 @@ Fraction by_definition(const DigitMatrix& matrix, std::uint32_t base, std::uint6
     return sum;
 }
 
-/// As many indices from `first` on as there are, up to 40.
+/// Compares indices from `first` on, up to 40 of them.
 void expect_definition(const BaseNet& net, const std::vector<DigitMatrix>& matrices,
                        std::uint32_t base, std::uint64_t first, std::uint64_t end) {
     const std::size_t count = std::min<std::uint64_t>(40, end - first);
@@ -80,7 +80,7 @@ TEST(BaseNet, TakesMatricesOfAnyShape) {
         }
 }
 
-// Blocks end within the stretches, so that their joints are met.
+// Blocks end inside of the ranges, so that their boundaries are tested.
 TEST(BaseNet, AnyStretchIsThatOfTheWhole) {
     for (const std::uint32_t base : bases) {
         const std::size_t columns = digits_of(base);

@@ -15,14 +15,14 @@
 namespace stipple::testing::base_scramble_test {
 namespace {
 
-/// Digits 1 to m of x in [0, 1), as a whole number.
+/// Digits 1 to m of x in [0, 1), as an integer.
 std::uint64_t leading(double x, std::uint32_t base, int m) {
     return static_cast<std::uint64_t>(x * std::pow(base, m));
 }
 
 std::uint64_t power(std::uint64_t base, int m) { return m == 0 ? 1 : base * power(base, m - 1); }
 
-/// Chi-square of counts that should be equal.
+/// Chi-square of counts with equal expectations.
 double chi_square(const std::map<std::vector<std::uint64_t>, int>& counts, std::size_t cells,
                   double total) {
     const double expected = total / static_cast<double>(cells);
@@ -46,7 +46,7 @@ TEST(MirroredDigits, FindTheIndexOfARadicalInverse) {
     }
 }
 
-// Nesting: digit for digit, the first m of the image depend on the first m alone, one to one.
+// Nesting: the first m digits of the image depend one-to-one on the first m digits only.
 TEST(BaseOwen, PermutesThePrefixesOfEveryLength) {
     for (const std::uint32_t base : {2U, 3U, 5U, 11U})
         for (int m = 1; power(base, m) < 20'000; ++m) {
@@ -87,8 +87,8 @@ TEST(BaseOwen, StaysBelowOneAtTheLastIndex) {
         }
 }
 
-// All 3! 3! pairs of permutations, at the root and behind a first digit, and the same with a node
-// four levels down; then all 5!. Chi-square with 35 and 119 degrees of freedom at a level of 1e-6.
+// All 3! 3! pairs of permutations at the root and after a first digit, the same with a node four
+// levels down; then all 5!. Chi-square with 35 and 119 degrees of freedom at level 1e-6.
 TEST(BaseOwen, PermutationsAreUniformAndIndependent) {
     std::map<std::vector<std::uint64_t>, int> near;
     std::map<std::vector<std::uint64_t>, int> far;
@@ -124,7 +124,7 @@ TEST(BaseOwen, PermutationsAreUniformAndIndependent) {
     EXPECT_GT(chi_square(near, 36, seeds), 91) << "blind";
 }
 
-// n = 9 points in strata of their own: 1 / (12 n^3), and about 1.9 % of standard error.
+// n = 9 points in separate strata: variance 1 / (12 n^3), with a standard error of about 1.9 %.
 TEST(BaseOwen, VarianceOfTheMeanIsThatOfIndependentStrata) {
     double square = 0;
     const int seeds = 6000;
@@ -146,7 +146,7 @@ TEST(BaseShift, AddsOneDigitToAllModuloTheBase) {
             for (std::uint64_t k = 0; k < 500; ++k) {
                 const std::uint64_t q = Rng(1).below(k, power(base, digits));
                 const std::uint64_t own = q / power(base, m - 1) % base;
-                // The image is a multiple of b^-K, which rounding may put below its edge.
+                // The image is a multiple of b^-K, possibly rounded to below its edge.
                 const double half = 0.5 / std::pow(base, digits);
                 const std::uint64_t image = leading(shift.of(q) + half, base, m) % base;
                 turns.insert((image + base - own) % base);
@@ -165,7 +165,7 @@ TEST(BaseMatrix, IsLowerTriangularAndGivesItsProduct) {
         for (std::size_t column = row + 1; column < digits; ++column)
             EXPECT_EQ(matrix.entry(row, column), 0U);
     }
-    // q = 2 + 3 * 5: the first three digits of the image, worked out from the entries.
+    // q = 2 + 3 * 5: the first three digits of the image, computed from the entries.
     const double x = matrix.of(17) + 0.5 / std::pow(base, digits);
     std::uint64_t expected = 0;
     for (std::size_t row = 0; row < 3; ++row)

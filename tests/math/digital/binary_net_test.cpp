@@ -26,7 +26,7 @@ std::uint64_t coordinate(const BinaryMatrices& matrices, std::size_t k, std::uin
 
 }  // namespace
 
-// Dimensions below, at and above those where a row fills the table or the run of vectors.
+// Dimensions below, at and above those for which a row fills the table or the vectors.
 TEST(BinaryNet, GivesTheSumsOfTheColumnsAnywhere) {
     for (const std::size_t d : {1U, 2U, 3U, 4U, 5U, 20U, 64U, 65U, 511U, 700U})
         for (const std::size_t digits : {1U, 3U, 20U, 52U}) {
@@ -60,7 +60,7 @@ TEST(BinaryNet, GrayOrderTakesPointsByTheGrayCodeOfTheirNumber) {
             ASSERT_EQ(coordinate(ordered, k, i), coordinate(matrices, k, i ^ (i >> 1)));
 }
 
-// All digits set, none, and those at the seams of the conversion.
+// Fractions with all digits, with none, and with those at the boundaries of the conversion.
 TEST(BinaryNet, CutsFractionsOffAtFiftyThreeDigits) {
     for (const std::uint64_t x :
          {std::uint64_t{0}, ~std::uint64_t{0}, std::uint64_t{1} << 10, std::uint64_t{1} << 11,

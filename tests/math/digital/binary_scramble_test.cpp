@@ -20,12 +20,12 @@ std::uint64_t owen(std::uint64_t seed, std::uint64_t x) {
     return x;
 }
 
-/// The digit behind `prefix`, `length` digits on top of a word, is flipped by this.
+/// Flip of the digit after `prefix`, which is `length` digits at the top of a word.
 int flip_behind(std::uint64_t seed, std::uint64_t prefix, int length) {
     return static_cast<int>(((owen(seed, prefix) ^ prefix) >> (63 - length)) & 1);
 }
 
-/// Nodes of the tree of digits: near the root, in and across groups of five, and far down.
+/// Nodes of the tree of digits: near the root, inside and across groups of five, and deep.
 std::vector<std::pair<std::uint64_t, int>> nodes() {
     std::vector<std::pair<std::uint64_t, int>> out;
     for (int length = 0; length < 7; ++length)
@@ -79,7 +79,7 @@ double variance_of_mean(const std::function<double(std::uint64_t seed, std::uint
 
 }  // namespace
 
-// Nesting: the first m digits of the image depend on the first m digits alone, one to one.
+// Nesting: the first m digits of the image depend one-to-one on the first m digits only.
 TEST(BinaryOwen, PermutesThePrefixesOfEveryLength) {
     for (const std::uint64_t seed : {1, 2, 3})
         for (const int m : {1, 2, 5, 6, 11, 13}) {
@@ -106,7 +106,7 @@ TEST(BinaryOwen, KeepsPrefixesApartFarDown) {
     }
 }
 
-// 155 nodes, 12 000 sums of 4000 signs: 6 standard deviations are a false alarm of 2.5e-5.
+// 155 nodes, 12 000 sums of 4000 signs: false alarm 2.5e-5 at 6 standard deviations.
 TEST(BinaryOwen, FlipsAreFairAndPairwiseIndependent) {
     EXPECT_LT(worst_imbalance(flip_behind, 4000), 6);
 }
@@ -118,8 +118,8 @@ TEST(BinaryOwen, TheTestOfFlipsSeesADigitalShift) {
     EXPECT_GT(worst_imbalance(shift, 4000), 20);
 }
 
-// The image of each of n points is uniform in its own interval, independently: the mean of x has
-// the variance 1 / (12 n^3). 20 000 scrambles; the standard error is about 1 %.
+// The images of n points are independently uniform in separate intervals: the mean of x has
+// variance 1 / (12 n^3). 20 000 scrambles; the standard error is about 1 %.
 TEST(BinaryOwen, VarianceOfTheMeanIsThatOfIndependentStrata) {
     const auto scramble = [](std::uint64_t seed, std::uint64_t x) {
         return fraction_to_unit(owen(seed, x));
@@ -128,7 +128,8 @@ TEST(BinaryOwen, VarianceOfTheMeanIsThatOfIndependentStrata) {
     const auto shift = [](std::uint64_t seed, std::uint64_t x) {
         return fraction_to_unit(x ^ binary_shift(seed, 0));
     };
-    EXPECT_GT(variance_of_mean(shift, 20'000) * 12 * 512, 4);  // n times as much: one shift for all
+    EXPECT_GT(variance_of_mean(shift, 20'000) * 12 * 512,
+              4);  // n times as large: one shift for all points
 }
 
 TEST(BinaryOwen, CoordinatesAndSeedsDiffer) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint64_t last = (std::uint64_t{1} << 53) - 1;
 
-/// The digit at `position` behind the point, from 0. Good for points inside of their interval.
+/// Digit `position` after the radix point, from 0. Reliable for points inside their interval.
 std::uint64_t digit_of(double x, std::uint64_t base, int position) {
     const double shifted = x * std::pow(static_cast<double>(base), position + 1);
     return static_cast<std::uint64_t>(shifted) % base;
@@ -24,7 +24,7 @@ std::uint64_t digit_of(double x, std::uint64_t base, int position) {
 
 }  // namespace
 
-// As printed by Faure, and the rule by hand for the rest.
+// As published by Faure, and by the rule for the rest.
 TEST(FaurePermutation, FirstBases) {
     using Images = std::vector<std::uint32_t>;
     EXPECT_EQ(faure_permutation(2), (Images{0, 1}));
@@ -50,7 +50,7 @@ TEST(FaurePermutation, IsAPermutationThatKeepsZeroAndIsItsOwnMirrorImage) {
     }
 }
 
-// The digits of points are permuted: one permutation at each position, whatever the others are.
+// Digits of points are permuted with one permutation per position, independent of other digits.
 TEST(PermutedInverse, PermutesTheDigitsOfEachPosition) {
     for (const std::uint32_t b : {2U, 3U, 5U, 10U, 37U}) {
         const PermutedInverse inverse(b, Rng(7, b));
@@ -74,8 +74,8 @@ TEST(PermutedInverse, PermutesTheDigitsOfEachPosition) {
     }
 }
 
-// Digits that no index has anything in are zeros, which random permutations move, too: the first
-// point differs from seed to seed in all its bits.
+// Random permutations also move the infinitely many leading zeros of an index: all bits of the
+// first point depend on the seed.
 TEST(PermutedInverse, LeadingZerosArePermutedWithoutEnd) {
     for (const std::uint32_t b : {2U, 3U, 7919U}) {
         double sum = 0;
@@ -86,7 +86,7 @@ TEST(PermutedInverse, LeadingZerosArePermutedWithoutEnd) {
             ends.insert(static_cast<std::uint64_t>(std::ldexp(x, 49)) % 1024);
         }
         EXPECT_NEAR(sum / 400, 0.5, 5 * std::sqrt(1. / 12 / 400)) << b;  // false alarm: 6e-7
-        EXPECT_GT(ends.size(), 280U) << b;  // 331 are expected, give or take 8
+        EXPECT_GT(ends.size(), 280U) << b;  // expected: 331 with standard deviation 8
     }
 }
 

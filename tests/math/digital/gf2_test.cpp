@@ -9,7 +9,7 @@
 namespace stipple::testing::gf2_test {
 namespace {
 
-/// Oracle: the product without a modulus.
+/// Oracle: the product without reduction.
 std::uint64_t times(std::uint64_t a, std::uint64_t b) {
     std::uint64_t sum = 0;
     for (int j = 0; j < 32; ++j)
@@ -47,7 +47,7 @@ TEST(Gf2, FindsTheSmallestIrreducibles) {
     for (int m = 9; m <= 52; ++m) EXPECT_EQ(gf2::degree(gf2::smallest_irreducible(m)), m);
 }
 
-// 283 is irreducible, but x has the order 51 only; x + 1 generates (as AES's tables use it).
+// 283 is irreducible, but x has only order 51; x + 1 is a generator (used by AES's tables).
 TEST(Gf2, UnitsAreAllPowersOfOne) {
     EXPECT_FALSE(gf2::is_generator(2, 283));
     EXPECT_TRUE(gf2::is_generator(3, 283));

@@ -20,7 +20,7 @@ double nth(Engine engine, std::size_t n) {
 
 }  // namespace
 
-// What the C library's own function gives.
+// Numbers of the C library's own function.
 TEST(Drand48, PublishedFirstNumbers) {
     Drand48 one(1);
     EXPECT_EQ(one.next(), 0.041630344771878214);
@@ -72,7 +72,7 @@ TEST(AdditiveFeedback, AgreesWithTheCLibrary) {
 }
 #endif
 
-// rand() of a fresh C program: 1804289383, 846930886, 1681692777.
+// First numbers of rand() in a C program without srand: 1804289383, 846930886, 1681692777.
 TEST(AdditiveFeedback, KnownFirstNumbers) {
     AdditiveFeedback numbers(1);
     EXPECT_EQ(numbers.next(), 1804289383 * 0x1p-31);
@@ -80,7 +80,7 @@ TEST(AdditiveFeedback, KnownFirstNumbers) {
     EXPECT_EQ(numbers.next(), 1681692777 * 0x1p-31);
 }
 
-// The check that James prints.
+// The check published by James.
 TEST(Ranmar, PublishedNumbersAfter20000) {
     Ranmar numbers(1802, 9373);
     for (int i = 0; i < 20000; ++i) numbers.next();
@@ -93,7 +93,7 @@ TEST(Ranmar, SeedCountsKlFastest) {
     EXPECT_EQ(nth(Ranmar(Ranmar::max_seed), 100), nth(Ranmar(31328, 30081), 100));
 }
 
-// The 10 000th numbers that the C++ standard states, [rand.predef].
+// The 10 000th numbers required by the C++ standard, [rand.predef].
 TEST(MersenneTwister, TenThousandthNumberOfTheStandard) {
     EXPECT_EQ(nth(MersenneTwister(5489), 10000), to_unit(9981545732273789042U));
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint64_t last = (std::uint64_t{1} << 53) - 1;
 
-/// Oracle: the sum of the definition, in fractions.
+/// Oracle: the sum in the definition, in fractions.
 Fraction by_definition(std::uint64_t index, std::uint32_t base) {
     Fraction sum = 0;
     Fraction weight(1, base);
@@ -52,7 +52,7 @@ TEST(RadicalInverse, IsCorrectlyRoundedUpToTheLastIndex) {
     }
 }
 
-// All digits b - 1: the nearest to 1 that can come out.
+// All digits are b - 1: the largest possible result.
 TEST(RadicalInverse, NeverReachesOne) {
     for (const std::uint32_t base : primes) {
         const RadicalInverse inverse(base);

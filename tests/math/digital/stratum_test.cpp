@@ -11,14 +11,14 @@ namespace {
 
 constexpr std::uint64_t most = std::uint64_t{1} << 53;
 
-/// One stratum.
+/// A stratum.
 struct Stratum {
     std::uint64_t low;
     std::uint64_t width;
     std::uint64_t parts;
 };
 
-/// The stratum's point, alone and among others.
+/// The stratum's point, placed alone and together with others.
 double placed(const Stratum& s, double u) {
     const std::vector<double> low(2, static_cast<double>(s.low));
     double alone = u;
@@ -63,7 +63,7 @@ TEST(Stratum, PlacesByTheFormula) {
     EXPECT_EQ(x, (std::vector<double>{3.5 / 8, 0.5 / 8, 5.5 / 8}));
 }
 
-// Many at once are placed as one by one, those among them too that rounding brings to an edge.
+// Placing many points gives the same as placing each, also if rounding moves one to an edge.
 TEST(Stratum, ManyAreAsEachAlone) {
     constexpr std::size_t count = 3000;
     for (const std::uint64_t parts : {std::uint64_t{3001}, (std::uint64_t{1} << 52) + 1})
@@ -83,7 +83,7 @@ TEST(Stratum, ManyAreAsEachAlone) {
         }
 }
 
-// Also with the extreme random numbers, in the widest and in the narrowest strata there can be.
+// Also with the extreme random numbers, in the widest and the narrowest possible strata.
 TEST(Stratum, HoldsItsPointInExactArithmetic) {
     const Rng rng(3);
     std::uint64_t draw = 0;

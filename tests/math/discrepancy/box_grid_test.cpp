@@ -7,8 +7,8 @@ namespace stipple::testing::box_grid_test {
 
 using namespace stipple::discrepancy;
 
-// The plain rule, rank by rank: above the lower end and below the upper one, or, if the interval
-// wraps, either of these.
+// By the definition, rank by rank: above the lower end and below the upper one; if the interval
+// wraps around, either of these.
 TEST(BoxGrid, RanksBetweenTwoEndsAreTheDefinitions) {
     for (const Side side : {Side::open, Side::closed})
         for (const bool wraps : {false, true})
@@ -26,7 +26,7 @@ TEST(BoxGrid, RanksBetweenTwoEndsAreTheDefinitions) {
                 }
 }
 
-// An anchored interval holds what is at 0, too.
+// An anchored interval includes 0.
 TEST(BoxGrid, AnchoredIntervalsBeginWithTheirLowerFace) {
     const stipple::PointSet points({0, 0.25, 0.5}, 1);
     const BoxGrid grid = box_grid(points, Family::anchored, {});

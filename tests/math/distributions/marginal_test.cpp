@@ -19,7 +19,7 @@ namespace {
 
 using Big = boost::multiprecision::cpp_bin_float_50;
 
-/// A distribution, and its tails to 50 digits.
+/// A distribution with its tails to 50 digits.
 struct Case {
     std::string family;
     NamedNumbers numbers;
@@ -28,13 +28,14 @@ struct Case {
 
     MarginalPtr law() const { return make_marginal(family, numbers); }
     Big tail(double x, Tail which) const { return which == Tail::lower ? below(x) : above(x); }
-    /// By a central difference, to some 20 digits.
+    /// Density by a central difference, to about 20 digits.
     Big density(double x, Tail which) const {
         const Big step = abs(Big(x)) * 1e-12;
         const auto& rest = which == Tail::lower ? below : above;
         return abs(Big(rest(x + step) - rest(x - step))) / (2 * step);
     }
-    /// What a quantile is measured by: of those near 0 by a difference from something larger, that.
+    /// Scale for errors of a quantile: |x|, or a larger number if a quantile near 0 is computed as
+    /// a difference from it.
     double size(double x) const {
         double most = std::abs(x);
         for (const char* name : {"location", "mean"}) most = std::max(most, std::abs(number(name)));
@@ -186,16 +187,16 @@ std::string named(const Case& one) {
 
 }  // namespace
 
-// What a quantile is off by, to first order: what its probability is off by, over the density.
+// First-order error of a quantile: the error of its probability divided by the density.
 TEST(Marginal, QuantilesAreRightInBothTailsToFiftyDigitsOfTheirProbability) {
     for (const Case& one : cases()) {
         const MarginalPtr law = one.law();
         for (const Tail tail : {Tail::lower, Tail::upper})
             for (const double p : probabilities) {
                 const double x = law->quantile(p, tail);
-                if (std::abs(x) < 1e-300 || std::isinf(x)) continue;  // beyond numbers
+                if (std::abs(x) < 1e-300 || std::isinf(x)) continue;  // outside the range of double
                 const auto [low, high] = law->support();
-                if (x == low || x == high) continue;  // nearer to an end than numbers tell
+                if (x == low || x == high) continue;  // too close to an end for double
                 const Big off = (one.tail(x, tail) - p) / one.density(x, tail);
                 EXPECT_LT(static_cast<double>(abs(off)), 1e-13 * one.size(x))
                     << named(one) << (tail == Tail::lower ? " below" : " above") << ", p = " << p
@@ -204,7 +205,7 @@ TEST(Marginal, QuantilesAreRightInBothTailsToFiftyDigitsOfTheirProbability) {
     }
 }
 
-// Conditioned: where x (density) / probability is large, so is what a rounding of x does.
+// Condition: if x (density) / probability is large, so is the effect of rounding x.
 TEST(Marginal, ProbabilitiesAreRightInBothTails) {
     for (const Case& one : cases()) {
         const MarginalPtr law = one.law();
@@ -243,7 +244,7 @@ TEST(Marginal, QuantilesRise) {
             ASSERT_GE(x, last) << named(one);
             last = x;
         }
-        for (const double p : {0.1, 0.25, 0.5})  // from both tails the same
+        for (const double p : {0.1, 0.25, 0.5})  // equal from both tails
             EXPECT_NEAR(law->quantile(p), law->quantile(1 - p, Tail::upper), 1e-13 * one.size(last))
                 << named(one);
     }
@@ -288,7 +289,8 @@ TEST(Marginal, MomentsAreThoseOfTheIntegrals) {
             EXPECT_EQ(one.family, "student-t");
             continue;
         }
-        if (one.family == "lognormal" && one.number("sigma") > 2) continue;  // mass beyond numbers
+        if (one.family == "lognormal" && one.number("sigma") > 2)
+            continue;  // much mass is outside the range of double
         const MarginalMoments m = moments_by_quadrature(*law);
         const double deviation = std::sqrt(variance);
         // Third moments of Student's t converge slowly.
@@ -299,7 +301,7 @@ TEST(Marginal, MomentsAreThoseOfTheIntegrals) {
     }
 }
 
-// From formulas with 200 digits (mpmath): where closed forms would cancel, and beside such places.
+// Values with 200 digits by mpmath: at parameters where closed forms would cancel, and near them.
 TEST(Marginal, MomentsKeepTheirDigits) {
     const auto near = [](double value, double right) {
         EXPECT_NEAR(value, right, 1e-11 * std::abs(right)) << right;
@@ -320,7 +322,7 @@ TEST(Marginal, MomentsKeepTheirDigits) {
          0.5 / std::sqrt(1e8 * 3 / 16));
 }
 
-// For the mode at the low end, F(x) = 1 - (1 - x)^2 = 2 x - x^2, from either tail.
+// With the mode at the low end, F(x) = 1 - (1 - x)^2 = 2 x - x^2, from either tail.
 TEST(Marginal, TriangularKeepsItsDigitsBesideAModeAtAnEnd) {
     const auto law = [](double mode) { return make_marginal("triangular", {{"mode", mode}}); };
     for (const double p : {1e-300, 1e-30, 1e-16, 1e-9}) {
@@ -333,7 +335,7 @@ TEST(Marginal, TriangularKeepsItsDigitsBesideAModeAtAnEnd) {
     EXPECT_DOUBLE_EQ(below->probability(-1e-30, Tail::upper), 2e-30);
 }
 
-// Of Cauchy's distribution, P(T > t) = 1 / (pi t) for large t, and its density 1 / (pi t^2).
+// Cauchy's distribution has P(T > t) = 1 / (pi t) for large t, and the density 1 / (pi t^2).
 TEST(Marginal, StudentIsRightWhereSquaresOverflow) {
     const MarginalPtr cauchy = make_marginal("student-t", {{"degrees", 1}});
     for (const double t : {1e100, 1e160, 1e250})
@@ -342,7 +344,7 @@ TEST(Marginal, StudentIsRightWhereSquaresOverflow) {
     EXPECT_NEAR(cauchy->probability(-cauchy->quantile(1e-250, Tail::upper)) / 1e-250, 1, 1e-13);
 }
 
-// Student's t has a mean from above 1 degree on, a variance above 2, a skewness above 3.
+// Student's t has a mean above 1 degree of freedom, a variance above 2, a skewness above 3.
 TEST(Marginal, MomentsThatDoNotExistAreNotGiven) {
     const auto of = [](double degrees) {
         return make_marginal("student-t", {{"degrees", degrees}})->moments();

@@ -14,7 +14,7 @@ namespace {
 
 using Big = boost::multiprecision::cpp_bin_float_50;
 
-/// Probabilities of 0, 1, ... from their ratios, to 50 digits, with the first one given.
+/// Probabilities of 0, 1, ... from the first one and their ratios, to 50 digits.
 template <class Ratio>
 std::vector<Big> probabilities(Big first, std::size_t count, const Ratio& up) {
     std::vector<Big> p = {first};
@@ -31,7 +31,7 @@ std::vector<Big> binomial(int n, double p) {
     });
 }
 
-/// Holds that cells begin and end where they should, to the last digits from both ends.
+/// Expects cells to have the right ends, to the last digits from both tails.
 void expect_cells(const Marginal& law, const std::vector<Big>& p) {
     Big below = 0;
     for (std::size_t k = 0; k < p.size(); ++k) {
@@ -107,7 +107,7 @@ TEST(Outcomes, ProbabilitiesSumToOneAndMomentsAreThoseOfTheFormulas) {
     EXPECT_NEAR(skewness, 0.6 / std::sqrt(160), 1e-12);
 }
 
-// Far out at a large mean, by Stirling's series:
+// Far out with a large mean, by Stirling's series:
 //     log p(k) = k log(mean / k) - mean + k - log(2 pi k) / 2 - 1 / (12 k) + 1 / (360 k^3).
 TEST(Outcomes, KeepsItsDigitsFarFromALargeMean) {
     const MarginalPtr law = poisson_law(1e6);
@@ -161,8 +161,8 @@ TEST(Empirical, StepsByHand) {
     EXPECT_EQ(law->probability(4), 0.5);
 }
 
-// Definition 7 of Hyndman and Fan, as numpy.quantile has it: [1, 2, 4, 8] has 1.75, 3 and 5 at 1/4,
-// 1/2 and 3/4.
+// Definition 7 of Hyndman and Fan, as in numpy.quantile: [1, 2, 4, 8] has 1.75, 3 and 5 at 1/4, 1/2
+// and 3/4.
 TEST(Empirical, InterpolationByHand) {
     const MarginalPtr law = interpolated_law({8, 1, 4, 2});
     EXPECT_EQ(law->quantile(0), 1);
@@ -176,7 +176,8 @@ TEST(Empirical, InterpolationByHand) {
     EXPECT_DOUBLE_EQ(law->density(3), 1 / 6.0);
     EXPECT_DOUBLE_EQ(law->density(7), 1 / 12.0);
     EXPECT_EQ(law->density(9), 0);
-    // Pieces [1, 2], [2, 4], [4, 8] with a third each: E x = 3.5, E x^2 = (7/3 + 28/3 + 112/3) / 3.
+    // Pieces [1, 2], [2, 4], [4, 8] with probability 1/3 each: E x = 3.5, E x^2 = (7/3 + 28/3 +
+    // 112/3) / 3.
     const auto [mean, variance, skewness] = law->moments();
     EXPECT_DOUBLE_EQ(mean, 3.5);
     EXPECT_DOUBLE_EQ(variance, 49 / 3.0 - 3.5 * 3.5);

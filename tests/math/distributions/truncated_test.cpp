@@ -45,7 +45,7 @@ TEST(Truncated, NormalIsRightAlsoFarOutInATail) {
                 const double x = law->quantile(p, tail);
                 EXPECT_TRUE(x >= low && x <= high);
                 const Big part = tail == Tail::lower ? between(low, x) : between(x, high);
-                // What a rounding of x does to a share of the mass.
+                // Effect of rounding x, as a fraction of the mass.
                 const double density = law->density(x);
                 const double rounding = 1e-15 * (1 + std::abs(x)) * density;
                 EXPECT_NEAR(static_cast<double>(part / mass), p, rounding + 2e-13 * p)
@@ -59,7 +59,7 @@ TEST(Truncated, NormalIsRightAlsoFarOutInATail) {
     }
 }
 
-// Beyond a, an exponential distribution is the same again.
+// Beyond a, an exponential distribution is the same shifted by a.
 TEST(Truncated, ExponentialForgets) {
     const MarginalPtr law = truncated(exponential_law(2), 300, endless);
     for (const double p : {0.01, 0.5, 0.99})
@@ -78,7 +78,7 @@ TEST(Truncated, HalfNormalHasItsMoments) {
     EXPECT_NEAR(skewness, std::sqrt(2.0) * (4 - M_PI) / std::pow(M_PI - 2, 1.5), 1e-8);
 }
 
-// For nu degrees of freedom, E T^n is infinite from n = nu on. Those that exist, by incomplete beta
+// With nu degrees of freedom, E T^n is infinite for n >= nu. Existing moments by incomplete beta
 // functions to 50 digits.
 TEST(Truncated, HeavyTailsHaveNoMomentsThatTheyDoNotHave) {
     const auto moments = [](double degrees, double low, double high) {
@@ -91,13 +91,14 @@ TEST(Truncated, HeavyTailsHaveNoMomentsThatTheyDoNotHave) {
     EXPECT_TRUE(none(moments(2, 1, endless).variance));
     EXPECT_NEAR(moments(3, 0, endless).variance, 1.7841457962919, 1e-9);
     EXPECT_TRUE(none(moments(3, 0, endless).skewness));
-    const auto [mean, variance, skewness] = moments(1, -2, 5);  // cut at both ends, all exist
+    const auto [mean, variance, skewness] =
+        moments(1, -2, 5);  // truncated at both ends, so all exist
     EXPECT_NEAR(mean, 0.33231722159350, 1e-11);
     EXPECT_NEAR(variance, 1.71152065881957, 1e-11);
     EXPECT_NEAR(skewness, 0.96360791588232, 1e-10);
 }
 
-// Beyond 30 deviations, where quantiles end long before p = 1e-300; gamma of shape 1e6.
+// Beyond 30 standard deviations, where quantiles end long before p = 1e-300; gamma of shape 1e6.
 TEST(Truncated, MomentsFarOut) {
     const auto [mean, variance, skewness] = truncated(normal_law(0, 1), 30, endless)->moments();
     EXPECT_NEAR(mean, 30.033259667433677, 1e-11);
@@ -113,7 +114,7 @@ TEST(Truncated, OfWhatHasEndsAnywayTheNearerCount) {
     EXPECT_EQ(law->density(0.6), 0);
 }
 
-// Poisson of mean 3 from 1 to 3: 3, 9/2, 9/2 of 12.
+// Poisson with mean 3, truncated to 1..3: probabilities 3/12, 4.5/12, 4.5/12.
 TEST(Truncated, DiscreteOnesAreCutExactly) {
     const MarginalPtr law = truncated(poisson_law(3), 0.5, 3.5);
     EXPECT_EQ(law->support(), (std::pair{1.0, 3.0}));

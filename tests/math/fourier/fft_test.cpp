@@ -40,7 +40,7 @@ struct Lines {
     GridCells cells;
 };
 
-// Lengths of all sizes of factors, and more lines than fill vectors.
+// Lengths with all kinds of factors, and more lines than a vector holds.
 TEST(LineTransform, IsTheSumTermByTerm) {
     for (const Kind kind : {Kind::real, Kind::complex})
         for (const std::size_t n : {2U, 6U, 30U, 64U, 97U, 250U}) {
@@ -63,7 +63,7 @@ TEST(LineTransform, IsTheSumTermByTerm) {
         }
 }
 
-// Blocks of lines may have any number of them: which lines go together changes no bit.
+// The grouping of lines changes no bit of any line.
 TEST(LineTransform, GivesALineTheSameBitsAloneAndAmongOthers) {
     for (const Kind kind : {Kind::real, Kind::complex})
         for (const std::size_t n : {48U, 500U, 512U}) {

@@ -7,7 +7,7 @@
 
 namespace stipple::testing::grid_sum_test {
 
-// Whole numbers do not mind in which order they are added; nor do they lose anything that matters.
+// Integers are added exactly in any order, and with sufficient accuracy.
 TEST(ScaledGridSum, ForgetsTheOrder) {
     std::vector<std::vector<double>> grids(5, std::vector<double>(1000));
     for (std::size_t i = 0; i < 5; ++i)
@@ -34,7 +34,7 @@ TEST(ScaledGridSum, ForgetsTheOrder) {
     }
 }
 
-// Grids of all sizes: each loses what is small beside itself alone.
+// Grids of very different magnitudes: each loses only what is small relative to itself.
 TEST(ScaledGridSum, ForgetsTheOrderAndKeepsTheDigits) {
     const std::vector<double> sizes = {1, 1e-30, 3e8, 1e-30, 0, 7e120, 1e-300};
     const auto cell = [&](std::size_t i, std::size_t k) {

@@ -27,7 +27,8 @@ struct NamedRows {
     Numbers rows;
 };
 
-/// Sets from incoherent to all points in phase, with the ends of the cube and what is next to them.
+/// Sets from incoherent to all points in phase, including the ends of the cube and numbers next to
+/// them.
 std::vector<NamedRows> sets(std::size_t count, std::size_t d) {
     Numbers random(count * d);
     Rng(11).fill(0, random);
@@ -60,7 +61,7 @@ double largest_difference(const FourierSums& a, const FourierSums& b) {
 
 std::size_t frequency_for(std::size_t d) { return d == 1 ? 200 : d == 2 ? 24 : 7; }
 
-/// The definition, one frequency at a time, in extended precision: the oracle's own oracle.
+/// The definition, one frequency at a time, in extended precision: the oracle for the direct sum.
 std::complex<double> by_definition(const Numbers& rows, std::size_t d,
                                    std::array<std::int64_t, 3> f) {
     std::complex<long double> sum;
@@ -112,7 +113,7 @@ TEST(FourierSums, DirectSumsAgreeWithTheDefinition) {
     }
 }
 
-// The header's promise: for every set, not only for those whose errors cancel.
+// The header's promise: for every set, not only if errors cancel.
 TEST(Nufft, MeetsEveryToleranceForEverySet) {
     for (std::size_t d = 1; d <= 3; ++d)
         for (const std::size_t n : {1U, 7U, 300U, 3000U})
@@ -131,7 +132,7 @@ TEST(Nufft, MeetsEveryToleranceForEverySet) {
 
 namespace {
 
-/// Largest error of a wave of the band, for a point at u, of spreading by the weights.
+/// Largest error over waves of the band, for a point at u spread with these weights.
 template <class Weights>
 double error_in_band(const KaiserBessel& window, double u, const Weights& weights) {
     double worst = 0;
@@ -152,7 +153,7 @@ double error_in_band(const KaiserBessel& window, double u) {
     return error_in_band(window, u, [&](std::size_t j) { return weights[j]; });
 }
 
-/// I0(beta sqrt(1 - (2a/w)^2)) / I0(beta), of which the scaling factors are the transform.
+/// I0(beta sqrt(1 - (2a/w)^2)) / I0(beta), whose transform gives the scaling factors.
 double window_at(const KaiserBessel& window, double a) {
     const auto w = static_cast<double>(window.width());
     const double beta = 0.98 * std::numbers::pi * w * (1 - window.band());
@@ -163,8 +164,8 @@ double window_at(const KaiserBessel& window, double a) {
 
 }  // namespace
 
-// The error is looked for at a few places of the band and of the cell; nowhere is it more than a
-// tenth above that.
+// The error is evaluated at a few positions in the band and the cell; elsewhere it is at most a
+// tenth larger.
 TEST(KaiserBessel, ErrorIsTheLargestInTheBand) {
     for (std::size_t width = 2; width <= 12; ++width)
         for (const double band : {0.12, 0.18, 0.22, 0.25, 0.3, 0.35, 0.38}) {
@@ -188,7 +189,7 @@ TEST(KaiserBessel, WeightsAreTheWindowAtTheGridPoints) {
     }
 }
 
-// All points where the error is largest, in phase.
+// All points at the position with the largest error, in phase.
 TEST(Nufft, MeetsTheToleranceWhereTheWindowIsWorst) {
     const std::vector<double> rows(184, one_minus_ulp);
     const FourierSums truth = fourier_sums_directly(rows, 1, 27, {});
@@ -196,7 +197,7 @@ TEST(Nufft, MeetsTheToleranceWhereTheWindowIsWorst) {
     EXPECT_LE(largest_difference(transform(nufft, rows, {}), truth), 3.75e-6 * std::sqrt(184));
 }
 
-// A wrong tolerance must show: the coarsest window is not accidentally exact.
+// The error must grow with the tolerance: the coarsest window is not accidentally exact.
 TEST(Nufft, ErrorFollowsTheTolerance) {
     Numbers rows(2 * 500);
     Rng(3).fill(0, rows);
@@ -224,7 +225,7 @@ TEST(Nufft, SmallestAndLargeFrequencies) {
     EXPECT_LE(largest_difference(sums, truth), 1e-11 * std::sqrt(50));
 }
 
-// Several batches, many tiles in blocks of bands, and one tile with all the points.
+// Several batches, many tiles in blocks of bands, and one tile with all points.
 TEST(Nufft, SameBitsForAnyNumberOfThreads) {
     for (std::size_t d = 1; d <= 3; ++d)
         for (const bool clustered : {false, true}) {
@@ -276,7 +277,7 @@ TEST(Nufft, ProgressRisesToTheEndAndStopIsHeeded) {
     EXPECT_THROW((void)fourier_sums_directly(rows, 2, 20, {.stop = source.get_token()}), Error);
 }
 
-// Portions of any size give the same bits, also where a batch ends within one.
+// Blocks of any size give the same bits, also if a batch ends inside one.
 TEST(Nufft, SameBitsHoweverThePointsArePortioned) {
     const std::size_t n = 1'100'000;
     Numbers rows(n);
@@ -291,8 +292,8 @@ TEST(Nufft, SameBitsHoweverThePointsArePortioned) {
     }
 }
 
-// A block of the points i / 2^24, which cancel at every frequency but 0, and some more: at once, and
-// by somebody else.
+// A block of the points i / 2^24, which cancel at every frequency except 0, and a few more: in one
+// sum, and split between ranks.
 TEST(Nufft, BlocksOfManyPointsAddUpWhoeverSumsThem) {
     const Nufft plan(std::uint64_t{1} << 30, 1, 4, 1e-6);
     const std::uint64_t block = FourierSummation::block_of(plan);
@@ -325,8 +326,8 @@ TEST(Nufft, BlocksOfManyPointsAddUpWhoeverSumsThem) {
     }
 }
 
-// Strengths multiply the summands: against the direct sum, and the direct sum against points that
-// stand there as often as their strength says.
+// Weights multiply the summands: compared with the direct sum, and the direct sum with repeated
+// points.
 TEST(Nufft, StrengthsMultiplyThePoints) {
     for (std::size_t d = 1; d <= 3; ++d) {
         Numbers once;
@@ -351,7 +352,7 @@ TEST(Nufft, StrengthsMultiplyThePoints) {
     }
 }
 
-// Measured plans go other ways, to the same sums within the tolerance.
+// Measured plans use other algorithms, with the same sums within the tolerance.
 TEST(Nufft, MeasuredPlansStayWithinTheTolerance) {
     Numbers rows(2 * 300);
     Rng(13).fill(0, rows);
@@ -368,7 +369,7 @@ TEST(Nufft, WisdomIsWrittenAndReadBack) {
         EXPECT_THROW(read_wisdom(file.path()), Error);
         return;
     }
-    read_wisdom(file.path());  // is not there: nothing to learn
+    read_wisdom(file.path());  // does not exist, so nothing is read
     std::ofstream(file.path()) << wisdom_text();
     read_wisdom(file.path());
     std::ofstream(file.path()) << "no wisdom";
@@ -394,8 +395,8 @@ TEST(QuickLength, IsEvenAndAPowerOfTwoButForASmallFactor) {
     }
 }
 
-// The closed form against the integral over the window, by the trapezoidal rule, which is exact to
-// the last digits but for the window's step at its ends.
+// The closed form compared with the integral over the window by the trapezoidal rule, which is
+// exact apart from the window's jump at its ends.
 TEST(KaiserBessel, ScalingIsTheTransformOfAKaiserBesselWindow) {
     const KaiserBessel window(12, 0.25);
     for (const double xi : {0.0, 0.1, 0.25}) {
@@ -410,7 +411,7 @@ TEST(KaiserBessel, ScalingIsTheTransformOfAKaiserBesselWindow) {
     }
 }
 
-// The polynomials add little to the error: roundings of numbers up to 1 for wide windows.
+// The polynomials add little error: rounding of numbers up to 1 for wide windows.
 TEST(WeightTable, IsAsGoodAsTheWeights) {
     for (const double band : {0.12, 0.25, 0.35})
         for (std::size_t width = KaiserBessel::min_width; width <= KaiserBessel::max_width;

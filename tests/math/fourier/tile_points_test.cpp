@@ -19,8 +19,8 @@ Numbers points_of(const TilePoints& points, std::size_t tile) {
     return found;
 }
 
-/// Row i holds i, i + 1/4, i + 1/2, i + 3/4, as many as there are numbers; its tile is i^2 mod 5:
-/// tiles 2 and 3 stay empty, and the others fill several blocks.
+/// Row i contains i, i + 1/4, i + 1/2, i + 3/4, truncated to the numbers per row; its tile is i^2
+/// mod 5, so tiles 2 and 3 are empty and the others fill several blocks.
 struct Given {
     Numbers rows;
     std::vector<std::uint32_t> tile_of;
@@ -39,7 +39,7 @@ struct Given {
 
 }  // namespace
 
-// Blocks hold 32 points: counts below, at, and beyond multiples of it, in every tile that has some.
+// Blocks hold 32 points: counts below, at, and above multiples of it, in every non-empty tile.
 TEST(TilePoints, KeepEachTilesPointsInTheirOrder) {
     for (std::size_t numbers = 1; numbers <= 4; ++numbers)
         for (const std::size_t count : {0U, 1U, 5U, 159U, 160U, 161U, 165U, 1000U}) {
@@ -54,7 +54,7 @@ TEST(TilePoints, KeepEachTilesPointsInTheirOrder) {
         }
 }
 
-// As many points as there is room for, all in one tile, then one in each, again and again.
+// Fills the capacity with points of one tile, then with one in each, repeatedly.
 TEST(TilePoints, HaveRoomForTheirCapacityWhereverThePointsAre) {
     constexpr std::size_t count = 100;
     TilePoints points(count, 1, count);

@@ -18,13 +18,13 @@ namespace {
 constexpr std::size_t side = 64;
 constexpr std::size_t tiles = 5;
 
-/// Of a point's window, along an axis.
+/// A point's window along an axis.
 struct Along {
     std::size_t first;  ///< grid point
     std::array<double, KaiserBessel::max_width> weights;
 };
 
-/// A window of so many cells over a grid of 64 cells a side, and a buffer that takes all of it.
+/// A window of some width on a grid of 64 cells per side, with a buffer for the whole grid.
 struct Plane {
     explicit Plane(std::size_t width, std::size_t dimension, bool weighted = false)
         : window(width, 0.2), table(window), d(dimension) {
@@ -57,7 +57,7 @@ struct Plane {
         return along;
     }
 
-    /// In one tile that is the whole grid.
+    /// Grid values of one tile that is the whole grid.
     [[nodiscard]] std::vector<double> places(const std::vector<double>& rows,
                                              Vectors widest = Vectors::eights) const {
         SpreadTile whole = tile;
@@ -74,7 +74,7 @@ struct Plane {
     std::size_t d;
 };
 
-/// Points whose windows do not reach around the grid's ends.
+/// Points whose windows do not wrap around the grid's ends.
 std::vector<double> inner_points(std::size_t count, std::size_t numbers, std::uint64_t seed) {
     std::vector<double> rows(count * numbers);
     Rng(seed).fill(0, rows);
@@ -89,7 +89,7 @@ std::vector<double> inner_points(std::size_t count, std::size_t numbers, std::ui
 
 }  // namespace
 
-// By the table's weights, cell after cell.
+// Compared with the table's weights, cell after cell.
 TEST(WindowSpreading, AddsTheWindowsValues) {
     for (std::size_t d = 1; d <= 2; ++d)
         for (std::size_t width = KaiserBessel::min_width; width <= KaiserBessel::max_width; ++width)
@@ -127,8 +127,8 @@ TEST(WindowSpreading, SameBitsForEveryWidthOfVectors) {
             }
 }
 
-// 1 - 2^-53 of a cell behind a grid point keeps 52 bits, and does not go on to the next one.
-// A loose tolerance takes the narrowest window, a tight one the widest there is.
+// 1 - 2^-53 of a cell after a grid point keeps 52 bits, and is not rounded to the next one. A loose
+// tolerance selects the narrowest window, a tight one the widest.
 TEST(WindowSpreading, WindowsAreAsWideAsTheirToleranceNeeds) {
     EXPECT_EQ(window_for(0.5, 0.2).width(), 2U);
     EXPECT_EQ(window_for(1e-300, 0.2).width(), KaiserBessel::max_width);

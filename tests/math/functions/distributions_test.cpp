@@ -8,7 +8,7 @@
 
 namespace stipple::testing::distributions_test {
 
-// With two degrees of freedom chi-square is exponential, with one the square of a normal number.
+// With two degrees of freedom chi-square is exponential, with one the square of a normal variable.
 TEST(Distributions, ChiSquareInClosedForm) {
     for (const double x : {0.1, 1.0, 7.0, 300.0}) {
         EXPECT_NEAR(chi_square_above(x, 2), std::exp(-x / 2), 1e-14 * std::exp(-x / 2));
@@ -18,7 +18,8 @@ TEST(Distributions, ChiSquareInClosedForm) {
     }
 }
 
-// With one degree of freedom Student's t is Cauchy's, with two x / sqrt(2 + x^2) = 1 - 2 above.
+// With one degree of freedom Student's t is Cauchy's; with two, x / sqrt(2 + x^2) is 1 - 2 times
+// the upper tail.
 TEST(Distributions, StudentInClosedForm) {
     for (const double above : {0.3, 0.025, 1e-4}) {
         EXPECT_NEAR(student_quantile(above, 1) * std::tan(std::numbers::pi * above), 1, 1e-12);
@@ -52,7 +53,7 @@ TEST(Distributions, FactorialsByTheirFactors) {
 
 TEST(Distributions, StudentIsSymmetric) {
     EXPECT_EQ(student_quantile(0.75, 9), -student_quantile(0.25, 9));
-    EXPECT_NEAR(student_quantile(0.025, 10), 2.228138852, 5e-10);  // in every table of it
+    EXPECT_NEAR(student_quantile(0.025, 10), 2.228138852, 5e-10);  // in every table
     EXPECT_NEAR(student_quantile(0.5, 3), 0, 1e-15);
 }
 

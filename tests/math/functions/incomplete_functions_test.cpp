@@ -59,15 +59,15 @@ TEST(IncompleteFunctions, QuantilesInvertFromBothTails) {
     }
 }
 
-// Both parts of a whole: sin(pi p / 2)^2 and its complement, however near to 1.
+// Both parts of 1: sin(pi p / 2)^2 and its complement, even if close to 1.
 TEST(IncompleteFunctions, BetaQuantilesKeepTheDigitsOfBothParts) {
     const auto [y, rest] = beta_quantile(0.5, 0.5, 1 - 0x1p-40);
     EXPECT_EQ(y, 1);
     expect_near_relative(rest, std::pow(std::numbers::pi / 2 * 0x1p-40, 2), 1e-13);
 }
 
-// By continued fractions to 60 digits (mpmath). Probabilities of x as it is: its rounding alone would
-// change them by up to 1e-12 of themselves.
+// By continued fractions to 60 digits (mpmath), for the double x: its rounding alone would change
+// probabilities by relative errors up to 1e-12.
 TEST(IncompleteFunctions, LargeParametersKeepTheirDigits) {
     struct Case {
         double a, b, x, below, above;
@@ -91,7 +91,7 @@ TEST(IncompleteFunctions, LargeParametersKeepTheirDigits) {
     expect_near_relative(gamma_above(1e6, 1000100), 0.46004117156827642, 3e-14);
 }
 
-// B(a, b) is far below the smallest double for all of these.
+// For all of these B(a, b) is far below the smallest double.
 TEST(IncompleteFunctions, BetaQuantilesOfLargeParameters) {
     struct Case {
         double a, b, p, x;

@@ -24,7 +24,8 @@ TEST(Logarithm, IsWithinOneUnitInTheLastPlace) {
                 worst = std::max(worst, ulps(logarithm(x), std::log(static_cast<long double>(x))));
     }
     EXPECT_LE(worst, 1);
-    EXPECT_GT(worst, 0.5);  // no rounding is perfect: the oracle is not the same code
+    EXPECT_GT(worst,
+              0.5);  // no rounding is perfect; 0.5 would mean that the oracle is the same code
 }
 
 TEST(Logarithm, KnowsItsEnds) {
@@ -36,7 +37,7 @@ TEST(Logarithm, KnowsItsEnds) {
     EXPECT_DOUBLE_EQ(logarithm(std::numeric_limits<double>::max()), 709.782712893384);
 }
 
-// Printed: ln 2 = 0.69314 71805 59945 30942, ln 10 = 2.30258 50929 94045 68402.
+// From tables: ln 2 = 0.69314 71805 59945 30942, ln 10 = 2.30258 50929 94045 68402.
 TEST(Logarithm, GivesPrintedValues) {
     EXPECT_DOUBLE_EQ(logarithm(2), 0.69314718055994530942);
     EXPECT_DOUBLE_EQ(logarithm(10), 2.30258509299404568402);
@@ -64,7 +65,7 @@ TEST(LogOnePlus, KnowsItsEnds) {
     EXPECT_EQ(log_1p(1e300), logarithm(1e300));
 }
 
-// The oracle itself is good to 2^-63 or so.
+// The oracle is accurate to about 2^-63.
 TEST(LogarithmParts, AddUpToSixtyTwoBits) {
     const Rng rng(3);
     for (std::uint64_t i = 0; i < 40'000; ++i) {

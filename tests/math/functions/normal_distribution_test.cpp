@@ -14,7 +14,7 @@ namespace stipple::testing::normal_distribution_test {
 
 using stipple::testing::ulps;
 
-// The C library's long double erfc is the oracle: of another precision, and of another source.
+// The oracle is the C library's erfc for long double, which is independent and more precise.
 TEST(NormalDistribution, IsWithinEightUnitsInTheLastPlace) {
     const Rng rng(1);
     double worst = 0;
@@ -26,10 +26,11 @@ TEST(NormalDistribution, IsWithinEightUnitsInTheLastPlace) {
         }
     }
     EXPECT_LE(worst, 8);
-    EXPECT_GT(worst, 0.5);  // no rounding is perfect: the oracle is not the same code
+    EXPECT_GT(worst,
+              0.5);  // no rounding is perfect; 0.5 would mean that the oracle is the same code
 }
 
-// Printed in every table: Phi(1), Phi(-1.96), Phi(-3), Phi(-6).
+// From tables: Phi(1), Phi(-1.96), Phi(-3), Phi(-6).
 TEST(NormalDistribution, ErrorFunctionIsWithinFourUnitsInTheLastPlace) {
     for (double x = -7; x <= 7; x += 1 / 512.0) {
         const auto right = static_cast<double>(std::erf(static_cast<long double>(x)));

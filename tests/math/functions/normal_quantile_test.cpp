@@ -58,7 +58,7 @@ TEST(NormalQuantile, IsOddAndRises) {
     }
 }
 
-// Printed in tables: Phi(1.95996398454005423552) = 0.975, Phi(-3.09023230616781354152) = 0.001.
+// From tables: Phi(1.95996398454005423552) = 0.975, Phi(-3.09023230616781354152) = 0.001.
 TEST(NormalQuantile, GivesPrintedValues) {
     EXPECT_NEAR(normal_quantile(0.975), 1.95996398454005423552, 2e-15);
     EXPECT_NEAR(normal_quantile(0.001), -3.09023230616781354152, 4e-15);
@@ -75,7 +75,7 @@ TEST(NormalQuantile, BoundedIsTheSameButForTheEnds) {
     EXPECT_EQ(bounded_normal_quantile(1), -normal_quantile(0x1p-55));
 }
 
-// In blocks with and without far tails, and of a last block that is not whole.
+// Blocks with and without far tails, and an incomplete last block.
 TEST(NormalQuantile, OfManyNumbersAreThoseOfEach) {
     for (const double far : {0.25, 0x1p-60, 1e-11, 1.4e-11, 0.0, 1.0}) {
         std::vector<double> p(1000);

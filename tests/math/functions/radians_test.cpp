@@ -21,7 +21,7 @@ double error(double found, const Real& truth) {
 
 }  // namespace
 
-// Each whole turn of the angle costs its rounding.
+// Each whole turn adds rounding errors.
 TEST(Radians, SineAndCosineOfAnyAngle) {
     const Rng rng(1);
     for (std::uint64_t i = 0; i < 2000; ++i)

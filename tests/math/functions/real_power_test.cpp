@@ -46,7 +46,7 @@ TEST(RealPower, KnowsItsEnds) {
     EXPECT_DOUBLE_EQ(real_power(5e-324, 0.5), 2.2227587494850775e-162);
 }
 
-// Squares, roots and reciprocals that are doubles, and 10^0.3 = 1.99526 23149 68879 60135.
+// Squares, roots and reciprocals that are exact, and 10^0.3 = 1.99526 23149 68879 60135.
 TEST(RealPower, GivesKnownValues) {
     EXPECT_EQ(real_power(3, 2), 9);
     EXPECT_EQ(real_power(6.25, 0.5), 2.5);

@@ -22,7 +22,7 @@ double ulps(double x, const Real& truth) {
     return (abs(Real(x) - truth) / unit).convert_to<double>();
 }
 
-/// Random angles, angles at and beside all multiples of 1/16, and very small ones.
+/// Random angles, all multiples of 1/16 and their neighbours, and very small angles.
 std::vector<double> angles() {
     std::vector<double> list;
     const Rng rng(3);
@@ -43,7 +43,7 @@ std::vector<double> angles() {
 TEST(Trigonometry, SineAndCosineAreWithinOneUnitInTheLastPlace) {
     for (const double u : angles()) {
         const auto [c, s] = cos_sin_turns(u);
-        // Reduced by hand so that the oracle is precise beside the zeros, too.
+        // Reduced here, so that the oracle is precise near the zeros.
         const int quarter = static_cast<int>(std::floor(4 * u + 0.5));
         const Real t = two_pi * (Real(u) - Real(quarter) / 4);
         const Real cs[] = {cos(t), -sin(t), -cos(t), sin(t)};
@@ -83,7 +83,7 @@ TEST(Trigonometry, SymmetriesHoldToTheLastBit) {
 TEST(Trigonometry, AngleOfAVectorIsWithinTwoToTheMinus53) {
     const Rng rng(4);
     for (std::uint64_t i = 0; i < 8000; ++i) {
-        // Directions all round, of very different lengths and very different coordinates.
+        // All directions, with very different lengths and coordinates.
         const double x = (2 * rng.uniform(3 * i) - 1) * std::ldexp(1, static_cast<int>(i % 40));
         const double y = (2 * rng.uniform(3 * i + 1) - 1) * std::ldexp(1, static_cast<int>(i % 23));
         Real truth = atan2(Real(y), Real(x)) / two_pi;
@@ -121,8 +121,8 @@ TEST(Trigonometry, AngleAtTheEdgesOfItsArguments) {
     EXPECT_EQ(turns_of(3e-320, 3e-320), 0.125);
 }
 
-// A change of any bit of any point would show here: these are the bits of the first build, each of
-// which the tests above hold against the true value.
+// A change of any bit would change points: these are the bits of the first build, and the tests
+// above compare them with true values.
 TEST(Trigonometry, BitsStayTheSame) {
     std::uint64_t sum = 0;
     const Rng rng(5);

@@ -16,10 +16,10 @@ TEST(PlanarArea, OfThePartOfASquareInADiskByHand) {
     EXPECT_NEAR(area_in_disk(square, {0.5, 0.5}, 0.25), pi / 16, 1e-15);  // inside
     EXPECT_NEAR(area_in_disk(square, {0, 0}, 0.5), pi / 16, 1e-15);       // a quarter
     EXPECT_NEAR(area_in_disk(square, {0.5, 0}, 0.5), pi / 8, 1e-15);      // a half
-    EXPECT_NEAR(area_in_disk(square, {0.3, 0.6}, 2), 1, 1e-15);           // all of it
+    EXPECT_NEAR(area_in_disk(square, {0.3, 0.6}, 2), 1, 1e-15);           // the whole square
     EXPECT_NEAR(area_in_disk(square, {5, 5}, 1), 0, 1e-15);               // none
     EXPECT_NEAR(area_in_disk(square, {2, 0.5}, 1), 0, 1e-15);             // touches from outside
-    // A strip of half-width h = 1/2 of a disk of radius 0.6.
+    // A strip of half-width h = 1/2 of a disk with radius 0.6.
     const double r = 0.6;
     const double cap = r * r * std::acos(0.5 / r) - 0.5 * std::sqrt(r * r - 0.25);
     EXPECT_NEAR(area_in_disk(square, {0.5, 0.5}, r), pi * r * r - 4 * cap, 1e-15);

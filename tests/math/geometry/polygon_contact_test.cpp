@@ -24,7 +24,7 @@ bool on_segment(Cell a, Cell b, Cell c) {
            c.y >= std::min(a.y, b.y) && c.y <= std::max(a.y, b.y);
 }
 
-/// Oracle, in whole numbers: do the closed segments a b and c d share a point?
+/// Oracle, in integers: whether the closed segments a b and c d have a common point.
 bool share_a_point(Cell a, Cell b, Cell c, Cell d) {
     const auto sign = [](long v) { return (v > 0) - (v < 0); };
     const bool proper = sign(twice_area(a, b, c)) * sign(twice_area(a, b, d)) < 0 &&
@@ -33,7 +33,7 @@ bool share_a_point(Cell a, Cell b, Cell c, Cell d) {
            on_segment(c, d, b);
 }
 
-/// Oracle: all pairs of edges of one ring; neighbours may share their corner and no more.
+/// Oracle: all pairs of edges of one ring; neighbours may only share their corner.
 bool ring_meets_itself(const std::vector<Cell>& p) {
     const std::size_t n = p.size();
     for (std::size_t i = 0; i < n; ++i)
@@ -52,7 +52,7 @@ bool ring_meets_itself(const std::vector<Cell>& p) {
 
 }  // namespace
 
-// Rings of 3 to 7 corners on a 6 x 6 grid: all kinds of touching and overlapping come up.
+// Rings of 3 to 7 corners on a 6 x 6 grid: all kinds of contacts and overlaps occur.
 TEST(PolygonContact, AgreesWithWholeNumbersOnRandomRings) {
     const Rng rng(3);
     std::uint64_t draw = 0;
@@ -94,7 +94,7 @@ TEST(PolygonContact, NamesBothEdgesAndTellsCrossingFromTouching) {
     EXPECT_FALSE(find_contact({square, {{1, 1}, {2, 1}, {2, 2}}, {{5, 0}, {6, 0}, {6, 5}}}, {}));
 }
 
-// As in the simple features of the OGC. Where both rings have a vertex, they may touch or cross.
+// As in the simple features of the OGC: rings may touch or cross where both have a vertex.
 TEST(PolygonContact, TwoRingsMayTouchInPoints) {
     const Ring square = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
     for (const Ring& other : {Ring{{2, 0}, {3, 1}, {2, 2}}, Ring{{4, 4}, {5, 4}, {5, 5}},
@@ -108,14 +108,14 @@ TEST(PolygonContact, TwoRingsMayTouchInPoints) {
     // Through two corners of the diamond.
     EXPECT_TRUE(find_contact({diamond, {{2, -1}, {3, -1}, {2, 0}, {2, 4}, {1, 5}}}, {}));
     EXPECT_TRUE(find_contact({square, square}, {}));
-    // On a slanted edge the vertex of a hole is where rounding has put it.
+    // On a slanted edge, a hole's vertex is at its rounded position.
     const Ring slanted = {{0, 0}, {3, 1}, {3, 3}, {0, 3}};
     std::vector<RingSegment> edges;
     EXPECT_FALSE(find_contact({slanted, {{1, 1. / 3}, {2, 2}, {1, 2}}}, {}, &edges));
     EXPECT_EQ(edges.size(), 8U) << "the slanted edge is cut";
 }
 
-// A comb turned by half a right angle, all of whose edges share rows and columns.
+// A comb rotated by 45 degrees, all of whose edges share rows and columns.
 TEST(PolygonContact, LooksAtFewPairsOfManyEdges) {
     Ring comb;
     for (int k = 0; k < 20'000; ++k) {

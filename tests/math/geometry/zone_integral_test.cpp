@@ -12,7 +12,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// 1 within the circles.
+/// Density 1 inside the circles.
 SphereDensity within(const Discontinuities& discontinuities) {
     return [&discontinuities](const Vector3& v) {
         for (const auto& [n, h] : discontinuities.circles)
@@ -28,7 +28,7 @@ void expect_integral(const Estimate& found, double value) {
 
 }  // namespace
 
-// 2 pi (1 - h), however the axis stands, and whether the cap holds a pole or not.
+// Area 2 pi (1 - h) for any axis, and for caps with or without a pole.
 TEST(ZoneIntegral, CapsHaveTheirArea) {
     for (const Vector3& axis :
          {Vector3{0, 0, 1}, Vector3{1, 0, 0}, Vector3{1, -2, 3}, Vector3{-1, 1e-9, -0.5}})
@@ -45,19 +45,20 @@ TEST(ZoneIntegral, ZonesWithoutCirclesAreExact) {
     EXPECT_EQ(zone.error, 0);
 }
 
-// An octant, and the parts of it below and above z = 1/2 and 45 degrees.
+// An octant, and its parts below and above z = 1/2 and 45 degrees.
 TEST(ZoneIntegral, CornersBetweenCirclesAreFound) {
     const Discontinuities octant{.circles = {{{1, 0, 0}, 0}, {{0, 1, 0}, 0}, {{0, 0, 1}, 0}}};
     expect_integral(integrate_zone(within(octant), {}, octant), pi / 2);
     expect_integral(integrate_zone(within(octant), {0.5, 1, 0, 0.125}, octant), pi / 8);
-    // A triangle with three right angles, one corner at 1,1,1.
+    // A triangle with three right angles and one corner in the direction (1, 1, 1).
     const Vector3 a = normalized({1, 1, 1});
     const Vector3 b = normalized({1, -1, 0});
     const Discontinuities turned{.circles = {{a, 0}, {b, 0}, {cross(a, b), 0}}};
     expect_integral(integrate_zone(within(turned), {}, turned), pi / 2);
 }
 
-// The integral of n . v over its hemisphere is pi; over the half with x > 0, for n = z, half of it.
+// The integral of n . v over its hemisphere is pi; over the half with x > 0, for n = z, half of
+// that.
 TEST(ZoneIntegral, DensitiesThatAreNotLevel) {
     for (const Vector3& axis : {Vector3{0, 0, 1}, Vector3{1, 2, 2}, Vector3{0, 1, 0}}) {
         const Vector3 n = normalized(axis);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Exact integrals against plain quadrature, and against formulas that are not those of the code.
+// Exact integrals, compared with simple quadrature and with other formulas than those in the code.
 #include "math/integrands/integrands.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ Integrand integrand(const std::string& text, std::size_t dimension) {
     return kind.make(dimension, spec.values(kind.options));
 }
 
-/// Gauss's rule of 30 points on each of some pieces of [0, 1].
+/// Gauss's rule with 30 points on each of several pieces of [0, 1].
 template <class F>
 double composite(const F& f, int pieces = 8) {
     double sum = 0;
@@ -36,14 +36,14 @@ double composite(const F& f, int pieces = 8) {
     return sum;
 }
 
-/// For functions that are smooth on the pieces.
+/// Integral of functions that are smooth on the pieces.
 double smooth_integral(const Integrand& one, std::size_t dimension) {
     const auto at = [&](double x, double y) { return one.value(std::array{x, y}); };
     if (dimension == 1) return composite([&](double x) { return one.value(std::array{x}); });
     return composite([&](double x) { return composite([&](double y) { return at(x, y); }); });
 }
 
-/// Adaptive: finds kinks and jumps.
+/// Adaptive integral, which handles kinks and jumps.
 double adaptive_integral(const Integrand& one, std::size_t dimension) {
     using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
     if (dimension == 1)
@@ -58,7 +58,7 @@ double adaptive_integral(const Integrand& one, std::size_t dimension) {
     return Rule::integrate(row, 0, 1, 14, 1e-6);
 }
 
-/// The mean over the middles of m x m cells.
+/// Mean over the centres of m x m cells.
 double midpoint_mean(const Integrand& one, int m) {
     double sum = 0;
     for (int i = 0; i < m; ++i)
@@ -95,7 +95,7 @@ TEST(Integrands, WithKinksAndJumpsHaveTheIntegralOfQuadrature) {
     }
 }
 
-// A curve of length L <= 4 passes at most 2 L m of the cells; their errors nearly cancel.
+// A curve of length L <= 4 crosses at most 2 L m cells, whose errors nearly cancel.
 TEST(Integrands, OfIndicatorsHaveTheAreaThatCellsHave) {
     for (const char* name : {"disk-indicator", "half-plane-indicator", "soft-shadow"})
         for (int seed = 1; seed <= 20; ++seed) {
@@ -106,8 +106,8 @@ TEST(Integrands, OfIndicatorsHaveTheAreaThatCellsHave) {
         }
 }
 
-// By inclusion and exclusion over the corners, in long double; the steepnesses are read off the
-// function: f(e_i) = (1 + a_i)^-(d + 1).
+// Inclusion and exclusion over the corners, in long double; coefficients are computed from values
+// of the function: f(e_i) = (1 + a_i)^-(d + 1).
 TEST(Integrands, CornerPeakAgreesWithInclusionAndExclusion) {
     for (std::size_t d = 1; d <= 6; ++d) {
         const Integrand one = integrand("genz-corner-peak:seed=9", d);
@@ -132,7 +132,7 @@ TEST(Integrands, CornerPeakAgreesWithInclusionAndExclusion) {
     }
 }
 
-// With all a_i = s / d nearly equal and d large the sum of coordinates tends to s / 2.
+// With all a_i = s / d nearly equal and large d, the sum tends to s / 2.
 TEST(Integrands, CornerPeakIsFiniteInAnyDimension) {
     for (const char* hard : {"0.001", "1.85", "100"}) {
         const auto name = fmt::format("genz-corner-peak:difficulty={}", hard);
@@ -156,7 +156,7 @@ TEST(Integrands, OwenHasMeanZeroAndVarianceOneInItsOrderAlone) {
         EXPECT_NEAR(smooth_integral(one, 2), 0, 1e-14) << name;
         EXPECT_NEAR(second_moment(one), 1, 1e-13) << name;
     }
-    // sqrt(12) ^ 2 (1/4) = 3 in the corner; a row of the middle has nothing of second order.
+    // sqrt(12)^2 (1/4) = 3 in the corner; 0 on the middle lines.
     EXPECT_NEAR(integrand("owen", 2).value(std::array{1.0, 1.0}), 3, 1e-15);
     EXPECT_EQ(integrand("owen", 2).value(std::array{0.5, 0.9}), 0);
     EXPECT_NEAR(integrand("owen:order=1", 3).value(std::array{1.0, 1.0, 1.0}), 3, 1e-15);
@@ -183,7 +183,7 @@ TEST(Integrands, DependOnTheirSeeds) {
     }
 }
 
-// Half planes lie in all directions, so that either of two corners is in many without the other.
+// Half-planes have all directions, so each of two corners is in many without the other.
 TEST(Integrands, HalfPlanesLieInAllDirections) {
     std::map<std::pair<double, double>, int> seen;
     for (int seed = 1; seed <= 800; ++seed) {

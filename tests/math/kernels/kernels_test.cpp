@@ -17,10 +17,10 @@ namespace {
 
 using Wide = long double;
 
-/// |found - exact|, and what a test allows.
+/// |found - exact|, for comparison with a tolerance.
 double off(Wide found, Wide exact) { return static_cast<double>(std::abs(found - exact)); }
 
-/// Of a function that is smooth but at 1/2 and at `bend`.
+/// Integral of a function that is smooth except at 1/2 and at `bend`.
 Wide integral(const std::function<Wide(Wide)>& f, Wide low, Wide high, Wide bend) {
     constexpr int parts = 10;
     using Gauss = boost::math::quadrature::gauss<Wide, 30>;
@@ -141,7 +141,7 @@ TEST(Kernels, MeansOverTheCubeAreThoseOfQuadrature) {
         for (const double x : {0.0, 0.013, 0.3, 0.5, 0.875, 1.0})
             EXPECT_LE(off(line->mean(&x), axis_mean(kernel, x)), 1e-15)
                 << kernel.name << " at " << x;
-        const Wide half = 0.5;  // where some means have a corner
+        const Wide half = 0.5;  // where some means have a kink
         const Wide total = integral([&](Wide x) { return axis_mean(kernel, x); }, 0, 1, half);
         const Wide own = integral([&](Wide x) { return kernel.axis(x, x); }, 0, 1, half);
         EXPECT_LE(off(line->total(), total), 1e-15) << kernel.name;
@@ -156,7 +156,7 @@ TEST(Kernels, MeansOverTheCubeAreThoseOfQuadrature) {
     }
 }
 
-// The definition, with the base kernel's derivatives by differences in long double.
+// The definition, with derivatives of the base kernel by differences in long double.
 TEST(Kernels, SteinIsTheOperatorOnTheBaseKernel) {
     constexpr double h = 0.8;
     constexpr Wide step = 1e-4L;
@@ -211,7 +211,7 @@ TEST(Kernels, SteinHasTheMeanZeroUnderItsTarget) {
     }
 }
 
-// (K_XX - 2 K_XY + K_YY) by the definition, in long double.
+// K_XX - 2 K_XY + K_YY by the definition, in long double.
 TEST(PairSums, AreThoseOfTheDefinition) {
     const PointSet set = some_points(2);
     const PointSet others = make("random", points(130, 2), {}, {.seed = 8});
@@ -243,7 +243,7 @@ TEST(PairSums, AreTheSameInAnyOrder) {
         const auto made = kernel.make(3);
         const bool symmetric = kernel.name == "periodic" || kernel.name.starts_with("gaussian") ||
                                kernel.name.starts_with("matern");
-        if (symmetric) {  // to the last bit
+        if (symmetric) {  // equal to the last bit
             EXPECT_EQ(kernels::squared_from_points(*made, x, y, {}).squared, 0) << kernel.name;
         }
         EXPECT_LE(off(kernels::squared_from_mean(*made, x, {}).squared,
@@ -255,7 +255,7 @@ TEST(PairSums, AreTheSameInAnyOrder) {
 
 TEST(Bandwidth, IsTheMedianDistanceOfAllPoints) {
     const PointSet line = points_of({{0}, {1}, {3}});  // distances 1, 2, 3
-    const PointSet one = points_of({{3}});             // and with it 0, 1, 2, 2, 3, 3
+    const PointSet one = points_of({{3}});             // together 0, 1, 2, 2, 3, 3
     const kernels::Columns none(std::span<const double>(), 1);
     EXPECT_EQ(kernels::median_distance({line.flat(), 1}, none, 1).value, 2);
     EXPECT_EQ(kernels::median_distance({line.flat(), 1}, {one.flat(), 1}, 1).value, 2);

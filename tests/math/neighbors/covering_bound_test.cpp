@@ -20,8 +20,8 @@ double bound_of(const Points<D>& points, const std::array<double, D>& half) {
     return bound.squared(half);
 }
 
-/// Oracle: the largest squared distance to the nearest point, over a lattice of places with the
-/// corners.
+/// Oracle: largest squared distance to the nearest point, over a lattice of positions that includes
+/// the corners.
 template <std::size_t D>
 double farthest_place(const Points<D>& points, const std::array<double, D>& half,
                       std::size_t steps) {
@@ -44,7 +44,7 @@ double farthest_place(const Points<D>& points, const std::array<double, D>& half
     return farthest;
 }
 
-/// The linear program's solution: |q|^2 - 2 q.y is as large at y for all points.
+/// Solution of the linear program: y where |q|^2 - 2 q.y is equal for all points.
 template <std::size_t D>
 void expect_reached(const Points<D>& points, const std::array<double, D>& half,
                     const CoveringBound<0>::Point& y, double bound) {
@@ -75,7 +75,7 @@ void expect_tight(std::size_t steps) {
             squares += h * h;
         }
         const double bound = bound_of<D>(points, half);
-        CoveringBound<0> any(D, fine);  // of a dimension that is told, and finer
+        CoveringBound<0> any(D, fine);  // dimension at run time, with a finer tolerance
         CoveringBound<0>::Point sides{};
         std::ranges::copy(half, sides.begin());
         for (const auto& q : points) {
@@ -97,8 +97,8 @@ void expect_tight(std::size_t steps) {
 
 }  // namespace
 
-// Of one point the farthest corner; of (+-1, 0) over a box about the origin: (0, h) is at 1 + h^2,
-// to which the bound adds w^2.
+// With one point, the farthest corner. With (+-1, 0) and a box about the origin, (0, h) is at 1 +
+// h^2, and the bound adds w^2.
 TEST(CoveringBound, ByHand) {
     EXPECT_NEAR(bound_of<2>({{3, -4}}, {1, 2}), 16 + 36, 1e-12);
     EXPECT_NEAR(bound_of<2>({{1, 0}, {-1, 0}}, {0.25, 0.5}), 1 + 0.25 + 0.0625, 1e-12);

@@ -22,7 +22,7 @@ Edges edges_of(const Delaunay& triangles, std::size_t n) {
 
 }  // namespace
 
-// c is a step of the last place off the line through a and b.
+// c differs from the line through a and b by one unit in the last place.
 TEST(Delaunay, SidesOfLinesAreExact) {
     const double a[] = {0.5, 0.5}, b[] = {12, 12};
     const double up = std::nextafter(24.0, 25.0);
@@ -36,7 +36,7 @@ TEST(Delaunay, SidesOfLinesAreExact) {
     EXPECT_EQ(side_of_line(o, q, p), -1);
 }
 
-// Three points are joined by an edge exactly where a circle through two holds no third.
+// Two points are joined by an edge exactly if some circle through them contains no other point.
 TEST(Delaunay, JoinsThoseWithAnEmptyCircle) {
     constexpr std::size_t n = 60;
     std::vector<double> rows(2 * n);
@@ -45,7 +45,7 @@ TEST(Delaunay, JoinsThoseWithAnEmptyCircle) {
     Edges expected;
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = i + 1; j < n; ++j) {
-            // Centres of circles through both are at m + t w; each other point bounds t on one side.
+            // Centres of circles through both are m + t w; each other point bounds t on one side.
             const double mx = (rows[2 * i] + rows[2 * j]) / 2,
                          my = (rows[2 * i + 1] + rows[2 * j + 1]) / 2;
             const double wx = rows[2 * i + 1] - rows[2 * j + 1], wy = rows[2 * j] - rows[2 * i];
@@ -63,7 +63,8 @@ TEST(Delaunay, JoinsThoseWithAnEmptyCircle) {
     EXPECT_EQ(edges_of(triangles, n), expected);
 }
 
-// 3 n - 3 - h edges with h points on the hull: no triangle is missing, whatever the arrangement.
+// With h points on the hull there are 3 n - 3 - h edges: no triangle is missing, for any
+// arrangement.
 TEST(Delaunay, TriangulatesLatticesLinesAndRepeatedPoints) {
     std::vector<double> lattice, line;
     for (int i = 0; i < 400; ++i) {

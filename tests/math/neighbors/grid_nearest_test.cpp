@@ -12,7 +12,7 @@ namespace {
 
 Box unit_box(std::size_t d) { return {std::vector<double>(d, 0.0), std::vector<double>(d, 1.0)}; }
 
-/// Oracle: a tree. Whether the grid took the points.
+/// Oracle: a tree. Returns whether the grid accepted the points.
 bool as_by_tree(const PointSet& set, const Box& box, bool torus) {
     std::vector<double> sides;
     for (std::size_t k = 0; k < box.dimension() && torus; ++k) sides.push_back(box.extent(k));
@@ -23,7 +23,8 @@ bool as_by_tree(const PointSet& set, const Box& box, bool torus) {
     return found.has_value();
 }
 
-/// Random points; on a lattice with ties, copies and both faces; half in a thousandth of the box.
+/// Random points; points on a lattice with ties, copies and both faces; half of the points in a
+/// thousandth of the box.
 std::vector<PointSet> sets_of(std::size_t n, std::size_t d) {
     const PointSet even = make("random", points(n, d));
     PointSet ties = even;
@@ -61,7 +62,7 @@ TEST(GridNearest, HoldsInLongAndFlatBoxes) {
     EXPECT_TRUE(as_by_tree(set, bounding_box(set.flat(), 3), false));
 }
 
-// In one of 10^4 cells, or all at one place: a grid would compare all pairs.
+// All points in one of 10^4 cells, or at one position: a grid would compare all pairs.
 TEST(GridNearest, LeavesCrowdsToATree) {
     PointSet set = make("random", points(20'000, 2));
     for (double& x : set.flat()) x = 0.5 + 0.001 * x;

@@ -24,7 +24,7 @@ double squared_distance(const double* p, const double* q, std::size_t d, const D
     return sum;
 }
 
-/// Oracle: all points but one, the nearest first and of equals the first.
+/// Oracle: all points except one, sorted by distance, ties by index.
 std::vector<Neighbor> all_by_distance(const Doubles& rows, const double* place, std::size_t d,
                                       const Doubles& sides, std::size_t except) {
     std::vector<Neighbor> all;
@@ -39,7 +39,7 @@ Doubles random_rows(std::size_t n, std::size_t d, std::uint64_t seed) {
     return {set.flat().begin(), set.flat().end()};
 }
 
-/// Sets that trees are bad at: clusters, copies, lines, grids whose pairs are all equally near.
+/// Difficult sets for trees: clusters, copies, lines, grids with many equal distances.
 std::vector<Doubles> hard_sets(std::size_t n, std::size_t d) {
     const Doubles even = random_rows(n, d, d);
     Doubles clustered = even;
@@ -52,7 +52,7 @@ std::vector<Doubles> hard_sets(std::size_t n, std::size_t d) {
         clustered[i] = std::min(clustered[i], 1.0);
         copies[i] = even[(i / d % 7) * d + i % d];
         line[i] = i % d == 0 ? even[i] : 0.5;
-        grid[i] = std::floor(even[i] * 5) / 4;  // 0 and 1 are the same place of the torus
+        grid[i] = std::floor(even[i] * 5) / 4;  // 0 and 1 are the same position on the torus
     }
     return {even, clustered, copies, line, grid, one};
 }
@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, KdTrees,
 
 }  // namespace
 
-// Across the right face and back in at the left one.
+// The nearest point is across the right face, at the left one.
 TEST(KdTree, WrapsByHand) {
     const KdTree tree(Doubles{0.5, 1, 9.5, 3, 5, 2}, 2, {10, 4}, {});
     EXPECT_EQ(tree.nearest_several(Doubles{0.5, 1}, 2)[1], (Neighbor{1 + 4, 1}));

@@ -13,7 +13,8 @@ namespace {
 
 using Rows = std::vector<double>;
 
-/// Points of [0, 1)^d, every coordinate one of `levels`; the first `near` of them in a small box.
+/// Points in [0, 1)^d with `levels` possible values per coordinate; the first `near` are in a small
+/// box.
 Rows random_rows(std::size_t n, std::size_t d, std::uint64_t seed, double levels = 0x1p40,
                  std::size_t near = 0) {
     Rows rows(n * d);
@@ -25,7 +26,7 @@ Rows random_rows(std::size_t n, std::size_t d, std::uint64_t seed, double levels
     return rows;
 }
 
-/// Oracle: every edge that there could be, the shortest first, if it joins what was not joined.
+/// Oracle: adds all possible edges in ascending order if they join two components.
 Rows by_definition(const Rows& rows, std::size_t d, const Rows& sides,
                    Norm norm = Norm::euclidean) {
     struct Pair {
@@ -68,7 +69,7 @@ TEST(MinimumSpanningTree, EveryWayFindsTheLengthsOfTheDefinition) {
     for (const std::size_t d : {1U, 2U, 3U, 5U, 12U})
         for (const bool torus : {true, false})
             for (const std::size_t n : {1U, 2U, 3U, 40U, 160U})
-                for (const double levels : {0x1p40, 5.0}) {  // the latter with ties and duplicates
+                for (const double levels : {0x1p40, 5.0}) {  // 5 gives ties and duplicates
                     const Rows rows = random_rows(n, d, 10 * n + d, levels);
                     const Rows sides = torus ? Rows(d, 1.0) : Rows();
                     for (const Norm norm : {Norm::manhattan, Norm::chebyshev}) {
@@ -90,7 +91,7 @@ TEST(MinimumSpanningTree, CrowdsAndLinesAreJoinedToo) {
         line.insert(line.end(), {x, 0.25});
         slope.insert(slope.end(), {x, 1 - x});
     }
-    Rows far = line;  // a coordinate that is alike and so large that nothing can be added to it
+    Rows far = line;  // with a constant coordinate, so large that sums with it are rounded away
     for (std::size_t k = 1; k < far.size(); k += 2) far[k] = 1e18;
     const Rows rows[] = {line, slope, random_rows(700, 2, 5, 0x1p40, 600), far};
     for (std::size_t at = 0; at < 4; ++at)
@@ -102,7 +103,7 @@ TEST(MinimumSpanningTree, CrowdsAndLinesAreJoinedToo) {
         }
 }
 
-// Two crowds, far apart: most points have no point of the other one near.
+// Two clusters, far apart: most points have no point of the other cluster nearby.
 TEST(MinimumSpanningTree, BothWaysAgreeOnManyPoints) {
     for (const std::size_t near : {0U, 3'000U}) {
         const Rows rows = random_rows(6'000, 2, 8, 0x1p40, near);

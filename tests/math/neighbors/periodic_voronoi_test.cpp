@@ -15,7 +15,7 @@ namespace {
 
 using Rows = std::vector<double>;
 
-/// Points of [0, sides) at random, on a lattice of `levels` a side.
+/// Random points in [0, sides), on a lattice with `levels` steps per side.
 Rows random_rows(std::size_t n, Vec2 sides, std::uint64_t seed, double levels = 0x1p30) {
     Rows rows(2 * n);
     Rng(seed).fill(0, rows);
@@ -36,7 +36,7 @@ double mass_of(const PeriodicVoronoi& sites, std::size_t i) {
     return cell.moments().mass;
 }
 
-/// Length of the edges between a site and each of its neighbours, the site itself for walls.
+/// Length of the edges between a site and each of its neighbours; walls count as the site itself.
 using Edges = std::map<std::pair<std::size_t, std::size_t>, double>;
 
 Edges edges_of(const PeriodicVoronoi& sites) {
@@ -53,8 +53,8 @@ Edges edges_of(const PeriodicVoronoi& sites) {
     return edges;
 }
 
-/// Oracle: Boost's sweep over the sites and copies of them all around, shifted (torus) or mirrored
-/// (walls, which are then edges between a site and its image). Coordinates are whole numbers.
+/// Oracle: Boost's sweep over the sites and copies around them, shifted (torus) or mirrored (walls,
+/// which are then edges between a site and its image). Coordinates are integers.
 Edges edges_by_sweep(const Rows& rows, int side, bool torus) {
     std::vector<boost::polygon::point_data<int>> points;
     for (const int tx : {0, -1, 1})
@@ -93,7 +93,7 @@ void expect_same_edges(const Edges& found, const Edges& oracle, double tolerance
     }
 }
 
-/// Oracle: whose |x - x_i|^2 - w_i is least, over all copies.
+/// Oracle: the smallest |x - x_i|^2 - w_i over all copies.
 double power(const Rows& rows, const Rows& weights, std::size_t i, Vec2 at, Vec2 sides,
              bool torus) {
     double least = std::numeric_limits<double>::infinity();
@@ -119,7 +119,8 @@ TEST(PeriodicVoronoi, CellsAreThoseOfASweep) {
     const int side = 1 << 20;
     for (const bool torus : {true, false})
         for (const std::size_t n : {2U, 3U, 4U, 5U, 17U, 300U, 3000U})
-            for (const double levels : {0x1p20, 64.0, 5.0}) {  // coarse ones: on circles, in lines
+            for (const double levels :
+                 {0x1p20, 64.0, 5.0}) {  // coarse ones have points on circles and lines
                 Rows rows = random_rows(n, {1, 1}, n + 7, levels);
                 for (double& x : rows) x = std::floor(x * side);
                 std::vector<std::pair<double, double>> places;
@@ -127,7 +128,7 @@ TEST(PeriodicVoronoi, CellsAreThoseOfASweep) {
                     places.emplace_back(rows[2 * i], rows[2 * i + 1]);
                 std::ranges::sort(places);
                 places.erase(std::unique(places.begin(), places.end()), places.end());
-                if (!torus)  // a mirrored copy of a site on a wall is the site
+                if (!torus)  // the mirror image of a site on a wall is the site
                     std::erase_if(places, [](auto p) { return p.first == 0 || p.second == 0; });
                 rows.clear();
                 for (const auto& [x, y] : places) rows.insert(rows.end(), {x, y});
@@ -149,7 +150,7 @@ TEST(PeriodicVoronoi, OneSiteHasTheWholeTorusAroundIt) {
     EXPECT_EQ(cell_of(PeriodicVoronoi({2, 1}, false, Rows{0.25, 0.5}), 0)[0].at.x, -0.25);
 }
 
-// Two sites half a side apart share two edges, at a quarter on both sides.
+// Two sites half a side apart share two edges, each a quarter of a side away.
 TEST(PeriodicVoronoi, TwoSitesMeetOnBothSidesOfTheTorus) {
     const auto corners = cell_of(PeriodicVoronoi({1, 1}, true, Rows{0, 0.5, 0.5, 0.5}), 0);
     ASSERT_EQ(corners.size(), 4U);
@@ -177,18 +178,18 @@ TEST(PeriodicVoronoi, TheFirstOfSitesInOnePlaceHasTheCell) {
         EXPECT_EQ(mass_of(sites, 0) + mass_of(sites, 1), 1);
         for (const std::size_t i : {2U, 3U, 4U}) EXPECT_EQ(mass_of(sites, i), 0);
     }
-    // On the torus 0 and 1 are one place.
+    // On the torus 0 and 1 are the same position.
     EXPECT_EQ(mass_of(PeriodicVoronoi({1, 1}, true, Rows{0, 0, 1, 0, 0, 1, 1, 1}), 3), 0);
 }
 
-// Every place belongs to the site that is nearest, in the sense of powers; the cells fill the box.
+// Every position belongs to the site with the smallest power distance; the cells fill the box.
 TEST(PeriodicVoronoi, PowerCellsBelongToTheNearestSite) {
     for (const bool torus : {true, false})
         for (const Vec2 sides : {Vec2{1, 1}, Vec2{7, 0.5}, Vec2{0.01, 3}})
             for (const std::size_t n : {1U, 2U, 3U, 10U, 200U}) {
                 const Rows rows = random_rows(n, sides, n);
                 const double area = sides.x * sides.y;
-                for (const double spread : {0.0, 0.1, 3.0}) {  // of the area of a cell
+                for (const double spread : {0.0, 0.1, 3.0}) {  // as fractions of a cell's area
                     Rows weights(n);
                     Rng(3).fill(0, weights);
                     for (double& w : weights) w *= spread * area / static_cast<double>(n);
@@ -231,7 +232,7 @@ TEST(PeriodicVoronoi, SitesMayMoveComeAndGo) {
     }
 }
 
-// Clusters and a grid that does not suit them change the time alone.
+// Clusters and a grid that does not suit them only affect the time.
 TEST(PeriodicVoronoi, ClustersAreCutAsWell) {
     Rows rows = random_rows(400, {1, 1}, 5);
     for (std::size_t k = 0; k < 600; ++k) rows[k] = 0.3 + 1e-4 * rows[k];
@@ -245,7 +246,7 @@ TEST(PeriodicVoronoi, ClustersAreCutAsWell) {
 
 namespace {
 
-/// Centre of the circle through the origin, p and q, which are not on one line with it.
+/// Centre of the circle through the origin, p and q, which are not collinear.
 Vec2 circumcenter(const Vec2& p, const Vec2& q) {
     const double scale = 0.5 / (p.x * q.y - p.y * q.x);
     const double pp = p.x * p.x + p.y * p.y;
@@ -271,7 +272,7 @@ TEST(PeriodicVoronoi, CornersAreCentersOfCirclesThroughThreeSites) {
     }
 }
 
-// Of the unit square about (1/4, 0), by hand: the mean is at -1/4, the mean square 1/6 + 1/16.
+// Unit square about (1/4, 0), by hand: the mean is at -1/4, the mean square 1/6 + 1/16.
 TEST(PeriodicVoronoi, MomentsOfASquareByHand) {
     VoronoiCell cell;
     PeriodicVoronoi({1, 1}, false, Rows{0.75, 0.5}).cut_cell(0, cell);

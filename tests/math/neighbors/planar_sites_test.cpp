@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Cells of crowded and of degenerate sets, by the triangulation, against cells that every site and
-// each of its copies has cut.
+// Cells of crowded and degenerate sets by the triangulation, compared with cells cut by all sites
+// and their copies.
 #include "math/neighbors/planar_sites.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 using Rows = std::vector<double>;
 
-/// A row for each of the numbers (i + 1/2) / n.
+/// One row for each of the numbers (i + 1/2) / n.
 template <class Place>
 Rows rows_of(std::size_t n, const Place& place) {
     Rows rows;
@@ -54,7 +54,7 @@ std::vector<Rows> arrangements(std::size_t n) {
             rows_of(n, cross),  rows_of(n, cluster), rows_of(n, spread)};
 }
 
-/// The cell of site i, cut by all others and their copies, the nearest first.
+/// Cell of site i, cut by all others and their copies, the nearest first.
 VoronoiCell plain_cell(const PlanarSites& sites, std::size_t i) {
     VoronoiCell cell;
     const Vec2 at = sites.at(i);
@@ -106,7 +106,7 @@ TEST(PlanarCells, OfDegenerateSetsAreThoseThatAllSitesCut) {
         }
 }
 
-// A lattice, of which all cells are equal, and all corners are circles through four points.
+// A lattice: all cells are equal, and all corners are on circles through four points.
 TEST(PlanarCells, OfALatticeAreSquares) {
     const auto lattice = [](double, std::size_t i) {
         return Vec2{static_cast<double>(i % 16) / 16, static_cast<double>(i / 16) / 16};

@@ -25,7 +25,7 @@ std::vector<Box> boxes() {
     return all;
 }
 
-/// Points at random, some on the faces and some in pairs.
+/// Random points, some of them on faces and some in pairs.
 template <std::size_t D>
 std::vector<double> some_points(const Box& box, std::size_t count) {
     const Rng rng(D);
@@ -100,7 +100,7 @@ TEST(PointGrid, VisitsEveryNeighbourOnceInAnyBox) {
     expect_every_neighbour_once<5>();
 }
 
-// Points and places beyond the faces of a bounded box are found as well.
+// Points and positions outside a bounded box are found, too.
 TEST(PointGrid, PointsBeyondTheFacesAreFound) {
     const Box box{{0, 0}, {1, 1}};
     std::vector<double> rows = some_points<2>({{-3, -2}, {2, 4}}, 200);

@@ -32,7 +32,7 @@ class Energies {
     }
 
   private:
-    /// What a coordinate adds, by the difference, with all that the torus repeats.
+    /// Factor of one coordinate by the difference, summed over periodic images.
     static std::vector<double> images(std::size_t period, double sigma) {
         std::vector<double> sums(period);
         for (std::size_t i = 0; i < period; ++i)
@@ -45,14 +45,14 @@ class Energies {
 
     std::size_t width_;
     std::size_t height_;
-    double stretch_;  ///< a cell's width over the root of its area
+    double stretch_;  ///< a cell's width relative to the square root of its area
 };
 
 bool holds(const std::vector<std::uint32_t>& cells, std::uint32_t cell) {
     return std::ranges::find(cells, cell) != cells.end();
 }
 
-/// No empty cell has an energy that is smaller than this one's by more than what is cut off.
+/// Whether no empty cell has an energy lower than this one's by more than the truncation error.
 bool is_largest_void(const std::vector<double>& energies, const std::vector<std::uint32_t>& filled,
                      std::uint32_t cell) {
     for (std::uint32_t c = 0; c < energies.size(); ++c)
@@ -116,7 +116,7 @@ TEST(VoidAndClusterOrder, EveryRankIsWhatTheDefinitionPicks) {
     }
 }
 
-// The first tenth is where moving the tightest cluster to the largest void has come to its end.
+// In the first tenth, moving the tightest cluster to the largest void has converged.
 TEST(VoidAndClusterOrder, TheFirstTenthIsAtRest) {
     const auto order = void_and_cluster_order(30, 30, 90, 7, {});
     const Energies energies(30, 30);
