@@ -1,6 +1,6 @@
-# Builds for 64-bit ARM (aarch64) with Debian's cross compiler, and runs what it built under qemu. Libraries are those
-# that scripts/machines unpacks to `sysroot` in the build directory; the C and C++ libraries come with the compiler;
-# headers without machine code are the machine's own.
+# Builds for 64-bit ARM (aarch64) with Debian's cross compiler, and runs the result under qemu. scripts/machines unpacks
+# libraries to `sysroot` in the build directory; the C and C++ libraries are part of the compiler; headers without
+# machine code are the host's own.
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)

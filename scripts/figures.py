@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the figures of the scripts share: matplotlib with the house style, and files of the same bytes."""
+"""Shared by scripts that draw figures: matplotlib with the house style, and reproducible files."""
 
 import logging
 from pathlib import Path
@@ -9,7 +9,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-# Okabe and Ito's colours: told apart by colour-blind readers, and dark enough for thin lines.
+# Okabe and Ito's colours: distinct for colour-blind readers, and dark enough for thin lines.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 GREY = "#6b6b6b"
 

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Draws data/overview.png: what stipple does, in one row.
+"""Draws data/overview.png: the functions of stipple in one row.
 
     PYTHONPATH=build/release/python scripts/overview.py [PICTURE]
 
-Halton points, the same points on a disk, their power spectrum and its radial mean; below, what the
-analyzers say about them.
+Halton points, the same points on a disk, their power spectrum and its radial mean; below, results
+of analyzers.
 """
 
 import sys

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Draws what an analyzer finds against the number of points, log-log, a curve for each generator.
+"""Draws the result of an analyzer over the number of points, log-log, a curve for each generator.
 
     PYTHONPATH=build/release/python scripts/plot_convergence.py -o star.svg star-discrepancy random halton
     ... -n 64 256 1024 4096 -m 16 -o error.png integration:integrand=zone-plate random sobol:scramble=owen
 
-Curves are means over seeds with the interval that has the true mean in it with probability 0.95; of
-errors, root mean squares, with the interval for the true one where errors are independent and normal.
-The slope is that of the straight line fitted to the curve by least squares.
+Curves are means over seeds with 95 % confidence intervals; for errors root mean squares, with
+intervals that assume independent normal errors. The slope is that of a straight line fitted to
+the curve by least squares.
 """
 
 import argparse
@@ -40,7 +40,7 @@ def size(mean):
 
 
 def curve(means):
-    """Numbers of points, the values there, and the ends of their intervals."""
+    """Numbers of points, their values, and the ends of the intervals."""
     n, mean, low, high, rms, sets = np.array(
         [(m.count, m.mean, m.low, m.high, m.rms, m.sets) for m in means], dtype=float).T
     if not means[0].key.endswith("error"):

@@ -3,8 +3,8 @@
 """Writes data/sobol_4d.txt: the generating matrices of the first four coordinates of Sobol'.
 
 From the first lines of new-joe-kuo-6.21201 (S. Joe, F. Y. Kuo, SIAM J. Sci. Comput. 30 (2008)
-2635-2654, doi:10.1137/070709359). Each column is a whole number of 32 bits, the first digit behind
-the point on top.
+2635-2654, doi:10.1137/070709359). Each column is an integer of 32 bits; its highest bit is the
+first digit after the radix point.
 """
 
 from pathlib import Path

@@ -32,7 +32,7 @@ from pathlib import Path
 import numpy as np
 
 REFERENCES = ("random", "jittered")
-# From the plainest to the most laboured.
+# From the simplest to the most expensive.
 BLUE_NOISE = (
     "dart-throwing",
     "best-candidate",
@@ -64,7 +64,7 @@ COLUMNS = (
     "seconds",
 )
 
-# What papers print, over hexagons or a grid as in the table.
+# Published values, relative to hexagons or a grid as in the table.
 PUBLISHED = (
     (
         "random",
@@ -104,7 +104,7 @@ def fail(message):
 
 
 def stipple(program, *words):
-    """What the program prints, and its processor time."""
+    """Output of the program, and its processor time."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     try:
         done = subprocess.run([program, *words], capture_output=True, text=True, check=False)
@@ -120,7 +120,7 @@ def stipple(program, *words):
 
 
 def number(value, error=None, digits=None):
-    """0.7769(3): the error is that of the last digit; without one, so many digits."""
+    """0.7769(3): the error is in units of the last digit; without an error, this many digits."""
     if not error:
         return f"{value:.{digits or 3}f}"
     digits = max(0, int(np.ceil(-np.log10(error * 1.05))))
@@ -128,7 +128,7 @@ def number(value, error=None, digits=None):
 
 
 def scientific(value, error):
-    """1.9e-4, where plain digits would be many."""
+    """1.9e-4 if plain notation would be long."""
     return number(value, error) if value >= 0.01 else f"{value:.0e}".replace("e-0", "e-")
 
 
@@ -137,7 +137,7 @@ def decibels(ratio):
 
 
 def of_spectrum(report, count):
-    """Cells of the table that the mean power over all sets gives."""
+    """Cells of the table for the mean power over all sets."""
     results, errors = report["results"], report["standard_error"]
     radial = {key: np.array(curve) for key, curve in results["radial"].items()}
     frequency, power, cells = radial["frequency"], radial["power"], radial["cells"]

@@ -1,15 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""What an analysis or a study costs on many machines: the model behind `stipple help cluster`.
+"""Cost of an analysis or a study on many machines: the model behind `stipple help cluster`.
 
     time(K) = start + counting in + handing over
     counting in   = ceil(grains / K) * grain * cost of a point       (the slowest rank's share)
     handing over  = ceil(log2 K) * (latency + state / bandwidth + state * cost of adding a byte)
     efficiency    = time(1) / (K * time(K))
 
-The costs of a point are measured on one core of the machine at hand with --measure; without it,
-those of one core at 2.1 to 3.5 GHz stand in the table below. Reading is charged where the points
-are in files: bytes over the file system's bandwidth, which all ranks share.
+The cost per point is measured on one core of this machine with --measure; otherwise it is from the
+table below, for one core at 2.1 to 3.5 GHz. Points in files add the time for reading: bytes over
+the file system's bandwidth, which all ranks share.
 
     cluster_model.py [--points 1e12] [--ranks 1024] [--measure [STIPPLE]]
 """
@@ -27,12 +27,12 @@ FILES = 100e9  # bytes a second that the file system gives all ranks
 
 BATCH = 1 << 17  # points in the plane that an accumulator is given at a time
 
-# analyzer: options; seconds a point, generated; points of a grain; bytes that a rank hands over
+# analyzer: options; seconds per generated point; points per grain; bytes that a rank sends
 MEASURED = {"chi-square": 31e-9, "moments": 30e-9, "periodogram": 100e-9}
 
 
 def grid_side(max_frequency):
-    """Cells a side of the periodogram's grid: about twice the frequencies -F..F."""
+    """Cells per side of the periodogram's grid: about twice the frequencies -F..F."""
     return 1 << math.ceil(math.log2(4 * max_frequency))
 
 

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Time and memory of the analyzers on points that are not random, over those of as many random points.
+"""Time and memory of the analyzers for points that are not random, relative to as many random points.
 
 Usage: compare_arrangements.py PROGRAM [--count N] [--dimension D] [--limit SECONDS] [ANALYZER ...]
 
-PROGRAM is a stipple; each analyzer (all, if none is named) takes N points (10 000) of D coordinates (2) in eleven
-arrangements. A row an analyzer: the processor seconds and the memory that random points take, then for each
-arrangement how many times the seconds. Above ten times a number is marked *, and what is not done within the limit
-(60 processor seconds) reads "over". Times below 0.05 s are counted as 0.05 s.
+PROGRAM is a stipple; each analyzer (by default all) gets N points (10 000) of D coordinates (2) in eleven arrangements.
+One row per analyzer: processor seconds and memory for random points, then for each arrangement the ratio of the
+seconds. Ratios above ten are marked *, and runs that exceed the limit (60 processor seconds) read "over". Times below
+0.05 s are counted as 0.05 s.
 """
 
 import argparse
@@ -61,7 +61,7 @@ def arrangements(n, d):
 
 
 def measure(program, analyzer, path, limit):
-    """Processor seconds and MB of one run; nothing where it was not done in time, or the exit code where it failed."""
+    """Processor seconds and MB of one run; None after the limit, or the exit code if it failed."""
 
     def limit_time():
         resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 5))

@@ -5,8 +5,8 @@ discrepancies of 16 384 points in five dimensions.
 
 Usage: compare_scipy.py build/release/tests/bench/stipple_bench
 
-Prints millions of points a second of both, or seconds a set, medians of several runs that take
-turns, and the ratio.
+Prints millions of points per second of both, or seconds per set, medians of several alternating
+runs, and the ratio.
 """
 
 import json
@@ -36,7 +36,7 @@ PEERS = {
 }
 
 
-# Benchmark of ours, method of qmc.discrepancy.
+# Our benchmark, method of qmc.discrepancy.
 DISCREPANCIES = {
     "l2_star": "L2-star",
     "l2_centered": "CD",
@@ -55,7 +55,7 @@ def seconds_of(work):
 
 
 def seconds_of_ours(bench, name, count):
-    """Processor time of one set of so many points, by the benchmark of that name."""
+    """Processor time for one set with this number of points, by the benchmark of that name."""
     report = subprocess.run(
         [bench, f"--benchmark_filter=^{name}$", "--benchmark_format=json",
          "--benchmark_min_time=0.2"],

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Prints what papers print of samplers beside what the program measures (Markdown).
+"""Prints published values of samplers beside those measured by the program (Markdown).
 
 Usage: published_table.py STIPPLE [--sets R] [SAMPLER...]
 
@@ -37,7 +37,7 @@ SOURCES = (
     "doi:10.1145/2018323.2018345. One set of 1024 points.",
 )
 
-# Words after `generate`, the count, and what is printed: (measure, value, where).
+# Words after `generate`, the count, and published values: (measure, value, source).
 SAMPLERS = {
     "random": (
         "random",
@@ -59,7 +59,7 @@ SAMPLERS = {
             ("bond order", "0.363", THESIS),
         ),
     ),
-    # The printed minimum, 0.75 sqrt(2 / (sqrt(3) n)), as the radius: all else is a prediction.
+    # The published minimum, 0.75 sqrt(2 / (sqrt(3) n)), is the radius: all else is a prediction.
     "dart-throwing": (
         "dart-throwing --radius 0.01259254 --misses 1000000000",
         4096,
@@ -117,7 +117,7 @@ def fail(message):
 
 
 def stipple(program, *words):
-    """What the program prints."""
+    """Output of the program."""
     try:
         done = subprocess.run([program, *words], capture_output=True, text=True, check=False)
     except OSError as error:

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Processor times of the Python module on one thread beside SciPy's and beside those of the same calls of the
-C++ library in memory: medians of runs in turn, and medians of the runs' ratios. `SciPy` is how many times as
-long SciPy takes, `library` how many times as long as the library the module takes.
+"""Processor times of the Python module on one thread, of SciPy, and of the same in-memory calls of the C++
+library: medians of alternating runs, and medians of the runs' ratios. `SciPy` is SciPy's time relative to
+the module's, `library` the module's time relative to the library's.
 
     cmake --build build/release -t stipple_library_call
     PYTHONPATH=build/release/python tests/bench/python_bench.py build/release/tests/bench [RUNS]
@@ -19,7 +19,7 @@ from scipy.stats import qmc
 import stipple
 
 x = stipple.generate("sobol", 2000, 5, scramble="owen")
-# Name, words of stipple_library_call, SciPy's call. A count of 0 is the generator's own.
+# Name, arguments of stipple_library_call, SciPy's call. A count of 0 is the generator's own.
 TASKS = [
     ("Sobol', Owen-scrambled, 2^20 x 4", ["sobol:scramble=owen", 2**20, 4],
      lambda: qmc.Sobol(4, seed=1).random(2**20)),
@@ -42,7 +42,7 @@ TASKS = [
 
 
 def seconds(call, calls=10):
-    """The least of processor time of ten calls, as that of stipple_library_call."""
+    """Smallest processor time of ten calls, like that of stipple_library_call."""
     times = []
     for _ in range(calls):
         began = time.process_time()

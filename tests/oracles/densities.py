@@ -14,7 +14,7 @@ FALLING = {"gaussian": lambda t: numpy.exp(-t * t / 2), "0.5": lambda t: numpy.e
 
 
 def check_kernel_discrepancy(cases):
-    """kernel-discrepancy of warped points, by SciPy's laws and integrals."""
+    """kernel-discrepancy of warped points, by SciPy's distributions and integrals."""
     nodes, weights = numpy.polynomial.legendre.leggauss(1500)
     shares, weights = (nodes + 1) / 2, weights / 2
     for spec, law in LAWS.items():
@@ -47,7 +47,7 @@ def check_median_bandwidth(cases):
 
 
 def share(cases, density, inside, n=1 << 16):
-    """Share of points inside; None if the density is refused as too narrow for a table."""
+    """Fraction of points inside; None if the density is rejected as too narrow for a table."""
     warp = f"expression-2d:density=[{density}],tolerance=0.002"
     out = cases.run("generate", "sobol", "-n", n, "-d", 2, "-w", warp, "-f", "txt", ok=(0, 5))
     rows = [[float(word) for word in line.split()] for line in out.splitlines()]

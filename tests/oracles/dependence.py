@@ -116,7 +116,7 @@ def correlation(a, b, r):
 
 
 def end_of(a, b, sign):
-    """Of one normal score z, and sign z: the mean over z between all steps."""
+    """Mean over z between all steps, for one normal score z and sign z."""
     ends = [np.arange(-37, 37.01, 0.25)]
     ends += [side * x.at for x, side in ((a, 1), (b, sign)) if isinstance(x, Steps)]
     ends = np.unique(np.concatenate(ends))

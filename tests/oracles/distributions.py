@@ -1,6 +1,6 @@
 """Distributions on the line against mpmath with 50 digits: quantiles, probabilities, densities, moments.
 
-Each law is written down here from its formula alone. Its parameters go to the ends of what help allows, and numbers u to
+Each distribution is written here from its formula alone. Parameters include the limits in the help, and numbers u
 both tails: 1e-300 and 1 - 2^-53.
 """
 import json
@@ -83,7 +83,7 @@ def quadrature(f, low, high):
 
 
 class Law:
-    """shares(x): F and 1 - F. size(x): what errors of x are relative to. moments(): mean, variance, skewness."""
+    """shares(x): F and 1 - F. size(x): scale for errors of x. moments(): mean, variance, skewness."""
 
     size_of = ()
     tolerance = 1e-13
@@ -106,7 +106,7 @@ class Law:
         return central([self.raw(n) for n in (1, 2, 3)])
 
     def raw_between(self, n, low, high):
-        """E x^n where x is between two ends, else 0: that of another law of the family, or by quadrature."""
+        """E x^n restricted to an interval, by another distribution of the family, or by quadrature."""
         if not hasattr(self, "weighted"):
             low, high = max(low, self.reach[0]), min(high, self.reach[1])
             return quadrature(lambda x: x**n * self.density(x), low, high)
@@ -183,7 +183,7 @@ class Normal(Law):
         return self.mean, self.deviation**2, F(0)
 
     def raw_between(self, n, low, high):
-        """By parts: E z^n = (n - 1) E z^(n-2) and what the ends give."""
+        """By parts: E z^n = (n - 1) E z^(n-2) and terms at the ends."""
         a, b = ((x - self.mean) / self.deviation for x in (low, high))
         at = [(z, mp.npdf(z)) if mp.isfinite(z) else (F(0), F(0)) for z in (a, b)]
         z = [Truncated.between(normal_shares(a), normal_shares(b)), at[0][1] - at[1][1]]
@@ -331,7 +331,7 @@ class StudentT(Law):
         return sum(mp.binomial(n, k) * self.location ** (n - k) * self.scale**k * t[k] for k in range(n + 1))
 
     def beyond(self, n, t):
-        """E t^n above t, up to what does not depend on t."""
+        """E t^n above t, up to a constant."""
         z = self.degrees / (self.degrees + t * t) if mp.isfinite(t) else F(0)
         a, b = (self.degrees - n) / 2, F(n + 1) / 2
         value = self.degrees ** (F(n) / 2) * mp.beta(a, b) / (2 * mp.beta(self.degrees / 2, F(0.5)))
@@ -377,7 +377,7 @@ class Binomial(Law):
 
 
 class Truncated(Law):
-    """A law between two ends, either of which may be None."""
+    """A distribution truncated to an interval, either end of which may be None."""
 
     def __init__(self, law, low, high):
         self.law, self.low, self.high = law, low, high
@@ -412,7 +412,7 @@ class Truncated(Law):
         return self.law.density(x) / self.mass
 
     def moments(self):
-        """None where the tail that is left is too heavy."""
+        """None if the remaining tail is too heavy."""
         endless = None in (self.low, self.high)
         degrees = self.law.degrees if endless and self.law.name == "student-t" else mp.inf
         raw = [self.law.raw_between(n, *self.ends) / self.mass if degrees > n else None for n in (1, 2, 3)]
@@ -473,12 +473,12 @@ CUT = [
 
 
 def warped(cases, law, numbers, *more):
-    """What the warp of a law makes of numbers, a row each."""
+    """Images of numbers under the distribution's warp, one per row."""
     return cases.points("warp", law.name, *law.options(), *more, "-", text="".join(f"{x!r}\n" for x in numbers))
 
 
 def with_densities(cases, law, numbers):
-    """The same with densities, of those at which the density is finite."""
+    """The same with densities, for those at which the density is finite."""
     while True:
         try:
             return list(zip(numbers, warped(cases, law, numbers, "--with-pdf")))
@@ -489,7 +489,7 @@ def with_densities(cases, law, numbers):
 
 
 def rounding(law, x):
-    """How far 4 units in the last place of x move the logarithm of the density."""
+    """Change of the logarithm of the density over 4 units in the last place of x."""
     step = law.size(x) * F(2) ** -70
     try:
         ratio = law.density(x + step) / law.density(x - step)

@@ -26,7 +26,7 @@ def sides(ring):
 
 
 def meeting(a, b, c, d):
-    """How two segments meet: "cross", "overlap", the point in which they touch, or None."""
+    """How two segments meet: "cross", "overlap", the point where they touch, or None."""
     if turn(a, b, c) * turn(a, b, d) < 0 and turn(c, d, a) * turn(c, d, b) < 0:
         return "cross"
     shared = {p for p, q, r in ((c, a, b), (d, a, b), (a, c, d), (b, c, d)) if on_segment(q, r, p)}
@@ -57,7 +57,7 @@ def surrounds(ring, p):
 
 
 def pieces(ring, others):
-    """Middles of a ring's edges, cut at the vertices of others."""
+    """Midpoints of a ring's edges, split at the vertices of others."""
     middles = []
     for a, b in sides(ring):
         cuts = {a, b} | {p for other in others for p in other if on_segment(a, b, p)}
@@ -67,7 +67,7 @@ def pieces(ring, others):
 
 
 def may_touch(one, other):
-    """Whether two rings share nothing but points in which they do not cross."""
+    """Whether two rings share only points in which they do not cross."""
     for a, b in sides(one):
         for c, d in sides(other):
             if meeting(a, b, c, d) in ("cross", "overlap"):
@@ -225,7 +225,7 @@ def check_densities(cases):
 # ---------------------------------------------------------------- bases and lattices
 
 def holds_one_each(rows, base, power):
-    """Whether each elementary interval of b^power points in a base holds one (two coordinates)."""
+    """Whether each elementary interval of b^power points in a base contains one (two coordinates)."""
     for first in range(power + 1):
         cells = {(int(x * base**first + 1e-9), int(y * base**(power - first) + 1e-9)) for x, y in rows}
         if len(cells) != base**power:
@@ -251,7 +251,7 @@ def check_bases(cases):
 
 
 def best_lattice(n, width):
-    """The largest smallest distance of all lattices of n points in a box of this width and height 1."""
+    """Largest minimum distance of all lattices of n points in a box of this width and height 1."""
     best = 0
     for in_row in range(1, n + 1):
         if n % in_row:

@@ -1,4 +1,4 @@
-"""What the comparisons of tests/oracles share: running the program, and counting cases.
+"""Shared by the comparisons of tests/oracles: running the program, and counting cases.
 
 A part is a file tests/oracles/PART.py with functions check_NAME(cases). The first line of such a function's docstring is
 its title in the table. It calls cases.compare() or cases.expect() once for each case.
@@ -47,7 +47,7 @@ class Cases:
             self.failures.append(f"{what}: {seen}" if seen != "" else what)
 
     def compare(self, what, ours, right, within, absolute=0.0):
-        """Counts a number: it agrees if it is within `within` times the right one, or `absolute` of it."""
+        """Counts a number: it agrees within the relative error `within`, or the absolute error `absolute`."""
         ours, right = float(ours), float(right)
         if ours == right or (math.isnan(ours) and math.isnan(right)):
             self.agreed += 1

@@ -29,7 +29,7 @@ def drawn(cases, folder, kind, extension):
 
 
 def letters(texts):
-    """Letters without the blanks that lines are broken at, sorted: readers join lines in orders of their own."""
+    """Letters without blanks (lines are broken there), sorted: readers join lines in different orders."""
     return sorted("".join("".join(texts).split()))
 
 

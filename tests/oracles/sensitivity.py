@@ -1,8 +1,8 @@
 """Sensitivity indices: values and coverage of intervals against indices in closed form.
 
-Ten families of models, whose indices are worked out here, and designs of many seeds. By default a few dozen seeds and
-three sizes are tried, and a coverage counts as too low where 90 % would hardly show it (one time in a thousand).
-ORACLE_SEEDS=200 tries all sizes, asks for 90 % itself, and prints the table of coverage.
+Ten families of models, whose indices are computed here, and designs of many seeds. By default a few dozen seeds and
+three sizes are used, and a coverage counts as too low if a true coverage of 90 % would give it once in a thousand.
+ORACLE_SEEDS=200 uses all sizes, requires 90 %, and prints the table of coverage.
 """
 import json
 import math
@@ -98,13 +98,13 @@ def analyzed(cases, x, outputs, *options):
 
 
 class Coverage:
-    """How often intervals held the right number, by family, size and kind of index."""
+    """How often intervals contained the true value, by family, size and kind of index."""
 
     def __init__(self):
         self.counts = {}
 
     def add(self, key, kind, found, right, slack=0.0):
-        """Counts the intervals of an input, where there are any."""
+        """Counts the intervals of an input, if there are any."""
         if kind + "_low" not in found:
             return
         room = 1e-9 * max(abs(right), 1e-3) + slack
@@ -135,7 +135,7 @@ class Coverage:
 
 
 def samples(n, seed):
-    """Inputs and output of every family: those of the plain cube share theirs."""
+    """Inputs and output of every family: those on the unit cube share their inputs."""
     rng = numpy.random.default_rng(1000 * n + seed)
     groups = {}
     for name, family in families().items():
@@ -201,7 +201,7 @@ def check_coverage_of_saltelli(cases):
 
 
 def elementary(u, y):
-    """Elementary effects, a trajectory a row: of each input, that of the step in which it moved."""
+    """Elementary effects, a trajectory per row: for each input, that of the step in which it moved."""
     group = INPUTS + 1
     effects = numpy.zeros((len(u) // group, INPUTS))
     for t in range(len(effects)):

@@ -20,7 +20,7 @@ models = [
 
 
 class Files:
-    """Files in a folder of their own, which goes with the object."""
+    """Files in a temporary folder, removed with the object."""
 
     def __init__(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -43,7 +43,7 @@ def names(k):
 
 
 def run(cases, *words):
-    """Results and messages of an analysis, whatever its exit code; results None where there are none."""
+    """Results and messages of an analysis, for any exit code; results are None if there are none."""
     done = subprocess.run([cases.program, "analyze", "sensitivity", *map(str, words)], capture_output=True, text=True)
     results = json.loads(done.stdout)["results"] if done.returncode == 0 and done.stdout.startswith("{") else None
     return results, done.stderr
@@ -103,7 +103,7 @@ marginals = [
 
 
 def effects(rows, u, y, radial):
-    """Mean, mean size and standard deviation of elementary effects, as Morris 1991 and Campolongo 2007 define them."""
+    """Mean, mean size and standard deviation of elementary effects, as defined by Morris 1991 and Campolongo 2007."""
     k = len(rows[0])
     all_effects = [[] for _ in range(k)]
     for at in range(0, len(rows), k + 1):
@@ -319,7 +319,7 @@ def check_broken_designs(cases):
 
 
 def mutated(rows, rng):
-    """The rows with one to three things done to them that tables suffer from."""
+    """The rows with one to three typical faults of tables."""
     rows = [list(row) for row in rows]
     odd = [0.0, -0.0, 1.0, 0.5, 1e16, -1e16, 1e300, -1e300, 1.7e308, 5e-324, 1e-300, 1 + 2**-52, 1e-16, float("nan")]
     width = len(rows[0])
@@ -365,7 +365,7 @@ def mutated(rows, rng):
 
 
 def strange(results, path=""):
-    """What of results is no number, or an index that no estimate of a share can be."""
+    """Results that are not numbers, or indices that no estimate of a fraction can have."""
     for key, value in results.items():
         if isinstance(value, dict):
             yield from strange(value, f"{path}{key}.")
@@ -376,7 +376,7 @@ def strange(results, path=""):
 
 
 def measured(cases, tables, method, form):
-    """What an analysis of those tables prints, and the tables that were not refused; those that were are counted."""
+    """Output of an analysis of these tables, and the accepted tables; rejected ones are counted."""
     tables = list(tables)
     while tables:
         words = [cases.program, "analyze", "sensitivity", *tables, "--method", method, "-f", form, "--response", "out"]

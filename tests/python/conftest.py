@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the tests of the Python module share."""
+"""Shared by the tests of the Python module."""
 
 import json
 import os
@@ -10,7 +10,7 @@ import pytest
 
 @pytest.fixture(scope="session")
 def run():
-    """Runs the program; gives what it writes."""
+    """Runs the program; returns its output."""
 
     def call(*arguments, stdin=None):
         return subprocess.run(
@@ -22,7 +22,7 @@ def run():
 
 @pytest.fixture(scope="session")
 def results(run):
-    """What `stipple analyze` finds, as a dictionary."""
+    """Results of `stipple analyze`, as a dictionary."""
 
     def call(*arguments):
         return json.loads(run("analyze", *arguments, "--json"))["results"]

@@ -57,8 +57,8 @@ def test_meta_is_kept_by_the_array_alone():
     assert [meta["seed"] for meta in both.meta] == [1, 2]
 
 
-# Some of the points live where all do; their recipe is another one. Whole sets keep everything, and
-# numbers that are no points any more have nothing.
+# A part of the points has the same domain, but another recipe. Whole sets keep everything, and
+# results that are not points have no provenance.
 def test_some_of_the_points_keep_their_domain_names_and_levels():
     parameters = {"parameters": [{"name": "a", "range": [2, 3]}, {"name": "m", "levels": ["x", "y"]}]}
     points = stipple.generate("sobol", 64, parameters=parameters, return_meta=True)
@@ -296,7 +296,7 @@ def test_studies_are_tables(run):
     assert "<table>" in study._repr_html_()
 
 
-# Whatever two doubles coordinates are, there is a picture without a number that is none, or a refusal.
+# Any two doubles as coordinates give a picture without NaN or infinity, or an error.
 def test_pictures_of_all_kinds_of_pairs():
     random = np.random.default_rng(3)
     pairs = list(random.integers(0, 2**64, (60, 2), dtype=np.uint64).view(np.float64))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""README and the scripts of data/examples, run as they stand."""
+"""Runs README and the scripts of data/examples unchanged."""
 
 import re
 import runpy

@@ -17,14 +17,14 @@ def script(name, *arguments):
 
 
 def drawn(name, *arguments):
-    """The words of the picture."""
+    """Words of the picture."""
     done = script(name, *arguments)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
     words = re.findall("<text[^>]*>(.*?)</text>", Path(arguments[-1]).read_text(), re.S)
     return "\n".join(re.sub("<[^>]*>|\n *", "", word) for word in words).replace("\xa0", " ")
 
 
-# A grid of m x m cells has the star discrepancy 1/m - 1/(4 m^2): close to n^-0.49 here.
+# A grid of m x m cells has the star discrepancy 1/m - 1/(4 m^2): nearly n^-0.49 here.
 def test_convergence_has_a_curve_with_its_slope_for_each_generator(tmp_path):
     words = drawn("plot_convergence.py", "star-discrepancy", "random", "grid", "-n", 64, 256, 1024,
                   "-o", tmp_path / "a.svg")
