@@ -163,7 +163,7 @@ class Study {
     int go() {
         refuse_too_much();
         if (ranks_.rank() != 0) {
-            work_for_study(UnitRunner(sweep_, table_, session_.run()), ranks_, session_.run());
+            work_for_study(UnitRunner(sweep_, session_.run()), ranks_, session_.run());
             return 0;
         }
         try {
@@ -180,11 +180,9 @@ class Study {
         const StudyFile::Start start = arguments_.has("resume")      ? StudyFile::Start::resume
                                        : arguments_.has("overwrite") ? StudyFile::Start::anew
                                                                      : StudyFile::Start::fresh;
-        const auto listen = [this](const StudyRow& row) {
-            if (row.failed()) add_failure(row);
-            if (summarized_) summary_.add(row);
-        };
-        const UnitRunner runner(sweep_, table_, run);
+        StudyFile::Listener listen;
+        if (summarized_) listen = [this](const StudyRow& row) { summary_.add(row); };
+        const UnitRunner runner(sweep_, run);
         runner.require_options(run);
         StudyFile file(path_, sweep_, table_, start, listen, run);
         if (start == StudyFile::Start::anew && !file.is_stream()) remove_old_summary();
@@ -200,33 +198,28 @@ class Study {
                 fmt::format("what is done is in {0} and {0}.journal; --resume goes on", path_),
                 "interrupted");
         }
-        if (failed_ == 0) return 0;
+        const StudyFailures& failed = file.failures();
+        if (failed.units == 0) return 0;
         session_.warn(fmt::format(
             "{} of {} measurements failed, their rows say why; the first: {} with {} points, seed "
             "{}, {}: {}",
-            failed_, sweep_.units(), first_failed_.generator, first_failed_.count,
-            first_failed_.seed, first_failed_.measure, first_failed_.reason));
-        return met_limit_ ? 5 : 3;
-    }
-
-    void add_failure(const StudyRow& row) {
-        if (failed_++ == 0) first_failed_ = row;
-        met_limit_ |= row.reason.starts_with("limit") || row.reason.starts_with("time limit");
+            failed.units, sweep_.units(), failed.first.generator, failed.first.count,
+            failed.first.seed, failed.first.measure, failed.first.reason));
+        return failed.met_limit ? 5 : 3;
     }
 
     void finish(StudyFile& file) const {
-        if (!summarized_) {
-            file.finish();
-            return;
-        }
-        const auto means = summary_.means(table_.style(), summary_options_, session_.run());
-        const auto pairs = summary_.comparisons(table_.style(), summary_options_, session_.run());
+        const RunContext& run = session_.run();
+        if (!summarized_) return file.finish("", run);
+        file.listen(run);
+        const auto means = summary_.means(table_.style(), summary_options_, run);
+        const auto pairs = summary_.comparisons(table_.style(), summary_options_, run);
         if (file.is_stream()) {
             const char* gap = table_.style() == TableStyle::csv ? "\n" : "";
-            file.finish(gap + means + gap + pairs);
+            file.finish(gap + means + gap + pairs, run);
             return;
         }
-        file.finish();
+        file.finish("", run);
         write_text(beside(path_, "summary"), means);
         write_text(beside(path_, "comparisons"), pairs);
     }
@@ -273,9 +266,6 @@ class Study {
     SummaryOptions summary_options_;
     bool summarized_;
     bool began_ = false;
-    std::uint64_t failed_ = 0;  ///< failed measurements
-    StudyRow first_failed_;
-    bool met_limit_ = false;  ///< whether one of them failed due to a limit
     StudySummary summary_;
 };
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Studies in memory, for the public API.
-#include <algorithm>
-#include <string_view>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "stipple/study.hpp"
@@ -12,6 +11,13 @@
 #include "study/unit_runner.hpp"
 
 namespace stipple {
+namespace {
+
+std::optional<double> known(const std::optional<double>& value) {
+    return value && std::isnan(*value) ? std::nullopt : value;
+}
+
+}  // namespace
 
 std::vector<StudyValue> study(const Study& wanted, const RunContext& run) {
     const Sweep sweep({.generators = wanted.generators,
@@ -22,18 +28,15 @@ std::vector<StudyValue> study(const Study& wanted, const RunContext& run) {
                        .measures = wanted.analyzers,
                        .warps = wanted.warps,
                        .seconds = false});
-    const StudyTable table(TableStyle::jsonl, false);
-    const UnitRunner runner(sweep, table, run);
+    const UnitRunner runner(sweep, run);
     runner.require_options(run);
     std::vector<StudyValue> values;
-    for (const Segment& segment : runner.run({{0, sweep.units()}}, run).segments)
-        for (std::string_view lines : segment.lines)
-            while (!lines.empty()) {
-                const auto row = table.parse(lines.substr(0, lines.find('\n')));
-                lines.remove_prefix(std::min(lines.find('\n'), lines.size() - 1) + 1);
-                values.push_back({row->generator, row->measure, row->dimension, row->count,
-                                  row->seed, row->key, row->value, row->reason});
-            }
+    for (const auto& [units, results] : runner.run({{0, sweep.units()}}, run).segments)
+        for (std::uint64_t unit = units.first; unit < units.last; ++unit)
+            for (const StudyRow& row :
+                 rows_of(sweep, sweep.unit(unit), results[unit - units.first]))
+                values.push_back({row.generator, row.measure, row.dimension, row.count, row.seed,
+                                  row.key, known(row.value), row.reason});
     return values;
 }
 

@@ -3,15 +3,17 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numeric>
+#include <utility>
 
 #include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "core/text.hpp"
 
 namespace stipple {
@@ -24,6 +26,14 @@ std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? "." : path.substr(0, slash + 1);
 }
 
+/// The file itself: of a link, its target.
+std::string real_file(const std::string& path) {
+    std::error_code none;
+    const bool link = std::filesystem::is_symlink(path, none);
+    const auto target = link ? std::filesystem::canonical(path, none) : std::filesystem::path();
+    return target.empty() ? path : target.string();
+}
+
 [[noreturn]] void refuse(const std::string& path) {
     if (errno == ENOENT)
         fail(ErrorKind::io, "{}: {}", path,
@@ -32,13 +42,13 @@ std::string folder_of(const std::string& path) {
     refuse_file(path, errno);
 }
 
-int opened(const std::string& path, int flags) {
-    const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
+int opened(const std::string& path) {
+    const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (descriptor < 0) refuse(path);
     return descriptor;
 }
 
-/// Writes all of it, whatever signals come.
+/// Writes all bytes, also when signals interrupt it.
 void write_all(int descriptor, std::string_view bytes, const std::string& path) {
     while (!bytes.empty()) {
         const auto written = ::write(descriptor, bytes.data(), bytes.size());
@@ -51,10 +61,14 @@ void cut_to(int descriptor, std::uint64_t size, const std::string& path) {
     if (::ftruncate(descriptor, static_cast<off_t>(size)) != 0) refuse(path);
 }
 
-/// Whether the bytes are on the disk. Some file systems have nothing to synchronise, and say so.
+/// Whether the bytes are on the disk. Some file systems cannot synchronise, and report so.
 bool is_synchronised(int result) { return result == 0 || errno == EINVAL || errno == ENOTSUP; }
 
-/// Writes what a file holds to the disk, where the system can do so without its times.
+void synchronise(int descriptor, const std::string& path) {
+    if (!is_synchronised(::fsync(descriptor))) refuse(path);
+}
+
+/// Writes a file's bytes to the disk, without its times where the system can.
 int synchronise_bytes(int descriptor) {
 #if defined(_POSIX_SYNCHRONIZED_IO) && _POSIX_SYNCHRONIZED_IO > 0
     return ::fdatasync(descriptor);
@@ -63,9 +77,8 @@ int synchronise_bytes(int descriptor) {
 #endif
 }
 
-/// Has a file that is new on the disk, its name in the folder, too.
-void synchronise_new(int descriptor, const std::string& path) {
-    if (!is_synchronised(::fsync(descriptor))) refuse(path);
+/// Writes the names in a folder to the disk.
+void synchronise_folder(const std::string& path) {
     const int folder = ::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     const bool done = folder >= 0 && is_synchronised(::fsync(folder));
     const int error = errno;
@@ -73,29 +86,8 @@ void synchronise_new(int descriptor, const std::string& path) {
     if (!done) refuse_file(path, error);
 }
 
-[[noreturn]] void refuse_place(const std::string& path, std::uint64_t line) {
-    fail(ErrorKind::input,
-         "{}:{}: this row is not where the study has it; it was moved or rows are missing", path,
-         line);
-}
-
-std::vector<std::string> keys_of(const std::vector<StudyRow>& rows) {
-    std::vector<std::string> keys;
-    for (const StudyRow& row : rows) keys.push_back(row.key);
-    return keys;
-}
-
-/// Whether a row is one of that unit's.
-bool is_of(const Sweep& sweep, const StudyRow& row, std::uint64_t unit) {
-    return unit < sweep.units() && belongs(row, row_of(sweep, sweep.unit(unit)));
-}
-
-}  // namespace
-
-std::string journal_of(const std::string& table) { return table + ".journal"; }
-
-/// Lines of a file, which may not be there. A read that fails is not its end.
-class StudyFile::Lines {
+/// Lines of a file, which may be missing. A read error is not its end.
+class Lines {
   public:
     explicit Lines(const std::string& path) : path_(path), in_(path, std::ios::binary) {
         if (!in_.is_open() && errno != ENOENT) refuse_file(path_, errno);
@@ -105,12 +97,14 @@ class StudyFile::Lines {
 
     [[nodiscard]] bool is_empty() const { return empty_; }
 
-    /// The whole line that comes next; false at the end, and where it has no end.
+    /// The next line; false at the end, and if the line has no end, which is then in `line`.
     bool take(std::string& line) {
         const bool whole = std::getline(in_, line) && !in_.eof();
         require_read();
         return whole;
     }
+
+    void seek(std::uint64_t offset) { in_.seekg(static_cast<std::streamoff>(offset)); }
 
   private:
     void require_read() const {
@@ -122,50 +116,138 @@ class StudyFile::Lines {
     bool empty_ = true;
 };
 
-/// The rows of a table, in order.
-class StudyFile::RowReader {
-  public:
-    RowReader(const std::string& path, const StudyTable& table)
-        : path_(path), table_(table), lines_(path) {
-        if (table.style() == TableStyle::csv) take_line();
-    }
-
-    /// The row that comes next; nothing at the end. @throws Error(input), Error(cancelled)
-    std::optional<StudyRow> take(const RunContext& run) {
-        run.check_stop();
-        if (!take_line()) return std::nullopt;
-        auto row = table_.parse(text_);
-        if (!row) fail(ErrorKind::input, "{}:{}: is no row of a study", path_, line_);
-        return row;
-    }
-
-    /// Number of the line that was taken last, from 1, and its bytes.
-    [[nodiscard]] std::uint64_t line() const { return line_; }
-    [[nodiscard]] std::size_t size() const { return text_.size() + 1; }
-
-    /// At the end: whether the last line had one.
-    [[nodiscard]] bool is_whole() const { return text_.empty(); }
-
-  private:
-    bool take_line() {
-        ++line_;
-        return lines_.take(text_);
-    }
-
-    const std::string& path_;
-    const StudyTable& table_;
-    Lines lines_;
-    std::string text_;
-    std::uint64_t line_ = 0;
-};
-
-Json StudyFile::head_of_journal(Lines& lines, std::string& line) {
-    Json head = lines.take(line) ? try_parse_json(line) : Json();
+/// The first line of a journal; null if it is not one.
+Json head_of_journal(const std::string& table) {
+    std::string line;
+    Json head = Lines(journal_of(table)).take(line) ? try_parse_json(line) : Json();
     const bool known =
-        head.is_object() && head.contains("study") && head.contains("settings") &&
-        line.starts_with(fmt::format("{{\"format\":\"{}\",\"version\":2,", journal_format));
+        head.is_object() && head.contains("study") && head["settings"].is_object() &&
+        line.starts_with(fmt::format("{{\"format\":\"{}\",\"version\":3,", journal_format));
     return known ? head : Json();
 }
+
+}  // namespace
+
+std::string journal_of(const std::string& table) { return real_file(table) + ".journal"; }
+
+// Reads the table of a study that is resumed, and stores where its units are.
+class StudyFile::TableReader {
+  public:
+    TableReader(StudyFile& file, bool unfinished, const RunContext& run)
+        : file_(file),
+          smaller_(file.smaller_study(run)),
+          part_(smaller_ ? &*smaller_ : &file.sweep_),
+          unfinished_(unfinished),
+          ordered_(smaller_ || !unfinished) {
+        file.mixed_ = smaller_.has_value();
+    }
+
+    /// Returns the bytes of the table that are to stay.
+    std::uint64_t read(const RunContext& run) {
+        Lines lines(file_.path_);
+        std::string text;
+        if (file_.table_.style() == TableStyle::csv) take_line(lines, text);
+        end_ = begin_ = file_.table_.head().size();
+        std::uint64_t damaged = 0;  // line
+        while (take_line(lines, text)) {
+            run.check_stop();
+            const auto row = file_.table_.parse(text);
+            if (!row && damaged == 0) damaged = line_;
+            if (damaged != 0 && (row || !unfinished_))
+                fail(ErrorKind::input, "{}:{}: is no row of a study", file_.path_, damaged);
+            if (row) add(*row);
+            if (row) end_ += text.size() + 1;
+        }
+        const bool finished =
+            !unfinished_ && text.empty() && part_ == &file_.sweep_ && unit_ + 1 == part_->units();
+        const bool whole = end_part(finished);
+        return whole || part_ != &file_.sweep_ ? end_ : begin_;
+    }
+
+  private:
+    bool take_line(Lines& lines, std::string& text) {
+        ++line_;
+        return lines.take(text);
+    }
+
+    void add(const StudyRow& row) {
+        if (row.study != part_->fingerprint()) begin_own_part(row);
+        if (!like_ || !belongs(row, *like_)) {
+            const std::uint64_t next = like_ ? unit_ + 1 : 0;
+            end_unit();
+            begin_unit(row, next);
+        }
+        keys_.push_back(row.key);
+        if (row.failed()) failure_ = row;
+    }
+
+    /// The rows of this study begin behind those of a smaller one.
+    void begin_own_part(const StudyRow& row) {
+        if (part_ == &file_.sweep_ || row.study != file_.sweep_.fingerprint()) file_.refuse_other();
+        end_part(false);
+        like_.reset();
+        part_ = &file_.sweep_;
+        ordered_ = !unfinished_;
+    }
+
+    void begin_unit(const StudyRow& row, std::uint64_t next) {
+        const bool in_order =
+            next < part_->units() && belongs(row, row_of(*part_, part_->unit(next)));
+        const auto unit = in_order   ? std::optional(next)
+                          : ordered_ ? std::nullopt
+                                     : unit_of(*part_, row);
+        if (unit) like_ = row_of(*part_, part_->unit(unit_ = *unit));
+        if (!unit || file_.has(own_unit()))
+            fail(ErrorKind::input,
+                 "{}:{}: this row is not where the study has it; it was moved or rows are missing",
+                 file_.path_, line_);
+        begin_ = end_;
+        keys_.clear();
+        failure_.reset();
+    }
+
+    /// The unit that is read, as this study counts.
+    [[nodiscard]] std::uint64_t own_unit() const {
+        StudyRow row = *like_;
+        row.study = file_.sweep_.fingerprint();
+        return part_ == &file_.sweep_ ? unit_ : unit_of(file_.sweep_, row).value();
+    }
+
+    void end_unit() {
+        if (!like_) return;
+        const std::uint64_t unit = own_unit();
+        if (failure_) file_.note_failure(unit, *failure_);
+        file_.store({unit, unit + 1}, begin_, end_ - begin_);
+        usual_keys_[like_->measure] = {*like_, std::move(keys_)};
+    }
+
+    /// Stores the last unit of a part if it can be known to be whole. False: it cannot.
+    bool end_part(bool finished) {
+        if (!like_) return true;
+        const auto& [row, keys] = usual_keys_[like_->measure];
+        // How many numbers a list has may depend on the set.
+        const bool alike = finished || !keys_.back().ends_with(']') ||
+                           (row.generator == like_->generator && row.count == like_->count &&
+                            row.dimension == like_->dimension);
+        if (keys != keys_ || !alike) return false;
+        end_unit();
+        return true;
+    }
+
+    StudyFile& file_;
+    std::optional<Sweep> smaller_;
+    const Sweep* part_;  ///< whose rows are read
+    bool unfinished_;    ///< there is a journal
+    bool ordered_;       ///< units are in order
+    std::uint64_t line_ = 0;
+    std::optional<StudyRow> like_;  ///< columns of the unit that is read
+    std::uint64_t unit_ = 0;
+    std::vector<std::string> keys_;    ///< of its rows
+    std::optional<StudyRow> failure_;  ///< its row, if it failed
+    std::uint64_t begin_ = 0;          ///< of the unit, in bytes
+    std::uint64_t end_ = 0;            ///< of the last row
+    std::map<std::string, std::pair<StudyRow, std::vector<std::string>>> usual_keys_;
+};
 
 StudyFile::StudyFile(std::string path, const Sweep& sweep, const StudyTable& table, Start start,
                      Listener listener, const RunContext& run)
@@ -188,14 +270,7 @@ StudyFile::~StudyFile() {
     if (journal_ >= 0) ::close(journal_);
 }
 
-void StudyFile::sync() {
-    if (!dirty_.exchange(false)) return;
-    for (const int descriptor : {output_, journal_})
-        if (descriptor >= 0 && !is_synchronised(synchronise_bytes(descriptor))) lost_ = errno;
-}
-
 void StudyFile::open_file(Start start, const RunContext& run) {
-    const bool resume = start == Start::resume;
     const bool unfinished = exists(status_of(journal_of(path_)));
     Lines lines(path_);
     std::string first;
@@ -215,128 +290,72 @@ void StudyFile::open_file(Start start, const RunContext& run) {
         fail_with_hint(ErrorKind::usage,
                        "--overwrite begins anew, --resume adds what is missing, -o names another",
                        "{}: exists, and holds a study", path_);
-    output_ = opened(path_, O_RDWR | O_CREAT | O_APPEND);
-    if (!resume || !whole) {
+    output_ = opened(path_);
+    if (start != Start::resume || !whole) {
+        lock_journal();
         begin_journal();
         cut_to(output_, 0, path_);
         write_all(output_, table_.head(), path_);
+        size_ = table_.head().size();
         return;
     }
     if (table_.style() == TableStyle::csv && first + "\n" != table_.head()) refuse_other();
-    if (const auto smaller = smaller_study(run)) {
-        take_over(*smaller, run);
-    } else {
-        if (unfinished) read_journal();
-        read_rows(run);
-        if (next_ == sweep_.units()) return;
-        if (!unfinished) begin_journal();
-    }
-    write_waiting();
+    if (unfinished) lock_journal();
+    const bool known = unfinished && journal_is_ours();
+    size_ = TableReader(*this, unfinished, run).read(run);
+    if (!unfinished && (mixed_ || written_ < sweep_.units())) lock_journal();
+    if (journal_ >= 0 && !known) begin_journal();
+    cut_to(output_, size_, path_);
 }
 
-void StudyFile::open_journal() {
-    journal_ = opened(journal_of(path_), O_RDWR | O_CREAT | O_APPEND);
-    if (::flock(journal_, LOCK_EX | LOCK_NB) != 0)
+void StudyFile::lock_journal() {
+    journal_ = opened(journal_of(path_));
+    struct stat locked = {};
+    struct stat there = {};
+    const bool alone = ::flock(journal_, LOCK_EX | LOCK_NB) == 0;
+    // Another study may have finished meanwhile: the file that was opened is its table now.
+    if (!alone || ::fstat(journal_, &locked) != 0 ||
+        ::stat(journal_of(path_).c_str(), &there) != 0 || locked.st_ino != there.st_ino)
         fail(ErrorKind::io, "{}: another study is writing to it", path_);
 }
 
+/// @throws Error(input) if it is another study's. False: it is damaged.
+bool StudyFile::journal_is_ours() const {
+    const Json head = head_of_journal(path_);
+    if (head.is_object() && head["study"] != sweep_.fingerprint()) refuse_other();
+    return head.is_object();
+}
+
 void StudyFile::begin_journal() {
-    if (journal_ < 0) open_journal();
     Json settings = Json::object();
     for (const auto& [key, value] : sweep_.settings()) settings[key] = value;
-    const std::string head =
-        fmt::format("{{\"format\":\"{}\",\"version\":2,\"study\":\"{}\",\"settings\":{}}}\n",
-                    journal_format, sweep_.fingerprint(), json_text(settings));
-    cut_to(journal_, 0, journal_of(path_));
-    write_all(journal_, head, journal_of(path_));
-    journal_size_ = head.size();
+    const std::string journal = journal_of(path_);
+    cut_to(journal_, 0, journal);
+    write_all(journal_,
+              fmt::format("{{\"format\":\"{}\",\"version\":3,\"study\":\"{}\",\"settings\":{}}}\n",
+                          journal_format, sweep_.fingerprint(), json_text(settings)),
+              journal);
+    // Without it, rows that are out of order would be taken for damage.
+    synchronise(journal_, journal);
+    synchronise_folder(journal);
 }
 
 void StudyFile::refuse_other() const {
-    Lines journal(journal_of(path_));
-    std::string line;
-    const Json head = head_of_journal(journal, line);
+    const Json head = head_of_journal(path_);
     std::string differs;
     for (const auto& [name, value] : sweep_.settings()) {
-        const bool known = head.is_object() && head["settings"].is_object() &&
-                           head["settings"].contains(name) && head["settings"][name].is_string();
-        if (!known || head["settings"][name] == value) continue;
-        differs = fmt::format(": it has {} '{}', this one '{}'", name,
-                              head["settings"][name].get<std::string>(), value);
+        const Json other = head.is_object() ? head["settings"].value(name, Json()) : Json();
+        if (!other.is_string() || other == value) continue;
+        differs =
+            fmt::format(": it has {} '{}', this one '{}'", name, other.get<std::string>(), value);
         break;
     }
     fail_with_hint(ErrorKind::input, "resume it with its own options, or name another file with -o",
                    "{}: --resume: the study there is another one{}", path_, differs);
 }
 
-void StudyFile::read_journal() {
-    open_journal();
-    Lines lines(journal_of(path_));
-    std::string line;
-    const Json head = head_of_journal(lines, line);
-    if (head.is_null()) return begin_journal();
-    if (head["study"] != sweep_.fingerprint()) refuse_other();
-    journal_size_ = line.size() + 1;
-    while (read_entry(lines)) {
-    }
-    cut_to(journal_, journal_size_, journal_of(path_));
-}
-
-bool StudyFile::read_entry(Lines& lines) {
-    std::string line;
-    if (!lines.take(line)) return false;
-    std::vector<std::uint64_t> numbers;
-    for (const auto word : split(line, ' ')) numbers.push_back(parse_unsigned(word).value_or(0));
-    if (numbers.empty()) return false;
-    Waiting waiting{.bytes = {numbers.begin() + 1, numbers.end()},
-                    .offset = journal_size_ + line.size() + 1};
-    for (std::uint64_t unit = numbers[0]; std::uint64_t left : waiting.bytes) {
-        do {  // a crash may have left other bytes than those that were written
-            if (!lines.take(line) || line.size() + 1 > left) return false;
-            const auto row = table_.parse(line);
-            if (!row || !is_of(sweep_, *row, unit)) return false;
-            left -= line.size() + 1;
-        } while (left > 0);
-        ++unit;
-    }
-    journal_size_ = waiting.offset + waiting.size();
-    waiting_.emplace(numbers[0], std::move(waiting));
-    return true;
-}
-
-std::vector<UnitRange> StudyFile::done() const {
-    std::vector<UnitRange> ranges = {{0, next_}};
-    for (const auto& [first, waiting] : waiting_)
-        ranges.push_back({first, first + waiting.bytes.size()});
-    return ranges;
-}
-
-void StudyFile::read_rows(const RunContext& run) {
-    RowReader reader(path_, table_);
-    std::uint64_t end = table_.head().size();  // of the rows read so far
-    std::uint64_t whole = end;                 // of those of whole units
-    std::vector<StudyRow> rows;                // of the unit next_
-    std::vector<std::vector<std::string>> keys(sweep_.measures().size());  // of the unit before
-    const auto take_unit = [&] {
-        for (const StudyRow& row : rows) listener_(row);
-        keys[sweep_.unit(next_++).measure] = keys_of(std::exchange(rows, {}));
-        whole = end;
-    };
-    while (const auto row = reader.take(run)) {
-        if (row->study != sweep_.fingerprint()) refuse_other();
-        if (!is_of(sweep_, *row, next_)) {
-            if (rows.empty() || !is_of(sweep_, *row, next_ + 1)) refuse_place(path_, reader.line());
-            take_unit();
-        }
-        rows.push_back(*row);
-        end += reader.size();
-    }
-    // How many rows the last unit has, those of a unit before it tell: else it is done again.
-    const bool finished = journal_ < 0 && reader.is_whole() && next_ + 1 == sweep_.units();
-    if (finished && !rows.empty() && keys_of(rows) == keys[sweep_.unit(next_).measure]) take_unit();
-    cut_to(output_, whole, path_);
-}
-
+/// Finished study in front of the table, which this one extends; nullopt if the rows are this one's.
+/// @throws Error(input) if they are another study's
 std::optional<Sweep> StudyFile::smaller_study(const RunContext& run) const {
     SweepRequest request = sweep_.request();
     for (auto* list : {&request.generators, &request.measures}) list->clear();
@@ -346,10 +365,13 @@ std::optional<Sweep> StudyFile::smaller_study(const RunContext& run) const {
     };
     std::uint64_t last_seed = 0;
     request.first_seed = ~std::uint64_t{0};
-    RowReader rows(path_, table_);
     std::string fingerprint;
-    while (const auto row = rows.take(run)) {
-        if (row->study == sweep_.fingerprint()) return std::nullopt;
+    Lines lines(path_);
+    for (std::string text; lines.take(text);) {
+        run.check_stop();
+        const auto row = table_.parse(text);
+        if (!row) continue;
+        if (row->study == sweep_.fingerprint()) break;
         fingerprint = row->study;
         add(request.generators, row->generator);
         add(request.measures, row->measure);
@@ -360,7 +382,7 @@ std::optional<Sweep> StudyFile::smaller_study(const RunContext& run) const {
     }
     if (fingerprint.empty()) return std::nullopt;
     request.seeds = last_seed - request.first_seed + 1;
-    // The fingerprint vouches for what rows do not show: keys, limits, and that none is missing.
+    // The fingerprint covers what rows do not show: keys, limits, and that none is missing.
     std::optional<Sweep> sweep;
     try {
         sweep.emplace(std::move(request));
@@ -374,114 +396,150 @@ std::optional<Sweep> StudyFile::smaller_study(const RunContext& run) const {
     return sweep;
 }
 
-void StudyFile::take_over(const Sweep& smaller, const RunContext& run) {
-    if (journal_ < 0) open_journal();
-    begin_journal();
-    RowReader rows(path_, table_);
-    Segment segment;    // units in a row
-    std::string lines;  // of the one that is read
-    std::size_t bytes = 0;
-    std::uint64_t unit = 0;
-    const auto end_segment = [&] {
-        if (!segment.lines.empty()) keep(std::exchange(segment, {}), true);
-        bytes = 0;
-    };
-    const auto end_unit = [&] {
-        constexpr std::size_t most_bytes = 1 << 20;
-        const std::uint64_t at = sweep_.same_unit(smaller, smaller.unit(unit++));
-        if (at != segment.units.last || bytes > most_bytes) end_segment();
-        if (segment.lines.empty()) segment.units = {at, at};
-        ++segment.units.last;
-        bytes += lines.size();
-        segment.lines.push_back(std::exchange(lines, {}));
-    };
-    while (auto row = rows.take(run)) {
-        if (!is_of(smaller, *row, unit)) {
-            if (lines.empty() || !is_of(smaller, *row, unit + 1)) refuse_place(path_, rows.line());
-            end_unit();
-        }
-        row->study = sweep_.fingerprint();
-        lines += table_.line(*row);
-    }
-    end_segment();  // the last unit is done again: nobody can tell whether it is whole
-    synchronise_new(journal_, journal_of(path_));
-    cut_to(output_, table_.head().size(), path_);
-    if (!is_synchronised(synchronise_bytes(output_))) refuse(path_);
+bool StudyFile::has(std::uint64_t unit) const {
+    const auto behind = index_.upper_bound(unit);
+    return behind != index_.begin() && std::prev(behind)->second.last > unit;
 }
 
-void StudyFile::keep(const Segment& segment, bool in_journal) {
-    Waiting waiting;
-    std::string head = std::to_string(segment.units.first);
-    for (const auto& lines : segment.lines) {
-        waiting.bytes.push_back(lines.size());
-        waiting.text += lines;
-        head += fmt::format(" {}", lines.size());
+void StudyFile::store(UnitRange units, std::uint64_t offset, std::uint64_t bytes) {
+    written_ += units.last - units.first;
+    const auto behind = index_.lower_bound(units.first);
+    if (behind != index_.begin()) {
+        Stored& before = std::prev(behind)->second;
+        if (before.last == units.first && before.offset + before.bytes == offset) {
+            before.last = units.last;
+            before.bytes += bytes;
+            return;
+        }
     }
-    if (in_journal) {
-        head += '\n';
-        write_all(journal_, head + waiting.text, journal_of(path_));
-        waiting.offset = journal_size_ + head.size();
-        journal_size_ = waiting.offset + waiting.size();
-        waiting.text.clear();
+    index_.emplace_hint(behind, units.first, Stored{units.last, offset, bytes});
+}
+
+std::vector<UnitRange> StudyFile::done() const {
+    std::vector<UnitRange> ranges;
+    for (const auto& [first, stored] : index_) ranges.push_back({first, stored.last});
+    return ranges;
+}
+
+void StudyFile::note_failure(std::uint64_t unit, const StudyRow& row) {
+    if (failures_.units++ == 0 || unit < failures_.first_unit) {
+        failures_.first_unit = unit;
+        failures_.first = row;
     }
-    waiting_.emplace(segment.units.first, std::move(waiting));
+    failures_.met_limit |= row.reason.starts_with("limit") || row.reason.starts_with("time limit");
 }
 
 bool StudyFile::put(const Segment& segment) {
-    if (broken_) return false;
-    broken_ = true;
-    keep(segment, segment.units.first > next_ && journal_ >= 0);
-    dirty_ = true;
-    broken_ = !write_waiting();
-    return !broken_;
-}
-
-bool StudyFile::write_waiting() {
-    while (!waiting_.empty() && waiting_.begin()->first <= next_) {
-        const auto [first, waiting] = *waiting_.begin();
-        waiting_.erase(waiting_.begin());
-        const std::uint64_t known = next_ - first;  // units that the table has
-        if (known >= waiting.bytes.size()) continue;
-        const std::string text = text_of(waiting).substr(waiting.size(known));
-        next_ = first + waiting.bytes.size();
-        for (const auto line : split(std::string_view(text).substr(0, text.size() - 1), '\n'))
-            if (const auto row = table_.parse(line)) listener_(*row);
-        if (!write(text)) return false;
+    std::string text;
+    std::vector<std::pair<std::uint64_t, StudyRow>> failed;
+    for (std::uint64_t unit = segment.units.first; unit < segment.units.last; ++unit)
+        for (const StudyRow& row :
+             rows_of(sweep_, sweep_.unit(unit), segment.results[unit - segment.units.first])) {
+            if (row.failed()) failed.emplace_back(unit, row);
+            if (!stream_) text += table_.line(row);
+        }
+    const std::lock_guard lock(mutex_);
+    if (broken_) std::rethrow_exception(broken_);
+    try {
+        for (const auto& [unit, row] : failed) note_failure(unit, row);
+        if (stream_) return put_in_turn(segment);
+        write_all(output_, text, path_);
+        dirty_ = true;
+        store(segment.units, size_, text.size());
+        size_ += text.size();
+    } catch (...) {
+        broken_ = std::current_exception();
+        throw;
     }
     return true;
 }
 
-bool StudyFile::write(const std::string& text) {
-    if (stream_) return stream_->write(text);
-    write_all(output_, text, path_);
+bool StudyFile::put_in_turn(const Segment& segment) {
+    waiting_.emplace(segment.units.first, segment);
+    while (!waiting_.empty() && waiting_.begin()->first == written_) {
+        const auto [units, results] = std::move(waiting_.extract(waiting_.begin()).mapped());
+        std::string text;
+        for (const UnitResult& result : results)
+            for (const StudyRow& row : rows_of(sweep_, sweep_.unit(written_++), result)) {
+                text += table_.line(row);
+                if (listener_) listener_(row);
+            }
+        if (!stream_->write(text)) return false;
+    }
     return true;
 }
 
-std::string StudyFile::text_of(const Waiting& waiting) const {
-    if (!waiting.text.empty()) return waiting.text;
-    std::string text(waiting.size(), '\0');
-    for (std::size_t done = 0; done < text.size();) {
-        const auto got = ::pread(journal_, text.data() + done, text.size() - done,
-                                 static_cast<off_t>(waiting.offset + done));
-        if (got == 0) fail(ErrorKind::io, "{}: was cut off by another program", journal_of(path_));
-        if (got < 0 && errno != EINTR) refuse(journal_of(path_));
-        if (got > 0) done += static_cast<std::size_t>(got);
-    }
+void StudyFile::sync() {
+    if (!dirty_.exchange(false)) return;
+    if (!is_synchronised(synchronise_bytes(output_))) lost_ = errno;
+}
+
+/// The line with this study's fingerprint.
+std::string StudyFile::renamed(const std::string& line) const {
+    StudyRow row = table_.parse(line).value();
+    row.study = sweep_.fingerprint();
+    std::string text = table_.line(row);
+    text.pop_back();
     return text;
 }
 
-std::uint64_t StudyFile::Waiting::size(std::size_t units) const {
-    const auto end = bytes.begin() + static_cast<std::ptrdiff_t>(std::min(units, bytes.size()));
-    return std::accumulate(bytes.begin(), end, std::uint64_t{0});
+/// Reads the lines of the table in the order of the study.
+void StudyFile::for_each_line(const std::function<void(const std::string&)>& visit,
+                              const RunContext& run) const {
+    Lines lines(path_);
+    std::string line;
+    for (const auto& [first, stored] : index_) {
+        lines.seek(stored.offset);
+        for (std::uint64_t left = stored.bytes; left > 0;) {
+            run.check_stop();
+            if (!lines.take(line) || line.size() >= left)
+                fail(ErrorKind::io, "{}: was cut off by another program", path_);
+            left -= line.size() + 1;
+            visit(mixed_ ? renamed(line) : line);
+        }
+    }
 }
 
-bool StudyFile::finish(const std::string& more) {
-    const bool wanted = write(more);
-    if (output_ >= 0 && !is_synchronised(::fsync(output_))) refuse(path_);
-    // What an earlier one could not write, the system does not try again.
+void StudyFile::listen(const RunContext& run) const {
+    if (stream_ || !listener_) return;
+    for_each_line([&](const std::string& line) { listener_(*table_.parse(line)); }, run);
+}
+
+void StudyFile::rewrite(const RunContext& run) {
+    const std::string journal = journal_of(path_);
+    cut_to(journal_, 0, journal);
+    std::string block = table_.head();
+    constexpr std::size_t most_bytes = 1 << 20;
+    const auto write = [&](const std::string& line) {
+        block.append(line).append("\n");
+        if (block.size() < most_bytes) return;
+        write_all(journal_, block, journal);
+        block.clear();
+    };
+    for_each_line(write, run);
+    write_all(journal_, block, journal);
+    struct stat mode = {};
+    struct stat fresh = {};
+    if (::fstat(output_, &mode) != 0 || ::fstat(journal_, &fresh) != 0) refuse(path_);
+    if (mode.st_mode != fresh.st_mode && ::fchmod(journal_, mode.st_mode & 07777) != 0)
+        refuse(journal);
+    synchronise(journal_, journal);
+    if (::rename(journal.c_str(), real_file(path_).c_str()) != 0) refuse(path_);
+}
+
+void StudyFile::finish(const std::string& more, const RunContext& run) {
+    if (stream_) {
+        stream_->write(more);
+        return;
+    }
+    synchronise(output_, path_);
+    // What an earlier sync could not write, the system does not try again.
     if (lost_ != 0) refuse_file(path_, lost_);
-    if (journal_ >= 0 && ::unlink(journal_of(path_).c_str()) != 0) refuse(journal_of(path_));
-    return wanted;
+    if (journal_ < 0) return;
+    const bool in_order = !mixed_ && index_.size() == 1 &&
+                          table_.head().size() + index_.begin()->second.bytes == size_;
+    if (!in_order) return rewrite(run);
+    if (::unlink(journal_of(path_).c_str()) != 0) refuse(journal_of(path_));
 }
 
 }  // namespace stipple

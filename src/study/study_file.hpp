@@ -1,41 +1,50 @@
 // SPDX-License-Identifier: MIT
 //
-// The output of a study: rows in the order of the units, whatever order they are done in, and
-// nothing of what is done lost when the program ends in the middle.
+// The output of a study. Units are appended to the table as they are measured, in any order. When
+// all are there, the table is rewritten in the order of the study. Until then it has a file
+// FILE.journal beside it, which names the study and is locked by the process that works on it:
 //
-// Units that are next in order are written to the table at once. Those that come early wait in a
-// journal beside it, FILE.journal, which is there as long as the study is not finished:
+//     {"format":"stipple.study-journal","version":3,"study":...,"settings":{...}}
 //
-//     {"format":"stipple.study-journal","version":2,"study":...,"settings":{...}}
-//     FIRST-UNIT BYTES-OF-ITS-LINES BYTES-OF-THE-NEXT-UNIT'S...
-//     the lines of these units
-//     ...
+// The ordered rows are written into the journal, which is then renamed to the table: a crash leaves
+// the one or the other.
 //
-// After a crash the journal is cut back to its last whole entry, and the table to the last unit
-// that another one follows: its last unit may lack rows, and is done again. A table without a
-// journal is finished when its last unit has the results of the unit before it of the same measure.
-//
-// Beware   standard output, pipes and devices have no journal: rows wait in memory.
+// Resuming   A table with a journal has its units in any order; one without has them in order, up to
+//            its end. Its last unit may lack rows: unless it has the keys of an earlier unit of the
+//            same measure, it is measured again. Behind the last row of an unfinished table may be
+//            anything, which is cut off; what is damaged anywhere else is refused.
+//            The rows of a finished smaller study stay in front, and get the fingerprint of this one
+//            when the table is rewritten.
+// Beware     standard output, pipes and devices get rows in order: those that come early wait in
+//            memory.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/json.hpp"
 #include "io/output.hpp"
 #include "study/study_table.hpp"
 #include "study/sweep.hpp"
-#include "study/unit_runner.hpp"
 
 namespace stipple {
 
-/// The file beside a study's table that is there until it is finished.
+/// The file beside a study's table that is there until the study is finished.
 std::string journal_of(const std::string& table);
+
+/// Units without a result.
+struct StudyFailures {
+    std::uint64_t units = 0;
+    std::uint64_t first_unit = 0;
+    StudyRow first = {};     ///< row of that unit
+    bool met_limit = false;  ///< of memory or time, at least once
+};
 
 class StudyFile {
   public:
@@ -44,9 +53,11 @@ class StudyFile {
     /// What to do with a study that the file holds: refuse it, go on with it, or replace it.
     enum class Start { fresh, resume, anew };
 
-    /// @param listener called with each row of the study in order, also those found in the file
-    /// @throws Error: the file is there and no study's, or is a study's and nobody said what to do
-    /// with it, or is another one's than what is to be resumed; Error(io), Error(cancelled).
+    /// @param listener called with every row in the order of the study, including rows found in the
+    /// file; may be empty
+    /// @throws Error: the file exists and is no study's table, holds a study without being asked to
+    /// resume or replace it, or holds another study than the one to be resumed; Error(io),
+    /// Error(cancelled).
     StudyFile(std::string path, const Sweep& sweep, const StudyTable& table, Start start,
               Listener listener, const RunContext& run);
 
@@ -54,67 +65,70 @@ class StudyFile {
     StudyFile& operator=(const StudyFile&) = delete;
     ~StudyFile();
 
-    /// Units that need not be done.
+    /// Units that the file has, in order.
     [[nodiscard]] std::vector<UnitRange> done() const;
-    [[nodiscard]] std::uint64_t units_written() const { return next_; }
+    [[nodiscard]] std::uint64_t units_written() const { return written_; }
+    [[nodiscard]] const StudyFailures& failures() const { return failures_; }
     /// Whether rows go to standard output, a pipe or a device.
     [[nodiscard]] bool is_stream() const { return stream_.has_value(); }
     [[nodiscard]] bool has_journal() const { return journal_ >= 0; }
 
-    /// Takes units that were done. False: the pipe was closed, and nobody wants more.
-    /// @throws Error(io)
+    /// Writes units; any thread may call it. False: the reader of the pipe has closed it.
+    /// @throws Error(io), now and in all later calls
     bool put(const Segment& segment);
 
-    /// Adds text behind the rows, once all units are there, and takes the journal away.
-    bool finish(const std::string& more = {});
-
-    /// Has what was taken put on the disk itself; may be called beside put().
+    /// Writes new rows to the disk itself; may be called beside put().
     void sync();
 
-  private:
-    /// Units that wait for their turn.
-    struct Waiting {
-        std::vector<std::uint64_t> bytes = {};  ///< of each unit
-        std::uint64_t offset = 0;               ///< in the journal
-        std::string text = {};                  ///< where there is none
+    /// Passes the rows of a file to the listener; all units have been put. A stream has done so.
+    /// @throws Error(cancelled), Error(io)
+    void listen(const RunContext& run) const;
 
-        /// Bytes of the first units.
-        [[nodiscard]] std::uint64_t size(std::size_t units = ~std::size_t{0}) const;
+    /// Puts the rows of a file in order and removes its journal; adds the text to a stream.
+    /// @throws Error(cancelled), Error(io)
+    void finish(const std::string& more, const RunContext& run);
+
+  private:
+    /// Units that are together in the table, in order.
+    struct Stored {
+        std::uint64_t last = 0;  ///< behind the last one
+        std::uint64_t offset = 0;
+        std::uint64_t bytes = 0;
     };
+    class TableReader;
 
     void open_file(Start start, const RunContext& run);
-    void open_journal();
+    void lock_journal();
+    [[nodiscard]] bool journal_is_ours() const;
     void begin_journal();
-    void read_journal();
-    class Lines;
-    class RowReader;
-    /// The head of a journal, which stays in `line`; null where it is none.
-    static Json head_of_journal(Lines& lines, std::string& line);
-    bool read_entry(Lines& lines);
-    void read_rows(const RunContext& run);
-    /// The finished study of which the rows are that are there, if this one has all that it has, and
-    /// more; nothing where they are this one's. @throws Error(input) where they are another's
     [[nodiscard]] std::optional<Sweep> smaller_study(const RunContext& run) const;
-    void take_over(const Sweep& smaller, const RunContext& run);
-    void keep(const Segment& segment, bool in_journal);
     [[noreturn]] void refuse_other() const;
-    bool write_waiting();
-    bool write(const std::string& text);
-    [[nodiscard]] std::string text_of(const Waiting& waiting) const;
+    [[nodiscard]] bool has(std::uint64_t unit) const;
+    void store(UnitRange units, std::uint64_t offset, std::uint64_t bytes);
+    void note_failure(std::uint64_t unit, const StudyRow& row);
+    bool put_in_turn(const Segment& segment);
+    void for_each_line(const std::function<void(const std::string&)>& visit,
+                       const RunContext& run) const;
+    [[nodiscard]] std::string renamed(const std::string& line) const;
+    void rewrite(const RunContext& run);
 
     std::string path_;
     const Sweep& sweep_;
     const StudyTable& table_;
     Listener listener_;
+    std::optional<io::Output> stream_;  ///< instead of a file: standard output, a pipe, a device
     int output_ = -1;
     int journal_ = -1;
-    std::atomic<bool> dirty_ = false;   ///< something was written since the last sync
-    std::atomic<int> lost_ = 0;         ///< why what was written did not get to the disk; 0: it did
-    bool broken_ = false;               ///< a write failed: nothing may be written behind the gap
-    std::optional<io::Output> stream_;  ///< in place of a file: standard output, a pipe, a device
-    std::uint64_t journal_size_ = 0;
-    std::uint64_t next_ = 0;  ///< unit whose rows come next
-    std::map<std::uint64_t, Waiting> waiting_;
+    std::mutex mutex_;                          // of all below
+    std::map<std::uint64_t, Stored> index_;     ///< by the first unit
+    std::map<std::uint64_t, Segment> waiting_;  ///< for their turn in a stream
+    std::uint64_t size_ = 0;                    ///< of the table, in bytes
+    std::uint64_t written_ = 0;                 ///< units
+    bool mixed_ = false;         ///< some rows have the fingerprint of a smaller study
+    std::exception_ptr broken_;  ///< a write failed: nothing may be written behind the gap
+    StudyFailures failures_;
+    std::atomic<bool> dirty_ = false;  ///< something was written since the last sync
+    std::atomic<int> lost_ = 0;        ///< errno of a sync that failed
 };
 
 }  // namespace stipple

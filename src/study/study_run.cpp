@@ -35,9 +35,28 @@ std::string packed(const Work& ranges, const WorkDone& done, const std::string& 
     to.put(done_message).put_all(error).put_all(ranges).put_all(done.too_large).put(done.seconds);
     for (const Segment& segment : done.segments) {
         to.put(segment.units);
-        for (const std::string& lines : segment.lines) to.put_all(lines);
+        for (const UnitResult& r : segment.results) {
+            to.put(r.numbers.size()).put_all(r.domain).put(r.points).put(r.generate_seconds);
+            to.put(r.seconds).put_all(r.failure);
+            for (const auto& [key, value] : r.numbers) to.put_all(key).put(value);
+        }
     }
     return to.take();
+}
+
+UnitResult unpacked_result(Unpacker& from) {
+    UnitResult r;
+    r.numbers.resize(from.take<std::size_t>());
+    r.domain = from.take_text();
+    r.points = from.take<std::optional<std::uint64_t>>();
+    r.generate_seconds = from.take<double>();
+    r.seconds = from.take<double>();
+    r.failure = from.take_text();
+    for (auto& [key, value] : r.numbers) {
+        key = from.take_text();
+        value = from.take<double>();
+    }
+    return r;
 }
 
 WorkDone unpacked(Unpacker& from) {
@@ -45,7 +64,7 @@ WorkDone unpacked(Unpacker& from) {
     while (!from.empty()) {
         Segment segment{.units = from.take<UnitRange>()};
         for (auto unit = segment.units.first; unit < segment.units.last; ++unit)
-            segment.lines.push_back(from.take_text());
+            segment.results.push_back(unpacked_result(from));
         done.segments.push_back(std::move(segment));
     }
     return done;
@@ -132,17 +151,14 @@ class Leader {
     }
 
     void take(const Work& ranges, const WorkDone& result) {
+        bool alive = true;
+        for (const Segment& segment : result.segments) alive = alive && file_.put(segment);
         const std::lock_guard lock(mutex_);
         --running_;
-        try {
-            left_.finish(ranges, result.seconds);
-            too_large_.insert(too_large_.end(), result.too_large.begin(), result.too_large.end());
-            for (const Segment& segment : result.segments) alive_ = alive_ && file_.put(segment);
-            if (!alive_) stop_all();
-        } catch (...) {
-            // Still locked: another thread would take the broken file for a pipe nobody reads.
-            stop_for(std::current_exception());
-        }
+        left_.finish(ranges, result.seconds);
+        too_large_.insert(too_large_.end(), result.too_large.begin(), result.too_large.end());
+        alive_ = alive_ && alive;
+        if (!alive_) stop_all();
     }
 
     void give_up(std::exception_ptr error) {

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "study/table_columns.hpp"
 
 namespace stipple {
@@ -67,11 +69,40 @@ StudyRow row_of(const Sweep& sweep, const Unit& unit) {
             .study = sweep.fingerprint()};
 }
 
+std::vector<StudyRow> rows_of(const Sweep& sweep, const Unit& unit, const UnitResult& result) {
+    // Digits beyond microseconds would be noise.
+    const auto rounded = [](double seconds) { return std::round(seconds * 1e6) / 1e6; };
+    StudyRow row = row_of(sweep, unit);
+    row.domain = result.domain;
+    row.points = result.points;
+    row.generate_seconds = rounded(result.generate_seconds);
+    row.seconds = rounded(result.seconds);
+    if (!result.failure.empty()) {
+        row.status = "failed";
+        row.reason = result.failure;
+        return {row};
+    }
+    std::vector<StudyRow> rows;
+    for (const auto& [key, value] : result.numbers) {
+        row.key = key;
+        row.value = value;
+        rows.push_back(row);
+    }
+    return rows;
+}
+
 bool belongs(const StudyRow& row, const StudyRow& unit) {
     return row.generator == unit.generator && row.generator_options == unit.generator_options &&
            row.dimension == unit.dimension && row.warps == unit.warps && row.count == unit.count &&
            row.seed == unit.seed && row.measure == unit.measure &&
            row.measure_options == unit.measure_options && row.study == unit.study;
+}
+
+std::optional<std::uint64_t> unit_of(const Sweep& sweep, const StudyRow& row) {
+    const auto index =
+        sweep.index_of(row.generator, row.dimension, row.count, row.seed, row.measure);
+    const bool known = index && belongs(row, row_of(sweep, sweep.unit(*index)));
+    return known ? index : std::nullopt;
 }
 
 StudyTable::StudyTable(TableStyle style, bool seconds)

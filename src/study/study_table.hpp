@@ -39,8 +39,36 @@ struct StudyRow {
     [[nodiscard]] bool failed() const { return status != "ok"; }
 };
 
-/// What a unit of the sweep says in all its rows.
+struct KeyedNumber {
+    std::string key;
+    double value = 0;
+};
+
+/// Outcome of one measure of one set: what its rows say beyond the unit itself.
+struct UnitResult {
+    std::vector<KeyedNumber> numbers = {};
+    std::string domain = {};
+    std::optional<std::uint64_t> points = {};
+    double generate_seconds = 0;
+    double seconds = 0;
+    std::string failure = {};    ///< one line; empty: it went well
+    bool out_of_memory = false;  ///< more than a worker's fraction is needed
+};
+
+/// Units that were measured one after the other.
+struct Segment {
+    UnitRange units;
+    std::vector<UnitResult> results = {};  ///< of each unit
+};
+
+/// Columns that are the same in all rows of a unit.
 StudyRow row_of(const Sweep& sweep, const Unit& unit);
+
+/// A row for each number of the unit, or the one that says why there is none.
+std::vector<StudyRow> rows_of(const Sweep& sweep, const Unit& unit, const UnitResult& result);
+
+/// The unit that a row is of; nullopt if the sweep has none.
+std::optional<std::uint64_t> unit_of(const Sweep& sweep, const StudyRow& row);
 
 /// Whether a row is one that the unit has.
 bool belongs(const StudyRow& row, const StudyRow& unit);

@@ -207,21 +207,24 @@ std::string Sweep::lacks(const Sweep& part) const {
     return last > all.first_seed + (all.seeds - 1) ? fmt::format("seed {}", last) : "";
 }
 
-std::uint64_t Sweep::same_unit(const Sweep& part, const Unit& unit) const {
-    const auto place = [](const auto& list, const auto& entry, auto proj) {
-        return static_cast<std::uint64_t>(std::ranges::find(list, entry, proj) - list.begin());
+std::optional<std::uint64_t> Sweep::index_of(std::string_view generator, std::uint64_t dimension,
+                                             std::uint64_t count, std::uint64_t seed,
+                                             std::string_view measure) const {
+    std::uint64_t index = 0;
+    bool known = true;
+    const auto append = [&](const auto& list, const auto& entry, auto projection) {
+        const auto it = std::ranges::find(list, entry, projection);
+        known = known && it != list.end();
+        index = index * list.size() + static_cast<std::uint64_t>(it - list.begin());
     };
-    const Cell cell = part.cell(unit.cell);
-    const auto generator =
-        place(generators_, part.generators_[cell.generator].spec, &Chosen<Generator>::spec);
-    const auto measure =
-        place(measures_, part.measures_[unit.measure].spec, &Chosen<Analyzer>::spec);
-    const auto dimension = place(request_.dimensions, cell.dimension, std::identity());
-    const auto count = place(request_.counts, cell.count, std::identity());
-    const std::uint64_t seed = part.request_.first_seed + unit.seed_index - request_.first_seed;
-    const std::uint64_t at =
-        (generator * request_.dimensions.size() + dimension) * request_.counts.size() + count;
-    return (at * request_.seeds + seed) * measures_.size() + measure;
+    append(generators_, generator, &Chosen<Generator>::spec);
+    append(request_.dimensions, dimension, std::identity());
+    append(request_.counts, count, std::identity());
+    const std::uint64_t seed_index = seed - request_.first_seed;
+    known = known && seed >= request_.first_seed && seed_index < request_.seeds;
+    index = index * request_.seeds + seed_index;
+    append(measures_, measure, &Chosen<Analyzer>::spec);
+    return known ? std::optional(index) : std::nullopt;
 }
 
 bool Sweep::seeded(std::size_t generator) const {

@@ -62,6 +62,13 @@ struct Unit {
     std::size_t measure = 0;
 };
 
+/// Units [first, last).
+struct UnitRange {
+    std::uint64_t first = 0;
+    std::uint64_t last = 0;
+    bool operator==(const UnitRange&) const = default;
+};
+
 /// Whether a result's name, or a part of it between dots, is meant; parts in capitals stand for any.
 bool names_result(const std::string& result, std::string_view wanted);
 
@@ -89,8 +96,11 @@ class Sweep {
     [[nodiscard]] std::uint64_t units_per_cell() const { return request_.seeds * measures_.size(); }
     /// What a part of this sweep has that it lacks, as "seed 5"; empty: nothing.
     [[nodiscard]] std::string lacks(const Sweep& part) const;
-    /// The unit here of a unit of a part of this sweep.
-    [[nodiscard]] std::uint64_t same_unit(const Sweep& part, const Unit& unit) const;
+    /// Index of the unit with these; nullopt if there is none.
+    [[nodiscard]] std::optional<std::uint64_t> index_of(std::string_view generator,
+                                                        std::uint64_t dimension,
+                                                        std::uint64_t count, std::uint64_t seed,
+                                                        std::string_view measure) const;
 
     /// Whether the sets of a generator differ from seed to seed.
     [[nodiscard]] bool seeded(std::size_t generator) const;

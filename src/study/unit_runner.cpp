@@ -147,6 +147,12 @@ bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunCon
            !takes_points(measure, points, run);
 }
 
+UnitResult failed(UnitResult result, const Failure& failure) {
+    result.failure = failure.reason;
+    result.out_of_memory = failure.memory;
+    return result;
+}
+
 /// One set of points: as it is measured, and before its warps.
 struct MadeSet {
     PointSet before = {};
@@ -212,64 +218,33 @@ bool is_meant(const std::string& key, const std::vector<std::string>& wanted) {
     });
 }
 
-/// What a measure said of a set.
-struct Measured {
-    std::vector<KeyedNumber> numbers = {};
-    std::string domain = {};
-    std::optional<std::uint64_t> points = {};
-    double seconds = 0;
-    std::optional<Failure> failure = {};
-};
-
-Measured measured(const SweepRequest& request, const Chosen<Analyzer>& measure,
-                  const PointSet& points, const RunContext& run) {
-    Measured found;
-    found.domain = points.domain->spec();
-    found.points = points.count();
+UnitResult measured(const SweepRequest& request, const Chosen<Analyzer>& measure,
+                    const PointSet& points, const RunContext& run) {
+    UnitResult result{.domain = points.domain->spec(), .points = points.count()};
     Report report;
-    found.failure = timed(run, request.time_limit, found.seconds, [&](const RunContext& limited) {
-        report = analyze(*measure.unit, points, measure.values, limited);
-        limited.check_stop();  // what was cut short is no result
-    });
-    if (found.failure) return found;
-    found.numbers = numbers_of(report, request.keys, request.curves);
-    if (found.numbers.empty() && report.find("lower") && report.find("upper"))
-        found.failure = Failure{fmt::format(
-            "its value is not known exactly; it is between {} and {}",
-            format_number(report.number("lower")), format_number(report.number("upper")))};
-    else if (found.numbers.empty())
-        found.failure = Failure{fmt::format("none of its results is asked for; they are {}",
-                                            join(report.keys(), ", "))};
-    return found;
+    const auto failure =
+        timed(run, request.time_limit, result.seconds, [&](const RunContext& limited) {
+            report = analyze(*measure.unit, points, measure.values, limited);
+            limited.check_stop();  // a report that was cut short is incomplete
+        });
+    if (failure) return failed(std::move(result), *failure);
+    result.numbers = numbers_of(report, request.keys, request.curves);
+    if (result.numbers.empty() && report.find("lower") && report.find("upper"))
+        result.failure = fmt::format("its value is not known exactly; it is between {} and {}",
+                                     format_number(report.number("lower")),
+                                     format_number(report.number("upper")));
+    else if (result.numbers.empty())
+        result.failure =
+            fmt::format("none of its results is asked for; they are {}", join(report.keys(), ", "));
+    return result;
 }
 
-std::string lines_of(const StudyTable& table, StudyRow row, const MadeSet& set,
-                     const Measured& found) {
-    row.domain = found.domain;
-    row.points = found.points;
-    const auto rounded = [](double seconds) { return std::round(seconds * 1e6) / 1e6; };
-    row.generate_seconds = rounded(set.seconds);
-    row.seconds = rounded(found.seconds);  // more than microseconds would be noise
-    if (found.failure) {
-        row.status = "failed";
-        row.reason = found.failure->reason;
-        return table.line(row);
-    }
-    std::string text;
-    for (const auto& [key, value] : found.numbers) {
-        row.key = key;
-        row.value = value;
-        text += table.line(row);
-    }
-    return text;
-}
-
-void keep(WorkDone& done, std::uint64_t unit, std::string lines) {
+void keep(WorkDone& done, std::uint64_t unit, const UnitResult& result) {
     auto& segments = done.segments;
     if (segments.empty() || segments.back().units.last != unit)
         segments.push_back({{unit, unit}, {}});
     segments.back().units.last = unit + 1;
-    segments.back().lines.push_back(std::move(lines));
+    segments.back().results.push_back(result);
 }
 
 }  // namespace
@@ -295,8 +270,8 @@ std::vector<KeyedNumber> numbers_of(const Report& report, const std::vector<std:
     return numbers;
 }
 
-UnitRunner::UnitRunner(const Sweep& sweep, const StudyTable& table, const RunContext& run)
-    : sweep_(sweep), table_(table), whole_memory_(run.max_memory) {
+UnitRunner::UnitRunner(const Sweep& sweep, const RunContext& run)
+    : sweep_(sweep), whole_memory_(run.max_memory) {
     const auto warps = sweep.later_warps();
     for (const std::size_t d : sweep.request().dimensions)
         for (std::size_t m = 0; m < sweep.measures().size() && !warps.empty(); ++m) try {
@@ -314,7 +289,7 @@ WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext&
     const bool shares_memory = run.max_memory < whole_memory_;
     WorkDone done;
     MadeSet set;
-    std::map<std::size_t, Measured> found;  // of the set, by the measure's number
+    std::map<std::size_t, UnitResult> results;  // of the set, by the measure's number
     std::optional<std::pair<std::uint64_t, std::uint64_t>> made;  // cell and seed of the set
     for (const UnitRange& range : ranges)
         for (std::uint64_t index = range.first; index < range.last; ++index) {
@@ -323,25 +298,26 @@ WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext&
             const Cell cell = sweep_.cell(unit.cell);
             const std::pair wanted{unit.cell, sweep_.seeded(cell.generator) ? unit.seed_index : 0};
             if (made != wanted) {
-                found.clear();
+                results.clear();
                 set = {};  // two would need twice the memory
                 set = made_set(sweep_, cell, sweep_.request().first_seed + unit.seed_index, quiet);
                 made = wanted;
                 done.seconds += set.seconds;
             }
-            const auto [it, fresh] = found.try_emplace(unit.measure);
-            Measured& result = it->second;
-            if (fresh && set.failure) result.failure = set.failure;
-            if (fresh && !set.failure) {
+            const auto [it, fresh] = results.try_emplace(unit.measure);
+            UnitResult& result = it->second;
+            if (fresh) {
                 const bool after = set.image && takes_image(cell.dimension, unit.measure);
-                result = measured(sweep_.request(), sweep_.measures()[unit.measure],
-                                  after ? *set.image : set.before, quiet);
+                result = set.failure ? failed({}, *set.failure)
+                                     : measured(sweep_.request(), sweep_.measures()[unit.measure],
+                                                after ? *set.image : set.before, quiet);
+                result.generate_seconds = set.seconds;
                 done.seconds += result.seconds;
             }
-            if (result.failure && result.failure->memory && shares_memory)
+            if (result.out_of_memory && shares_memory)
                 done.too_large.push_back({index, index + 1});
             else
-                keep(done, index, lines_of(table_, row_of(sweep_, unit), set, result));
+                keep(done, index, result);
         }
     return done;
 }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Makes the sets of a study and measures them: units in, lines of its table out.
+// Makes the sets of a study and measures them: units in, results out.
 //
 // What a set is measured on: its points after all warps. A measure that cannot take what those are
 // on (most discrepancies take the unit cube only) looks at the points before the first warp, after
 // the scrambles that stand there; the row's domain says so.
 //
-// Promise  the lines, but for the seconds, depend on the unit alone: not on the units that are done
-//          with it, nor on threads. What fails is a row with the reason.
+// Promise  results, except seconds, depend on the unit alone: not on the units that are measured
+//          with it, nor on threads. A failure is a result with the reason.
 #pragma once
 
 #include <cstdint>
@@ -24,19 +24,6 @@
 
 namespace stipple {
 
-/// Units [first, last).
-struct UnitRange {
-    std::uint64_t first = 0;
-    std::uint64_t last = 0;
-    bool operator==(const UnitRange&) const = default;
-};
-
-/// Units that were done, with their lines.
-struct Segment {
-    UnitRange units;
-    std::vector<std::string> lines = {};  ///< of each unit, one or more lines
-};
-
 /// What became of a piece of work.
 struct WorkDone {
     std::vector<Segment> segments = {};
@@ -48,7 +35,7 @@ class UnitRunner {
   public:
     /// @param run its memory is what units may have that are too large for a worker's share
     /// @throws Error(cancelled)
-    UnitRunner(const Sweep& sweep, const StudyTable& table, const RunContext& run);
+    UnitRunner(const Sweep& sweep, const RunContext& run);
 
     [[nodiscard]] const Sweep& sweep() const { return sweep_; }
 
@@ -70,7 +57,6 @@ class UnitRunner {
                                                   std::size_t count, const RunContext& run) const;
 
     const Sweep& sweep_;
-    const StudyTable& table_;
     std::uint64_t whole_memory_;
     /// Dimensions, and measures that look at points of them before the warps.
     std::set<std::pair<std::size_t, std::size_t>> before_warps_;
@@ -79,10 +65,6 @@ class UnitRunner {
 /// A report's numbers in order, under dotted keys, flags as 0 and 1. Lists of numbers as NAME[I]:
 /// with `curves`, or where there is nothing else. With `keys`, those of which a key is a part, from
 /// dot to dot: value is in centered.value, mean in mean[0].
-struct KeyedNumber {
-    std::string key;
-    double value = 0;
-};
 std::vector<KeyedNumber> numbers_of(const Report& report, const std::vector<std::string>& keys,
                                     bool curves);
 
