@@ -247,8 +247,9 @@ class Study {
         std::string takes = "about " + format_bytes(units * bytes);
         constexpr std::uint64_t most_cells = 1'000'000;  // quick to estimate
         if (sweep_.cells() <= most_cells)
-            takes += fmt::format(" and {} on {} {}", long_time(WorkLeft(sweep_).seconds() / cores),
-                                 cores, cores == 1 ? "core" : "cores");
+            takes +=
+                fmt::format(" and {} on {} {}", long_time(WorkQueue(sweep_).seconds_left() / cores),
+                            cores, cores == 1 ? "core" : "cores");
         fail_with_hint(
             ErrorKind::limit, "--yes starts it all the same",
             "the study has {} rows or more ({} generators x {} dimensions x {} counts x {} seeds x "

@@ -94,7 +94,6 @@ class Leader {
           threads_(threads_of(ranks, run)),
           workers_(threads_ * static_cast<std::size_t>(ranks.size())),
           queue_(runner.sweep(), file.done(), workers_),
-          left_(runner.sweep(), file.done()),
           started_(run.seconds ? run.seconds() : 0) {}
 
     bool go() {
@@ -155,7 +154,7 @@ class Leader {
         for (const Segment& segment : result.segments) alive = alive && file_.put(segment);
         const std::lock_guard lock(mutex_);
         --running_;
-        left_.finish(ranges, result.seconds);
+        queue_.finish(ranges, result.seconds);
         too_large_.insert(too_large_.end(), result.too_large.begin(), result.too_large.end());
         alive_ = alive_ && alive;
         if (!alive_) stop_all();
@@ -215,10 +214,12 @@ class Leader {
     }
 
     void show_progress() {
-        if (!run_.progress || !run_.seconds) return;
+        constexpr double apart = 0.1;  // seconds
+        if (!run_.progress || !run_.seconds || run_.seconds() < shown_ + apart) return;
+        shown_ = run_.seconds();
         const std::lock_guard lock(mutex_);
-        const double spent = run_.seconds() - started_;
-        const double left = left_.seconds() / static_cast<double>(workers_);
+        const double spent = shown_ - started_;
+        const double left = queue_.seconds_left() / static_cast<double>(workers_);
         if (spent > 0) run_.progress(std::min(0.999, spent / (spent + left)));
     }
 
@@ -238,7 +239,6 @@ class Leader {
     std::size_t workers_;
     std::mutex mutex_;  // of all below
     WorkQueue queue_;
-    WorkLeft left_;
     Work too_large_;
     std::uint64_t running_ = 0;
     std::exception_ptr error_;
@@ -248,7 +248,8 @@ class Leader {
     std::atomic<unsigned> busy_ = 0;
     std::stop_source stop_;
     double started_;
-    double synced_ = 0;  ///< when rows were put on the disk last
+    double synced_ = 0;  ///< time of the last sync
+    double shown_ = 0;   ///< time of the last progress
 };
 
 /// Another rank: threads that work, and one that exchanges messages with rank 0.

@@ -2,22 +2,11 @@
 #include "study/work_queue.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace stipple {
-namespace {
-
-constexpr double once = 2e-5;  // what every set and every measure costs, however small
-
-/// A set of a cell with all its measures.
-double set_cost(const Sweep& sweep, const Cell& cell) {
-    double seconds = generate_cost(sweep, cell);
-    for (std::size_t m = 0; m < sweep.measures().size(); ++m)
-        seconds += measure_cost(sweep, cell, m);
-    return seconds;
-}
-
-}  // namespace
 
 std::vector<UnitRange> missing(std::span<const UnitRange> done, UnitRange range) {
     std::vector<UnitRange> gaps;
@@ -30,132 +19,126 @@ std::vector<UnitRange> missing(std::span<const UnitRange> done, UnitRange range)
     return gaps;
 }
 
-double generate_cost(const Sweep& sweep, const Cell& cell) {
+SetCost set_cost(const Sweep& sweep, const Cell& cell) {
+    constexpr double once = 2e-5;  // of every set and every measure, however small
     const auto& generator = *sweep.generators()[cell.generator].unit;
     const auto n = static_cast<double>(cell.count);
     const auto d = static_cast<double>(cell.dimension);
-    const double warps = 5e-8 * n * d * static_cast<double>(sweep.warps().size());
-    if (generator.cost) return once + generator.cost(n, d) + warps;
-    if (generator.traits.sequence) return once + 3e-8 * n * d + warps;
-    return once + 3e-5 * n * std::pow(5.0, std::max(0.0, d - 2)) + warps;
+    SetCost cost{.make = once + 5e-8 * n * d * static_cast<double>(sweep.warps().size())};
+    cost.make += generator.cost              ? generator.cost(n, d)
+                 : generator.traits.sequence ? 3e-8 * n * d
+                                             : 3e-5 * n * std::pow(5.0, std::max(0.0, d - 2));
+    for (const auto& measure : sweep.measures())
+        cost.measure += once + (measure.unit->cost ? measure.unit->cost(n, d) : 5e-7 * n * d);
+    return cost;
 }
 
-double measure_cost(const Sweep& sweep, const Cell& cell, std::size_t measure) {
-    const Analyzer& analyzer = *sweep.measures()[measure].unit;
-    const auto n = static_cast<double>(cell.count);
-    const auto d = static_cast<double>(cell.dimension);
-    return once + (analyzer.cost ? analyzer.cost(n, d) : 5e-7 * n * d);
-}
-
-WorkLeft::WorkLeft(const Sweep& sweep, const std::vector<UnitRange>& done)
-    : sweep_(sweep), parts_(sweep.generators().size() * sweep.request().dimensions.size()) {
+WorkQueue::WorkQueue(const Sweep& sweep, std::vector<UnitRange> done, std::size_t workers)
+    : sweep_(sweep), done_(std::move(done)), workers_(static_cast<double>(workers)) {
+    const auto seeds = static_cast<double>(sweep.request().seeds);
     for (std::uint64_t c = 0; c < sweep.cells(); ++c) {
         const Cell cell = sweep.cell(c);
-        const auto seeds = static_cast<double>(sweep.request().seeds);
-        part_of(c).left += (sweep.seeded(cell.generator) ? seeds : 1) * set_cost(sweep, cell);
+        const double sets = sweep.seeded(cell.generator) ? seeds : 1;
+        work_.push_back({.left = sets * set_cost(sweep, cell).all()});
     }
-    finish(done, std::nullopt);
+    cells_.resize(work_.size());
+    std::iota(cells_.begin(), cells_.end(), std::uint64_t{0});
+    take_out(done_, std::nullopt);
+    sort();
 }
 
-WorkLeft::Part& WorkLeft::part_of(std::uint64_t cell) {
-    return parts_[static_cast<std::size_t>(cell / sweep_.request().counts.size())];
+double WorkQueue::measured_ratio(const CellWork& work) const {
+    if (work.finished > 0) return work.spent / work.finished;
+    return all_.finished > 0 ? all_.spent / all_.finished : 1;
 }
 
-void WorkLeft::finish(const std::vector<UnitRange>& ranges, std::optional<double> seconds) {
-    std::vector<std::pair<Part*, double>> costs;
-    double all = 0;
+double WorkQueue::seconds_left() const {
+    double left = 0;
+    for (const CellWork& work : work_) left += work.left * measured_ratio(work);
+    return left;
+}
+
+WorkQueue::Piece WorkQueue::piece_of(std::uint64_t index) const {
+    const Cell cell = sweep_.cell(index);
+    const SetCost cost = set_cost(sweep_, cell);
+    const double set = cost.all() * measured_ratio(work_[index]);
+    const std::uint64_t measures = sweep_.measures().size();
+    const std::uint64_t seeds = sweep_.request().seeds;
+    if (!sweep_.seeded(cell.generator)) {  // one set is all, but its rows take memory
+        constexpr std::uint64_t most_sets = 1 << 16;
+        return {measures * std::min(seeds, most_sets), set};
+    }
+    if (set > 2 * grain_ && cost.measure > 2 * cost.make && measures > 1)
+        return {1, set * (cost.make + cost.measure / static_cast<double>(measures)) / cost.all()};
+    const double sets = std::floor(std::clamp(grain_ / set, 1.0, static_cast<double>(seeds)));
+    return {measures * static_cast<std::uint64_t>(sets), sets * set};
+}
+
+void WorkQueue::sort() {
+    constexpr double longest = 1;      // seconds of a piece
+    constexpr double shortest = 2e-3;  // less would be spent on handing out
+    constexpr double pieces_of_worker = 32;
+    grain_ = std::clamp(seconds_left() / (pieces_of_worker * workers_), shortest, longest);
+    pieces_left_ = 0;
+    std::vector<double> seconds(work_.size());  // of pieces that are too long
+    for (const std::uint64_t cell : cells_) {
+        const Piece piece = piece_of(cell);
+        const std::uint64_t units = sweep_.units_per_cell() - work_[cell].pulled;
+        pieces_left_ += (units + piece.units - 1) / piece.units;
+        seconds[cell] = piece.seconds > 1.001 * grain_ ? piece.seconds : 0;
+    }
+    std::ranges::sort(cells_, [&](std::uint64_t a, std::uint64_t b) {
+        return seconds[a] != seconds[b] ? seconds[a] < seconds[b] : a > b;
+    });
+}
+
+std::optional<std::vector<UnitRange>> WorkQueue::pull() {
+    while (!cells_.empty()) {
+        const std::uint64_t cell = cells_.back();
+        std::uint64_t& pulled = work_[cell].pulled;
+        std::uint64_t units = piece_of(cell).units;
+        if (units > 1) units -= pulled % sweep_.measures().size();  // pieces end with a set
+        units = std::min(units, sweep_.units_per_cell() - pulled);
+        const std::uint64_t first = cell * sweep_.units_per_cell() + pulled;
+        pulled += units;
+        if (pulled == sweep_.units_per_cell()) cells_.pop_back();
+        pieces_left_ = cells_.empty() ? 0 : std::max<std::uint64_t>(pieces_left_, 2) - 1;
+        auto ranges = missing(done_, {first, first + units});
+        if (!ranges.empty()) return ranges;
+    }
+    return std::nullopt;
+}
+
+void WorkQueue::finish(const std::vector<UnitRange>& ranges, double seconds) {
+    take_out(ranges, seconds);
+    if (std::has_single_bit(++finished_)) sort();
+}
+
+void WorkQueue::take_out(std::span<const UnitRange> ranges, std::optional<double> seconds) {
+    std::vector<std::pair<CellWork*, double>> costs;
+    double sum = 0;
     const std::uint64_t per_cell = sweep_.units_per_cell();
     for (const auto& [begin, end] : ranges)
         for (std::uint64_t first = begin; first < end;) {
             const std::uint64_t index = first / per_cell;
             const std::uint64_t last = std::min(end, (index + 1) * per_cell);
             const Cell cell = sweep_.cell(index);
-            // Ranges that begin or end inside a set count for their share of it.
-            const std::uint64_t units_of_set =
-                sweep_.seeded(cell.generator) ? sweep_.measures().size() : per_cell;
-            const double sets =
-                static_cast<double>(last - first) / static_cast<double>(units_of_set);
-            costs.emplace_back(&part_of(index), sets * set_cost(sweep_, cell));
-            all += costs.back().second;
+            // A range that begins or ends inside a set counts as a fraction of it.
+            const bool seeded = sweep_.seeded(cell.generator);
+            const double sets = static_cast<double>(last - first) /
+                                static_cast<double>(seeded ? sweep_.measures().size() : per_cell);
+            costs.emplace_back(&work_[index], sets * set_cost(sweep_, cell).all());
+            sum += costs.back().second;
             first = last;
         }
-    for (const auto& [part, cost] : costs) {
-        part->left = std::max(0.0, part->left - cost);
+    for (const auto& [work, cost] : costs) {
+        work->left = std::max(0.0, work->left - cost);
         if (!seconds) continue;
-        part->modelled += cost;
-        part->spent += *seconds * cost / all;
-    }
-}
-
-double WorkLeft::seconds() const {
-    double modelled = 0;
-    double spent = 0;
-    for (const Part& part : parts_) {
-        modelled += part.modelled;
-        spent += part.spent;
-    }
-    double left = 0;
-    for (const Part& part : parts_)
-        left += part.left * (part.modelled > 0 ? part.spent / part.modelled
-                             : modelled > 0    ? spent / modelled
-                                               : 1);
-    return left;
-}
-
-WorkQueue::WorkQueue(const Sweep& sweep, std::vector<UnitRange> done, std::size_t workers)
-    : sweep_(sweep), done_(std::move(done)) {
-    constexpr double longest = 1;      // seconds of a piece
-    constexpr double shortest = 2e-3;  // less would be spent on handing out
-    constexpr double pieces_of_worker = 32;
-    const double left = WorkLeft(sweep, done_).seconds();
-    const double share = left / (pieces_of_worker * static_cast<double>(workers));
-    const double grain = std::clamp(share, shortest, longest);
-    for (std::uint64_t cell = 0; cell < sweep.cells(); ++cell) {
-        cuts_.push_back(cut_of(cell, grain));
-        pieces_left_ += cuts_.back().pieces;
-    }
-    std::ranges::stable_sort(cuts_, std::ranges::greater{}, [&](const Cut& cut) {
-        return cut.cost > 1.001 * grain ? cut.cost : 0;
-    });
-}
-
-WorkQueue::Cut WorkQueue::cut_of(std::uint64_t index, double grain) const {
-    const Cell cell = sweep_.cell(index);
-    const std::uint64_t measures = sweep_.measures().size();
-    const double made = generate_cost(sweep_, cell);
-    const double measured = set_cost(sweep_, cell) - made;
-    Cut cut{.cell = index};
-    if (!sweep_.seeded(cell.generator)) {  // one set is all, but its rows must find room
-        constexpr std::uint64_t most_sets = 1 << 16;
-        cut.units = measures * std::min(sweep_.request().seeds, most_sets);
-        cut.cost = made + measured;
-    } else if (made + measured > 2 * grain && measured > 2 * made && measures > 1) {
-        cut.cost = made + measured / static_cast<double>(measures);
-    } else {
-        const double sets = std::floor(std::clamp(grain / (made + measured), 1.0,
-                                                  static_cast<double>(sweep_.request().seeds)));
-        cut.units = measures * static_cast<std::uint64_t>(sets);
-        cut.cost = sets * (made + measured);
-    }
-    cut.pieces = (sweep_.units_per_cell() + cut.units - 1) / cut.units;
-    return cut;
-}
-
-std::optional<std::vector<UnitRange>> WorkQueue::pull() {
-    while (cut_ < cuts_.size()) {
-        const Cut& cut = cuts_[cut_];
-        const std::uint64_t begin = cut.cell * sweep_.units_per_cell();
-        const std::uint64_t first = begin + piece_ * cut.units;
-        const std::uint64_t last = std::min(first + cut.units, begin + sweep_.units_per_cell());
-        --pieces_left_;
-        if (++piece_ == cut.pieces) {
-            piece_ = 0;
-            ++cut_;
+        for (CellWork* w : {work, &all_}) {
+            w->finished += cost;
+            w->spent += *seconds * cost / sum;
         }
-        auto ranges = missing(done_, {first, last});
-        if (!ranges.empty()) return ranges;
     }
-    return std::nullopt;
 }
 
 }  // namespace stipple

@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// A study cut into pieces of work by their cost: first those that take long however they are cut,
-// the most expensive of them first, so that none is left over when all others are done; then the
-// rest in the order of the study, so that rows can be written soon.
+// Pieces of work of a study. Cells whose pieces take long come first, the longest first, so that
+// none is left when all others are done; the rest follows in the order of the study, so that a
+// stream can write its rows soon.
 //
-// A piece is some sets of one cell or, where the measures of one set cost more than to make it
-// again, some of a set's measures. Pieces take about a second at most where that can be, so that an
-// interrupted study has lost little.
+// A piece is some sets of one cell or, if measuring a set costs more than making it again, one of
+// its measures. Pieces take at most about a second if possible: an interruption loses little.
 //
-// What is left takes, summed over generators and dimensions,
+// Times are modelled at first, by the costs in the records of the units and n d where there is
+// none, and measured after:
 //
-//     (model of what is left) x (spent / model of what is done),
+//     seconds = model x (spent / model of what is finished),   of the cell, or else of all cells.
 //
-// the correction being that of all that is done where nothing is done there yet.
-//
-// Shape   memory goes with the number of cells, not of sets.
-// Beware  the model is good to a factor of ten or so: it orders work and cuts it.
+// Shape   memory grows with the number of cells, not of sets.
+// Beware  the model is good to a factor of ten or so.
 #pragma once
 
 #include <cstdint>
@@ -24,72 +22,66 @@
 #include <vector>
 
 #include "study/sweep.hpp"
-#include "study/unit_runner.hpp"
 
 namespace stipple {
 
-/// The parts of a range that are not done. @param done in order, none within another
+/// Parts of a range that are not done. @param done in order, without overlaps
 std::vector<UnitRange> missing(std::span<const UnitRange> done, UnitRange range);
 
-/// Seconds on one core to make a set.
-double generate_cost(const Sweep& sweep, const Cell& cell);
-
-/// Seconds on one core to measure a set.
-double measure_cost(const Sweep& sweep, const Cell& cell, std::size_t measure);
-
-/// What is left of a study, in seconds of one core.
-class WorkLeft {
-  public:
-    /// All but what was done before.
-    explicit WorkLeft(const Sweep& sweep, const std::vector<UnitRange>& done = {});
-
-    /// Takes out what was done, and learns from the seconds that it took, if they are known.
-    void finish(const std::vector<UnitRange>& ranges, std::optional<double> seconds);
-
-    [[nodiscard]] double seconds() const;
-
-  private:
-    /// One generator in one dimension.
-    struct Part {
-        double left = 0;
-        double modelled = 0;  ///< of what is done
-        double spent = 0;
-    };
-
-    [[nodiscard]] Part& part_of(std::uint64_t cell);
-
-    const Sweep& sweep_;
-    std::vector<Part> parts_;
+/// Modelled seconds on one core.
+struct SetCost {
+    double make = 0;
+    double measure = 0;  ///< with all measures
+    [[nodiscard]] double all() const { return make + measure; }
 };
+
+SetCost set_cost(const Sweep& sweep, const Cell& cell);
 
 class WorkQueue {
   public:
-    /// @param workers that will pull at once
-    WorkQueue(const Sweep& sweep, std::vector<UnitRange> done, std::size_t workers);
+    /// @param done in order @param workers that will pull at once
+    explicit WorkQueue(const Sweep& sweep, std::vector<UnitRange> done = {},
+                       std::size_t workers = 1);
 
-    /// The next piece; nothing when all was given out.
+    /// The next piece; nullopt after the last.
     std::optional<std::vector<UnitRange>> pull();
 
-    /// Pieces that were not given out yet; some may turn out to be done.
+    /// Takes out what was done in so many seconds of one core.
+    void finish(const std::vector<UnitRange>& ranges, double seconds);
+
+    /// About how many pieces have not been pulled.
     [[nodiscard]] std::uint64_t pieces_left() const { return pieces_left_; }
 
+    /// Seconds of one core for all that is not finished.
+    [[nodiscard]] double seconds_left() const;
+
   private:
-    /// How the units of a cell are cut.
-    struct Cut {
-        std::uint64_t cell = 0;
-        std::uint64_t units = 1;  ///< of a piece
-        std::uint64_t pieces = 0;
-        double cost = 0;  ///< of a piece
+    /// Modelled seconds of a cell, except `spent`, and its units that have been pulled.
+    struct CellWork {
+        double left = 0;
+        double finished = 0;
+        double spent = 0;
+        std::uint64_t pulled = 0;
+    };
+    struct Piece {
+        std::uint64_t units = 1;
+        double seconds = 0;
     };
 
-    [[nodiscard]] Cut cut_of(std::uint64_t cell, double grain) const;
+    [[nodiscard]] double measured_ratio(const CellWork& work) const;
+    [[nodiscard]] Piece piece_of(std::uint64_t cell) const;
+    void take_out(std::span<const UnitRange> ranges, std::optional<double> seconds);
+    void sort();
 
     const Sweep& sweep_;
     std::vector<UnitRange> done_;
-    std::vector<Cut> cuts_;
-    std::size_t cut_ = 0;
-    std::uint64_t piece_ = 0;
+    double workers_;
+    double grain_ = 0;  ///< seconds that a piece should take
+    std::vector<CellWork> work_;
+    CellWork all_;                      ///< finished and spent in all cells
+    std::vector<std::uint64_t> cells_;  ///< not yet pulled, the last one first
     std::uint64_t pieces_left_ = 0;
+    std::uint64_t finished_ = 0;  ///< pieces
 };
 
 }  // namespace stipple

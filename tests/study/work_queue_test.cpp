@@ -65,38 +65,48 @@ TEST(WorkQueue, BeginsWithWhatIsDearAndKeepsTheOrderOfTheRest) {
     EXPECT_EQ(firsts, (std::vector<std::uint64_t>{15, 16, 17, 6, 7, 8, 0, 3, 9, 12}));
 }
 
-TEST(WorkLeft, IsNothingInTheEndAndLearnsFromWhatIsDone) {
+TEST(WorkQueue, NothingIsLeftInTheEnd) {
     const Sweep s = sweep();
-    const double modelled = WorkLeft(s).seconds();
+    const double modelled = WorkQueue(s).seconds_left();
     EXPECT_GT(modelled, 0);
-    WorkLeft slower(s);
-    // The first part took a hundred times as long as the model predicts, so the estimate for the
-    // rest grows.
+    EXPECT_NEAR(WorkQueue(s, {{0, s.units()}}).seconds_left(), 0, 1e-9 * modelled);
+    // Everything takes a hundred times what the model says: so will what is left.
+    WorkQueue slower(s);
     const UnitRange first{0, s.units() / 3};
-    const double part = modelled - WorkLeft(s, {first}).seconds();
-    slower.finish({first}, part * 100);
-    EXPECT_GT(slower.seconds(), 5 * (modelled - part));
-    EXPECT_NEAR(WorkLeft(s, {{0, s.units()}}).seconds(), 0, 1e-9 * modelled);
+    const double left = WorkQueue(s, {first}).seconds_left();
+    slower.finish({first}, (modelled - left) * 100);
+    EXPECT_GT(slower.seconds_left(), 50 * left);
 }
 
-// Searches in 6 dimensions that are a thousand times faster than the model do not change the
-// estimate for two dimensions.
-TEST(WorkLeft, LearnsForEachDimension) {
+// Searches in 6 dimensions that are a thousand times faster than the model do not make those in the
+// plane faster; cells of which nothing is known are as fast as all others together.
+TEST(WorkQueue, LearnsFromMeasuredTimes) {
     const Sweep s(SweepRequest{.generators = {"random"},
                                .counts = {1000},
-                               .dimensions = {2, 6},
+                               .dimensions = {2, 6, 3},
                                .seeds = 10,
                                .measures = {"star-discrepancy"}});
-    const auto cost = [&s](std::uint64_t cell) {
-        return std::pair(generate_cost(s, s.cell(cell)), measure_cost(s, s.cell(cell), 0));
-    };
-    const auto [made, measured] = cost(0);
-    const auto [made_6, measured_6] = cost(1);
-    WorkLeft left(s);
-    EXPECT_NEAR(left.seconds(), 10 * (made + measured + made_6 + measured_6), 1e-9);
-    left.finish({{10, 15}}, 5e-3 * (made_6 + measured_6));
-    left.finish({{0, 5}}, 5 * (made + measured));
-    EXPECT_NEAR(left.seconds(), 5 * (made + measured) + 5e-3 * (made_6 + measured_6), 1e-9);
+    const auto cost = [&s](std::uint64_t cell) { return set_cost(s, s.cell(cell)).all(); };
+    WorkQueue queue(s);
+    EXPECT_NEAR(queue.seconds_left(), 10 * (cost(0) + cost(1) + cost(2)), 1e-9);
+    queue.finish({{10, 15}}, 5e-3 * cost(1));
+    queue.finish({{0, 5}}, 5 * cost(0));
+    const double all = (5 * cost(0) + 5e-3 * cost(1)) / (5 * cost(0) + 5 * cost(1));
+    EXPECT_NEAR(queue.seconds_left(), 5 * cost(0) + 5e-3 * cost(1) + 10 * all * cost(2), 1e-9);
+}
+
+// poisson-disk is thought to be dearer, and is measured to be cheaper.
+TEST(WorkQueue, SortsByMeasuredTimesWhenTheyAreKnown) {
+    const Sweep s({.generators = {"random", "poisson-disk"},
+                   .counts = {100'000'000},
+                   .seeds = 4,
+                   .measures = {"moments"}});
+    WorkQueue queue(s, {}, 2);
+    EXPECT_EQ(queue.pull()->front().first, 4U);
+    EXPECT_EQ(queue.pull()->front().first, 5U);
+    queue.finish({{0, 1}}, 100);
+    queue.finish({{4, 5}}, 50);
+    EXPECT_EQ(queue.pull()->front().first, 0U);
 }
 
 TEST(Sweep, UnitsGoThroughGeneratorsThenDimensionsCountsSeedsMeasures) {
