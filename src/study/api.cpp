@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Studies in memory, for the public API.
+// Public API of studies: results in memory.
 #include <cmath>
 
 #include "core/error.hpp"

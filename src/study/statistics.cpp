@@ -12,7 +12,7 @@
 namespace stipple {
 namespace {
 
-/// Of sorted numbers, between neighbours by a straight line.
+/// Quantile of sorted numbers, interpolated linearly.
 double quantile(std::span<const double> sorted, double q) {
     const double at = q * static_cast<double>(sorted.size() - 1);
     const auto below = static_cast<std::size_t>(at);
@@ -47,7 +47,7 @@ SampleSummary summarize(std::span<const double> sample) {
     std::vector<double> sorted(sample.begin(), sample.end());
     std::ranges::sort(sorted);
     s.median = quantile(sorted, 0.5);
-    // The mean of equal numbers is that number: a rounded sum would give it an error.
+    // A rounded sum would give equal numbers an error.
     const bool same = sorted.front() == sorted.back();
     s.mean = same ? sorted.front() : std::accumulate(sample.begin(), sample.end(), 0.0) / n;
     if (sample.size() < 2) return s;
@@ -109,7 +109,7 @@ MeanTest welch_test(std::span<const double> a, std::span<const double> b) {
     const double u = x.standard_error * x.standard_error;
     const double v = y.standard_error * y.standard_error;
     if (!(a.size() > 1 && b.size() > 1)) return tested(x.mean - y.mean, not_known, not_known);
-    const double share = u / (u + v);  // in place of the squares of u and v, which underflow
+    const double share = u / (u + v);  // the squares of u and v may underflow
     const double degrees = 1 / (share * share / static_cast<double>(a.size() - 1) +
                                 (1 - share) * (1 - share) / static_cast<double>(b.size() - 1));
     return tested(x.mean - y.mean, std::sqrt(u + v), degrees);

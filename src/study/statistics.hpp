@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What independent replications tell of a mean, and of the difference of two.
+// Statistics of independent replications: means, their intervals, and differences of two means.
 //
 //     mean, s^2 = sum (x - mean)^2 / (r - 1), standard error s / sqrt(r)
 //     t interval: mean -+ t(r - 1) s / sqrt(r)
@@ -11,8 +11,8 @@
 //     Holm: the i-th smallest of m p-values (from 0) times m - i, never falling, at most 1
 //
 // Promise  the bootstrap is a function of the numbers, their order and the seed alone.
-// Beware   where neither sample varies there is nothing to estimate an error by: the test says p = 1
-//          if the means are the same, else 0. What has no value (an error of one number) is a NaN.
+// Beware   if neither sample varies, no error can be estimated: p = 1 if the means are the same, else
+//          0. Values that do not exist, such as the error of one number, are NaN.
 // Source   B. L. Welch, Biometrika 34 (1947) 28-35, doi:10.1093/biomet/34.1-2.28; S. Holm,
 //          Scandinavian Journal of Statistics 6 (1979) 65-70; B. Efron, Annals of Statistics 7
 //          (1979) 1-26, doi:10.1214/aos/1176344552.
@@ -49,8 +49,8 @@ Interval t_interval(const SampleSummary& sample, double confidence);
 
 double root_mean_square(std::span<const double> sample);
 
-/// Interval for the root mean square of independent normal numbers of mean 0; not known of numbers
-/// that do not vary.
+/// Interval for the root mean square of independent normal numbers of mean 0; NaN if the numbers are
+/// all the same.
 Interval rms_interval(std::span<const double> sample, double confidence);
 
 /// Percentile interval for the mean; `stream` separates samples that share a seed.
@@ -59,7 +59,7 @@ Interval bootstrap_interval(std::span<const double> sample, double confidence,
                             std::uint64_t resamples, std::uint64_t seed, std::uint64_t stream = 0,
                             const RunContext& run = {});
 
-/// A test of whether two means are the same; two-sided.
+/// Two-sided test of whether two means are the same.
 struct MeanTest {
     double difference = 0;
     double standard_error = 0;
@@ -70,10 +70,10 @@ struct MeanTest {
 
 MeanTest welch_test(std::span<const double> a, std::span<const double> b);
 
-/// Numbers of one place belong together. @throws nothing; both have the same length.
+/// Compares a[i] with b[i]; both have the same length.
 MeanTest paired_test(std::span<const double> a, std::span<const double> b);
 
-/// p-values that hold for all tests together, in the order given; a NaN stays and does not count.
+/// Holm's corrected p-values, in the given order; a NaN stays, and is not counted as a test.
 std::vector<double> holm(std::span<const double> p_values);
 
 }  // namespace stipple

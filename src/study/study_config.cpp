@@ -17,7 +17,7 @@
 namespace stipple {
 namespace {
 
-/// What the value of a key is: specs of units; words and numbers, one or a list; true or false.
+/// Kind of a key's value: specs of units; words and numbers, one or a list; true or false.
 enum class Holds { specs, items, flag };
 
 struct Key {
@@ -38,7 +38,7 @@ constexpr std::array config_keys = {
 
 constexpr std::array remarks = {"$schema", "comment"};
 
-/// Checks a spec by the unit that it names. @throws Error
+/// Checks the options of a spec. @throws Error
 void check_unit(std::string_view key, const Spec& spec) {
     if (key == "generators") (void)spec.values(find_generator(spec.name).options);
     if (key == "analyze") (void)spec.values(find_analyzer(spec.name).options);
@@ -73,7 +73,7 @@ class ConfigReader {
                     std::move(hint));
     }
 
-    /// Runs a check of another part of the program; what it says is said with the place.
+    /// Runs a check, and adds the position to its error.
     void checked(const std::string& where, const std::function<void()>& check) const {
         try {
             check();
@@ -95,7 +95,7 @@ class ConfigReader {
         }
         if (!value.is_boolean())
             refuse(where, fmt::format("expected true or false, got {}", shown(json_text(value))));
-        // Seconds are left out by an option, all else is asked for by one.
+        // The option for seconds omits them; all others ask for something.
         const bool left_out = name == "seconds";
         if (value.get<bool>() != left_out)
             settings_.emplace_back(left_out ? "no-seconds" : name, "true");
@@ -119,7 +119,7 @@ class ConfigReader {
         settings_.emplace_back(key, text);
     }
 
-    /// The spec of {"name": ..., "options": {...}}.
+    /// Spec of {"name": ..., "options": {...}}.
     std::string spec_of(const std::string& key, const Json& object,
                         const std::string& where) const {
         const std::vector<std::string> known = {"name", "options"};
@@ -146,7 +146,7 @@ class ConfigReader {
         return text;
     }
 
-    /// A value as one types it: numbers of a list are separated by commas, points by blanks.
+    /// A value as typed: numbers of a list are separated by commas, points by blanks.
     std::string option_text(const Json& value, const std::string& where, int lists = 2) const {
         if (value.is_string()) return value.get<std::string>();
         if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
@@ -187,7 +187,7 @@ bool is_power(std::uint64_t number, std::uint64_t base) {
     return number == 1;
 }
 
-/// One item of a list: a number, or a range of them.
+/// One item of a list: a number or a range.
 class CountRange {
   public:
     CountRange(std::string_view text, std::string_view who, std::uint64_t low, std::uint64_t high)
@@ -231,11 +231,11 @@ class CountRange {
         return *value;
     }
 
-    /// The base that is written: 2 of 2^4..2^16.
+    /// The written base: 2 in 2^4..2^16.
     std::uint64_t base(std::uint64_t first, std::uint64_t last) const {
         const auto mark = text_.find('^');
         const auto end = text_.substr(0, mark);
-        const auto begin = end.find_last_of(". ") + 1;  // 0 where there is none
+        const auto begin = end.find_last_of(". ") + 1;  // 0 if there is none
         const auto written = mark == std::string_view::npos ? std::optional<std::uint64_t>()
                                                             : parse_unsigned(end.substr(begin));
         if (written && *written > 1 && is_power(first, *written) && is_power(last, *written))

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// A study in a file: a JSON object whose keys are the verb's options.
+// Studies as JSON: an object whose keys are the options of the verb `study`; and lists of counts.
 //
 //     {"generators": ["random", {"name": "sobol", "options": {"scramble": "owen"}}],
 //      "count": "2^4..2^16", "seeds": 32, "analyze": ["star-discrepancy"], "warp": ["disk"]}
 //
-// data/study.schema.json says the same for editors.
+// data/study.schema.json describes it for editors.
 #pragma once
 
 #include <cstdint>
@@ -16,23 +16,20 @@
 
 namespace stipple {
 
-/// A setting of the study: option, text. Lists of units come as one setting for each.
+/// Settings of a study: option and text. A list of units has one setting for each unit.
 using StudySettings = std::vector<std::pair<std::string, std::string>>;
 
-/// The settings in a configuration, as texts that the command line checks. @throws Error(input)
-/// naming `source` and the place in it, such as $.generators[1].options.scramble
+/// Settings of a configuration, as texts that the command line checks.
+/// @throws Error(input) naming `source` and the position, such as $.generators[1].options.scramble
 StudySettings parse_study_config(std::string_view json, const std::string& source);
 
 /// All keys that a configuration may have.
 std::vector<std::string> study_config_keys();
 
-// Several counts in one text: what a study sweeps over.
-
-/// Whole numbers: lists 16,64,256; ranges by a factor 16..65536*2 or a step 10..50+10; and
-/// 2^4..2^16 or 16..65536, where both ends are powers of one base, all of its powers between. A
-/// range ends at the last number that is not above its end.
-/// @throws Error(usage) naming `who`: no numbers, outside of [low, high], an empty range, a number
-/// that stands twice.
+/// Numbers of a list: 16,64,256; ranges by a factor 16..65536*2 or by a step 10..50+10; and all powers
+/// of the written base in 2^4..2^16. A range ends at the last number that is not above its end.
+/// @throws Error(usage) naming `who`: no numbers, a number outside [low, high], an empty range, a
+/// number given twice.
 std::vector<std::uint64_t> parse_counts(std::string_view text, std::string_view who,
                                         std::uint64_t low, std::uint64_t high);
 

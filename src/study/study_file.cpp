@@ -64,21 +64,9 @@ void cut_to(int descriptor, std::uint64_t size, const std::string& path) {
 /// Whether the bytes are on the disk. Some file systems cannot synchronise, and report so.
 bool is_synchronised(int result) { return result == 0 || errno == EINVAL || errno == ENOTSUP; }
 
-void synchronise(int descriptor, const std::string& path) {
+/// Writes a new file to the disk, and its name in the folder.
+void synchronise_new(int descriptor, const std::string& path) {
     if (!is_synchronised(::fsync(descriptor))) refuse(path);
-}
-
-/// Writes a file's bytes to the disk, without its times where the system can.
-int synchronise_bytes(int descriptor) {
-#if defined(_POSIX_SYNCHRONIZED_IO) && _POSIX_SYNCHRONIZED_IO > 0
-    return ::fdatasync(descriptor);
-#else
-    return ::fsync(descriptor);
-#endif
-}
-
-/// Writes the names in a folder to the disk.
-void synchronise_folder(const std::string& path) {
     const int folder = ::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     const bool done = folder >= 0 && is_synchronised(::fsync(folder));
     const int error = errno;
@@ -130,7 +118,7 @@ Json head_of_journal(const std::string& table) {
 
 std::string journal_of(const std::string& table) { return real_file(table) + ".journal"; }
 
-// Reads the table of a study that is resumed, and stores where its units are.
+/// Reads the table of a study that is resumed, and stores the positions of its units.
 class StudyFile::TableReader {
   public:
     TableReader(StudyFile& file, bool unfinished, const RunContext& run)
@@ -142,7 +130,7 @@ class StudyFile::TableReader {
         file.mixed_ = smaller_.has_value();
     }
 
-    /// Returns the bytes of the table that are to stay.
+    /// Returns the size to which the table is to be cut.
     std::uint64_t read(const RunContext& run) {
         Lines lines(file_.path_);
         std::string text;
@@ -181,7 +169,7 @@ class StudyFile::TableReader {
         if (row.failed()) failure_ = row;
     }
 
-    /// The rows of this study begin behind those of a smaller one.
+    /// Ends the rows of a smaller study: those of this one follow.
     void begin_own_part(const StudyRow& row) {
         if (part_ == &file_.sweep_ || row.study != file_.sweep_.fingerprint()) file_.refuse_other();
         end_part(false);
@@ -206,7 +194,7 @@ class StudyFile::TableReader {
         failure_.reset();
     }
 
-    /// The unit that is read, as this study counts.
+    /// Index in this study of the unit that is read.
     [[nodiscard]] std::uint64_t own_unit() const {
         StudyRow row = *like_;
         row.study = file_.sweep_.fingerprint();
@@ -221,11 +209,11 @@ class StudyFile::TableReader {
         usual_keys_[like_->measure] = {*like_, std::move(keys_)};
     }
 
-    /// Stores the last unit of a part if it can be known to be whole. False: it cannot.
+    /// Stores the last unit of a part if it is whole. False: it may lack rows.
     bool end_part(bool finished) {
         if (!like_) return true;
         const auto& [row, keys] = usual_keys_[like_->measure];
-        // How many numbers a list has may depend on the set.
+        // Other sets may have lists of other lengths.
         const bool alike = finished || !keys_.back().ends_with(']') ||
                            (row.generator == like_->generator && row.count == like_->count &&
                             row.dimension == like_->dimension);
@@ -236,7 +224,7 @@ class StudyFile::TableReader {
 
     StudyFile& file_;
     std::optional<Sweep> smaller_;
-    const Sweep* part_;  ///< whose rows are read
+    const Sweep* part_;  ///< study of the rows that are read
     bool unfinished_;    ///< there is a journal
     bool ordered_;       ///< units are in order
     std::uint64_t line_ = 0;
@@ -275,7 +263,7 @@ void StudyFile::open_file(Start start, const RunContext& run) {
     Lines lines(path_);
     std::string first;
     const bool empty = lines.is_empty();
-    // A crash may have left a part of the first line; its end was not reached then.
+    // A crash may have left a part of the first line.
     const bool whole = lines.take(first);
     const bool ours = whole ? table_.is_head(first)
                             : start != Start::fresh && (table_.head().starts_with(first) ||
@@ -313,13 +301,13 @@ void StudyFile::lock_journal() {
     struct stat locked = {};
     struct stat there = {};
     const bool alone = ::flock(journal_, LOCK_EX | LOCK_NB) == 0;
-    // Another study may have finished meanwhile: the file that was opened is its table now.
+    // Another process may have finished meanwhile: then the opened file is its table now.
     if (!alone || ::fstat(journal_, &locked) != 0 ||
         ::stat(journal_of(path_).c_str(), &there) != 0 || locked.st_ino != there.st_ino)
         fail(ErrorKind::io, "{}: another study is writing to it", path_);
 }
 
-/// @throws Error(input) if it is another study's. False: it is damaged.
+/// False: the journal is damaged. @throws Error(input) if it is another study's
 bool StudyFile::journal_is_ours() const {
     const Json head = head_of_journal(path_);
     if (head.is_object() && head["study"] != sweep_.fingerprint()) refuse_other();
@@ -336,8 +324,7 @@ void StudyFile::begin_journal() {
                           journal_format, sweep_.fingerprint(), json_text(settings)),
               journal);
     // Without it, rows that are out of order would be taken for damage.
-    synchronise(journal_, journal);
-    synchronise_folder(journal);
+    synchronise_new(journal_, journal);
 }
 
 void StudyFile::refuse_other() const {
@@ -354,8 +341,8 @@ void StudyFile::refuse_other() const {
                    "{}: --resume: the study there is another one{}", path_, differs);
 }
 
-/// Finished study in front of the table, which this one extends; nullopt if the rows are this one's.
-/// @throws Error(input) if they are another study's
+/// The finished study that this one extends, if the table begins with its rows.
+/// @throws Error(input) if they are the rows of any other study
 std::optional<Sweep> StudyFile::smaller_study(const RunContext& run) const {
     SweepRequest request = sweep_.request();
     for (auto* list : {&request.generators, &request.measures}) list->clear();
@@ -390,7 +377,7 @@ std::optional<Sweep> StudyFile::smaller_study(const RunContext& run) const {
         refuse_other();
     }
     if (sweep->fingerprint() != fingerprint) refuse_other();
-    if (const std::string lost = sweep_.lacks(*sweep); !lost.empty())
+    if (const std::string lost = sweep_.missing_from(*sweep); !lost.empty())
         fail_with_hint(ErrorKind::input, "name it, too, or name another file with -o",
                        "{}: --resume: the study there has {}, this one has not", path_, lost);
     return sweep;
@@ -471,7 +458,7 @@ bool StudyFile::put_in_turn(const Segment& segment) {
 
 void StudyFile::sync() {
     if (!dirty_.exchange(false)) return;
-    if (!is_synchronised(synchronise_bytes(output_))) lost_ = errno;
+    if (!is_synchronised(::fsync(output_))) lost_ = errno;
 }
 
 /// The line with this study's fingerprint.
@@ -523,7 +510,7 @@ void StudyFile::rewrite(const RunContext& run) {
     if (::fstat(output_, &mode) != 0 || ::fstat(journal_, &fresh) != 0) refuse(path_);
     if (mode.st_mode != fresh.st_mode && ::fchmod(journal_, mode.st_mode & 07777) != 0)
         refuse(journal);
-    synchronise(journal_, journal);
+    if (!is_synchronised(::fsync(journal_))) refuse(journal);
     if (::rename(journal.c_str(), real_file(path_).c_str()) != 0) refuse(path_);
 }
 
@@ -532,8 +519,8 @@ void StudyFile::finish(const std::string& more, const RunContext& run) {
         stream_->write(more);
         return;
     }
-    synchronise(output_, path_);
-    // What an earlier sync could not write, the system does not try again.
+    if (!is_synchronised(::fsync(output_))) refuse(path_);
+    // The system does not try again what an earlier sync could not write.
     if (lost_ != 0) refuse_file(path_, lost_);
     if (journal_ < 0) return;
     const bool in_order = !mixed_ && index_.size() == 1 &&

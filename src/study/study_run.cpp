@@ -19,12 +19,12 @@ namespace {
 
 using Work = std::vector<UnitRange>;
 
-// The first byte of a message says what it is.
-constexpr char ask_message = 'A';   // give me work
-constexpr char work_message = 'W';  // here it is; none: there is no more
-constexpr char done_message = 'D';  // what became of it
-constexpr char bye_message = 'B';   // I have finished
-constexpr char halt_message = 'H';  // stop at once
+// First byte of a message.
+constexpr char ask_message = 'A';   // request of a thread for work
+constexpr char work_message = 'W';  // its answer; empty after the last piece
+constexpr char done_message = 'D';  // results of a piece
+constexpr char bye_message = 'B';   // the sender has finished
+constexpr char halt_message = 'H';  // the receiver is to stop at once
 
 constexpr auto short_pause = std::chrono::milliseconds(1);
 
@@ -70,11 +70,11 @@ WorkDone unpacked(Unpacker& from) {
     return done;
 }
 
-/// A run with the share of memory and threads that one of several workers has.
+/// A run with the memory and the threads of one of several workers.
 RunContext share_of(const RunContext& run, std::uint64_t workers, unsigned threads) {
     RunContext share = run;
     share.max_memory = run.max_memory / workers;
-    share.memory_in_use = {};  // it differs with what others do, as no row must
+    share.memory_in_use = {};  // it depends on other workers, and rows must not
     share.threads = threads;
     return share;
 }
@@ -83,7 +83,7 @@ void halt_others(Ranks& ranks) {
     for (int other = 1; other < ranks.size(); ++other) ranks.send(other, {halt_message});
 }
 
-/// Rank 0: the work that there is, and what came back of it.
+/// Rank 0: hands out work and takes results.
 class Leader {
   public:
     Leader(const UnitRunner& runner, StudyFile& file, Ranks& ranks, const RunContext& run)
@@ -109,7 +109,7 @@ class Leader {
         }
         threads.clear();
         if (error_) std::rethrow_exception(error_);
-        if (alive_) do_the_large_alone();
+        if (alive_) run_large();
         run_.check_stop();
         const std::uint64_t units = runner_.sweep().units();
         if (alive_ && file_.units_written() != units)
@@ -127,7 +127,7 @@ class Leader {
         return ranges;
     }
 
-    /// Threads inside a piece: one, unless there are fewer pieces than threads.
+    /// Threads for a piece: one, unless there are fewer pieces than threads.
     unsigned inner_threads() {
         const std::lock_guard lock(mutex_);
         if (ranks_.size() > 1) return 1;
@@ -175,7 +175,7 @@ class Leader {
         stop_.request_stop();
     }
 
-    /// Answers the others. False: no message came.
+    /// Handles one message of another rank. False: there is none.
     bool serve(int& others) {
         const auto message = ranks_.poll();
         if (!message) return false;
@@ -197,7 +197,7 @@ class Leader {
     }
 
     void wait_a_little() {
-        // A worker waits for an answer, so that where there are others the pause is short.
+        // Other ranks wait for answers.
         std::this_thread::sleep_for(ranks_.size() > 1 ? short_pause : 5 * short_pause);
         if (run_.stop.stop_requested()) {
             const std::lock_guard lock(mutex_);
@@ -205,7 +205,7 @@ class Leader {
         }
     }
 
-    /// A power cut loses a second's rows at most.
+    /// A power cut loses the rows of a second.
     void keep_safe() {
         constexpr double apart = 1;  // second
         if (!run_.seconds || run_.seconds() < synced_ + apart) return;
@@ -223,8 +223,8 @@ class Leader {
         if (spent > 0) run_.progress(std::min(0.999, spent / (spent + left)));
     }
 
-    /// What needs more memory than a share is done alone, one after the other.
-    void do_the_large_alone() {
+    /// Runs units one after the other that need more memory than a worker has.
+    void run_large() {
         RunContext alone = share_of(run_, 1, threads_of(ranks_, run_));
         for (const UnitRange& range : too_large_)
             for (const Segment& segment : runner_.run({range}, alone).segments)
@@ -237,7 +237,7 @@ class Leader {
     const RunContext& run_;
     unsigned threads_;
     std::size_t workers_;
-    std::mutex mutex_;  // of all below
+    std::mutex mutex_;  // for all below
     WorkQueue queue_;
     Work too_large_;
     std::uint64_t running_ = 0;
@@ -252,7 +252,7 @@ class Leader {
     double shown_ = 0;   ///< time of the last progress
 };
 
-/// Another rank: threads that work, and one that exchanges messages with rank 0.
+/// Another rank: threads that work, and this one, which exchanges messages with rank 0.
 class Worker {
   public:
     Worker(const UnitRunner& runner, Ranks& ranks, const RunContext& run)
@@ -282,7 +282,7 @@ class Worker {
         return true;
     }
 
-    /// Sends what was done, and asks for as much again.
+    /// Sends results, and asks for a piece after each.
     bool post() {
         bool any = false;
         for (std::string message; outbox_.try_pop(message); any = true) {
@@ -292,7 +292,7 @@ class Worker {
         return any;
     }
 
-    /// Until there is none: an empty piece.
+    /// Works until it gets an empty piece.
     void work_on() {
         const std::uint64_t workers = threads_ * static_cast<std::uint64_t>(ranks_.on_machine());
         RunContext share = share_of(run_, workers, 1);
@@ -303,7 +303,7 @@ class Worker {
             std::string error;
             try {
                 result = runner_.run(ranges, share);
-            } catch (const std::exception& e) {  // told to stop, as a rule
+            } catch (const std::exception& e) {  // mostly: cancelled
                 error = e.what();
             }
             outbox_.push(packed(ranges, result, error));

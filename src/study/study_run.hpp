@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// A study on all threads of this process and of the other MPI ranks. Each takes the next piece of
-// work when it is done with the last; rank 0 writes the results.
+// A study on all threads of this process and of the other MPI ranks. A thread gets the next piece of
+// work when it has finished one; rank 0 writes the results.
 //
-// Cost     between ranks, for each piece of work (a second of it, as a rule): 30 bytes to ask and
-//          to answer, and its rows, 150 to 250 bytes each. Rank 0 keeps 8 bytes for each unit that
-//          waits in the journal; every rank the points of the sets that it works on.
-// Promise  the file is the same for any number of threads and ranks, but for the seconds.
+// Cost     messages between ranks for each piece of work, usually a second: 30 bytes to ask and to
+//          answer, and some 50 bytes for each row. Rank 0 keeps 40 bytes for each stretch of units
+//          in the table; every rank keeps the points of the sets that it works on.
+// Promise  the file, except its columns of seconds, is the same for any number of threads and ranks.
 #pragma once
 
 #include "pipeline/ranks.hpp"
@@ -16,16 +16,15 @@
 
 namespace stipple {
 
-/// On rank 0: does the units that the file lacks. run.progress tells the share of the time that is
-/// over. False: the pipe was closed.
-/// @throws Error(cancelled) when told to stop; what is done is in the file. Error(io)
+/// Runs the units missing from the file, on rank 0; run.progress gets the elapsed fraction of the
+/// time. False: the reader of the pipe has closed it.
+/// @throws Error(cancelled), with all finished units in the file; Error(io)
 bool run_study(const UnitRunner& runner, StudyFile& file, Ranks& ranks, const RunContext& run);
 
-/// On the other ranks: works until rank 0 has no more to do. @throws Error(cancelled)
+/// Works for rank 0 until it has no more work, on the other ranks. @throws Error(cancelled)
 void work_for_study(const UnitRunner& runner, Ranks& ranks, const RunContext& run);
 
-/// Tells the other ranks that there is nothing to do; for rank 0, where it does not come to
-/// run_study.
+/// Ends the other ranks' work if rank 0 cannot call run_study.
 void dismiss(Ranks& ranks);
 
 }  // namespace stipple

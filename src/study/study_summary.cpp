@@ -19,7 +19,7 @@ TableCell real(const char* name, double value) {
     return {name, std::isnan(value) ? "" : format_number(value), true};
 }
 
-/// The columns of a row of means in order: their names, and the fields that they show.
+/// Visits the columns of a row of means in order: name and field.
 template <class Row, class Visit>
 void for_each_column(Row& row, const Visit& visit) {
     visit("table", row.table);
@@ -82,7 +82,7 @@ MeanRow mean_of(const StudyRow& first, std::span<const double> values, std::uint
     return row;
 }
 
-/// Values of the seeds that both samples have.
+/// Values of the seeds in both samples.
 struct Paired {
     std::vector<double> a;
     std::vector<double> b;
@@ -113,14 +113,16 @@ void StudySummary::add(const StudyRow& row) {
     }
     failed.some_went_well = true;
     const Topic topic{row.dimension, row.count, row.measure, row.key};
-    const auto [it, fresh] = places_.try_emplace({row.generator, topic}, samples_.size());
-    if (fresh) {
-        auto& members = topics_[topic];
-        if (members.empty()) topics_in_order_.push_back(topic);
-        members.push_back(samples_.size());
+    const std::size_t number = topic_numbers_.try_emplace(topic, topics_.size()).first->second;
+    if (number == topics_.size()) topics_.emplace_back();
+    auto& members = topics_[number];
+    auto member = std::ranges::find(members, row.generator,
+                                    [&](std::size_t i) { return samples_[i].row.generator; });
+    if (member == members.end()) {
+        member = members.insert(member, samples_.size());
         samples_.push_back({row});
     }
-    Sample& sample = samples_[it->second];
+    Sample& sample = samples_[*member];
     sample.seeds.push_back(row.seed);
     sample.values.push_back(row.value.value_or(std::nan("")));
 }
@@ -153,14 +155,14 @@ std::string StudySummary::means(TableStyle style, const SummaryOptions& options,
     return text;
 }
 
-std::vector<StudySummary::Pair> StudySummary::pairs_of(const Topic& topic, bool by_seed) const {
+std::vector<StudySummary::Pair> StudySummary::pairs_of(const std::vector<std::size_t>& members,
+                                                       bool by_seed) const {
     std::vector<Pair> pairs;
     std::vector<double> p_values;
-    const auto& members = topics_.at(topic);
     std::vector<std::vector<double>> values;
     for (const std::size_t member : members) {
         values.push_back(samples_[member].values);
-        if (is_error_key(std::get<3>(topic)))
+        if (is_error_key(samples_[member].row.key))
             for (double& error : values.back()) error = std::abs(error);
     }
     for (std::size_t i = 0; i < members.size(); ++i)
@@ -204,12 +206,12 @@ std::string StudySummary::comparisons(TableStyle style, const SummaryOptions& op
                 real("p_holm", p_holm),
                 word("study", row.study)};
     };
-    const Sample none{};  // where there are no pairs, the table has its names alone
+    const Sample none{};  // without pairs, the table has only its names
     std::string text = table_head(style, cells_of_pair({&none, &none}));
     std::map<std::pair<std::string, std::string>, bool> same;  // whether two never differ
-    for (const Topic& topic : topics_in_order_) {
+    for (const auto& members : topics_) {
         run.check_stop();
-        for (const Pair& pair : pairs_of(topic, options.paired)) {
+        for (const Pair& pair : pairs_of(members, options.paired)) {
             text += table_line(style, cells_of_pair(pair));
             bool& never =
                 same.emplace(std::pair(pair.a->row.generator, pair.b->row.generator), true)
@@ -228,7 +230,7 @@ std::string StudySummary::comparisons(TableStyle style, const SummaryOptions& op
 
 namespace {
 
-/// The rows of a study's table; a summary may follow them.
+/// Means of a study's table, which a summary may follow.
 std::vector<MeanRow> means_of_rows(std::span<const std::string_view> lines, const StudyTable& table,
                                    const std::string& source, const RunContext& run) {
     StudySummary summary;

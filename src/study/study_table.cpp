@@ -17,7 +17,7 @@ std::string options_text(const std::vector<std::pair<std::string, std::string>>&
     return text;
 }
 
-/// The columns of a row in order: their names, and the fields that they show.
+/// Visits the columns of a row in order: name and field.
 template <class Row, class Visit>
 void for_each_column(Row& row, bool seconds, const Visit& visit) {
     visit("generator", row.generator);

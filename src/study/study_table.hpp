@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The rows of a study: a tidy table, as CSV or as JSON objects a line.
+// Rows of a study: a tidy table, as CSV or with a JSON object per line.
 //
-// Promise  a row is one line. What it says but for the seconds, its last two cells, depends on the
-//          study alone, and reads back to the same row.
+// Promise  a row is one line and reads back to the same row. Except its last two cells, the seconds,
+//          it depends on the study alone.
 #pragma once
 
 #include <optional>
@@ -16,18 +16,18 @@
 
 namespace stipple {
 
-/// One number of one measure of one set, or why there is none.
+/// One number of one measure of one set, or the reason why it is missing.
 struct StudyRow {
     std::string generator = {};  ///< spec
     std::string generator_options = {};
     std::uint64_t dimension = 0;
     std::string warps = {};
-    std::uint64_t count = 0;                   ///< points that were asked for
-    std::optional<std::uint64_t> points = {};  ///< that were measured
+    std::uint64_t count = 0;                   ///< requested points
+    std::optional<std::uint64_t> points = {};  ///< measured points
     std::uint64_t seed = 0;
     std::string measure = {};  ///< spec
     std::string measure_options = {};
-    std::string domain = {};  ///< that the measured points are on
+    std::string domain = {};  ///< of the measured points
     std::string key = {};     ///< of the result
     std::optional<double> value = {};
     std::string status = "ok";  ///< or failed
@@ -44,18 +44,18 @@ struct KeyedNumber {
     double value = 0;
 };
 
-/// Outcome of one measure of one set: what its rows say beyond the unit itself.
+/// Result of one measure of one set.
 struct UnitResult {
     std::vector<KeyedNumber> numbers = {};
     std::string domain = {};
     std::optional<std::uint64_t> points = {};
     double generate_seconds = 0;
     double seconds = 0;
-    std::string failure = {};    ///< one line; empty: it went well
-    bool out_of_memory = false;  ///< more than a worker's fraction is needed
+    std::string failure = {};    ///< one line; empty if there is none
+    bool out_of_memory = false;  ///< it needs more than this worker has
 };
 
-/// Units that were measured one after the other.
+/// Results of consecutive units.
 struct Segment {
     UnitRange units;
     std::vector<UnitResult> results = {};  ///< of each unit
@@ -64,32 +64,32 @@ struct Segment {
 /// Columns that are the same in all rows of a unit.
 StudyRow row_of(const Sweep& sweep, const Unit& unit);
 
-/// A row for each number of the unit, or the one that says why there is none.
+/// A row for each number of the unit, or one row with its failure.
 std::vector<StudyRow> rows_of(const Sweep& sweep, const Unit& unit, const UnitResult& result);
 
-/// The unit that a row is of; nullopt if the sweep has none.
+/// Index of the unit that a row belongs to; nullopt if it belongs to none.
 std::optional<std::uint64_t> unit_of(const Sweep& sweep, const StudyRow& row);
 
-/// Whether a row is one that the unit has.
+/// Whether a row belongs to a unit, given by its row_of().
 bool belongs(const StudyRow& row, const StudyRow& unit);
 
-/// How the rows of a file are written.
+/// Form of the rows in a file.
 class StudyTable {
   public:
     StudyTable(TableStyle style, bool seconds);
 
     [[nodiscard]] TableStyle style() const { return style_; }
 
-    /// What stands on top: the line of names in CSV, nothing in JSONL.
+    /// The line of names in CSV, empty in JSONL.
     [[nodiscard]] std::string head() const;
 
-    /// The line of a row, with its end.
+    /// A row as a line, with its end.
     [[nodiscard]] std::string line(const StudyRow& row) const;
 
-    /// The row of a line without its end; nothing where it is no whole row.
+    /// Reads a line without its end; nullopt if it is not a whole row.
     [[nodiscard]] std::optional<StudyRow> parse(std::string_view line) const;
 
-    /// Whether a file with this first line is a study's, of this style.
+    /// Whether a file with this first line is a study's table of this style.
     [[nodiscard]] bool is_head(std::string_view line) const;
 
   private:

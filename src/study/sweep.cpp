@@ -30,7 +30,7 @@ Chosen<Unit> chosen(const Unit& unit, const Spec& spec, std::string_view who) {
     return c;
 }
 
-/// A study has one file; a unit that writes others would write them over and over.
+/// Refuses options that write files: every set would overwrite them.
 void refuse_files(const Chosen<Generator>& c) {
     for (const std::string& option : c.unit->writes)
         if (c.values.find(option).given)
@@ -46,7 +46,7 @@ void refuse_twice(const std::vector<Chosen<Unit>>& list, std::string_view who) {
                 fail(ErrorKind::usage, "{}: '{}' stands twice", who, list[i].spec);
 }
 
-/// @throws Error(usage) for keys that no measure has, and measures that have none of them
+/// @throws Error(usage) for keys that no measure has, and for measures that have none of the keys
 void check_keys(const std::vector<std::string>& wanted,
                 const std::vector<Chosen<Analyzer>>& measures) {
     const auto has = [](const Chosen<Analyzer>& measure, const std::string& key) {
@@ -181,7 +181,7 @@ Unit Sweep::unit(std::uint64_t index) const {
             .measure = index % measures_.size()};
 }
 
-std::string Sweep::lacks(const Sweep& part) const {
+std::string Sweep::missing_from(const Sweep& part) const {
     const auto& [all, some] = std::pair(request_, part.request_);
     const auto missing = [](const auto& list, const auto& wanted, auto proj, const auto& text) {
         for (const auto& entry : wanted)

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// What a study runs over: generators x dimensions x counts x seeds, each set measured by all
-// measures.
+// Units of a study: generators x dimensions x counts x seeds, each set measured by all measures.
 //
 //     unit u = (cell * seeds + seed) * measures + measure,
 //     cell   = (generator * dimensions + dimension) * counts + count
 //
-// Shape    units() may be far more than memory holds: nothing here is as long.
-// Promise  the units, their order and the fingerprint depend on what was asked for alone.
+// Shape    units() may be larger than memory: nothing here grows with it.
+// Promise  units, their order and the fingerprint depend on the request alone.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +23,7 @@
 
 namespace stipple {
 
-/// A study as somebody writes it down.
+/// A study as the user writes it.
 struct SweepRequest {
     std::vector<std::string> generators = {};  ///< specs
     std::vector<std::uint64_t> counts = {1024};
@@ -36,19 +35,19 @@ struct SweepRequest {
     std::vector<std::string> keys = {};     ///< results to keep; empty: all numbers
     bool curves = false;                    ///< keep lists of numbers, too
     std::optional<double> time_limit = {};  ///< seconds for making a set, and for each measure
-    bool seconds = true;                    ///< rows tell how long they took
+    bool seconds = true;                    ///< rows have their seconds
 };
 
-/// A unit with its options, as rows name it.
+/// A generator or an analyzer with its options.
 template <class Unit>
 struct Chosen {
     const Unit* unit = nullptr;
     Values values = {};
-    std::string spec = {};                                          ///< what is not the default
-    std::vector<std::pair<std::string, std::string>> options = {};  ///< all that have a value
+    std::string spec = {};                                          ///< without defaults
+    std::vector<std::pair<std::string, std::string>> options = {};  ///< with defaults
 };
 
-/// Sets that differ in the seed alone.
+/// Sets that differ only in the seed.
 struct Cell {
     std::size_t generator = 0;
     std::size_t dimension = 0;
@@ -69,19 +68,19 @@ struct UnitRange {
     bool operator==(const UnitRange&) const = default;
 };
 
-/// Whether a result's name, or a part of it between dots, is meant; parts in capitals stand for any.
+/// Whether `wanted` is a result's name or a part of it between dots; parts in capitals match any.
 bool names_result(const std::string& result, std::string_view wanted);
 
 class Sweep {
   public:
-    /// @throws Error(usage) for units and options that there are not.
+    /// @throws Error(usage) for unknown units and options
     explicit Sweep(SweepRequest request);
 
     [[nodiscard]] const SweepRequest& request() const { return request_; }
     [[nodiscard]] const std::vector<Chosen<Generator>>& generators() const { return generators_; }
     [[nodiscard]] const std::vector<Chosen<Analyzer>>& measures() const { return measures_; }
     [[nodiscard]] const std::vector<Spec>& warps() const { return warps_; }
-    /// Those before the first that is no scramble, and those from it on.
+    /// Scrambles in front of the first warp, and the rest.
     [[nodiscard]] std::span<const Spec> scrambles() const { return {warps_.data(), scrambles_}; }
     [[nodiscard]] std::span<const Spec> later_warps() const {
         return std::span(warps_).subspan(scrambles_);
@@ -94,9 +93,9 @@ class Sweep {
     [[nodiscard]] Cell cell(std::uint64_t index) const;
     [[nodiscard]] Unit unit(std::uint64_t index) const;
     [[nodiscard]] std::uint64_t units_per_cell() const { return request_.seeds * measures_.size(); }
-    /// What a part of this sweep has that it lacks, as "seed 5"; empty: nothing.
-    [[nodiscard]] std::string lacks(const Sweep& part) const;
-    /// Index of the unit with these; nullopt if there is none.
+    /// Something of a smaller sweep that is missing from this one, such as "seed 5"; or empty.
+    [[nodiscard]] std::string missing_from(const Sweep& part) const;
+    /// Index of a unit; nullopt if there is none.
     [[nodiscard]] std::optional<std::uint64_t> index_of(std::string_view generator,
                                                         std::uint64_t dimension,
                                                         std::uint64_t count, std::uint64_t seed,
@@ -105,7 +104,7 @@ class Sweep {
     /// Whether the sets of a generator differ from seed to seed.
     [[nodiscard]] bool seeded(std::size_t generator) const;
 
-    /// All that rows depend on, by name, as text.
+    /// Names and texts of all that rows depend on.
     [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& settings() const {
         return settings_;
     }

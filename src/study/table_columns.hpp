@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Rows as structures: their fields become the cells of a table, and cells become fields. A row is
-// given by for_each(visit), which calls visit(name, field) for every column in order.
+// Conversion between structures and the cells of a table. A row is given by for_each(visit), which
+// calls visit(name, field) for every column in order.
 #pragma once
 
 #include <charconv>
@@ -19,11 +19,11 @@ namespace stipple::columns {
 
 inline std::string text_of(const std::string& text) { return text; }
 inline std::string text_of(std::uint64_t number) { return std::to_string(number); }
-/// What is not known is a NaN, and an empty cell.
+/// Unknown numbers are NaN, and empty cells.
 inline std::string text_of(double number) {
     return std::isnan(number) ? "" : format_number(number);
 }
-/// A NaN that was found is one.
+/// A NaN among measured numbers is "nan".
 inline std::string text_of(const std::optional<double>& field) {
     return field ? format_number(*field) : "";
 }
@@ -31,7 +31,7 @@ inline std::string text_of(const std::optional<std::uint64_t>& field) {
     return field ? std::to_string(*field) : "";
 }
 
-// Reads a field from its cell. False: it is none.
+// Read a field from its cell. False: the text is not such a field.
 inline bool read(const std::string& text, std::string& field) {
     field = text;
     return true;
@@ -63,7 +63,7 @@ std::vector<TableCell> cells_of(const ForEach& for_each) {
     return cells;
 }
 
-/// False: some cell is no such field.
+/// False: a cell does not fit its field.
 template <class ForEach>
 bool read_cells(const std::vector<std::string>& cells, const ForEach& for_each) {
     bool whole = true;

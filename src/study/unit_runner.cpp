@@ -21,13 +21,7 @@
 namespace stipple {
 namespace {
 
-/// Why there is no result.
-struct Failure {
-    std::string reason;
-    bool memory = false;  ///< there was not enough
-};
-
-/// One line, whatever the message was.
+/// A row is one line.
 std::string one_line(std::string text) {
     std::ranges::replace_if(
         text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
@@ -36,8 +30,8 @@ std::string one_line(std::string text) {
 
 using Task = std::function<void(const RunContext&)>;
 
-/// Calls work with a run that is told to stop after so many seconds, as run.seconds counts them, as
-/// if the user had asked for it. True: the time was over before the work was.
+/// Calls work with a run that is stopped after so many seconds, measured by run.seconds. Returns
+/// whether it was stopped.
 bool over_time(const RunContext& run, std::optional<double> limit, const Task& work) {
     if (!limit || !run.seconds) {
         work(run);
@@ -66,36 +60,29 @@ bool over_time(const RunContext& run, std::optional<double> limit, const Task& w
     return over;
 }
 
-/// Runs work within the limit of time. Nothing: it went well. @throws Error(cancelled)
-std::optional<Failure> failure_of(const RunContext& run, std::optional<double> limit,
-                                  const Task& work) {
+/// Runs work within the limit of time, and notes how long it took and why it failed.
+/// @throws Error(cancelled)
+void attempt(UnitResult& result, double& seconds, std::optional<double> limit,
+             const RunContext& run, const Task& work) {
+    const double start = run.seconds ? run.seconds() : 0;
     try {
         if (over_time(run, limit, work))
-            return Failure{fmt::format("time limit: not done after {} s", *limit)};
+            result.failure = fmt::format("time limit: not done after {} s", *limit);
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::cancelled) throw;
         const bool limited = e.kind() == ErrorKind::limit;
-        return Failure{one_line(fmt::format("{}{}", limited ? "limit: " : "", e.what())),
-                       limited && e.hint().find("--max-memory") != std::string::npos};
+        result.failure = one_line(fmt::format("{}{}", limited ? "limit: " : "", e.what()));
+        result.out_of_memory = limited && e.hint().find("--max-memory") != std::string::npos;
     } catch (const std::bad_alloc&) {
-        return Failure{"limit: out of memory", true};
+        result.failure = "limit: out of memory";
+        result.out_of_memory = true;
     } catch (const std::exception& e) {
-        return Failure{one_line(fmt::format("internal error: {}", e.what()))};
+        result.failure = one_line(fmt::format("internal error: {}", e.what()));
     }
-    return std::nullopt;
-}
-
-/// Runs work as failure_of does, and tells how long it took.
-std::optional<Failure> timed(const RunContext& run, std::optional<double> limit, double& seconds,
-                             const Task& work) {
-    const double start = run.seconds ? run.seconds() : 0;
-    auto failure = failure_of(run, limit, work);
     seconds = run.seconds ? run.seconds() - start : 0;
-    return failure;
 }
 
-/// Some points of the unit cube, apart from each other: odd multiples of those of sqrt(2),
-/// modulo 1.
+/// Distinct points of the unit cube: odd multiples of sqrt(2), modulo 1.
 PointSet some_points(std::size_t dimension, std::size_t count = 64) {
     constexpr double step = 0.41421356237309515;
     PointSet points(count, dimension);
@@ -113,7 +100,7 @@ RunContext silent(RunContext run) {
     return run;
 }
 
-/// What a measure has against such points, if it says so within so many seconds.
+/// Error of a measure for such points; nullopt if it takes them, or works on beyond the limit.
 std::optional<Error> refusal(const Chosen<Analyzer>& measure, const PointSet& points,
                              const RunContext& run, std::optional<double> limit = {}) {
     try {
@@ -124,7 +111,7 @@ std::optional<Error> refusal(const Chosen<Analyzer>& measure, const PointSet& po
         if (e.kind() == ErrorKind::cancelled) throw;
         return e;
     } catch (const std::exception&) {
-        return std::nullopt;  // the rows will say what is wrong
+        return std::nullopt;  // its rows report what is wrong
     }
     return std::nullopt;
 }
@@ -134,8 +121,7 @@ bool takes_points(const Chosen<Analyzer>& measure, const PointSet& points, const
     return !error || (error->kind() != ErrorKind::input && error->kind() != ErrorKind::usage);
 }
 
-/// Whether a measure looks at what the warps made: where it can, and where it cannot take points of
-/// the cube, either.
+/// Whether a measure gets the warped points: if it takes them, or takes no points of the cube either.
 bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunContext& run) {
     const std::string spec = chain.domain()->spec();
     if (spec == "unit-cube") return true;
@@ -147,18 +133,11 @@ bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunCon
            !takes_points(measure, points, run);
 }
 
-UnitResult failed(UnitResult result, const Failure& failure) {
-    result.failure = failure.reason;
-    result.out_of_memory = failure.memory;
-    return result;
-}
-
-/// One set of points: as it is measured, and before its warps.
+/// A set of points before and after its warps.
 struct MadeSet {
     PointSet before = {};
-    std::optional<PointSet> image = {};  ///< after the warps; nothing where there are none
-    std::optional<Failure> failure = {};
-    double seconds = 0;
+    std::optional<PointSet> image = {};  ///< nullopt without warps
+    UnitResult result = {};              ///< seconds and failure, the same for all measures
 };
 
 void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t seed,
@@ -198,16 +177,8 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
     points = made_together(warps);
 }
 
-MadeSet made_set(const Sweep& sweep, const Cell& cell, std::uint64_t seed, const RunContext& run) {
-    MadeSet made;
-    made.failure =
-        timed(run, sweep.request().time_limit, made.seconds,
-              [&](const RunContext& limited) { make(made, sweep, cell, seed, limited); });
-    return made;
-}
-
-/// Whether a part of a key between dots is meant: centered.value by value, by centered, by both;
-/// mean[0] by mean.
+/// Whether a word is a key's part between dots: value, centered and both match centered.value, mean
+/// matches mean[0].
 bool is_meant(const std::string& key, const std::vector<std::string>& wanted) {
     const auto dotted = [](std::string text) {
         replace_all(text, "[", ".[");
@@ -222,12 +193,11 @@ UnitResult measured(const SweepRequest& request, const Chosen<Analyzer>& measure
                     const PointSet& points, const RunContext& run) {
     UnitResult result{.domain = points.domain->spec(), .points = points.count()};
     Report report;
-    const auto failure =
-        timed(run, request.time_limit, result.seconds, [&](const RunContext& limited) {
-            report = analyze(*measure.unit, points, measure.values, limited);
-            limited.check_stop();  // a report that was cut short is incomplete
-        });
-    if (failure) return failed(std::move(result), *failure);
+    attempt(result, result.seconds, request.time_limit, run, [&](const RunContext& limited) {
+        report = analyze(*measure.unit, points, measure.values, limited);
+        limited.check_stop();  // a report that was cut short is incomplete
+    });
+    if (!result.failure.empty()) return result;
     result.numbers = numbers_of(report, request.keys, request.curves);
     if (result.numbers.empty() && report.find("lower") && report.find("upper"))
         result.failure = fmt::format("its value is not known exactly; it is between {} and {}",
@@ -278,12 +248,11 @@ UnitRunner::UnitRunner(const Sweep& sweep, const RunContext& run)
                 if (!takes(sweep.measures()[m], WarpChain(warps, d, {}, run), run))
                     before_warps_.emplace(d, m);
             } catch (const Error& e) {
-                if (e.kind() == ErrorKind::cancelled)
-                    throw;  // else the rows will say what is wrong
+                if (e.kind() == ErrorKind::cancelled) throw;  // rows report all other errors
             }
 }
 
-// Each set is made once, and where the seed changes nothing, one is all.
+// Each set is made once, and only one if the seed changes nothing.
 WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext& run) const {
     const RunContext quiet = silent(run);
     const bool shares_memory = run.max_memory < whole_memory_;
@@ -300,18 +269,21 @@ WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext&
             if (made != wanted) {
                 results.clear();
                 set = {};  // two would need twice the memory
-                set = made_set(sweep_, cell, sweep_.request().first_seed + unit.seed_index, quiet);
+                const std::uint64_t seed = sweep_.request().first_seed + unit.seed_index;
+                attempt(set.result, set.result.generate_seconds, sweep_.request().time_limit, quiet,
+                        [&](const RunContext& limited) { make(set, sweep_, cell, seed, limited); });
                 made = wanted;
-                done.seconds += set.seconds;
+                done.seconds += set.result.generate_seconds;
             }
             const auto [it, fresh] = results.try_emplace(unit.measure);
             UnitResult& result = it->second;
             if (fresh) {
                 const bool after = set.image && takes_image(cell.dimension, unit.measure);
-                result = set.failure ? failed({}, *set.failure)
-                                     : measured(sweep_.request(), sweep_.measures()[unit.measure],
-                                                after ? *set.image : set.before, quiet);
-                result.generate_seconds = set.seconds;
+                result = set.result;
+                if (set.result.failure.empty())
+                    result = measured(sweep_.request(), sweep_.measures()[unit.measure],
+                                      after ? *set.image : set.before, quiet);
+                result.generate_seconds = set.result.generate_seconds;
                 done.seconds += result.seconds;
             }
             if (result.out_of_memory && shares_memory)
@@ -332,7 +304,7 @@ std::optional<Error> UnitRunner::refusal_of(std::size_t measure, std::size_t dim
             points = WarpChain(warps, dimension, {}, run).image(points, silent(run));
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::cancelled) throw;
-        return std::nullopt;  // the rows will say what is wrong
+        return std::nullopt;  // its rows report what is wrong
     }
     auto error = refusal(sweep_.measures()[measure], points, run, soon);
     return error && error->kind() == ErrorKind::usage ? error : std::nullopt;
@@ -344,7 +316,7 @@ void UnitRunner::require_options(const RunContext& run) const {
         const auto refused = [&](std::size_t d) {
             const auto few = refusal_of(m, d, 64, run);
             if (few && !first) first = few;
-            // What depends on the number of points is said with other numbers.
+            // A message that depends on the number of points differs.
             const auto more = few ? refusal_of(m, d, 149, run) : std::nullopt;
             return more && std::string_view(more->what()) == few->what();
         };
