@@ -64,14 +64,15 @@ void cut_to(int descriptor, std::uint64_t size, const std::string& path) {
 /// Whether the bytes are on the disk. Some file systems cannot synchronise, and report so.
 bool is_synchronised(int result) { return result == 0 || errno == EINVAL || errno == ENOTSUP; }
 
-/// Writes a new file to the disk, and its name in the folder.
-void synchronise_new(int descriptor, const std::string& path) {
-    if (!is_synchronised(::fsync(descriptor))) refuse(path);
+/// Writes a new file to the disk, and its name in the folder. False: errno has the reason.
+bool synchronise_new(int descriptor, const std::string& path) {
+    if (!is_synchronised(::fsync(descriptor))) return false;
     const int folder = ::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     const bool done = folder >= 0 && is_synchronised(::fsync(folder));
     const int error = errno;
     if (folder >= 0) ::close(folder);
-    if (!done) refuse_file(path, error);
+    errno = error;
+    return done;
 }
 
 /// Lines of a file, which may be missing. A read error is not its end.
@@ -323,8 +324,6 @@ void StudyFile::begin_journal() {
               fmt::format("{{\"format\":\"{}\",\"version\":3,\"study\":\"{}\",\"settings\":{}}}\n",
                           journal_format, sweep_.fingerprint(), json_text(settings)),
               journal);
-    // Without it, rows that are out of order would be taken for damage.
-    synchronise_new(journal_, journal);
 }
 
 void StudyFile::refuse_other() const {
@@ -458,6 +457,9 @@ bool StudyFile::put_in_turn(const Segment& segment) {
 
 void StudyFile::sync() {
     if (!dirty_.exchange(false)) return;
+    // Without the journal, rows that are out of order would be taken for damage.
+    if (!journal_synced_ && !synchronise_new(journal_, journal_of(path_))) lost_ = errno;
+    journal_synced_ = true;
     if (!is_synchronised(::fsync(output_))) lost_ = errno;
 }
 
@@ -519,14 +521,15 @@ void StudyFile::finish(const std::string& more, const RunContext& run) {
         stream_->write(more);
         return;
     }
-    if (!is_synchronised(::fsync(output_))) refuse(path_);
     // The system does not try again what an earlier sync could not write.
     if (lost_ != 0) refuse_file(path_, lost_);
-    if (journal_ < 0) return;
     const bool in_order = !mixed_ && index_.size() == 1 &&
                           table_.head().size() + index_.begin()->second.bytes == size_;
-    if (!in_order) return rewrite(run);
-    if (::unlink(journal_of(path_).c_str()) != 0) refuse(journal_of(path_));
+    if (!in_order) rewrite(run);
+    if (in_order && !is_synchronised(::fsync(output_))) refuse(path_);
+    if (in_order && journal_ >= 0 && ::unlink(journal_of(path_).c_str()) != 0)
+        refuse(journal_of(path_));
+    dirty_ = false;
 }
 
 }  // namespace stipple

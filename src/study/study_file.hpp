@@ -127,6 +127,7 @@ class StudyFile {
     bool mixed_ = false;         ///< some rows have the fingerprint of a smaller study
     std::exception_ptr broken_;  ///< a write failed: nothing may be written behind the gap
     StudyFailures failures_;
+    bool journal_synced_ = false;
     std::atomic<bool> dirty_ = false;  ///< something was written since the last sync
     std::atomic<int> lost_ = 0;        ///< errno of a sync that failed
 };

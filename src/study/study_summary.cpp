@@ -11,14 +11,6 @@
 namespace stipple {
 namespace {
 
-TableCell word(const char* name, std::string text) { return {name, std::move(text)}; }
-TableCell whole(const char* name, std::uint64_t value) {
-    return {name, std::to_string(value), true};
-}
-TableCell real(const char* name, double value) {
-    return {name, std::isnan(value) ? "" : format_number(value), true};
-}
-
 /// Visits the columns of a row of means in order: name and field.
 template <class Row, class Visit>
 void for_each_column(Row& row, const Visit& visit) {
@@ -183,28 +175,31 @@ std::vector<StudySummary::Pair> StudySummary::pairs_of(const std::vector<std::si
 
 std::string StudySummary::comparisons(TableStyle style, const SummaryOptions& options,
                                       const RunContext& run) const {
-    const auto cells_of_pair = [&](const Pair& pair) -> std::vector<TableCell> {
+    const auto cells_of_pair = [&](const Pair& pair) {
         const auto& [a, b, sets_a, sets_b, test, p_holm] = pair;
         const StudyRow& row = a->row;
-        return {word("table", "comparison"),
-                whole("dimension", row.dimension),
-                word("warps", row.warps),
-                whole("count", row.count),
-                word("measure", row.measure),
-                word("key", row.key),
-                word("generator_a", row.generator),
-                word("generator_b", b->row.generator),
-                word("method", options.paired ? "paired" : "welch"),
-                word("compared", is_error_key(row.key) ? "absolute value" : "value"),
-                whole("sets_a", sets_a),
-                whole("sets_b", sets_b),
-                real("difference", test.difference),
-                real("standard_error", test.standard_error),
-                real("t", test.t),
-                real("degrees_of_freedom", test.degrees),
-                real("p_value", test.p_value),
-                real("p_holm", p_holm),
-                word("study", row.study)};
+        const auto text = [](const char* word) { return std::string(word); };
+        return columns::cells_of([&](const auto& visit) {
+            visit("table", text("comparison"));
+            visit("dimension", row.dimension);
+            visit("warps", row.warps);
+            visit("count", row.count);
+            visit("measure", row.measure);
+            visit("key", row.key);
+            visit("generator_a", row.generator);
+            visit("generator_b", b->row.generator);
+            visit("method", text(options.paired ? "paired" : "welch"));
+            visit("compared", text(is_error_key(row.key) ? "absolute value" : "value"));
+            visit("sets_a", std::uint64_t{sets_a});
+            visit("sets_b", std::uint64_t{sets_b});
+            visit("difference", test.difference);
+            visit("standard_error", test.standard_error);
+            visit("t", test.t);
+            visit("degrees_of_freedom", test.degrees);
+            visit("p_value", test.p_value);
+            visit("p_holm", p_holm);
+            visit("study", row.study);
+        });
     };
     const Sample none{};  // without pairs, the table has only its names
     std::string text = table_head(style, cells_of_pair({&none, &none}));

@@ -182,26 +182,23 @@ Unit Sweep::unit(std::uint64_t index) const {
 }
 
 std::string Sweep::missing_from(const Sweep& part) const {
-    const auto& [all, some] = std::pair(request_, part.request_);
-    const auto missing = [](const auto& list, const auto& wanted, auto proj, const auto& text) {
-        for (const auto& entry : wanted)
-            if (std::ranges::find(list, std::invoke(proj, entry), proj) == list.end())
-                return text(entry);
-        return std::string();
+    const SweepRequest& all = request_;
+    const SweepRequest& some = part.request_;
+    const auto lacks = [](const auto& list, const auto& entry, auto projection) {
+        return std::ranges::find(list, entry, projection) == list.end();
     };
-    const auto spec = [](const char* what) {
-        return [what](const auto& chosen) { return fmt::format("the {} {}", what, chosen.spec); };
-    };
-    const auto number = [](const char* format) {
-        return [format](std::uint64_t n) { return fmt::format(fmt::runtime(format), n); };
-    };
-    const std::string found[] = {
-        missing(generators_, part.generators_, &Chosen<Generator>::spec, spec("generator")),
-        missing(measures_, part.measures_, &Chosen<Analyzer>::spec, spec("measure")),
-        missing(all.counts, some.counts, std::identity(), number("sets of {} points")),
-        missing(all.dimensions, some.dimensions, std::identity(), number("dimension {}"))};
-    for (const std::string& text : found)
-        if (!text.empty()) return text;
+    for (const auto& [unit, values, spec, options] : part.generators_)
+        if (lacks(generators_, spec, &Chosen<Generator>::spec))
+            return fmt::format("the generator {}", spec);
+    for (const auto& [unit, values, spec, options] : part.measures_)
+        if (lacks(measures_, spec, &Chosen<Analyzer>::spec))
+            return fmt::format("the measure {}", spec);
+    for (const std::uint64_t count : some.counts)
+        if (lacks(all.counts, count, std::identity()))
+            return fmt::format("sets of {} points", count);
+    for (const std::uint64_t dimension : some.dimensions)
+        if (lacks(all.dimensions, dimension, std::identity()))
+            return fmt::format("dimension {}", dimension);
     if (some.first_seed < all.first_seed) return fmt::format("seed {}", some.first_seed);
     const std::uint64_t last = some.first_seed + (some.seeds - 1);
     return last > all.first_seed + (all.seeds - 1) ? fmt::format("seed {}", last) : "";
