@@ -149,9 +149,8 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
     points.provenance.generator = generator.unit->name;
     points.provenance.independent = generator.unit->traits.independent;
     const std::size_t d = points.dimension();
-    const ChainSet set =
-        chain_set(*generator.unit, {.count = points.count(), .dimension = d, .seed = seed},
-                  generator.values);
+    const ChainSet set = chain_set(
+        *generator.unit, {.count = points.count(), .dimension = d, .seed = seed}, generator.values);
     if (!sweep.scrambles().empty())
         points = WarpChain(sweep.scrambles(), d, set, run).image(points, run);
     // What a scramble draws depends on seed and coordinates: cut in two, the chain is the same.
