@@ -34,8 +34,8 @@ constexpr std::array<FileOption, 3> file_options = {
     {{"grid", ".npy"}, {"image", ".png"}, {"wisdom", ""}}};
 
 // Small sets are collected and measured in parallel, a few megabytes at a time.
-constexpr std::size_t large = std::size_t{1}
-                              << 18;  // coordinates of a set that is measured immediately
+// Coordinates of a set that is measured immediately.
+constexpr std::size_t large = std::size_t{1} << 18;
 constexpr std::size_t together = std::size_t{1} << 20;  // coordinates of all collected sets
 constexpr std::size_t most_waiting = std::size_t{1} << 12;
 
@@ -289,8 +289,8 @@ Measurement Analysis::measured(const Waiting& set, const RunContext& run) const 
             throw Error(e.kind(), fmt::format("{}: {}", analyzer_.name, what), e.hint());
         }
     });
-    if (analyzer_.traits.table)
-        m.domain = set.points.provenance.domain;  // domain of the inputs, not of all columns
+    // Domain of the inputs, not of all columns.
+    if (analyzer_.traits.table) m.domain = set.points.provenance.domain;
     return m;
 }
 

@@ -174,8 +174,8 @@ Error named_error(const Error& e, const std::string& input, const std::string& h
     const std::string name = io::source_name(input);
     const std::string what = e.what();
     bool named = what.starts_with(name + ":");
-    for (const auto part :
-         split(name, ','))  // errors in one of several joined files already name it
+    // Errors in one of several joined files already name it.
+    for (const auto part : split(name, ','))
         named = named || what.starts_with(std::string(trim(part)) + ":");
     return {e.kind(), named ? what : fmt::format("{}: {}", name, what),
             hint.empty() ? e.hint() : hint};

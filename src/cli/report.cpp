@@ -32,8 +32,8 @@ struct PendingSet {
     PointSet points;
     page::Set set;
     page::Input input;
-    std::shared_ptr<const GeneratedSets> others =
-        {};  ///< all generated sets; this is the first of them
+    /// All generated sets; this is the first of them.
+    std::shared_ptr<const GeneratedSets> others = {};
 };
 
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }

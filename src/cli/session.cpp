@@ -38,15 +38,15 @@ std::uint64_t allocated_bytes() {
 }
 
 std::stop_source& interrupts() {
-    static auto* const source =
-        new std::stop_source;  // never destroyed, since signals may arrive after statics are
+    // Never destroyed, since signals may arrive after statics are.
+    static auto* const source = new std::stop_source;
     return *source;
 }
 
 pthread_t main_thread;  // NOLINT: read by the signal handler
 
-volatile std::sig_atomic_t interrupted_at =
-    0;  ///< time of the first signal in milliseconds; 0 if there was none
+/// Time of the first signal in milliseconds; 0 if there was none.
+volatile std::sig_atomic_t interrupted_at = 0;
 
 std::sig_atomic_t milliseconds() {
     timespec now{};

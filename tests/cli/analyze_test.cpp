@@ -315,8 +315,7 @@ TEST(Analyze, TakesWeightsOfEitherKind) {
     };
     const double ones = star("l2-discrepancy", {"--weights", "1,1"});
     EXPECT_GT(ones, star("l2-discrepancy:weights=[0.5,1]", {}));
-    EXPECT_GT(ones,
-              star("l2-discrepancy", {}));  // the default includes the discrepancies of single axes
+    EXPECT_GT(ones, star("l2-discrepancy", {}));  // which includes those of single axes
     EXPECT_EQ(star("l2-discrepancy", {"--weights", "0,0"}), 0);
     EXPECT_EQ(box.run({"analyze", "l2-discrepancy", "p.csv", "--weights", "1"}).code, 2);
     EXPECT_EQ(box.run({"analyze", "periodogram", "p.csv", "--weights", "z"}).code, 2);

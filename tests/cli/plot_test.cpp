@@ -661,8 +661,7 @@ TEST(Plot, MeansAreNamedWithTheirOptions) {
         good(box.shell("stipple plot " + make + "-o s.svg --chart " + chart));
         EXPECT_THAT(xml(box, "s.svg", "text"), HasSubstr("sobol:scramble=owen")) << chart;
     }
-    good(box.shell("stipple plot " + make +
-                   "-o p.svg"));  // one of unscrambled points, two of scrambled ones
+    good(box.shell("stipple plot " + make + "-o p.svg"));  // one of plain, two of scrambled points
     EXPECT_EQ(xml(box, "p.svg", "circle"), "192\n");
     good(box.shell("printf '1,60000\\n2,90000\\n' | stipple plot --rescale -o r.svg"));
     EXPECT_THAT(xml(box, "r.svg", "text"), Not(HasSubstr("60000")));

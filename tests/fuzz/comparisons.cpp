@@ -22,8 +22,8 @@ FuzzedDataProvider provider(Bytes bytes) {
     return {reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
 }
 
-constexpr std::int64_t steps =
-    64;  // coordinates are multiples of 1/64, so that ties, 0 and 1 are common
+// Coordinates are multiples of 1/64, so that ties, 0 and 1 are common.
+constexpr std::int64_t steps = 64;
 
 /// Up to `most[d]` points of d coordinates.
 PointSet lattice_points(FuzzedDataProvider& input, const std::vector<std::size_t>& most) {

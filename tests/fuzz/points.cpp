@@ -33,8 +33,7 @@ std::optional<Sets> in_blocks(const Format& format, std::string_view bytes,
         while (const std::size_t got = stream->read(block))
             rows.insert(rows.end(), block.begin(),
                         block.begin() + static_cast<std::ptrdiff_t>(got * stream->dimension()));
-        if (rows.empty())
-            fail(ErrorKind::input, "a set without points");  // like readers of whole files
+        if (rows.empty()) fail(ErrorKind::input, "a set without points");  // like whole files
         sets.emplace_back(std::move(rows), stream->dimension());
     }
     return sets;

@@ -3,6 +3,7 @@
 // The parts of oneTBB that this program uses, implemented with threads and locks of the standard
 // library: Debian's libtbb is not built for the thread sanitizer, which therefore does not see its
 // synchronization.
+#pragma once
 
 #include <algorithm>
 #include <atomic>

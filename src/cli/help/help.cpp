@@ -279,8 +279,8 @@ std::string help_of_unit(const std::string& name) {
         const UnitInfo* unit = find_unit(kind, name);
         if (unit == nullptr) continue;
         if (const VerbInfo* info = find_verb(kind.verb)) return page_of_unit(*info, *unit).text();
-        if (const Topic* topic =
-                find_topic(kind.name))  // formats have a topic instead, csv for example
+        // Formats have a topic instead, csv for example.
+        if (const Topic* topic = find_topic(kind.name))
             return filled_page(topic->text, text_columns());
     }
     if (std::string lines = coming_from(name); !lines.empty()) return lines;

@@ -25,8 +25,8 @@ struct UnitInfo {
     std::shared_ptr<const Json> traits = {};
     std::vector<std::string> remarks = {};  ///< the traits in words
     std::vector<Option> options = {};
-    std::vector<std::pair<std::string, std::string>> results =
-        {};  ///< keys with help, for analyzers
+    /// Keys with help, for analyzers.
+    std::vector<std::pair<std::string, std::string>> results = {};
 };
 
 struct Kind {

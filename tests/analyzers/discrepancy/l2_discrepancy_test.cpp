@@ -643,8 +643,8 @@ TEST(L2Discrepancy, IsWithinATrillionthInHundredsOfDimensions) {
     const PointSet high = random_set(40, 600, 1);
     const PointSet low = make("sobol", points(64, 410));
     const PointSet many = make("sobol", points(256, 100));
-    PointSet sides =
-        random_set(100, 400, 2);  // first factors small and last ones large, or the other way round
+    // First factors small and last ones large, or the other way round.
+    PointSet sides = random_set(100, 400, 2);
     for (std::size_t i = 0; i < sides.count(); ++i)
         for (std::size_t j = 0; j < sides.dimension(); ++j)
             sides[i][j] = std::ldexp(sides[i][j] + ((i % 2 == 0) == (j < 200) ? 1 : 0), -1);

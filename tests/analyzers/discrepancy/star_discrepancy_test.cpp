@@ -160,8 +160,8 @@ double by_levels(const PointSet& p) {
     const auto& ys = grid.values[1];
     const auto& zs = grid.values[2];
     const std::size_t columns = ys.size() + 1;
-    std::vector<int> below((xs.size() + 1) *
-                           columns);  // [a, j]: below the a-th and j-th coordinate
+    // Entry [a, j] counts the points below the a-th and j-th coordinate.
+    std::vector<int> below((xs.size() + 1) * columns);
     std::vector<std::vector<std::size_t>> at(zs.size());
     for (std::size_t i = 0; i < p.count(); ++i) at[grid.ranks[2][i]].push_back(i);
     const double share = 1 / static_cast<double>(p.count());

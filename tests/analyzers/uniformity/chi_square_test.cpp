@@ -318,8 +318,8 @@ TEST(ChiSquare, SmallestDetectableEffectIsFoundNineTimesOfTen) {
         int count = 0;
         for (std::uint64_t seed = 1; seed <= 300; ++seed) {
             PointSet points = uniform(n, seed, 1);
-            for (double& x :
-                 points.flat()) {  // the lower half of each half has probability (1 + e) / 2
+            // The lower half of each half has probability (1 + e) / 2.
+            for (double& x : points.flat()) {
                 const double half = x < 0.5 ? 0 : 0.5;
                 const double u = 2 * (x - half), a = (1 + e) / 2;
                 x = half + 0.5 * (u < a ? 0.5 * u / a : 0.5 + 0.5 * (u - a) / (1 - a));

@@ -25,8 +25,8 @@ double massey(int n, int k) {
     for (int m = 0; m < n; ++m) {
         std::vector<double> next(ways.size(), 0.0);
         for (std::size_t from = 0; from < ways.size(); ++from) {
-            double weight =
-                std::exp(-1.0);  // Poisson weights, so that the result has the factor n! / n^n
+            // Poisson weights, so that the result has the factor n! / n^n.
+            double weight = std::exp(-1.0);
             std::size_t points = from == 0 ? 1 : 0;
             for (; points + from < ways.size() + 1; ++points) {
                 weight = std::exp(-1.0 - std::lgamma(static_cast<double>(points) + 1));

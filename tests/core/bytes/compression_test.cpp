@@ -99,8 +99,8 @@ TEST(Compression, RefusesEveryTruncationAndChangedByte) {
             const std::string error = error_of([&] { decompressed(kind, bytes); });
             refused += error.starts_with("input: p.csv: the compressed bytes ");
         }
-        EXPECT_GE(refused,
-                  whole.size() - 7);  // gzip does not check its time, system and level bytes
+        // The time, system and level bytes of gzip are not checked.
+        EXPECT_GE(refused, whole.size() - 7);
         EXPECT_NE(error_of([&] { decompressed(kind, whole + "rest"); }), "");
     }
 }

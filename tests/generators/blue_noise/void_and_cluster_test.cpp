@@ -109,8 +109,8 @@ TEST(VoidAndCluster, FollowsADensity) {
         right += set[i][0] >= 0.5;
         left += inverse[i][0] < 0.5;
     }
-    EXPECT_NEAR(static_cast<double>(right), 750,
-                8);  // the standard deviation of random points is 14
+    // The standard deviation of random points is 14.
+    EXPECT_NEAR(static_cast<double>(right), 750, 8);
     EXPECT_NEAR(static_cast<double>(left), 755, 8);
 
     const TemporaryFile corner(npy_of<std::uint8_t>("|u1", "(2, 2)", {0, 1, 0, 0}));

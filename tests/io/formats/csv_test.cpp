@@ -216,8 +216,7 @@ TEST(Csv, MissingNumbersAreNaNWhereTheyAreAsked) {
     using Found = std::pair<std::size_t, std::vector<std::size_t>>;
     EXPECT_EQ(missing("x,y\n1,\n,\n\n3,nan\n"), (Found{3, {1, 2, 3, 5}}));
     EXPECT_EQ(missing("x,y\n1,NA\n\"\",2\nNaN,3\n"), (Found{3, {1, 2, 4}}));
-    EXPECT_EQ(missing("y\n1\n\n3\n\n"),
-              (Found{4, {1, 3}}));  // an empty line is a missing number in a single column
+    EXPECT_EQ(missing("y\n1\n\n3\n\n"), (Found{4, {1, 3}}));  // an empty line is a gap
     EXPECT_EQ(csv("y\n1\n\n3\n").at(0).count(), 2U);
     // Rows of missing numbers are shorter than the shortest complete ones; in several blocks.
     std::string text = "a,b,c\n";

@@ -128,8 +128,8 @@ TEST(BinaryOwen, VarianceOfTheMeanIsThatOfIndependentStrata) {
     const auto shift = [](std::uint64_t seed, std::uint64_t x) {
         return fraction_to_unit(x ^ binary_shift(seed, 0));
     };
-    EXPECT_GT(variance_of_mean(shift, 20'000) * 12 * 512,
-              4);  // n times as large: one shift for all points
+    // One shift for all points: n times as large.
+    EXPECT_GT(variance_of_mean(shift, 20'000) * 12 * 512, 4);
 }
 
 TEST(BinaryOwen, CoordinatesAndSeedsDiffer) {

@@ -289,8 +289,7 @@ TEST(Marginal, MomentsAreThoseOfTheIntegrals) {
             EXPECT_EQ(one.family, "student-t");
             continue;
         }
-        if (one.family == "lognormal" && one.number("sigma") > 2)
-            continue;  // much mass is outside the range of double
+        if (one.family == "lognormal" && one.number("sigma") > 2) continue;  // mass out of range
         const MarginalMoments m = moments_by_quadrature(*law);
         const double deviation = std::sqrt(variance);
         // Third moments of Student's t converge slowly.

@@ -91,8 +91,8 @@ TEST(Truncated, HeavyTailsHaveNoMomentsThatTheyDoNotHave) {
     EXPECT_TRUE(none(moments(2, 1, endless).variance));
     EXPECT_NEAR(moments(3, 0, endless).variance, 1.7841457962919, 1e-9);
     EXPECT_TRUE(none(moments(3, 0, endless).skewness));
-    const auto [mean, variance, skewness] =
-        moments(1, -2, 5);  // truncated at both ends, so all exist
+    // Truncated at both ends, so all exist.
+    const auto [mean, variance, skewness] = moments(1, -2, 5);
     EXPECT_NEAR(mean, 0.33231722159350, 1e-11);
     EXPECT_NEAR(variance, 1.71152065881957, 1e-11);
     EXPECT_NEAR(skewness, 0.96360791588232, 1e-10);

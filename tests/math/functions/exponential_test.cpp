@@ -21,8 +21,8 @@ TEST(Exponential, IsWithinOneUnitInTheLastPlace) {
             worst = std::max(worst, ulps(exponential(x), std::exp(static_cast<long double>(x))));
     }
     EXPECT_LE(worst, 1);
-    EXPECT_GT(worst,
-              0.5);  // no rounding is perfect; 0.5 would mean that the oracle is the same code
+    // No rounding is perfect; 0.5 would mean that the oracle is the same code.
+    EXPECT_GT(worst, 0.5);
 }
 
 TEST(Exponential, KnowsItsEnds) {

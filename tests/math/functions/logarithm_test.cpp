@@ -24,8 +24,8 @@ TEST(Logarithm, IsWithinOneUnitInTheLastPlace) {
                 worst = std::max(worst, ulps(logarithm(x), std::log(static_cast<long double>(x))));
     }
     EXPECT_LE(worst, 1);
-    EXPECT_GT(worst,
-              0.5);  // no rounding is perfect; 0.5 would mean that the oracle is the same code
+    // No rounding is perfect; 0.5 would mean that the oracle is the same code.
+    EXPECT_GT(worst, 0.5);
 }
 
 TEST(Logarithm, KnowsItsEnds) {

@@ -26,8 +26,8 @@ TEST(NormalDistribution, IsWithinEightUnitsInTheLastPlace) {
         }
     }
     EXPECT_LE(worst, 8);
-    EXPECT_GT(worst,
-              0.5);  // no rounding is perfect; 0.5 would mean that the oracle is the same code
+    // No rounding is perfect; 0.5 would mean that the oracle is the same code.
+    EXPECT_GT(worst, 0.5);
 }
 
 // From tables: Phi(1), Phi(-1.96), Phi(-3), Phi(-6).

@@ -119,8 +119,8 @@ TEST(PeriodicVoronoi, CellsAreThoseOfASweep) {
     const int side = 1 << 20;
     for (const bool torus : {true, false})
         for (const std::size_t n : {2U, 3U, 4U, 5U, 17U, 300U, 3000U})
-            for (const double levels :
-                 {0x1p20, 64.0, 5.0}) {  // coarse ones have points on circles and lines
+            // Coarse ones have points on circles and lines.
+            for (const double levels : {0x1p20, 64.0, 5.0}) {
                 Rows rows = random_rows(n, {1, 1}, n + 7, levels);
                 for (double& x : rows) x = std::floor(x * side);
                 std::vector<std::pair<double, double>> places;
