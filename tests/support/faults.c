@@ -10,9 +10,9 @@
 //     STIPPLE_FAULT_TRACE=1         also who made the call
 //     STIPPLE_NO_TMPFILE=1          the file system has no files without names
 //
-// Only calls from main on count, and none of child processes. What glibc calls inside itself cannot
-// be replaced: so functions on FILE count as well as those on descriptors. What goes to standard
-// error never fails, since it carries the message that is judged.
+// Only calls after the start of main count, and none of child processes. Calls inside glibc cannot
+// be replaced, so functions on FILE are replaced in addition to those on descriptors. Writes to
+// standard error never fail, because they carry the message that is checked.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -67,19 +67,19 @@ static void note_failure(void) {
     backtrace_symbols_fd(frames, backtrace(frames, 40), log_file);
 }
 
-/// FFTW ends the program itself where there is no memory: not what is tested.
+/// FFTW ends the program if it has no memory, so its calls never fail.
 static int is_exempt(const void* caller) {
     Dl_info place;
     return caller && dladdr(caller, &place) && strstr(place.dli_fname, "libfftw3") != NULL;
 }
 
-/// Whether this call fails; errno says why. With error 0 it moves half of the bytes.
+/// Whether this call fails, with errno set. With error 0 it transfers half of the bytes.
 static int fails_for(enum kind kind, const void* caller) {
     if (!atomic_load(&armed) || inside) return 0;
     const long number = atomic_fetch_add(&calls[kind], 1) + 1;
     if ((int)kind != chosen || number < turn || (number > turn && !sticky)) return 0;
     if (is_exempt(caller)) return 0;
-    inside = 1;  // what the note itself calls is no call of the program
+    inside = 1;  // calls made by the log itself do not count
     if (!noted) note_failure();
     noted = 1;
     inside = 0;
@@ -89,7 +89,7 @@ static int fails_for(enum kind kind, const void* caller) {
 static int fails(enum kind kind) { return fails_for(kind, NULL); }
 #define NO_STORAGE fails_for(MALLOC, __builtin_return_address(0))
 
-// Storage: glibc's own names for it need no look-up, which would allocate.
+// Allocation: glibc's own names need no dlsym(), which would allocate.
 void* __libc_malloc(size_t);
 void* __libc_calloc(size_t, size_t);
 void* __libc_realloc(void*, size_t);
@@ -160,7 +160,7 @@ REPLACED(MAP, void*, MAP_FAILED, mmap64, (void* p, size_t n, int a, int b, int f
 REPLACED(THREAD, int, error_number, pthread_create,
          (pthread_t * t, const pthread_attr_t* a, void* (*f)(void*), void* x), (t, a, f, x))
 
-// A fault of 0 is half of the bytes; the other calls fail.
+// Error 0 means half of the bytes; here the other calls fail.
 #define MOVED(kind, result, name, parameters, arguments, size) \
     result name parameters {                                   \
         NEXT(result, name, parameters);                        \
@@ -176,7 +176,7 @@ MOVED(READ, ssize_t, pread64, (int file, void* p, size_t n, off_t at), (file, p,
 MOVED(WRITE, ssize_t, write, (int file, const void* p, size_t n), (file, p, n), n)
 MOVED(WRITE, ssize_t, writev, (int file, const struct iovec* v, int n), (file, v, n), n)
 
-// A stream is never too short, and has no calls to repeat.
+// Streams are never shortened, and have no calls to repeat.
 static int stream_fails(enum kind kind, FILE* file) {
     const int harmless = error_number == 0 || error_number == EINTR || error_number == EAGAIN;
     if (file == stderr || (harmless && chosen == (int)kind) || !fails(kind)) return 0;
@@ -196,7 +196,7 @@ int fflush(FILE* file) {
     return file && stream_fails(WRITE, file) ? EOF : next(file);
 }
 
-// Even where closing fails, the descriptor is gone.
+// The descriptor is closed even if close() fails.
 int close(int file) {
     NEXT(int, close, (int));
     const int failed = file > STDERR_FILENO && fails(CLOSE);
@@ -232,14 +232,14 @@ static void read_orders(void) {
                                 O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     traced = getenv("STIPPLE_FAULT_TRACE") != NULL;
     nameless_refused = getenv("STIPPLE_NO_TMPFILE") != NULL;
-    if (traced) backtrace((void* [1]){NULL}, 1);  // loads what it needs
+    if (traced) backtrace((void* [1]){NULL}, 1);  // loads libgcc before any fault
     char name[16] = "", sign = 0;
     if (fault && (sscanf(fault, "%15[a-z]:%ld:%d", name, &turn, &error_number) == 3 ||
                   sscanf(fault, "%15[a-z]:%ld%c:%d", name, &turn, &sign, &error_number) == 4))
         for (int kind = 0; kind < KINDS; ++kind)
             if (strcmp(name, names[kind]) == 0) chosen = kind;
     sticky = sign == '+';
-    unsetenv("LD_PRELOAD");  // children are no matter of the test
+    unsetenv("LD_PRELOAD");  // children are not tested
 }
 
 int __libc_start_main(int (*main)(int, char**, char**), int count, char** words, void (*init)(void),
