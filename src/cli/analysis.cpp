@@ -139,8 +139,8 @@ void Analysis::check_side_files(const std::string& output) const {
     }
 }
 
-/// Distances mix units in a box whose sides have different units, and depend on the outermost
-/// points across the faces of a box that was computed from the points.
+/// Warns of distances that mix units, in a box with sides of different length, or that cross the
+/// faces of a box that was computed from the points themselves.
 void Analysis::warn_of_metric() const {
     const auto* metric = asked_.try_find("metric");
     if (metric == nullptr) return;

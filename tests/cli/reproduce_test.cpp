@@ -112,7 +112,7 @@ TEST(Reproduce, KnowsTheSetsThatConvertPutIntoFilesOfTheirOwn) {
         expect_identical(box, file);
 }
 
-// Follows warps and scrambles of later commands, and selections of points in between.
+// Follows warps and scrambles of later commands, and the truncation of digits in between.
 TEST(Reproduce, FollowsLaterCommands) {
     const Sandbox box;
     good(

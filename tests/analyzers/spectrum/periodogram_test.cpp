@@ -706,8 +706,7 @@ TEST(Periodogram, BoxesAreMeasuredAsTheCubeThatTheyAre) {
         EXPECT_NEAR(box.curve("radial.power")[i], cube.curve("radial.power")[i], 1e-7);
 }
 
-// Beyond the buffered points, the number of points is unknown in advance: same result with and
-// without it.
+// More points than are buffered: the result is the same whether or not their number is known.
 TEST(Periodogram, LargeSetsComeInPieces) {
     const PointSet set = make("random", points(1'100'000, 1));
     const Analyzer& unit = find_analyzer("periodogram");

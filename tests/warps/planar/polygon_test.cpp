@@ -66,7 +66,7 @@ Corners below(const Corners& p, double row) {
     return kept;
 }
 
-/// Oracle: number of crossings of a ray to the right.
+/// Oracle: whether a ray to the right crosses an odd number of edges.
 bool inside(const Corners& p, double px, double py) {
     bool odd = false;
     for (std::size_t i = 0; i < p.size(); ++i) {
