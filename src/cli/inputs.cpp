@@ -49,7 +49,8 @@ Reading reading_of(const std::string& path, const Arguments& arguments) {
     std::string from = arguments.get("from").value_or("");
     options.single = from == "f32";
     const auto analyzers = analyzers_of(arguments);
-    options.densities = (arguments.verb == Verb::warp && !arguments.has("density-at")) ||
+    options.densities = arguments.verb == Verb::convert ||
+                        (arguments.verb == Verb::warp && !arguments.has("density-at")) ||
                         std::ranges::any_of(analyzers, [](const Analyzer* analyzer) {
                             return analyzer->traits.densities;
                         });

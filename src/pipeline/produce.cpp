@@ -175,7 +175,7 @@ void write_sets(std::vector<PointSet> sets, const Target& target, const RunConte
                  sets[i].dimension(), d);
         if (!sets[i].domain) sets[i].domain = unit_cube(d);
     }
-    write_sets(stream_of(sets), target, run);
+    write_sets(stream_of(sets), with_own_columns(target, sets.front()), run);
 }
 
 }  // namespace stipple

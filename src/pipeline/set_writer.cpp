@@ -12,6 +12,7 @@
 #include "core/text.hpp"
 #include "generators/generator.hpp"
 #include "io/carried_meta.hpp"
+#include "io/columns.hpp"
 #include "io/output.hpp"
 
 namespace stipple {
@@ -192,6 +193,14 @@ bool waits_for_all(const SetStream& stream, const Target& target) {
 }
 
 }  // namespace
+
+Target with_own_columns(Target target, const PointSet& points) {
+    if (points.densities.empty()) return target;
+    const auto there = io::density_columns(points.provenance);
+    target.columns.pdf |= there.pdf;
+    target.columns.weight |= there.weight;
+    return target;
+}
 
 std::vector<double> with_columns(std::span<const double> rows, std::span<const double> densities,
                                  const Columns& columns, const SetStream& stream) {

@@ -45,6 +45,9 @@ struct Target {
 /// As the target names it or its path ends; else csv.
 const Format& format_of(const Target& target);
 
+/// The target with the density columns that the file of these points had.
+Target with_own_columns(Target target, const PointSet& points);
+
 /// Each row with the columns behind it. @throws Error(input) where a number is infinite
 /// @param densities of the points, where these have their own
 std::vector<double> with_columns(std::span<const double> rows, std::span<const double> densities,

@@ -130,24 +130,6 @@ struct Warping {
     std::shared_ptr<const WarpChain> stretch = {};  ///< what densities are divided by
 };
 
-/// Bases of the digits of points that a generator made, and scrambles alone have changed; empty: 2,
-/// or not known.
-std::vector<std::uint32_t> digit_bases(const Provenance& meta) {
-    const Generator* generator = generator_named(meta.generator);
-    if (generator == nullptr || !generator->bases || !meta.bounds.empty()) return {};
-    const auto keeps_digits = [](const std::string& step) {
-        return step == cut_to_single || step.starts_with(cut_to_digits) ||
-               (!step.starts_with(inverse_of) && scramble_named(parse_spec(step).name) != nullptr);
-    };
-    if (!std::ranges::all_of(meta.warps, keeps_digits)) return {};
-    Values options = generator->options.defaults();
-    const auto& known = generator->options.options();
-    for (const auto& [name, text] : meta.options)
-        if (std::ranges::find(known, name, &Option::name) != known.end())
-            generator->options.set(options, name, text);
-    return chain_set(*generator, {.count = meta.count, .dimension = meta.dimension}, options).bases;
-}
-
 /// The image of a set, as its provenance tells it.
 PointSet warped(const PointSet& set, const Warping& warping, const RunContext& run) {
     const auto& [inverse, taken, cube, before, chain, inputs, stretch] = warping;
@@ -225,6 +207,22 @@ bool takes_whole_sets(const Spec& warp, std::size_t dimension, const RunContext&
     return unit.traits.reorders && unit.make(warp.values(unit.options), given, run)->reorders();
 }
 
+std::vector<std::uint32_t> digit_bases(const Provenance& meta) {
+    const Generator* generator = generator_named(meta.generator);
+    if (generator == nullptr || !generator->bases || !meta.bounds.empty()) return {};
+    const auto keeps_digits = [](const std::string& step) {
+        return step == cut_to_single || step.starts_with(cut_to_digits) ||
+               (!step.starts_with(inverse_of) && scramble_named(parse_spec(step).name) != nullptr);
+    };
+    if (!std::ranges::all_of(meta.warps, keeps_digits)) return {};
+    Values options = generator->options.defaults();
+    const auto& known = generator->options.options();
+    for (const auto& [name, text] : meta.options)
+        if (std::ranges::find(known, name, &Option::name) != known.end())
+            generator->options.set(options, name, text);
+    return chain_set(*generator, {.count = meta.count, .dimension = meta.dimension}, options).bases;
+}
+
 PointSet warped_set(const PointSet& set, const Spec& warp, bool inverse, const RunContext& run) {
     const bool densities = !set.densities.empty();
     const ChainSet of{.bases = digit_bases(set.provenance)};
@@ -243,12 +241,7 @@ void write_warped(Unwarped from, const Spec& warp, bool inverse, const Target& t
     const Warping warping(warp, inverse, from.domain(), target, run, {}, densities);
     const WarpChain& chain = *warping.chain;
     if (!from.stream) {
-        Target wider = target;
-        if (densities) {
-            const auto there = io::density_columns(from.sets.front().provenance);
-            wider.columns.pdf |= there.pdf;
-            wider.columns.weight |= there.weight;
-        }
+        const Target wider = with_own_columns(target, from.sets.front());
         for (PointSet& set : from.sets) set = warped(set, warping, run);
         return write_sets(stream_of(from.sets, &chain), wider, run);
     }

@@ -26,6 +26,10 @@ struct Unwarped {
     [[nodiscard]] const DomainPtr& domain() const { return stream ? on : sets.front().domain; }
 };
 
+/// Bases of the digits of each coordinate, from the provenance of points that a generator made and
+/// that at most scrambles changed; empty: 2, or unknown.
+std::vector<std::uint32_t> digit_bases(const Provenance& meta);
+
 /// Whether the images of points of such a dimension depend on all points of their set.
 bool takes_whole_sets(const Spec& warp, std::size_t dimension, const RunContext& run);
 

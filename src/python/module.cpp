@@ -112,15 +112,18 @@ std::string domain_of_images(const std::string& text, const Settings& settings,
 }
 
 py::array scramble(const std::string& text, const Settings& settings, const Array& rows,
-                   std::uint64_t seed, std::uint64_t start, const How& how) {
+                   const std::string& meta, std::uint64_t seed, std::uint64_t start,
+                   const How& how) {
     const Spec spec = spec_of(text, settings);
     if (scramble_named(spec.name) == nullptr) refuse_unit("scramble", spec.name);
-    return array_of(
-        released(how, [&, points = points_of(rows, "unit-cube")](const RunContext& run) {
-            const WarpChain chain({&spec, 1}, points.dimension(),
-                                  {.seed = seed, .count = start + points.count()}, run);
-            return chain.image(points, run, start);
-        }));
+    std::vector<std::uint32_t> bases;
+    if (!meta.empty()) bases = digit_bases(io::provenance_from(parse_json(meta)));
+    return array_of(released(how, [&,
+                                   points = points_of(rows, "unit-cube")](const RunContext& run) {
+        const WarpChain chain({&spec, 1}, points.dimension(),
+                              {.seed = seed, .count = start + points.count(), .bases = bases}, run);
+        return chain.image(points, run, start);
+    }));
 }
 
 py::array column(std::vector<double> values) {

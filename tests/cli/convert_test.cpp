@@ -10,6 +10,22 @@ using ::testing::HasSubstr;
 
 // Shortest digits and float64 binaries lose nothing, so converting through all formats gives the
 // original.
+// A column of densities stays with its points in every format, and is read back.
+TEST(Convert, KeepsColumnsOfDensities) {
+    const Sandbox box;
+    for (const std::string column : {"--with-pdf", "--with-weight", "--with-pdf --with-weight"}) {
+        const std::string csv = good(
+            box.shell("stipple generate sobol -n 4 -w disk " + column + " -o p.csv; cat p.csv"));
+        for (const std::string format : {"json", "jsonl", "csv"})
+            EXPECT_EQ(good(box.shell("stipple convert p.csv -f " + format +
+                                     " | stipple convert - -f csv")),
+                      csv)
+                << column << format;
+        EXPECT_EQ(good(box.shell("stipple convert p.csv --column x,y")),
+                  good(box.shell("stipple generate sobol -n 4 -w disk")));
+    }
+}
+
 TEST(Convert, AWayRoundAllFormatsLosesNothing) {
     const Sandbox box;
     good(box.run({"generate", "random", "-n", "500", "-d", "3", "-o", "a.csv"}));

@@ -135,6 +135,11 @@ def test_warps_go_there_and_back():
 def test_scrambles_are_those_of_the_program(run):
     x = stipple.generate("sobol", 64, 2)
     moved = stipple.scramble(x, "owen", seed=7)
+    faure = stipple.generate("faure", 25, 5, return_meta=True)  # in base 5
+    even = stipple.scramble(faure, "owen")
+    assert np.array_equal(even, stipple.scramble(np.asarray(faure), "owen", base=5))
+    assert np.array_equal(even, stipple.generate("faure", 25, 5, warp="owen"))
+    assert sorted(np.floor(25 * even[:, 4])) == list(range(25))
     csv = run("generate", "sobol", "-n64")
     out = run("warp", "owen", "--seed=7", "--format=npy", stdin=csv)
     assert moved.tobytes() == np.load(io.BytesIO(out)).tobytes()

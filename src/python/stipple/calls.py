@@ -183,6 +183,8 @@ def scramble(x, scramble, *, seed=1, start=0, **options):
 
     scramble  name or spec: "owen", "cranley-patterson"; list("scrambles") names all
     start     index of the first point, for parts of a sequence
+    options   of the scramble. Digits have the bases of the generator if x has its meta, else base 2:
+              for plain arrays of other bases, such as Halton's, pass base=[2, 3, 5]
 
     For several sets (sets, n, d), set k has the seed seed + k.
     """
@@ -191,8 +193,8 @@ def scramble(x, scramble, *, seed=1, start=0, **options):
     text = spec_text(scramble)
     rows = as_rows(x, most=3)
     if rows.ndim == 2:
-        return _stipple.scramble(text, settings, rows, seed, start, how)
-    return np.stack([_stipple.scramble(text, settings, one, seed + k, start, how)
+        return _stipple.scramble(text, settings, rows, meta_text(x), seed, start, how)
+    return np.stack([_stipple.scramble(text, settings, one, meta_text(x[k]), seed + k, start, how)
                      for k, one in enumerate(rows)])
 
 
