@@ -4,7 +4,6 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/feed.hpp"
-#include "io/point_stream.hpp"
 #include "io/source_text.hpp"
 
 namespace stipple::io {
@@ -47,20 +46,9 @@ std::vector<PointSet> read_points(const std::string& path, const ReadOptions& op
     return read_sets(read_bytes(path, run), path, options, run, format);
 }
 
-namespace {
-
 void require_file(std::string_view option, const std::string& path) {
     if (path == "-")
         fail(ErrorKind::usage, "--{}: standard input cannot be read again; give a file", option);
-}
-
-}  // namespace
-
-std::size_t width_of_given(std::string_view option, const std::string& path) {
-    require_file(option, path);
-    const auto stream = open_points(path, {}, {});
-    if (!stream->next_set()) fail(ErrorKind::input, "{}: 0 sets of points; expected one", path);
-    return stream->dimension();
 }
 
 PointSet read_given(std::string_view option, const std::string& path, const ReadOptions& options,

@@ -35,7 +35,7 @@ std::vector<PointSet> read_points(const std::string& path, const ReadOptions& op
 PointSet read_given(std::string_view option, const std::string& path, const ReadOptions& options,
                     const RunContext& run);
 
-/// Numbers in a row of that file, from its first rows. @throws as read_given
-std::size_t width_of_given(std::string_view option, const std::string& path);
+/// @throws Error(usage) naming the option if the path is standard input, which cannot be read twice
+void require_file(std::string_view option, const std::string& path);
 
 }  // namespace stipple::io

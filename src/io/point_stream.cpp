@@ -329,6 +329,13 @@ void check_finite(std::span<const double> numbers, const RawShape& shape, const 
          shape.offset + index * shape.type.size, *it, point);
 }
 
+std::size_t width_of_given(std::string_view option, const std::string& path) {
+    require_file(option, path);
+    const auto stream = open_points(path, {}, {});
+    if (!stream->next_set()) fail(ErrorKind::input, "{}: 0 sets of points; expected one", path);
+    return stream->dimension();
+}
+
 std::unique_ptr<PointStream> open_points(const std::string& path, const ReadOptions& options,
                                          const RunContext& run, const Format* format) {
     auto feed = std::make_unique<Feed>(path, run);

@@ -68,6 +68,10 @@ class PointStream {
 std::unique_ptr<PointStream> open_points(const std::string& path, const ReadOptions& options,
                                          const RunContext& run, const Format* format = nullptr);
 
+/// Numbers in a row of the one set of the file that an option names, from its first rows.
+/// @throws as read_given
+std::size_t width_of_given(std::string_view option, const std::string& path);
+
 /// Concatenates files of one set each into one set; each file is opened when it is needed. If they
 /// are all shards of one set, in order, the provenance is that of the whole; otherwise only their
 /// common domain is known.

@@ -373,7 +373,7 @@ TEST(Plot, RefusesWhatIsNoPictureAndLeavesNoFile) {
     expect_refusal(box.run({"plot", "chi.json", "p.csv", "-o", "c.svg"}), 3,
                    "one kind is drawn in one picture");
     expect_refusal(box.run({"plot", "chi.json", "nearest.json", "-o", "c.svg"}), 3,
-                   "reports of chi-square and of nearest-neighbor");
+                   "reports of different analyzers, chi-square and nearest-neighbor");
     expect_refusal(box.run({"plot", "chi.json", "--chart", "points"}), 2, "--chart");
     expect_refusal(box.run({"plot", "missing.csv"}), 4, "no such file");
     expect_refusal(box.run({"plot", "p.csv", "-o", "no/where.svg"}), 4, "no folder");

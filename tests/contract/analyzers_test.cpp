@@ -128,11 +128,12 @@ TEST_P(EveryAnalyzer, TakesTheDomainsThatItsRecordTells) {
     };
     EXPECT_EQ(error_on("box:bounds=[0..1,-1..2]"), "");
     const std::string on_disk = error_on("disk");
-    const std::string refused =
-        "input: " + unit.name + " requires points of the unit cube or a box; their domain is disk";
+    const std::string refused = " requires points of the unit cube or a box; the domain is disk";
     // An analyzer with a choice of kernels may support other domains with another kernel.
     const bool taken = !unit.traits.boxed && on_disk.empty();
-    EXPECT_TRUE(taken || on_disk.starts_with(refused)) << on_disk;
+    EXPECT_TRUE(taken || (on_disk.starts_with("input: " + unit.name) &&
+                          on_disk.find(refused) != std::string::npos))
+        << on_disk;
 }
 
 TEST_P(EveryAnalyzer, TakesPointsOnTheClosedCube) {

@@ -471,7 +471,7 @@ TEST(ReportCharts, SaysWhatCanBeDrawnWhereNothingCan) {
                 HasSubstr("a single report of star-discrepancy has only numbers, nothing to draw; "
                           "curves can be drawn"));
     EXPECT_THAT(refusal({number(0.1, 64), spectrum("a", {1, 1, 1})}),
-                HasSubstr("reports of star-discrepancy and of periodogram"));
+                HasSubstr("reports of different analyzers, star-discrepancy and periodogram"));
     EXPECT_THAT(refusal({number(0.1, 64), number(0.2, 64)}, "volume"), HasSubstr("no 'volume'"));
     EXPECT_THAT(refusal({measurement("periodogram", {}, "a")}), HasSubstr("nothing to draw"));
 }

@@ -43,6 +43,7 @@
 #include "generators/generator.hpp"
 #include "generators/given_points.hpp"
 #include "io/files.hpp"
+#include "io/point_stream.hpp"
 #include "math/combinatorics/draws.hpp"
 
 namespace stipple::generators::sample_elimination {

@@ -39,6 +39,7 @@
 #include "generators/subset/partition.hpp"
 #include "generators/subset/star_choice.hpp"
 #include "io/files.hpp"
+#include "io/point_stream.hpp"
 #include "math/kernels/bandwidth.hpp"
 #include "math/kernels/pair_sums.hpp"
 #include "stipple/generate.hpp"

@@ -119,7 +119,7 @@ TEST(Sensitivity, ProvenanceNamesTheInputs) {
               (std::vector<std::string>{
                   "the table: columns that are neither input nor output: a",
                   "the table: some of x, y are missing, so that their distribution is ignored"}));
-    EXPECT_THAT(refusal(make("sobol", points(64, 2))), HasSubstr("holds no outputs"));
+    EXPECT_THAT(refusal(make("sobol", points(64, 2))), HasSubstr("has no outputs"));
     PointSet words = with_outputs(points_in(make("sobol", points(8, 1))), [](auto) { return 1; });
     words.provenance.columns = {"a", "state"};
     words.provenance.levels = {{"state", {"good", "bad"}}};

@@ -205,7 +205,7 @@ TEST(FractionalFactorial, RefusesWhatIsNoFraction) {
               "usage: --count: 64 is not a fraction of the 2^k runs, as fractional-factorial of 5 "
               "factors needs; 32 is the nearest");
     EXPECT_EQ(error(points(8, 5), {{"resolution", "4"}}),
-              "usage: --count: 8 runs are too few for 5 factors at resolution IV; 16 do");
+              "usage: --count: 8 runs are too few for 5 factors at resolution IV; 16 suffice");
     EXPECT_EQ(error(points(2048, 48), {{"resolution", "5"}}),
               "usage: --count: 2048 runs are not known to suffice for 48 factors at resolution V; "
               "4096 suffice");

@@ -380,7 +380,7 @@ TEST(Optimized, RefusesWhatItCannotMake) {
               "usage: --weights: 3 numbers for 2 coordinates; give one for each");
     EXPECT_THAT(error(points(9, 2), {{"weights", "1,0"}}), ::testing::HasSubstr("outside (0, "));
     EXPECT_THAT(error(points(9, 2), {{"weights", "1,2"}, {"objective", "dispersion"}}),
-                ::testing::HasSubstr("objective dispersion has none"));
+                ::testing::HasSubstr("objective dispersion takes no weights"));
     EXPECT_THAT(error(points(9, 2), {{"lattice", "true"}}),
                 ::testing::HasSubstr("objective star depends on a shift of the lattice"));
     EXPECT_THAT(

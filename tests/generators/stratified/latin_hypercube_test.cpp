@@ -381,7 +381,8 @@ TEST(LatinHypercube, RefusesWhatItCannotMake) {
     EXPECT_EQ(error({}, {{"extend", file.path()}}),
               "usage: --extend: the number of new points is missing; give --add");
     EXPECT_EQ(error(points(9, 2), {{"extend", file.path()}, {"add", "3"}}),
-              "usage: --count: 9 is not 5, the 2 points of " + file.path() + " and those of --add");
+              "usage: --count: 9 is not 5, the sum of the 2 points of " + file.path() +
+                  " and those of --add");
     EXPECT_EQ(error(points(5, 3), {{"extend", file.path()}, {"add", "3"}}),
               "usage: --dimension: 3, but " + file.path() + " has points of 2 coordinates");
     EXPECT_EQ(
