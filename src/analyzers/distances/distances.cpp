@@ -116,7 +116,7 @@ Distances distances_in_box(const PointSet& points, const std::string& asked, con
     const std::optional<Box> box = box_of(*points.domain);
     if (!box) {
         static_cast<void>(distances_of(points, asked));  // throws its own error for a torus
-        fail(ErrorKind::input, "{} requires points of the unit cube or a box; their domain is {}",
+        fail(ErrorKind::input, "{} requires points of the unit cube or a box; the domain is {}",
              analyzer, points.domain->title());
     }
     const Outside outside = outside_of(points);
