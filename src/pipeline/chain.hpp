@@ -132,7 +132,7 @@ class WarpChain {
   private:
     /// Either a mapping or a randomization; or what was before, which changes nothing.
     struct Step {
-        DomainPtr domain = {};  ///< of what it gave; none of a randomization
+        DomainPtr domain = {};  ///< of the step's output; null for a randomization
         std::unique_ptr<Mapping> mapping = {};
         Randomization randomization = {};
         std::vector<std::size_t> coordinates = {};  ///< taken from the row before

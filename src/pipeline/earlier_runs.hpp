@@ -19,7 +19,8 @@ struct EarlierRuns {
     PointSet cube;
 };
 
-/// Whether a generator goes on from points of a file in the units of named parameters.
+/// Whether a generator continues a design from a file whose points are in the units of named
+/// parameters.
 bool goes_on_from_runs(const Values& options, const WarpChain& chain);
 
 /// Those points. Of parameters with outcomes, points of one are spread over its interval.

@@ -107,7 +107,7 @@ Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& o
         }
     }
     if (!analyzer.accumulate) return analyzer.analyze(points, options, run);
-    // As they lie there: a copy takes as long as some analyzers.
+    // Measures the points in place: a copy would take as long as some analyzers.
     const auto measure = analyzer.accumulate({points.domain, points.count()}, options, run);
     const RunContext quiet = silent(run);
     const auto batch = static_cast<std::size_t>(arrival_batch(points.dimension()));

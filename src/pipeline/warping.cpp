@@ -113,7 +113,8 @@ struct Warping {
                                                                chain->dimension_in(), set, run);
     }
 
-    /// Densities of the images of points that tell their own: p / |J|, on the way back p |J|.
+    /// Densities at the mapped points if the points have densities p: p / |J|, or p |J| for the
+    /// inverse map.
     [[nodiscard]] std::vector<double> densities(const PointSet& from, const PointSet& to) const {
         auto factors = stretch->density((inverse ? from : to).flat());
         for (std::size_t i = 0; i < factors.size(); ++i)

@@ -97,7 +97,7 @@ std::optional<std::vector<UnitRange>> WorkQueue::pull() {
         const std::uint64_t cell = cells_.back();
         std::uint64_t& pulled = work_[cell].pulled;
         std::uint64_t units = piece_of(cell).units;
-        if (units > 1) units -= pulled % sweep_.measures().size();  // pieces end with a set
+        if (units > 1) units -= pulled % sweep_.measures().size();  // keeps sets whole
         units = std::min(units, sweep_.units_per_cell() - pulled);
         const std::uint64_t first = cell * sweep_.units_per_cell() + pulled;
         pulled += units;

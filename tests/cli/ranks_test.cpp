@@ -62,7 +62,8 @@ TEST(Ranks, SpeakOnceOfWhatIsWrong) {
     EXPECT_THAT(alone.err, HasSubstr("ranks do not share dispersion"));
 }
 
-// The ranks agree on the error in the points, and rank 0 names the file like a single process.
+// All ranks report the same error for bad points, and rank 0 names the file, as a single process
+// does.
 TEST(Ranks, NameTheFileThatIsAtFault) {
     if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
     const Sandbox box;

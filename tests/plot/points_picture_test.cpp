@@ -171,7 +171,7 @@ TEST(PointsPicture, EveryPairOfCoordinatesHasAPanel) {
     const PointSet points = make("random", {10, 5});
     EXPECT_EQ(marks_of(draw_points(picture_of({&points}), {}, {})).size(), 100U);
     const PointSet more = make("random", {10, 12});
-    EXPECT_EQ(marks_of(draw_points(picture_of({&more}), {}, {})).size(), 280U);  // of 8
+    EXPECT_EQ(marks_of(draw_points(picture_of({&more}), {}, {})).size(), 280U);  // pairs of 8
 }
 
 // One scale for all panels: panels with a coordinate that is concentrated are darker.

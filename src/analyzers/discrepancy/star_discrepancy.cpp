@@ -119,7 +119,8 @@ void need_room(const PointSet& points, Family family, const RunContext& run) {
                    points.count(), d, format_bytes(all), format_bytes(room));
 }
 
-/// Worst box in the square; only bounds if the sweep takes longer than its part of the time.
+/// Finds the worst box in two dimensions; only bounds if the sweep exceeds its part of the time
+/// limit.
 Found sweep_or_search(const BoxGrid& grid, const Limits& limits, const RunContext& run) {
     constexpr double part = 0.7;  // the rest is for bounds
     SearchLimits first = limits.search;

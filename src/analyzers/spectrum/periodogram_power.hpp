@@ -20,8 +20,8 @@ struct Strengths {
     double squares = 0;
 };
 
-/// Sums of strengths of points that arrive in blocks, possibly in several processes; added as grids
-/// are.
+/// Accumulates the weights of points that arrive in blocks, possibly in several processes. Partial
+/// sums are merged in the order of the grids.
 class StrengthSums {
   public:
     void add(double strength) {

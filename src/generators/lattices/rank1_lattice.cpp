@@ -66,8 +66,7 @@ constexpr Param<double> effort{.name = "effort",
 constexpr Param<Numbers> vector{{.name = "vector",
                                  .help = "Generating vector, such as 1,182667,469891; gives the "
                                          "dimension, or has more numbers than --dimension"}};
-/// Numbers that are updated side by side, those of a few points, so that none waits for the one
-/// before.
+/// Numbers of a few points that are updated together, so that no update waits for the one before.
 constexpr std::size_t some_numbers = 64;
 
 /// Sets x = residues / n, and advances the residues by the step. All numbers are integers up to

@@ -129,8 +129,8 @@ void kick(PlanarOrder& order, std::size_t n, SplitMix64& draws) {
         made += static_cast<std::size_t>(order.attempt(any_swap(n, draws), limit));
 }
 
-/// Continues a descent for at most `steps` steps, after a kick if it is over. Returns the steps
-/// taken. @throws Error(cancelled)
+/// Continues a descent for at most `steps` steps; perturbs it first if it has converged. Returns
+/// the steps taken. @throws Error(cancelled)
 double go_on(Descent& descent, SplitMix64 draws, double steps, const RunContext& run) {
     constexpr double equal = 1 + 1e-12;
     const std::size_t n = descent.ranks.size();

@@ -42,7 +42,8 @@ StarBounds star_discrepancy(const PointSet& points, const Rows& rows, const RunC
 Rows choose_by_star(const PointSet& points, Rows start, std::uint64_t measures, std::uint64_t seed,
                     const RunContext& run);
 
-/// Lowers the largest star discrepancy of sets that hold all points, by exchanges between them.
+/// Reduces the largest star discrepancy among `sets`, a partition of the points, by exchanging
+/// points between them.
 void even_out_by_star(const PointSet& points, std::vector<Rows>& sets, std::uint64_t measures,
                       std::uint64_t seed, const RunContext& run);
 

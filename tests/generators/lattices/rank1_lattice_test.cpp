@@ -218,7 +218,7 @@ TEST(KorobovSearch, FindsTheBestOfAllWhereThereIsTime) {
 TEST(KorobovSearch, IsMuchBetterThanTheMiddleOfAllAlsoWhereItTriesFew) {
     const std::uint64_t n = 1 << 19;
     const auto weights = decaying(40, 2);
-    const std::uint64_t a = korobov_multiplier(n, weights, 25, {});  // of 131072
+    const std::uint64_t a = korobov_multiplier(n, weights, 25, {});  // of 131072 candidates
     const auto error = [&](std::uint64_t b) {
         return squared_lattice_error(n, powers_modulo(b, 40, n), weights);
     };
