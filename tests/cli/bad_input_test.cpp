@@ -417,7 +417,8 @@ TEST(BadInput, CtrlCDuringASearchPrintsTheBoundsFoundSoFarButWritesNoFile) {
         "stipple generate halton -n 2000 -d 8 -o p.npy; stipple analyze star-discrepancy p.npy ";
     // Bounds are shown as soon as they are known.
     const std::string interrupt =
-        " --progress always 2> err & until grep -q between err; do sleep 0.02; done; kill -INT $!; "
+        " --progress always 2> err & until grep -qs between err; do sleep 0.02; done; kill -INT "
+        "$!; "
         "wait $!; code=$?; tr '\\r' '\\n' < err | grep -a interrupted | sed "
         "'s/.*stipple:/stipple:/' "
         ">&2; rm err; exit $code";

@@ -352,7 +352,7 @@ TEST(Report, LeavesNoFileWhenItIsInterrupted) {
     const Sandbox box;
     const Outcome outcome = box.shell(
         "stipple report --generate random -n 3000 -d 9 --max-work 1e15 -o r.html "
-        "--progress always 2> err & until grep -q between err; do sleep 0.02; done; "
+        "--progress always 2> err & until grep -qs between err; do sleep 0.02; done; "
         "kill -INT $!; wait $!");
     EXPECT_EQ(outcome.code, 130) << box.read("err");
     EXPECT_EQ(box.files(), std::vector<std::string>{"err"});
