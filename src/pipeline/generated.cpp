@@ -165,10 +165,11 @@ std::optional<std::uint64_t> GeneratedSets::streamed() const {
     return plan_.count;
 }
 
-std::shared_ptr<const WarpChain> GeneratedSets::chain_for(std::uint64_t set,
-                                                          const RunContext& run) const {
+std::shared_ptr<const WarpChain> GeneratedSets::chain_for(std::uint64_t set, const RunContext& run,
+                                                          std::optional<std::uint64_t> made) const {
     if (!chain_->seeded()) return chain_;
-    return make_chain({.seed = plan_.seed + set, .count = asked_.request.start + plan_.count}, run);
+    const std::uint64_t count = asked_.request.start + made.value_or(plan_.count);
+    return make_chain({.seed = plan_.seed + set, .count = count}, run);
 }
 
 std::shared_ptr<const WarpChain> GeneratedSets::make_chain(const ChainSet& set,
@@ -289,7 +290,8 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
             points = PointSet(std::move(rows), dimension());
             points.provenance.efficiency = static_cast<double>(kept) / static_cast<double>(made);
         } else {
-            points = chain_for(set, rest)->image(points, rest.stage(1, 1), asked_.request.start);
+            points = chain_for(set, rest, points.count())
+                         ->image(points, rest.stage(1, 1), asked_.request.start);
         }
         efficiency = points.provenance.efficiency;
         keep_runs(points, rest);

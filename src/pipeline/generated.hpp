@@ -92,9 +92,10 @@ class GeneratedSets {
     [[nodiscard]] Provenance provenance(std::uint64_t set, std::uint64_t count) const;
 
   private:
-    /// The warps with the random choices of one set.
-    [[nodiscard]] std::shared_ptr<const WarpChain> chain_for(std::uint64_t set,
-                                                             const RunContext& run) const;
+    /// The warps with the random choices of one set. @param made number of its points, if the plan
+    /// leaves it open
+    [[nodiscard]] std::shared_ptr<const WarpChain> chain_for(
+        std::uint64_t set, const RunContext& run, std::optional<std::uint64_t> made = {}) const;
     [[nodiscard]] std::shared_ptr<const WarpChain> make_chain(const ChainSet& set,
                                                               const RunContext& run) const;
     /// The points of a set before its warps.

@@ -19,6 +19,20 @@ TEST(Scramble, OnTheWayOutOrFromAFileIsTheSame) {
 
 // Digits are scrambled in the base of each generator, both in generate and for a file with
 // provenance.
+// Micro-jitter depends on the number of points, which these generators do not know in advance.
+TEST(Scramble, TakesTheCountOfPointsThatWereMade) {
+    const Sandbox box;
+    good(box.run({"generate", "random", "-n", "64", "-o", "p.csv"}));
+    for (const std::string made :
+         {"poisson-disk --radius 0.2", "lloyd --from p.csv --iterations 0",
+          "subset --from p.csv --effort 0.01", "sample-elimination --from p.csv"}) {
+        const std::string command = "stipple generate " + made;
+        EXPECT_EQ(good(box.shell(command + " -w micro-jitter")),
+                  good(box.shell(command + " | stipple warp micro-jitter")))
+            << made;
+    }
+}
+
 TEST(Scramble, TakesTheBasesOfTheGenerator) {
     const Sandbox box;
     for (const auto& [generator, bases] : {std::pair{"faure -d 5", "5"},
