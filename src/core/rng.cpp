@@ -18,7 +18,8 @@ constexpr std::uint64_t join(std::uint32_t low, std::uint32_t high) {
 }
 
 /// Numbers 2 * pair and 2 * pair + 1 of the stream.
-std::array<std::uint64_t, 2> block(std::uint64_t seed, std::uint64_t stream, std::uint64_t pair) {
+std::array<std::uint64_t, 2> random_block(std::uint64_t seed, std::uint64_t stream,
+                                          std::uint64_t pair) {
     const auto out =
         philox_block({low_word(pair), high_word(pair), low_word(stream), high_word(stream)},
                      {low_word(seed), high_word(seed)});
@@ -73,7 +74,9 @@ std::array<std::uint32_t, 4> philox_block(const std::array<std::uint32_t, 4>& co
     return {out[0], out[1], out[2], out[3]};
 }
 
-std::uint64_t Rng::bits(std::uint64_t i) const { return block(seed_, stream_, i / 2)[i % 2]; }
+std::uint64_t Rng::bits(std::uint64_t i) const {
+    return random_block(seed_, stream_, i / 2)[i % 2];
+}
 
 std::uint64_t Rng::below(std::uint64_t i, std::uint64_t n) const {
     return high_half(wide_product(bits(i), n));

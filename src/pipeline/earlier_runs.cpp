@@ -16,8 +16,8 @@
 namespace stipple {
 namespace {
 
-constexpr const char* extend = "extend";
-constexpr const char* add = "add";
+constexpr const char* extend_option = "extend";
+constexpr const char* add_option = "add";
 constexpr const char* levels_of_factors = "levels";
 
 bool given(const Values& options, const char* option) {
@@ -50,13 +50,13 @@ void spread(PointSet& cube, const std::vector<OutcomeAxis>& axes) {
 }
 
 std::string file_of_runs(const Values& options) {
-    return std::get<std::string>(options.find(extend).value);
+    return std::get<std::string>(options.find(extend_option).value);
 }
 
 PointSet read_runs(const Values& options, const WarpChain& chain, const RunContext& run) {
     const std::string path = file_of_runs(options);
     PointSet runs = io::read_given(
-        extend, path, {.expected = chain.names({}, false), .levels = chain.levels()}, run);
+        extend_option, path, {.expected = chain.names({}, false), .levels = chain.levels()}, run);
     if (runs.dimension() != chain.dimension_out())
         fail(ErrorKind::input, "{}: {} columns; the parameters are {}", path, runs.dimension(),
              chain.dimension_out());
@@ -71,14 +71,15 @@ void count_with_runs(const WarpChain& chain, Request& request, Values& options,
             ErrorKind::usage,
             "--extend: the parameters of a whole set are reordered; earlier points would not stay");
     request.dimension = chain.dimension_in();
-    if (!given(options, add)) return;
-    const auto more = static_cast<std::uint64_t>(std::get<std::int64_t>(options.find(add).value));
+    if (!given(options, add_option)) return;
+    const auto more =
+        static_cast<std::uint64_t>(std::get<std::int64_t>(options.find(add_option).value));
     const std::uint64_t before = read_runs(options, chain, run).count();
     if (request.count.value_or(before + more) != before + more)
         fail(ErrorKind::usage, "--count: {} is not {}, the {} points of {} and those of --add",
              *request.count, before + more, before, file_of_runs(options));
     request.count = before + more;
-    options.put(add, std::int64_t{0}, false);
+    options.put(add_option, std::int64_t{0}, false);
 }
 
 void take_levels(const WarpChain& chain, Values& options) {
@@ -94,7 +95,7 @@ void take_levels(const WarpChain& chain, Values& options) {
 }  // namespace
 
 bool goes_on_from_runs(const Values& options, const WarpChain& chain) {
-    return given(options, extend) && !chain.empty() && !chain.names({}, false).empty();
+    return given(options, extend_option) && !chain.empty() && !chain.names({}, false).empty();
 }
 
 EarlierRuns earlier_runs(const Values& options, const WarpChain& chain, const RunContext& run) {
@@ -115,7 +116,7 @@ EarlierRuns earlier_runs(const Values& options, const WarpChain& chain, const Ru
 void take_parameters(const Generator& generator, std::span<const Spec> warps, Request& request,
                      Values& options, const RunContext& run) {
     const auto* levels = options.try_find(levels_of_factors);
-    const bool extends = given(options, extend);
+    const bool extends = given(options, extend_option);
     const bool takes_levels = has_levels(generator) && levels != nullptr &&
                               std::holds_alternative<std::vector<double>>(levels->value) &&
                               !levels->given && !request.count;

@@ -94,7 +94,7 @@ PointSet some_points(std::size_t dimension, std::size_t count = 64) {
     return points;
 }
 
-RunContext silent(RunContext run) {
+RunContext without_warnings(RunContext run) {
     run.progress = {};
     run.warn = {};
     return run;
@@ -104,7 +104,7 @@ RunContext silent(RunContext run) {
 std::optional<Error> refusal(const Chosen<Analyzer>& measure, const PointSet& points,
                              const RunContext& run, std::optional<double> limit = {}) {
     try {
-        over_time(silent(run), limit, [&](const RunContext& limited) {
+        over_time(without_warnings(run), limit, [&](const RunContext& limited) {
             (void)analyze(*measure.unit, points, measure.values, limited);
         });
     } catch (const Error& e) {
@@ -129,7 +129,7 @@ bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunCon
     if (measure.unit->traits.boxed && !spec.starts_with("box")) return false;
     const std::size_t d = chain.dimension_in();
     const PointSet points = some_points(d, chain.reorders() ? 64 + d : 64);
-    return takes_points(measure, chain.image(points, silent(run)), run) ||
+    return takes_points(measure, chain.image(points, without_warnings(run)), run) ||
            !takes_points(measure, points, run);
 }
 
@@ -167,7 +167,7 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
                               .request = request,
                               .sets = 1,
                               .warps = std::move(warps)},
-                             silent(run))
+                             without_warnings(run))
             .made(0, run);
     };
     std::vector<Spec> warps(sweep.later_warps().begin(), sweep.later_warps().end());
@@ -253,7 +253,7 @@ UnitRunner::UnitRunner(const Sweep& sweep, const RunContext& run)
 
 // Each set is made once, and only one if the seed changes nothing.
 WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext& run) const {
-    const RunContext quiet = silent(run);
+    const RunContext quiet = without_warnings(run);
     const bool shares_memory = run.max_memory < whole_memory_;
     WorkDone done;
     MadeSet set;
@@ -300,7 +300,7 @@ std::optional<Error> UnitRunner::refusal_of(std::size_t measure, std::size_t dim
     const auto warps = sweep_.later_warps();
     try {
         if (!warps.empty() && takes_image(dimension, measure))
-            points = WarpChain(warps, dimension, {}, run).image(points, silent(run));
+            points = WarpChain(warps, dimension, {}, run).image(points, without_warnings(run));
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::cancelled) throw;
         return std::nullopt;  // its rows report what is wrong

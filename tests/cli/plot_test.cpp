@@ -542,7 +542,7 @@ TEST(Plot, EndsForEveryPairOfCoordinates) {
                         R"("input":{"source":"b","count":9,"dimension":2,"domain":"unit-cube"},)"
                         R"("options":{},"results":{"value":1e300}}])");
     for (const std::string file : {"p.svg", "p.png", "p.txt"})
-        good(box.shell("ulimit -t 20 -v 4000000; stipple plot r.json -o " + file));
+        good(box.shell(limits + "stipple plot r.json -o " + file));
 }
 
 // Failed runs have no numbers: their rows are left out, with a note.

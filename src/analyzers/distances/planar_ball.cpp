@@ -44,7 +44,7 @@ struct Record {
 };
 
 /// Squared distances of corners within this ratio are compared more accurately.
-constexpr double tie = 1 - 1e-9;
+constexpr double tied = 1 - 1e-9;
 
 std::vector<Record> best_cells(const PlanarCells& cells, std::size_t count, const RunContext& run) {
     constexpr std::uint64_t size = 2048;
@@ -55,8 +55,8 @@ std::vector<Record> best_cells(const PlanarCells& cells, std::size_t count, cons
         VoronoiCell cell;
         for (std::size_t i = b.first; i < b.last; ++i) {
             double known = best.load(std::memory_order_relaxed);
-            cells.cut(i, cell, known * tie);
-            if (cell.squared_reach() < known * tie) continue;
+            cells.cut(i, cell, known * tied);
+            if (cell.squared_reach() < known * tied) continue;
             parts[b.index].push_back({cell.squared_reach(), i});
             while (known < cell.squared_reach() &&
                    !best.compare_exchange_weak(known, cell.squared_reach())) {
@@ -66,7 +66,7 @@ std::vector<Record> best_cells(const PlanarCells& cells, std::size_t count, cons
     std::vector<Record> records;
     for (const auto& part : parts)
         std::ranges::copy_if(part, std::back_inserter(records),
-                             [&](const Record& r) { return r.squared_reach >= best * tie; });
+                             [&](const Record& r) { return r.squared_reach >= best * tied; });
     std::ranges::sort(records, [](const Record& a, const Record& b) {
         return a.squared_reach > b.squared_reach ||
                (a.squared_reach == b.squared_reach && a.site < b.site);

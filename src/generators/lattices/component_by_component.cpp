@@ -33,7 +33,7 @@ namespace stipple {
 namespace {
 
 constexpr double two_pi_squared = 2 * std::numbers::pi * std::numbers::pi;
-constexpr std::size_t block = 1024;
+constexpr std::size_t rows_at_once = 1024;
 
 /// omega(i z / n) for integers i and z up to 2^24; the same bits for i and n - i.
 struct Omega {
@@ -209,8 +209,8 @@ class Construction {
 
     void multiply_by(std::uint64_t z, double weight) {
         const std::span<double> p = products_.all();
-        for (std::uint64_t i = 0; i < n_; i += block)
-            multiply(omega_, i, std::min<std::size_t>(block, n_ - i), static_cast<double>(z),
+        for (std::uint64_t i = 0; i < n_; i += rows_at_once)
+            multiply(omega_, i, std::min<std::size_t>(rows_at_once, n_ - i), static_cast<double>(z),
                      weight, &p[i]);
         p[0] = 0;  // the origin is in every lattice
         products_.keep_in_range();
@@ -236,10 +236,10 @@ class Construction {
   private:
     [[nodiscard]] double error_by_sum(double z, double mean) const {
         run_.check_stop();
-        std::vector<double> terms(block);
+        std::vector<double> terms(rows_at_once);
         double sum = 0;
-        for (std::uint64_t i = 0; i < n_; i += block) {
-            const std::size_t count = std::min<std::size_t>(block, n_ - i);
+        for (std::uint64_t i = 0; i < n_; i += rows_at_once) {
+            const std::size_t count = std::min<std::size_t>(rows_at_once, n_ - i);
             weigh(omega_, i, count, z, mean, &products_.all()[i], terms.data());
             sum += std::accumulate(terms.begin(),
                                    terms.begin() + static_cast<std::ptrdiff_t>(count), 0.0);
@@ -260,10 +260,10 @@ class Construction {
 double squared_lattice_error(std::uint64_t n, std::span<const std::uint64_t> vector,
                              std::span<const double> weights) {
     const Omega omega{static_cast<double>(n)};
-    std::vector<double> p(block);
+    std::vector<double> p(rows_at_once);
     double sum = 0;
-    for (std::uint64_t i = 0; i < n; i += block) {
-        const std::size_t count = std::min<std::size_t>(block, n - i);
+    for (std::uint64_t i = 0; i < n; i += rows_at_once) {
+        const std::size_t count = std::min<std::size_t>(rows_at_once, n - i);
         std::fill_n(p.begin(), count, 1.0);
         for (std::size_t k = 0; k < vector.size(); ++k)
             multiply(omega, i, count, static_cast<double>(vector[k] % n), weights[k], p.data());

@@ -12,7 +12,7 @@ namespace {
 
 using Cipher = Permutation::Cipher;
 
-constexpr std::size_t lanes = 256;
+constexpr std::size_t indices_at_once = 256;
 constexpr std::uint64_t most_entries = std::uint64_t{1} << 20;  ///< of a family's table
 
 /// Cipher keys converted to the word type that the cipher works in.
@@ -54,8 +54,8 @@ STIPPLE_WIDE void encipher(Keys<Word> keys, Word* x, std::size_t count) {
 template <class Word>
 void images(const Cipher& cipher, std::uint64_t size, std::uint64_t first, std::size_t count,
             double* out) {
-    Word x[lanes];
-    std::uint8_t place[lanes];
+    Word x[indices_at_once];
+    std::uint8_t place[indices_at_once];
     for (std::size_t j = 0; j < count; ++j) x[j] = static_cast<Word>(first + j);
     const Keys<Word> keys(cipher);
     encipher(keys, x, count);
@@ -113,8 +113,8 @@ void Permutation::fill(std::uint64_t first, std::span<double> out) const {
         for (std::size_t j = 0; j < out.size(); ++j) out[j] = table_[first + j];
         return;
     }
-    for (std::size_t i = 0; i < out.size(); i += lanes) {
-        const std::size_t count = std::min(lanes, out.size() - i);
+    for (std::size_t i = 0; i < out.size(); i += indices_at_once) {
+        const std::size_t count = std::min(indices_at_once, out.size() - i);
         if (cipher_.width <= 32)
             images<std::uint32_t>(cipher_, size_, first + i, count, out.data() + i);
         else

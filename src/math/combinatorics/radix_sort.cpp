@@ -12,7 +12,7 @@ namespace stipple {
 namespace {
 
 constexpr unsigned digit_bits = 11;
-constexpr unsigned digits = 6;  // cover 66 bits, at least the 64 of a double
+constexpr unsigned digit_count = 6;  // cover 66 bits, at least the 64 of a double
 constexpr std::size_t radix = std::size_t{1} << digit_bits;
 constexpr std::size_t stretch = std::size_t{1} << 20;  // between checks of the stop token
 
@@ -36,13 +36,13 @@ void each(std::size_t n, const RunContext& run, Body&& body) {
 
 void radix_sort(std::vector<Placed>& items, const RunContext& run) {
     const std::size_t n = items.size();
-    std::vector<Histogram> counts(digits, Histogram{});
+    std::vector<Histogram> counts(digit_count, Histogram{});
     each(n, run, [&](std::size_t i) {
-        for (unsigned d = 0; d < digits; ++d) ++counts[d][digit(items[i], d)];
+        for (unsigned d = 0; d < digit_count; ++d) ++counts[d][digit(items[i], d)];
     });
     std::vector<Placed> other;
     fill_with_zeros(other, n);
-    for (unsigned d = 0; d < digits; ++d) {
+    for (unsigned d = 0; d < digit_count; ++d) {
         Histogram& next = counts[d];
         if (std::ranges::find(next, n) != next.end()) continue;  // all items have the same digit
         std::uint32_t before = 0;

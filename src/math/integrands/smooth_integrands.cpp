@@ -120,12 +120,13 @@ Integrand owen(std::size_t dimension, const Values& values) {
 
 // ---------------------------------------------------------------- Sobol' g
 
-constexpr Param<Numbers> a{{.name = "a",
-                            .help = "Number a of each coordinate, 0 or more, or one for all; a "
-                                    "larger one makes it less important; default: 0,1,2,..."}};
+constexpr Param<Numbers> numbers{{.name = "a",
+                                  .help =
+                                      "Number a of each coordinate, 0 or more, or one for all; a "
+                                      "larger one makes it less important; default: 0,1,2,..."}};
 
 Integrand sobol_g(std::size_t dimension, const Values& values) {
-    std::vector<double> given = values[a];
+    std::vector<double> given = values[numbers];
     for (const double x : given)
         if (!(x >= 0)) fail(ErrorKind::usage, "--integrand: sobol-g: --a: {} is below 0", x);
     if (given.size() > 1 && given.size() != dimension)
@@ -175,7 +176,7 @@ std::vector<IntegrandKind> smooth_integrands() {
              .make = owen},
             {.name = "sobol-g",
              .summary = "a product with a kink in each coordinate",
-             .options = Schema(a),
+             .options = Schema(numbers),
              .make = sobol_g},
             {.name = "sky-radiance",
              .summary = "light from an overcast sky on a horizontal plane",

@@ -21,7 +21,7 @@ DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) {
     return a + DoubleDouble{-b.high, -b.low};
 }
 
-DoubleDouble quotient(const DoubleDouble& a, const DoubleDouble& b) {
+DoubleDouble full_quotient(const DoubleDouble& a, const DoubleDouble& b) {
     const double first = a.high / b.high;
     const DoubleDouble rest = a - b * DoubleDouble{first};
     const double second = rest.high / b.high;
@@ -150,7 +150,7 @@ class DoubleDescription {
         for (std::size_t i = 0; i < slack.size(); ++i)
             for (std::size_t j = 0; slack[i].high > near && j < slack.size(); ++j)
                 if (slack[j].high < -near && have_an_edge(i, j))
-                    kept.push_back(between(i, j, quotient(slack[i], slack[i] - slack[j])));
+                    kept.push_back(between(i, j, full_quotient(slack[i], slack[i] - slack[j])));
         if (kept.size() > most_vertices)
             fail(ErrorKind::limit, "the polytope has more than {} vertices", most_vertices);
         vertices_ = std::move(kept);

@@ -66,7 +66,7 @@ void add_corner(Outline& outline, Position corner, Position before, Position aft
     add(-radius * after.y, radius * after.x);
 }
 
-Outline outline_of(std::vector<Position> stroke, double radius) {
+Outline stroke_outline(std::vector<Position> stroke, double radius) {
     stroke.erase(std::unique(stroke.begin(), stroke.end()), stroke.end());
     const std::size_t n = stroke.size();
     if (n < 2) return {};
@@ -128,7 +128,7 @@ std::vector<Outline> outlines_of(char32_t letter, bool bold) {
     const double radius = (bold ? 3 : 2.3) / 2 * (raised ? raised_size : 1);
     std::vector<Outline> glyph;
     for (const auto& stroke : strokes_of(letter))
-        if (Outline outline = outline_of(stroke, radius); !outline.empty())
+        if (Outline outline = stroke_outline(stroke, radius); !outline.empty())
             glyph.push_back(std::move(outline));
     return glyph;
 }

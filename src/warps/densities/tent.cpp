@@ -37,7 +37,7 @@ constexpr Param<Numbers> radius{
      .help =
          "Half the width of the tent, above 0: one number for all coordinates, or one for each"}};
 
-constexpr Param<Numbers> center{
+constexpr Param<Numbers> center_option{
     {.name = "center",
      .fallback = "0",
      .help = "Position of the peak: one number for all coordinates, or one for each"}};
@@ -77,8 +77,8 @@ struct Tent final : LineDistribution {
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const auto radii = one_for_each(radius, want.options[radius], want.given);
-    const auto centers = one_for_each(center, want.options[center], want.given);
-    const bool same = want.options[radius].size() == 1 && want.options[center].size() == 1;
+    const auto centers = one_for_each(center_option, want.options[center_option], want.given);
+    const bool same = want.options[radius].size() == 1 && want.options[center_option].size() == 1;
     std::vector<std::shared_ptr<const Tent>> axes;
     for (std::size_t k = 0; k < (same ? 1 : want.given); ++k) {
         const double r = radii[k];
@@ -104,7 +104,7 @@ Warp unit() {
         .related = {"pixel-filter"},
         .strata =
             "each xi is the fraction of the tent to the left, used directly; strata become boxes",
-        .options = Schema(radius, center),
+        .options = Schema(radius, center_option),
         .aliases = {"triangle-filter"},
         .stream_version = 2,
         .mapping = make};

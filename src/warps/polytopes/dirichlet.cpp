@@ -92,7 +92,7 @@ class DirichletDomain final : public NamedDomain {
             log = log + log_share(a, quotient({point[i], 0}, mean)) + DoubleDouble{-high, -low};
         }
         return log.high > 709 ? std::numeric_limits<double>::infinity()
-                              : exponential(log.high) * (1 + log.low);
+                              : stipple::exponential(log.high) * (1 + log.low);
     }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         const std::vector<double> rest = sums_from(point);
