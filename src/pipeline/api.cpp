@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The public API, but for studies and pages: calls by name, and checks of what a caller may pass.
+// The public API except studies and pages: calls by name, and checks of the caller's arguments.
 #include <algorithm>
 #include <mutex>
 
@@ -29,7 +29,7 @@ std::vector<std::string> names_of_units(const std::vector<Unit>& units) {
     return names;
 }
 
-/// The options of a spec, and those beside it.
+/// Options of a spec, then those given separately.
 Values merged(const Spec& spec, const Schema& schema, const Settings& settings) {
     Values values = spec.values(schema);
     for (const auto& [name, text] : settings) schema.set(values, name, text);
@@ -43,13 +43,14 @@ Spec spec_without_coordinates(std::string_view text) {
     return spec;
 }
 
-/// The set, on the unit cube where it says nothing else.
+/// Returns the set; one without a domain is put on the unit cube.
 PointSet placed(PointSet points) {
     if (!points.domain) points.domain = unit_cube(points.dimension());
     return points;
 }
 
-/// The same, where nobody else checks that the domain is one for such points.
+/// As placed(), and checks that the domain fits the points, for calls that do not check it later.
+/// @throws Error(usage)
 PointSet on_its_domain(PointSet set) {
     PointSet points = placed(std::move(set));
     if (points.domain->dimension() != points.dimension())
@@ -89,9 +90,9 @@ Report analyze(std::string_view text, const PointSet& points, const Settings& se
 
 struct Sampler::State {
     Plan plan;
-    std::uint64_t end = 0;  ///< index behind the last point
+    std::uint64_t end = 0;  ///< index after the last point
     std::unique_ptr<Sequence> sequence;
-    std::mutex in_turn;  ///< for engines that go from point to point
+    std::mutex in_turn;  ///< held to fill rows without random access
 };
 
 Sampler::Sampler(std::string_view text, const Request& request)

@@ -19,14 +19,15 @@
 namespace stipple {
 namespace {
 
-/// to[i] for the i with from[i] == k.
+/// Returns to[i] for the index i with from[i] == k.
 std::size_t moved(std::size_t k, std::span<const std::size_t> from,
                   std::span<const std::size_t> to) {
     return to[static_cast<std::size_t>(std::ranges::find(from, k) - from.begin())];
 }
 
-/// Where the numbers of an image of `size` go, replacing `taken`: one to one where sizes agree,
-/// else together where the first of them stood.
+/// Positions of an image's `size` numbers in the output row, in which they replace the coordinates
+/// `taken`. If the sizes agree, these are the same positions; otherwise they are consecutive and
+/// begin where the first of the coordinates was.
 std::vector<std::size_t> places(std::span<const std::size_t> taken, std::size_t size) {
     if (taken.size() == size) return {taken.begin(), taken.end()};
     const auto before =
@@ -36,7 +37,8 @@ std::vector<std::size_t> places(std::span<const std::size_t> taken, std::size_t 
     return at;
 }
 
-/// Rows made of `part` at the places `at`, and of the columns `rest` of `rows` at the places `free`.
+/// Builds rows from `part`, at the positions `at`, and from the columns `rest` of `rows`, at the
+/// positions `free`.
 std::vector<double> interleave(std::span<const double> rows, std::size_t width,
                                std::span<const std::size_t> rest, std::span<const double> part,
                                std::span<const std::size_t> at, std::span<const std::size_t> free) {
@@ -62,8 +64,9 @@ void keep_rows(std::vector<double>& rows, std::size_t width, std::span<const std
     rows.resize(kept * width);
 }
 
-/// What is said where a warp takes another number of coordinates than there are.
-/// @param width numbers of a row
+/// Reports that a warp takes another number of coordinates than it was given.
+/// @param width numbers per row
+/// @throws Error(usage)
 [[noreturn]] void refuse_coordinates(const Spec& spec, std::size_t takes, std::size_t width) {
     const std::string wants =
         fmt::format("warp {} takes {} coordinate{}", spec.name, takes, takes == 1 ? "" : "s");
@@ -144,7 +147,8 @@ void WarpChain::put_on(const std::vector<Factor>& factors) {
     domain_ = domain_of_steps();
 }
 
-/// They must be there, and still be uniform.
+/// Returns the coordinates that a spec names, or all.
+/// @throws Error(usage) if one does not exist, or is already on another domain than the unit cube
 std::vector<std::size_t> WarpChain::coordinates_of(const Spec& spec) const {
     const auto named = named_or_all(spec, dimension_out_);
     for (const std::size_t k : named) {
@@ -171,7 +175,7 @@ void WarpChain::remember(const Unit& unit, const Spec& spec, const Values& value
     if (unit.stream_version > 1) stream_versions_.emplace_back(unit.name, unit.stream_version);
 }
 
-/// Gives a scramble of digits the bases of the coordinates, unless it was told others.
+/// Sets the base of a scramble of digits to that of its coordinates, unless the spec sets it.
 void WarpChain::set_bases(Values& values, const Scramble& scramble,
                           std::span<const std::size_t> coordinates,
                           const std::vector<std::uint32_t>& bases) const {
@@ -361,7 +365,7 @@ std::vector<double> WarpChain::inverse(std::vector<double> rows) const {
         const std::size_t count = rows.size() / step->width_out;
         std::vector<double> cube(count * step->coordinates.size());
         step->mapping->inverse(gather(rows, step->width_out, step->at), cube);
-        // A rim is the image of what is just below 1, and the next warp takes nothing else.
+        // A point on the boundary may have the preimage 1, but warps take coordinates below 1.
         for (double& x : cube) x = std::min(x, one_minus_ulp);
         rows = interleave(rows, step->width_out, step->others, cube, step->coordinates, step->rest);
     }
@@ -370,7 +374,7 @@ std::vector<double> WarpChain::inverse(std::vector<double> rows) const {
 
 namespace {
 
-/// What `images` gives of blocks of rows of d numbers, one after the other.
+/// Returns images(block) of consecutive blocks of rows, joined; `rows` has d numbers per row.
 std::vector<double> in_blocks(
     std::span<const double> rows, std::size_t d, const RunContext& run,
     const std::function<std::vector<double>(std::vector<double>, std::size_t first)>& images) {
@@ -387,7 +391,7 @@ std::vector<double> in_blocks(
     all.reserve(numbers);
     for (auto& part : parts) {
         all.insert(all.end(), part.begin(), part.end());
-        part = {};  // so that the points are not held twice
+        part = {};  // frees it, so that memory does not hold the points twice
     }
     return all;
 }
@@ -427,7 +431,7 @@ std::vector<std::string> WarpChain::names(std::vector<std::string> before, bool 
         const auto& from = back ? step.others : step.rest;
         const auto& to = back ? step.rest : step.others;
         for (std::size_t i = 0; i < from.size(); ++i) after[to[i]] = std::move(before[from[i]]);
-        const auto own = step.domain->names();  // such points have a cube with as many coordinates
+        const auto own = step.domain->names();  // their number is that of cube coordinates
         const auto& places = back ? step.coordinates : step.at;
         for (std::size_t k = 0; k < own.size(); ++k) after[places[k]] = own[k];
         before = std::move(after);
@@ -513,7 +517,7 @@ std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const st
                                                               const RunContext& run) {
     std::vector<std::pair<std::string, std::string>> all;
     for (const std::string& file : files) {
-        // What is read from a pipe can be read once; what is not there, its reader complains of.
+        // A pipe can be read only once. A missing file is reported later, by its reader.
         const bool kept = is_regular_file(status_of(file));
         all.emplace_back(
             file, kept ? format_fingerprint(file_fingerprint(file, run)) : std::string(not_kept));

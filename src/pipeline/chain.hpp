@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Warps and scrambles one after the other, each on the coordinates that its spec names: disk@4,5.
+// Warps and scrambles applied one after the other, each to the coordinates that its spec names:
+// disk@4,5.
 //
-// Shape  rows of the unit cube in, rows of chain.domain() out. A warp whose image has more or fewer
-//        numbers than it takes puts them where its first coordinate stood; later specs count the
-//        coordinates of the row as it then is.
+// Shape  rows of the unit cube in, rows of chain.domain() out. If a warp's image has more or fewer
+//        numbers than the warp takes, they are placed where its first coordinate was; later specs
+//        count the coordinates of the changed row.
 #pragma once
 
 #include <atomic>
@@ -25,21 +26,23 @@
 
 namespace stipple {
 
-/// The set whose points go through a chain, as far as scrambles depend on it.
+/// Properties of a set of points on which scrambles depend.
 struct ChainSet {
     std::uint64_t seed = 1;
     std::uint64_t count = 1;  ///< points of the whole set
-    /// Of the digits of each coordinate, or of all; empty: 2.
+    /// Base of the digits of each coordinate, or one base for all; empty: 2.
     std::vector<std::uint32_t> bases = {};
 };
 
-/// The same of the points of a plan.
+/// Properties of the set that a plan describes.
 ChainSet chain_set(const Generator& generator, const Plan& plan, const Values& options);
 
 class WarpChain {
   public:
-    /// @param warped coordinates that are on domains of their own already, and stay as they are
-    /// @throws Error(usage): unknown warps, coordinates that are not there or no longer uniform.
+    /// @param warped domains of coordinates that are already warped, and that the chain must not
+    /// change
+    /// @throws Error(usage) for unknown warps, and for coordinates that do not exist or are already
+    /// warped
     WarpChain(std::span<const Spec> specs, std::size_t dimension, const ChainSet& set = {},
               const RunContext& run = {}, std::vector<Factor> warped = {});
 
@@ -48,19 +51,20 @@ class WarpChain {
     [[nodiscard]] std::size_t dimension_out() const { return dimension_out_; }
     [[nodiscard]] const DomainPtr& domain() const { return domain_; }
 
-    /// Coordinates of the points that no warp takes, in order, each with its place in the images.
+    /// Coordinates of the points that no warp takes, in order, each with its position in the
+    /// images.
     [[nodiscard]] std::vector<std::pair<std::size_t, std::size_t>> kept() const;
 
-    /// Says what such coordinates of the images are on in the end.
+    /// Sets the domains of coordinates in the images that no warp takes.
     void put_on(const std::vector<Factor>& factors);
 
-    /// The specs, with what differs from the defaults.
+    /// Specs of the warps and scrambles, with those options that differ from the defaults.
     [[nodiscard]] const std::vector<std::string>& specs() const { return specs_; }
 
-    /// Files that its units read.
+    /// Files that the warps and scrambles read.
     [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
 
-    /// Units whose rules are of a later version than the first, each with it.
+    /// Names and stream versions of warps and scrambles, if above 1.
     [[nodiscard]] const std::vector<std::pair<std::string, std::uint64_t>>& stream_versions()
         const {
         return stream_versions_;
@@ -69,92 +73,101 @@ class WarpChain {
     /// Whether some points may have no image.
     [[nodiscard]] bool drops() const;
 
-    /// Whether a set shall have as many images as points are asked for.
+    /// Whether a set must have the requested number of images, even though some points have none.
     [[nodiscard]] bool refills() const;
 
-    /// What each coordinate of the points becomes by itself.
+    /// Outcomes of each coordinate of the points. The axis is continuous if there are none, or if
+    /// they depend on other coordinates.
     [[nodiscard]] std::vector<OutcomeAxis> outcome_axes() const;
 
-    /// Whether the image of a point depends on all points of its set: rows are then always those of a
+    /// Whether the image of a point depends on all points of its set; rows must then be those of a
     /// whole set.
     [[nodiscard]] bool reorders() const;
 
     /// Whether the images depend on the set's seed.
     [[nodiscard]] bool seeded() const { return seeded_; }
 
-    /// Images of rows first, first + 1, ... of the set, whose coordinates that are taken are in the
-    /// unit cube; with drops(), fewer rows may come out than went in.
+    /// Returns the images of rows first, first + 1, ... of the set. Coordinates that warps take
+    /// must be in the unit cube. With drops(), there may be fewer images than rows.
     [[nodiscard]] std::vector<double> forward(std::vector<double> rows,
                                               std::uint64_t first = 0) const;
 
-    /// Back to the unit cube, below 1. @throws Error(usage) where a warp has no inverse,
-    /// Error(input) for points off the domain.
+    /// Returns the preimages of rows; the coordinates that warps take are in [0, 1).
+    /// @throws Error(usage) if a step has no inverse; Error(input) for points outside the domain
     [[nodiscard]] std::vector<double> inverse(std::vector<double> rows) const;
 
-    /// Names of the coordinates of images of points whose coordinates have these (none: the usual
-    /// ones) or, with `back`, of what they are the images of. What a warp gives has the names that
-    /// its domain has, else the usual ones. Empty: all are usual.
+    /// Returns the names of the coordinates of the images or, with `back`, of the preimages.
+    /// Coordinates that a warp maps are named by its domain, others as in `before`; those without a
+    /// name get the usual one. Empty if all names are the usual ones.
+    /// @param before names before the mapping; empty: the usual ones
     [[nodiscard]] std::vector<std::string> names(std::vector<std::string> before, bool back) const;
 
-    /// What numbers of the images stand for, as the warps' domains tell.
+    /// Level names of categorical coordinates in the images, from the warps' domains.
     [[nodiscard]] Levels levels() const;
 
-    /// What forward() or, with `back`, inverse() gives, on all threads; the first row is row `first`
-    /// of the set. @throws as these do; Error(cancelled), Error(limit)
+    /// Runs forward() or, with `back`, inverse() on all threads. The first row is row `first` of
+    /// the set.
+    /// @throws as these do; Error(cancelled), Error(limit)
     [[nodiscard]] std::vector<double> mapped(std::span<const double> rows, bool back,
                                              std::uint64_t first, const RunContext& run) const;
 
-    /// Images of all points; the first one has the index `start`. They are on domain(), and keep the
-    /// provenance. Tells the user how many points have none, and multiplies the efficiency by the
-    /// share of the others.
-    /// @throws Error(input) for points of another dimension, and where none has an image; as mapped()
+    /// Returns the images of all points; they are on domain() and keep the provenance. Warns of
+    /// points without an image, and multiplies the efficiency in the provenance by the fraction of
+    /// the others.
+    /// @param start index of the first point
+    /// @throws Error(input) for points of another dimension, and if none has an image; as mapped()
     [[nodiscard]] PointSet image(const PointSet& points, const RunContext& run,
                                  std::uint64_t start = 0) const;
 
-    /// What all points are the images of, in the same way; what else is not of the unit cube, stays
-    /// on the domain that it has.
+    /// Returns the preimages of all points, with their provenance. Coordinates that no warp takes
+    /// keep their domain.
+    /// @throws Error(input) for points of another dimension; as mapped()
     [[nodiscard]] PointSet preimage(const PointSet& points, const RunContext& run) const;
 
-    /// Tells the user how many of `count` points were kept, where some may be dropped.
-    /// @throws Error(input) when none was
+    /// Warns if points were dropped, of which `kept` of `count` remain.
+    /// @throws Error(input) if none remains
     void tell_kept(std::uint64_t count, std::uint64_t kept, const RunContext& run) const;
 
-    /// What preimages of points on `after` are on.
+    /// Domain of the preimages of points that are on the domain `after`.
     [[nodiscard]] DomainPtr domain_before(const DomainPtr& after) const;
 
-    /// Tells the user, once, of the first row that forward() was given a finite image for though its
-    /// own is infinitely far.
+    /// Warns of the first row whose infinite image forward() has replaced by a finite one; once in
+    /// the lifetime of the chain.
     void tell_infinite(const RunContext& run) const;
 
-    /// Density of each row that forward() gave, with respect to the measure of domain().
+    /// Density at each row that forward() returned, with respect to the measure of domain().
     [[nodiscard]] std::vector<double> density(std::span<const double> rows) const;
 
   private:
-    /// Either a mapping or a randomization; or what was before, which changes nothing.
+    /// A mapping (warp), a randomization (scramble), or neither: then it only sets the domain of
+    /// coordinates that the chain does not change.
     struct Step {
         DomainPtr domain = {};  ///< of the step's output; null for a randomization
         std::unique_ptr<Mapping> mapping = {};
         Randomization randomization = {};
-        std::vector<std::size_t> coordinates = {};  ///< taken from the row before
-        std::vector<std::size_t> rest = {};         ///< of the row before
-        std::vector<std::size_t> at = {};           ///< where its numbers stand in the row after
-        std::vector<std::size_t> others = {};       ///< where the rest stands there
-        std::vector<std::size_t> image = {};        ///< where its numbers stand in the last row
-        std::size_t width_in = 0;                   ///< numbers of the row before
-        std::size_t width_out = 0;                  ///< and after
+        std::vector<std::size_t> coordinates = {};  ///< taken from the input row
+        std::vector<std::size_t> rest = {};         ///< other coordinates of the input row
+        std::vector<std::size_t> at = {};           ///< positions of its numbers in the output row
+        std::vector<std::size_t> others = {};       ///< positions of `rest` in the output row
+        std::vector<std::size_t> image = {};  ///< positions of its numbers in the chain's last row
+        std::size_t width_in = 0;             ///< numbers in the input row
+        std::size_t width_out = 0;            ///< numbers in the output row
     };
 
-    /// Rows through the steps [from, to), none of which looks at the whole set.
+    /// Applies the steps [from, to) to rows. If step `from` reorders whole sets, reorder() must
+    /// have been called for it.
     [[nodiscard]] std::vector<double> through(std::vector<double> rows, std::uint64_t first,
                                               std::size_t from, std::size_t to) const;
 
-    /// The steps that take all rows of a set together, in order, and the number of steps.
+    /// Indices of the steps that reorder whole sets, in order, and then the number of steps.
     [[nodiscard]] std::vector<std::size_t> stops() const;
 
-    /// Of all rows of a set, those numbers that a step takes.
+    /// Reorders the numbers that a step takes, in all rows of a set.
     static void reorder(const Step& step, std::span<double> rows, const RunContext& run);
 
-    /// Remembers the first of some rows of a step's cube whose image is infinitely far.
+    /// Stores the lowest index of a row whose image under a step is infinite.
+    /// @param cube the numbers that the step takes, of several rows
+    /// @param first index of the first of these rows
     void note_infinite(const Step& step, std::span<const double> cube, std::uint64_t first) const;
 
     [[nodiscard]] DomainPtr domain_of_steps() const;
@@ -175,23 +188,25 @@ class WarpChain {
     std::size_t dimension_in_;
     std::size_t dimension_out_;
     DomainPtr domain_;
-    mutable std::atomic<std::uint64_t> infinite_ = none;  ///< row
+    mutable std::atomic<std::uint64_t> infinite_ = none;  ///< index of a row, `none` or `told`
     static constexpr std::uint64_t none = ~std::uint64_t{0};
     static constexpr std::uint64_t told = none - 1;
 };
 
-/// Columns of rows as rows of their own.
+/// Returns some columns of rows, as rows of their own.
 std::vector<double> gather(std::span<const double> rows, std::size_t width,
                            std::span<const std::size_t> columns);
 
-/// Files that options name, for reading; in order.
+/// Returns the input files that options name, in order.
+/// @param written options that name output files
 std::vector<std::string> files_of(const Schema& schema, const Values& values,
                                   std::span<const std::string> written = {});
 
-/// In place of a fingerprint, for a pipe.
+/// Recorded instead of a fingerprint for input that cannot be read again, such as a pipe.
 inline constexpr std::string_view not_kept = "not kept";
 
-/// Files with the fingerprints of their bytes. @throws Error(io)
+/// Returns the names of files with the fingerprints of their bytes.
+/// @throws Error(io)
 std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const std::string> files,
                                                               const RunContext& run);
 

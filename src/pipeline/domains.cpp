@@ -71,8 +71,8 @@ std::vector<Factor> warped_factors(const DomainPtr& domain, std::span<const std:
 
 namespace {
 
-/// Where " x " parts a factor of a domain from the next; not in brackets, where a file's name may
-/// hold it.
+/// Position of the separator " x " after the first factor of a domain; npos if there is only one
+/// factor. Ignores it in brackets, where it may be part of a file's name.
 std::size_t end_of_factor(std::string_view text) {
     int open = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -82,7 +82,8 @@ std::size_t end_of_factor(std::string_view text) {
     return std::string_view::npos;
 }
 
-/// The warp that a domain is the image of. @throws Error(usage)
+/// Returns the warp whose domain has this name.
+/// @throws Error(usage)
 const Warp& warp_of_domain(const std::string& name) {
     std::vector<std::string> names = {"unit-cube", "box"};
     for (const Warp& warp : warps::all()) {
@@ -96,7 +97,8 @@ const Warp& warp_of_domain(const std::string& name) {
         "unknown domain '{}'", name);
 }
 
-/// What parts of " x " mean, each of `dimension` coordinates where it names none.
+/// Parses the factors between " x ". A factor that names no coordinates has all `dimension` of
+/// them.
 std::vector<Factor> parse_factors(std::string_view text, std::size_t dimension,
                                   const RunContext& run) {
     std::vector<Factor> factors;
@@ -141,10 +143,10 @@ DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunCo
 
 namespace {
 
-/// What the points of a factor of a domain follow.
+/// A factor of a domain, with the mapping that determines the density of points on it.
 struct FactorLaw {
     Factor factor;
-    std::unique_ptr<Mapping> mapping = {};  ///< that made them; none: the factor's own density
+    std::unique_ptr<Mapping> mapping = {};  ///< null: the density is that of the factor
 };
 
 bool may_be_biased(const std::string& step) {
@@ -154,8 +156,8 @@ bool may_be_biased(const std::string& step) {
     });
 }
 
-/// Which of the steps that may be biased made which factor of the domain. A biased step that made
-/// none, since others came behind it, or that went back to the cube, is told to the user.
+/// Assigns each step that may be biased to the factor of the domain that it made. Warns of a biased
+/// step without such a factor: later steps changed its points, or it was an inverse.
 std::vector<FactorLaw> factor_laws(std::span<const std::string> steps, const DomainPtr& domain,
                                    const RunContext& run) {
     std::vector<FactorLaw> laws;
@@ -188,7 +190,7 @@ std::vector<double> biased_densities(const PointSet& points, const RunContext& r
     std::vector<FactorLaw> laws;
     try {
         laws = factor_laws(steps, points.domain, run);
-    } catch (const Error& e) {  // it is the file that is wrong, not the call
+    } catch (const Error& e) {  // the error is in the file, not in the call
         if (e.kind() != ErrorKind::usage) throw;
         throw Error(ErrorKind::input, fmt::format("its warps: {}", e.what()), e.hint());
     }

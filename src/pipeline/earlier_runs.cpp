@@ -25,13 +25,14 @@ bool given(const Values& options, const char* option) {
     return item != nullptr && item->given;
 }
 
-/// Whether the points of a generator have levels.
+/// Whether a generator makes designs of levels.
 bool has_levels(const Generator& generator) {
     return std::ranges::find(generator.options.options(), generators::ends_option.name,
                              &Option::name) != generator.options.options().end();
 }
 
-/// Points in the middle of an outcome's interval are spread evenly over it.
+/// Spreads points with the same discrete outcome evenly over its interval in the unit cube; the
+/// inverse of a warp puts all of them in the middle.
 void spread(PointSet& cube, const std::vector<OutcomeAxis>& axes) {
     for (std::size_t k = 0; k < axes.size(); ++k) {
         const auto ends = generators::outcome_ends(axes[k], 100'000);
@@ -142,7 +143,7 @@ void tell_absent_levels(std::span<const double> rows, const Generator& generator
         std::set<double> outcomes;
         for (std::size_t l = 0; l + 1 < ends.size(); ++l) outcomes.insert(axes[k].outcome(ends[l]));
         std::set<double> absent = outcomes;
-        bool known = true;  // and not the numbers of the cube that they are made of
+        bool known = true;  // false: the column has other numbers, such as those of the cube
         for (std::size_t at = k; at < rows.size() && known; at += axes.size()) {
             known = outcomes.contains(rows[at]);
             absent.erase(rows[at]);

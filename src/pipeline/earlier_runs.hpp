@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What designs of named parameters take from these: the levels that they have, and the runs that were
-// made before, which stand in a file in their own units.
+// Inputs that experimental designs take from named parameters: their levels, and earlier runs,
+// which a file holds in the units of the parameters.
 #pragma once
 
 #include <cstdint>
@@ -13,26 +13,26 @@
 
 namespace stipple {
 
-/// Runs of a file, and what they are the images of.
+/// Runs from a file, and their preimages in the unit cube.
 struct EarlierRuns {
     PointSet runs;
     PointSet cube;
 };
 
-/// Whether a generator continues a design from a file whose points are in the units of named
-/// parameters.
+/// Whether the options extend a design whose file has points in the units of named parameters.
 bool goes_on_from_runs(const Values& options, const WarpChain& chain);
 
-/// Those points. Of parameters with outcomes, points of one are spread over its interval.
-/// @throws Error(input) for columns that are missing, and for points that are none of the parameters
+/// Reads the runs to extend. Runs with the same discrete outcome get different preimages, spread
+/// evenly over the interval of the outcome.
+/// @throws Error(input) for missing columns, and for points outside the parameters' domain
 EarlierRuns earlier_runs(const Values& options, const WarpChain& chain, const RunContext& run);
 
-/// Puts what the parameters decide into a request: how many points there will be behind earlier ones,
-/// and the levels of a factorial design that names none.
+/// Completes a request from the parameters: sets the number of points, earlier runs included, and
+/// the levels of a factorial design if the options give none.
 void take_parameters(const Generator& generator, std::span<const Spec> warps, Request& request,
                      Values& options, const RunContext& run);
 
-/// Tells the user which words, and of a design of levels which outcomes, none of some points has.
+/// Warns of categories, and of levels of a design, that none of the points has.
 void tell_absent_levels(std::span<const double> rows, const Generator& generator,
                         const WarpChain& chain, const RunContext& run);
 

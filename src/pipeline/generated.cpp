@@ -12,8 +12,8 @@
 namespace stipple {
 namespace {
 
-/// Takes a sequential engine to point `start`, in steps between which it may be told to stop; a
-/// sequence with random access needs no walk.
+/// Advances a sequential engine to point `start`, checking between steps whether to stop. Does
+/// nothing for a sequence with random access.
 void walk_to(Sequence& sequence, std::uint64_t start, std::size_t dimension,
              const RunContext& run) {
     if (sequence.random_access()) return;
@@ -25,8 +25,8 @@ void walk_to(Sequence& sequence, std::uint64_t start, std::size_t dimension,
     }
 }
 
-/// Points of a sequence from `first` on, each as the chain or the bounds move it, block by block on
-/// all threads where the sequence allows it.
+/// Fills `rows` with the points of a sequence from `first` on, warped by the chain and scaled;
+/// block by block, on all threads if the sequence has random access.
 void fill_rows(const Sequence& sequence, std::uint64_t first, const WarpChain& chain,
                const std::optional<Scaling>& scaling, std::span<double> rows, RunContext run) {
     const std::size_t in = chain.dimension_in();
@@ -52,7 +52,7 @@ void need_memory_of(const Plan& plan, const RunContext& run) {
                     "the point set");
 }
 
-/// All points of a plan.
+/// Generates the points start, start + 1, ... of a sequence in memory, as many as the plan has.
 PointSet points_of(Sequence& sequence, const Plan& plan, std::uint64_t start,
                    const RunContext& run) {
     const std::size_t d = plan.dimension;
@@ -64,7 +64,7 @@ PointSet points_of(Sequence& sequence, const Plan& plan, std::uint64_t start,
     return points;
 }
 
-/// The points of a generator that makes them together.
+/// Generates a set with a generator that makes all its points together.
 PointSet set_of(const Generator& generator, const Plan& plan, const Values& options,
                 const RunContext& run) {
     need_memory_of(plan, run);
@@ -92,8 +92,9 @@ void Scaling::apply(std::span<double> rows, std::size_t width) const {
 
 namespace {
 
-/// The same with what named parameters decide, and with a range for each coordinate of the
-/// generator's points, [0, 1) for those that warps take. @throws Error(usage)
+/// Completes a job: adds the settings that follow from named parameters, and expands the bounds to
+/// a range for each coordinate of the generator's points, [0, 1) for those that warps take.
+/// @throws Error(usage)
 SetsToMake completed(SetsToMake asked, const RunContext& run) {
     if (!asked.warps.empty())
         take_parameters(*asked.generator, asked.warps, asked.request, asked.options, run);
@@ -302,7 +303,8 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
     points.provenance = provenance(set, points.count());
     points.provenance.efficiency = efficiency;
     if (!worked_out.empty()) points.provenance.options = std::move(worked_out);
-    // What was found is of the points in the unit cube, but for how the search ended.
+    // Results of the generator's search hold for points of the unit cube. Other points keep only
+    // the record of how the search ended.
     if (!chain_->empty() || scaling_)
         std::erase_if(found, [](const auto& one) { return one.first != interrupted.first; });
     if (!found.empty()) points.provenance.found = std::move(found);
@@ -312,7 +314,8 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
 
 namespace {
 
-/// Refuses what would take long: after some seconds' points of d coordinates, a share below 1e-6.
+/// Gives up if at most a fraction 1e-6 of the points has an image, after enough points of d
+/// coordinates for some seconds of work.
 /// @throws Error(input)
 void check_share(std::uint64_t kept, std::uint64_t made, std::size_t d) {
     const std::uint64_t enough =
@@ -324,7 +327,8 @@ void check_share(std::uint64_t kept, std::uint64_t made, std::size_t d) {
                    kept == 0 ? "none" : std::to_string(kept), made);
 }
 
-/// Looks for one random point that the constraints hold for, before large sets are made in vain.
+/// Searches for one random point that satisfies the constraints, before large sets are made in
+/// vain.
 /// @throws Error(input)
 void look_for_one(const WarpChain& chain, std::size_t cube_dimension, const RunContext& run) {
     const Rng rng(1, 0);
@@ -383,7 +387,7 @@ GeneratedSets::Images GeneratedSets::next_images(std::uint64_t set, const RunCon
 
 namespace {
 
-/// Whether a generator makes sets of one more point than these.
+/// Whether a generator can make sets of count + 1 points, as a sign that it can make any number.
 bool takes_any_count(const Generator& generator, Request request, std::uint64_t count,
                      const Values& options) {
     try {
@@ -432,7 +436,7 @@ GeneratedSets::Images GeneratedSets::images_of_more(std::uint64_t set, const Poi
         request.seed = plan_.seed + set;
         const Plan plan = plan_for(generator_, request, asked_.options);
         RunContext again = run;
-        again.warn = {};  // it was said of the first
+        again.warn = {};  // the first set has already caused all warnings
         kept = chain->mapped(raw_points(set, plan, again).flat(), false, request.start, quiet);
     }
     if (best.rows.empty())
@@ -469,7 +473,7 @@ Provenance GeneratedSets::provenance(std::uint64_t set, std::uint64_t count) con
                     .shard = {},
                     .command = {},
                     .independent = generator_.traits.independent};
-    std::erase_if(meta.options, [this](const auto& option) {  // what only writes side files
+    std::erase_if(meta.options, [this](const auto& option) {  // options that only write side files
         return std::ranges::find(generator_.writes, option.first) != generator_.writes.end();
     });
     meta.columns = chain_->names({}, false);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Sets straight from a generator, warped, with their provenance: those of a sequence in blocks, so
-// that their size does not matter; the others in memory, one at a time.
+// Generated and warped sets with their provenance. The points of a sequence are made in blocks, so
+// that their number does not matter; other sets are made one at a time in memory.
 #pragma once
 
 #include <cstdint>
@@ -19,110 +19,118 @@
 
 namespace stipple {
 
-/// Part `index` of `of` contiguous parts.
+/// Part number `index`, from 0, of a set that is cut into `of` contiguous parts.
 struct Shard {
     std::uint64_t index = 0;
     std::uint64_t of = 1;
 };
 
-/// Sets to make, or a part of one.
+/// A job: sets to generate and warp, or one shard of a set.
 struct SetsToMake {
     const Generator* generator = nullptr;
     Values options = {};
-    /// Its seed is that of the first set; the next ones have seed + 1, ... Bounds may be those of the
-    /// coordinates that no warp takes.
+    /// Its seed is for the first set; later sets have seed + 1, ... With warps, its bounds may be
+    /// given for only those coordinates that no warp takes.
     Request request = {};
     std::uint64_t sets = 1;
     std::vector<Spec> warps = {};
-    Shard shard = {};          ///< that is written
-    std::string command = {};  ///< for the provenance
+    Shard shard = {};          ///< the part to write
+    std::string command = {};  ///< command line, for the provenance
 };
 
-/// All points of a request, in memory, without notes, bounds and provenance.
+/// Generates all points of a request in memory, without notes to the user, scaling to the bounds
+/// and provenance.
 PointSet make_points(const Generator& generator, const Request& request, const Values& options,
                      const RunContext& run);
 
-/// Some coordinates of points, which go from the unit cube to a box.
+/// Maps some coordinates of points from the unit cube to a box.
 struct Scaling {
     Box box;
-    std::vector<std::size_t> columns;  ///< of the rows
+    std::vector<std::size_t> columns;  ///< coordinates to map, one for each axis of the box
 
-    /// Moves rows of `width` numbers.
+    /// Maps rows of `width` numbers in place.
     void apply(std::span<double> rows, std::size_t width) const;
 };
 
 class GeneratedSets {
   public:
-    /// Tells the user what the generator has to say about the request. @throws Error(usage)
+    /// Gives the generator's notes on the request as warnings.
+    /// @throws Error(usage)
     GeneratedSets(SetsToMake asked, const RunContext& run);
 
     [[nodiscard]] std::uint64_t sets() const { return asked_.sets; }
-    /// 1 where no seed changes the points.
+    /// Number of sets that differ: 1 if the points do not depend on the seed.
     [[nodiscard]] std::uint64_t different_sets() const;
     [[nodiscard]] const Plan& plan() const { return plan_; }
     [[nodiscard]] std::size_t dimension() const { return chain_->dimension_out(); }
-    /// What the points are on in the end.
+    /// Domain of the points after all warps and scaling.
     [[nodiscard]] const DomainPtr& domain() const { return domain_; }
-    /// The warps, with the random choices of the first set.
+    /// The warps and scrambles, for properties that all sets share: the random choices of its
+    /// scrambles are not those of any set.
     [[nodiscard]] const WarpChain& chain() const { return *chain_; }
 
-    /// Points of a set that come in blocks; nothing where sets must be made in memory.
+    /// Number of points of a set, if sets can be made in blocks; nullopt if they must be made in
+    /// memory.
     [[nodiscard]] std::optional<std::uint64_t> streamed() const;
 
-    /// What gives the points [first, last) of such a set, all from the first on by default; one at a
-    /// time where they come in order.
+    /// Returns a reader of the points [first, last) of a set that is made in blocks; by default, of
+    /// all its points. Without random access to the sequence, use only one reader at a time.
     [[nodiscard]] NextRows stream(std::uint64_t set, const RunContext& run, std::uint64_t first = 0,
                                   std::optional<std::uint64_t> last = {}) const;
 
-    /// All points of a set.
+    /// Makes all points of a set in memory.
     [[nodiscard]] PointSet made(std::uint64_t set, const RunContext& run) const;
 
-    /// Makes the sequence beforehand, if all sets have the same, so that their provenance tells
-    /// what a search found.
+    /// Makes the sequence in advance if all sets share it, so that provenance() includes the
+    /// results of its search.
     void prepare(const RunContext& run) const;
 
-    /// What comes with the sequence that was made last.
+    /// Side files of the sequence that was made last.
     [[nodiscard]] std::vector<SideFile> side_files() const;
 
-    /// Tells the user which words, and which outcomes of a design's levels, no point of a set that
-    /// comes in blocks has, if these are few.
+    /// Warns of categories, and of levels of a design, that no point of the first set has. Does
+    /// nothing unless sets are made in blocks and have at most 2^16 points.
     void tell_absent_levels(const RunContext& run) const;
 
-    /// Where a set of so many points comes from.
+    /// Provenance of a set with `count` points.
     [[nodiscard]] Provenance provenance(std::uint64_t set, std::uint64_t count) const;
 
   private:
-    /// The warps with the random choices of one set. @param made number of its points, if the plan
-    /// leaves it open
+    /// The warps and scrambles for one set.
+    /// @param made number of its points, if the plan does not know it
     [[nodiscard]] std::shared_ptr<const WarpChain> chain_for(
         std::uint64_t set, const RunContext& run, std::optional<std::uint64_t> made = {}) const;
     [[nodiscard]] std::shared_ptr<const WarpChain> make_chain(const ChainSet& set,
                                                               const RunContext& run) const;
-    /// The points of a set before its warps.
+    /// Generates the points of a set, before its warps.
     [[nodiscard]] PointSet raw_points(std::uint64_t set, const Plan& plan,
                                       const RunContext& run) const;
-    /// Whether warps drop some points of a sequence, and the next ones take their place.
+    /// Whether points without an image are replaced by later points of the sequence.
     [[nodiscard]] bool goes_on() const;
-    /// Makes the images of runs that were made before what these were.
+    /// Replaces the images of earlier runs, which are the first points, by the exact numbers in the
+    /// file of these runs.
     void keep_runs(PointSet& points, const RunContext& run) const;
 
     struct Images {
         std::vector<double> rows;
-        std::uint64_t made;  ///< points that they are the images of, with those that have none
-        std::uint64_t kept;  ///< of these, all that have one
+        std::uint64_t made;  ///< points generated, including those without an image
+        std::uint64_t kept;  ///< of these, points with an image
     };
-    /// As many images as points are asked for, by the points of a sequence that have one: of these
-    /// number `start`, start + 1, ... @throws Error(input) where next to none has an image
+    /// Returns as many images as requested, of a sequence's points. Points without an image are
+    /// skipped; request.start counts only those that have one.
+    /// @throws Error(input) if almost no point has an image
     [[nodiscard]] Images next_images(std::uint64_t set, const RunContext& run) const;
-    /// By a set of more points, little more than it takes; of a set of fixed size, those that there
-    /// are. `first` are the points before warps.
+    /// Generates a slightly larger set, so that enough points have an image. If the generator has
+    /// no sets of other sizes, returns the images that there are.
+    /// @param first points of a set of the requested size, before warps
     [[nodiscard]] Images images_of_more(std::uint64_t set, const PointSet& first,
                                         const RunContext& run) const;
 
-    /// The points of a set before its warps; the same object for all sets that are the same.
+    /// The sequence of a set, before its warps; all sets share one object if the seed does not
+    /// matter.
     [[nodiscard]] std::shared_ptr<Sequence> sequence(std::uint64_t set,
                                                      const RunContext& run) const;
-    /// The same of another plan.
+    /// Makes the sequence of a set for a plan.
     [[nodiscard]] std::unique_ptr<Sequence> new_sequence(Plan plan, std::uint64_t set,
                                                          const RunContext& run) const;
 
@@ -131,9 +139,9 @@ class GeneratedSets {
     Plan plan_;
     std::shared_ptr<const WarpChain> chain_;
     DomainPtr domain_;
-    std::optional<Scaling> scaling_;  ///< to the bounds, where the generator does not do it
+    std::optional<Scaling> scaling_;  ///< to the bounds; nullopt: none, or made by the generator
     std::vector<std::pair<std::string, std::string>> inputs_;
-    mutable std::shared_ptr<Sequence> sequence_;  ///< that was made last
+    mutable std::shared_ptr<Sequence> sequence_;  ///< the last one made
 };
 
 }  // namespace stipple

@@ -56,7 +56,7 @@ std::string way_to_cube(const PointSet& points) {
     const auto warp = std::ranges::find(warps::all(), name, &Warp::name);
     if (warp == warps::all().end() || !warp->traits.invertible)
         return "--rescale or --bounds lo..hi moves points into the cube";
-    if (step.find('"') != std::string::npos)  // the text of a parameter file
+    if (step.find('"') != std::string::npos)  // contains a parameter file's text
         return fmt::format(
             "--unit-cube beside --parameters leaves generated points there; 'stipple warp {} "
             "--parameters FILE --inverse' takes others back",
@@ -107,7 +107,7 @@ Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& o
         }
     }
     if (!analyzer.accumulate) return analyzer.analyze(points, options, run);
-    // Measures the points in place: a copy would take as long as some analyzers.
+    // Analyzes the points in place: a copy would take as long as some analyzers.
     const auto measure = analyzer.accumulate({points.domain, points.count()}, options, run);
     const RunContext quiet = silent(run);
     const auto batch = static_cast<std::size_t>(arrival_batch(points.dimension()));

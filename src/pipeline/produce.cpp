@@ -14,13 +14,13 @@
 namespace stipple {
 namespace {
 
-/// The run, its notes left to another part of the set.
+/// A copy of the context without warnings: only the first shard gives them.
 RunContext untold(RunContext run) {
     run.warn = {};
     return run;
 }
 
-/// Everything about a production that is the same for all its sets.
+/// A job, with everything that is the same for all its sets.
 class Producer {
   public:
     Producer(const SetsToMake& job, const Target& target, const RunContext& run)
@@ -45,7 +45,7 @@ class Producer {
     }
 
   private:
-    /// Columns of densities must be right.
+    /// Refuses columns of densities if an option makes the density of the points unknown.
     void check_columns() const {
         const char* shaped = shaping_option(job_.options);
         if (!target_.columns.any() || shaped == nullptr) return;
@@ -55,7 +55,7 @@ class Producer {
                        target_.columns.names().front(), shaped);
     }
 
-    /// Side files must not replace each other, nor the points.
+    /// Checks that side files overwrite neither each other nor the points.
     void check_side_files() const {
         const std::uint64_t seed = sets_.plan().seed;
         for (const std::string& option : generator_.writes) {
@@ -64,7 +64,7 @@ class Producer {
             const bool file = std::ranges::find(known, option, &Option::name)->type == "file";
             if (!item.given || !file) continue;
             const auto& path = std::get<std::string>(item.value);
-            // All sets of a sequence have one such file.
+            // The sets of a sequence share one side file.
             if (job_.sets > 1 && !generator_.traits.sequence && !file_per_set(path))
                 fail(ErrorKind::usage, "--{}: {} sets need a name with {{set}} or {{seed}}", option,
                      job_.sets);
@@ -74,7 +74,7 @@ class Producer {
         }
     }
 
-    /// The shard's rows [first, last) of `count`.
+    /// Returns the shard's range of rows [first, last) among `count`.
     [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> part(std::uint64_t count) const {
         const auto cut = [&](std::uint64_t index) {
             return static_cast<std::uint64_t>(Uint128{count} * index / job_.shard.of);
@@ -112,7 +112,7 @@ class Producer {
                    target_, run);
     }
 
-    /// One set, made, warped and cut in memory.
+    /// Makes one set in memory: generates and warps it, and cuts out the shard.
     [[nodiscard]] PointSet made(std::size_t set) const {
         RunContext run = part_of_run(run_, set, job_.sets);
         run.keeps_best = job_.sets == 1 && target_.path != "-" && !target_.take;
@@ -135,7 +135,7 @@ class Producer {
         return points;
     }
 
-    /// Pictures that come with the points tell where they are from.
+    /// Stores the provenance of the points in the PNG pictures among their side files.
     void sign_pictures(PointSet& points) const {
         for (std::size_t i = 0; i < points.side_files.size() && i < generator_.writes.size(); ++i) {
             std::string& bytes = points.side_files[i].bytes;
@@ -145,7 +145,7 @@ class Producer {
         }
     }
 
-    /// The provenance with what the command adds to that of a set.
+    /// Adds the command line and the shard to the provenance of a set.
     [[nodiscard]] Provenance signed_by(Provenance meta) const {
         meta.command = job_.command;
         if (job_.shard.of > 1) meta.shard = fmt::format("{}/{}", job_.shard.index, job_.shard.of);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Sets from a generator, or from memory, to files and pipes: made, warped and formatted block by
-// block on all threads, written in order, in constant memory where the generator allows it.
+// Output of sets from a generator, or from memory, to files and pipes: made, warped and formatted
+// block by block on all threads, written in order, in constant memory if the generator allows it.
 #pragma once
 
 #include <vector>
@@ -11,12 +11,12 @@
 
 namespace stipple {
 
-/// Makes the sets and writes them. A closed pipe ends it early, without error.
-/// @throws Error; nothing is left at the target then.
+/// Makes the sets and writes them. Returns early, without an error, if the reader closes the pipe.
+/// @throws Error, without leaving output at the target
 void produce(const SetsToMake& job, const Target& target, const RunContext& run);
 
-/// Writes sets in memory. @throws Error(input) where there are none, where one has no points, or
-/// where they differ in dimension
+/// Writes sets in memory.
+/// @throws Error(input) if there are no sets, if one has no points, or if their dimensions differ
 void write_sets(std::vector<PointSet> sets, const Target& target, const RunContext& run);
 
 }  // namespace stipple

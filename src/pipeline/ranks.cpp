@@ -32,7 +32,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// One thread watches for ranks that fail, while the others wait or compute; no two call MPI at once.
+// One thread watches for failures of other ranks, while the others wait or compute. A mutex keeps
+// threads from calling MPI at the same time.
 class MpiRanks : public Ranks {
   public:
     MpiRanks(std::stop_token stop, std::function<void()> request_stop)
@@ -78,7 +79,7 @@ class MpiRanks : public Ranks {
         const std::lock_guard lock(mpi_);
         if (failed_) return error;
         hear_failure();
-        if (!heard_ && error.kind() == ErrorKind::cancelled) return error;  // as all others are
+        if (!heard_ && error.kind() == ErrorKind::cancelled) return error;  // all are cancelled
         failed_ = true;
         if (heard_) return *heard_;
         const Error told(error.kind(), fmt::format("rank {} on {}: {}", rank_, host_, error.what()),
@@ -160,13 +161,14 @@ class MpiRanks : public Ranks {
     }
 
   private:
-    static constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30;  // of an int
-    static constexpr int message_tag = 0;                                // of send()
-    static constexpr int data_tag = 1;                                   // of give()
+    static constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30;  // MPI counts in int
+    static constexpr int message_tag = 0;                                // for send()
+    static constexpr int data_tag = 1;                                   // for give()
     static constexpr int failure_tag = 2;
 
-    /// Waits until what was started is done; others may need the core that would watch it.
-    /// @throws Error of another rank, which may never do its part
+    /// Starts an MPI operation and waits until it has finished. After some checks it sleeps between
+    /// them, as other ranks may need the core.
+    /// @throws Error of another rank that failed and may never take part
     template <class Start>
     void complete(const Start& start) {
         MPI_Request request = MPI_REQUEST_NULL;
@@ -174,7 +176,7 @@ class MpiRanks : public Ranks {
             const std::lock_guard lock(mpi_);
             start(&request);
         }
-        constexpr int eager = 200;  // looks
+        constexpr int eager = 200;  // checks without sleep
         for (int looks = 0;; ++looks) {
             {
                 const std::lock_guard lock(mpi_);
@@ -190,7 +192,7 @@ class MpiRanks : public Ranks {
         }
     }
 
-    /// The message that a probe has found.
+    /// Receives the message that a probe has found.
     static Message received(const MPI_Status& found) {
         int size = 0;
         MPI_Get_count(&found, MPI_BYTE, &size);
@@ -208,7 +210,7 @@ class MpiRanks : public Ranks {
                   MPI_COMM_WORLD, &message.request);
     }
 
-    /// Takes what a rank told of its failure, if one did.
+    /// Receives the error of another rank, if one has failed.
     void hear_failure() {
         int arrived = 0;
         MPI_Status status;
@@ -232,7 +234,7 @@ class MpiRanks : public Ranks {
         }
     }
 
-    /// A message on its way.
+    /// A message that may not be sent completely.
     struct Outgoing {
         std::string bytes;
         MPI_Request request = MPI_REQUEST_NULL;
@@ -244,11 +246,12 @@ class MpiRanks : public Ranks {
     int size_ = 1;
     int on_machine_ = 1;
     std::string host_;
-    std::mutex mpi_;              ///< held by who calls MPI
-    std::optional<Error> heard_;  ///< what ended another rank
-    bool failed_ = false;         ///< the others know, or have failed first
+    std::mutex mpi_;              ///< held during each MPI call
+    std::optional<Error> heard_;  ///< error that ended another rank
+    bool failed_ = false;         ///< the others know of the failure, or failed first
     std::list<Outgoing> outgoing_;
-    // What an exchange reads and writes, also after it was given up.
+    // Buffers of exchange(), members because MPI may use them even after an error has ended the
+    // call.
     std::string said_, all_said_;
     std::vector<std::uint64_t> sizes_;
     std::vector<int> counts_, places_;

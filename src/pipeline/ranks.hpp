@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The processes that share a study or an analysis, as the launcher of MPI started them; or this one
-// alone. All calls are made from the thread that made the object.
+// The group of MPI processes (ranks) that share a study or an analysis; without MPI or a launcher,
+// this process alone. All calls must come from the thread that created the object.
 #pragma once
 
 #include <functional>
@@ -23,37 +23,39 @@ struct Message {
 
 class Ranks : public Peers {
   public:
-    /// Ranks on this machine, with this one.
+    /// Number of ranks on this machine, including this one.
     [[nodiscard]] virtual int on_machine() const { return 1; }
 
-    /// Gives the message, of less than 2^31 bytes without waiting.
+    /// Sends a message of less than 2^31 bytes, without waiting until it has arrived.
     virtual void send(int /*to*/, std::string /*bytes*/) {}
-    /// The next message that came, if any.
+    /// Returns the next message that another rank sent; nullopt if none has arrived.
     virtual std::optional<Message> poll() { return std::nullopt; }
 
-    /// Tells the others that this rank ends, and why: waiting for it, they throw that, named by its
-    /// rank and host; computing, they are stopped.
-    /// @return what ended this rank: the error, or that of the rank that failed before
+    /// Reports to the other ranks that this one ends with an error. Ranks that wait for it throw
+    /// that error, prefixed by this rank and its host; ranks that compute are stopped.
+    /// @return the error that ended this rank: `error`, or that of a rank that failed before
     virtual Error fail_together(const Error& error) { return error; }
 
-    /// Gives bytes of any size to another rank, which takes them at the same time.
+    /// Sends bytes of any size to another rank, which must call take() at the same time.
     virtual void give(int /*to*/, const std::string& /*bytes*/) {}
     virtual std::string take(int /*from*/) { return {}; }
 };
 
-/// Threads of this process: all that the user gave or, by default, its share of the machine.
+/// Number of threads for this process: as requested by the user or, by default, its share of the
+/// machine.
 unsigned threads_of(const Ranks& ranks, const RunContext& run);
 
 /// Whether this build has MPI.
 bool has_mpi();
 
-/// The name and version of the MPI of this build, "Open MPI v4.1.6"; empty without.
+/// Name and version of the MPI library in this build, "Open MPI v4.1.6"; empty without MPI.
 std::string mpi_version();
 
-/// Joins the others that the launcher started. Without MPI in the build, this process alone.
-/// @param stop that was asked for: nobody waits for the others in the end, as a launcher that ends
-/// its ranks lets none of them leave together
-/// @param request_stop ends what this rank computes, since another has failed
+/// Joins the group of processes that the MPI launcher started; in a build without MPI, the group is
+/// this process alone.
+/// @param stop after such a request to stop, ranks exit without waiting for each other: a launcher
+/// that terminates its ranks does not let them finish together
+/// @param request_stop called when another rank fails, to end computations on this rank
 std::unique_ptr<Ranks> join_ranks(std::stop_token stop, std::function<void()> request_stop);
 
 }  // namespace stipple

@@ -18,8 +18,8 @@ namespace {
 
 std::string name_of_set(std::size_t set) { return set > 0 ? fmt::format("set {}", set) : "it"; }
 
-/// Calls take(rows) with the rows of a set, as long as it gives true: as the numbers that come back
-/// when they were written and read. False: it gave false.
+/// Calls take(rows) with the rows of a set until it returns false. The numbers are those that a
+/// reader gets from a file written in this way. Returns false if take() did.
 bool each_batch(const SetStream& stream, const OpenSet& open, const Target& written,
                 const RunContext& run, const std::function<bool(std::span<const double>)>& take) {
     const std::size_t width = stream.dimension();
@@ -41,7 +41,7 @@ bool each_batch(const SetStream& stream, const OpenSet& open, const Target& writ
     });
 }
 
-/// All sets, in memory.
+/// Makes all sets in memory.
 std::vector<PointSet> collect(const Making& making, Target written, const RunContext& run) {
     std::vector<PointSet> sets;
     written.take = [&](const SetStream& stream) {
@@ -66,7 +66,8 @@ std::vector<PointSet> collect(const Making& making, Target written, const RunCon
     return sets;
 }
 
-/// Whether the points of a set, made again, are those of the file's; else tells how they differ.
+/// Whether the reproduced points of a set are those in the file; otherwise, stores the first
+/// difference in `result`.
 bool same_points(const SetStream& stream, std::size_t set, const Target& written,
                  io::PointStream& file, Comparison& result, const RunContext& run) {
     const std::size_t width = file.dimension();
@@ -107,7 +108,7 @@ Comparison compared(const SetStream& stream, const Target& written, io::PointStr
     std::vector<double> more(file.dimension());
     for (std::size_t set = 0; set < stream.sets && result.mismatch.empty(); ++set) {
         const bool there = (unmarked && set > 0) || file.next_set();
-        // A file of one set may be one of many that were written together.
+        // A file of one set may be one of several that were written together.
         if (!there && set > 1)
             result.mismatch =
                 fmt::format("it has {} sets; made again there are {}", set, stream.sets);
@@ -124,8 +125,9 @@ Comparison compared(const SetStream& stream, const Target& written, io::PointStr
     return result;
 }
 
-/// The same sets after a step of a provenance's warps that was taken in a run of its own.
-/// @param sets in the file @param have how many are made before the step; changed to those after it
+/// Adds a step of the points' provenance that was a separate run of the program.
+/// @param sets number of sets in the file
+/// @param have number of sets before the step; updated to the number after it
 Making after_step(Making before, const std::string& step, std::uint64_t sets, std::uint64_t& have,
                   const RunContext& run) {
     if (step == cut_to_single || step.starts_with(cut_to_digits)) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Points made a second time, beside those of a file: whether they are the same, number by number,
-// in constant memory where they can be made so.
+// Reproduction of the points of a file: makes them again and compares them number by number, in
+// constant memory if they can be made in blocks.
 #pragma once
 
 #include <cstddef>
@@ -16,41 +16,45 @@
 
 namespace stipple {
 
-/// Something that writes sets to a target.
+/// Makes sets and writes them to a target.
 using Making = std::function<void(const Target&)>;
 
-/// The sets of a production after the steps of a provenance's warps that were taken in runs of their
-/// own: warps, inverses, scrambles with their seed, cuts.
-/// @param sets how many there are in the end, which tells how often a scramble took each
-/// @throws Error(usage) for a step that is none of these
+/// Combines a generation job with the later steps of the points' provenance, each of which was a
+/// separate run of the program: warps, inverses, scrambles with their seed, truncations.
+/// @param sets number of sets after all steps, which implies how many copies of each a scramble
+/// made
+/// @throws Error(usage) for any other step
 Making made_again(SetsToMake job, const std::vector<std::string>& steps, std::uint64_t sets,
                   const RunContext& run);
 
+/// First number that differs.
 struct Difference {
     std::size_t set = 0;
     std::uint64_t point = 0;
     std::size_t column = 0;
-    double found = 0;  ///< in the file
-    double made = 0;   ///< now
+    double found = 0;  ///< number in the file
+    double made = 0;   ///< reproduced number
 };
 
 struct Comparison {
-    std::size_t sets = 0;      ///< that were compared
-    std::uint64_t points = 0;  ///< of all of these, that are equal
+    std::size_t sets = 0;      ///< sets compared
+    std::uint64_t points = 0;  ///< equal points in these sets
     std::optional<Difference> difference = {};
-    std::string mismatch = {};  ///< what is wrong where numbers of points or sets differ
-    Provenance made = {};       ///< what would be written down today
+    std::string mismatch = {};  ///< message if there are more or fewer numbers, points or sets
+    Provenance made = {};       ///< provenance of the reproduced points
 
     [[nodiscard]] bool identical() const { return !difference && mismatch.empty(); }
 };
 
-/// Compares with a file at its front; a file of one set may be the first of many.
-/// @param written what writing did to the numbers: single, then precision; and the columns behind
-/// @param unmarked the file does not tell where a set ends
+/// Compares the reproduced sets with a file, which must be at its start. A file of one set may hold
+/// the first of several sets that were made together.
+/// @param written how the file's numbers were written: in single precision, with how many digits,
+/// and with which extra columns
+/// @param unmarked the file does not mark where a set ends
 Comparison compare(const Making& making, Target written, io::PointStream& file, bool unmarked,
                    const RunContext& run);
 
-/// All bytes that would be written.
+/// Returns the bytes of the file that would be written.
 std::string bytes_of(const Making& making, Target target);
 
 }  // namespace stipple

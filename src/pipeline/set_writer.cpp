@@ -18,7 +18,8 @@
 namespace stipple {
 namespace {
 
-/// Files hold no infinite numbers: no reader would take them.
+/// Returns the value, which must be finite: readers of files do not accept infinite numbers.
+/// @throws Error(input)
 double finite(const char* column, double value, std::span<const double> point, bool starts) {
     if (std::isfinite(value)) return value;
     fail_with_hint(
@@ -27,8 +28,8 @@ double finite(const char* column, double value, std::span<const double> point, b
         "--{}: it is infinite at the point ({})", column, fmt::join(point, ", "));
 }
 
-/// The rows of one set as bytes of the output, a batch of blocks at a time; `set` is its number in
-/// the file. False: the pipe was closed.
+/// Writes the rows of one set, a batch of blocks at a time. Returns false if the pipe was closed.
+/// @param set number of the set in the file
 bool write_rows(const OpenSet& open, const SetStream& stream, const Layout& layout,
                 const Target& target, std::size_t set, io::Output& output, const RunContext& run) {
     const std::size_t d = stream.dimension();
@@ -55,9 +56,9 @@ bool write_rows(const OpenSet& open, const SetStream& stream, const Layout& layo
         if (open.count > 0) run.tick(written, open.count);
         return true;
     };
-    // Two batches of rows and the text of one are in memory; no more threads than that leaves room for.
+    // Memory must hold two batches of rows and the text of one, which limits the number of threads.
     constexpr double blocks = 8;
-    constexpr double bytes = 48;  // a number
+    constexpr double bytes = 48;  // per number
     const double share = blocks * bytes * static_cast<double>(block * d);
     const double threads = std::clamp(static_cast<double>(run.memory_left()) / (4 * share), 1.0,
                                       static_cast<double>(run.thread_count()));
@@ -103,7 +104,8 @@ Layout layout_of(SetsHead head, const SetStream& stream, const Target& target) {
     return layout;
 }
 
-/// Provenance for a file beside the points, where the format has no place for it; else nothing.
+/// Text of a provenance file beside the points, if their format has no place for it; otherwise
+/// empty.
 std::string meta_beside(const Layout& layout, const std::string& path, const Target& target,
                         const RunContext& run) {
     if (!target.meta || !target.format->traits.meta_beside || target.sink) return {};
@@ -117,7 +119,8 @@ std::string meta_beside(const Layout& layout, const std::string& path, const Tar
            "\n";
 }
 
-/// @throws Error(usage) where two sets would be one file, as sets of files may have the same seed
+/// @throws Error(usage) if two sets would be written to one file: sets read from files may have the
+/// same seed
 void check_seeds(const SetStream& stream, const Target& target) {
     if (target.path.find("{set}") != std::string::npos) return;
     std::unordered_map<std::uint64_t, std::size_t> taken;
@@ -139,9 +142,9 @@ bool was_interrupted(const Provenance& meta) {
     return std::ranges::count(meta.found, std::pair<std::string, std::string>(interrupted)) > 0;
 }
 
-/// The sets [first, last), of which the first is open; in the end the last is.
-/// @param part of the run, for the first set
-/// False: the pipe was closed.
+/// Writes the sets [first, last). Returns false if the pipe was closed.
+/// @param open the first set, already open; replaced by the later ones
+/// @param part context of the first set
 bool write_points(const SetStream& stream, OpenSet& open, std::size_t first, std::size_t last,
                   const Layout& layout, const Target& target, io::Output& output,
                   const RunContext& run, RunContext part) {
@@ -162,8 +165,8 @@ bool write_points(const SetStream& stream, OpenSet& open, std::size_t first, std
     return output.write(bytes);
 }
 
-/// One file with the sets [first, last), and what comes with it. False: the pipe was closed, by
-/// somebody who has seen enough of the points, but did not say so of other files.
+/// Writes one file with the sets [first, last), and their side files. Returns false if the pipe was
+/// closed. Its reader has seen enough points, but the side files are still written.
 bool write_file(const SetStream& stream, std::size_t first, std::size_t last,
                 const std::string& path, const Target& target, io::Outputs& outputs,
                 RunContext run) {
@@ -171,21 +174,21 @@ bool write_file(const SetStream& stream, std::size_t first, std::size_t last,
     const std::string meta = meta_beside(layout, path, target, run);
     check_format(*target.format, layout);
     if (stream.one_at_a_time && last - first == 1 && was_interrupted(layout.provenance))
-        run = unstopped(run);  // the best that a search had when it was stopped
-    // What is wrong with the first set shall be known before anything is written.
+        run = unstopped(run);  // to write the best result of a stopped search
+    // Opens the first set early, so that its errors come before any output.
     const RunContext part = part_of_run(run, first, stream.sets).rising();
     OpenSet open = stream.open(first, part);
     write_side_files(open.side_files, outputs, run);
     if (!meta.empty()) outputs.add(io::meta_path(path), run.stop).write(meta);
     io::Output& output = target.sink ? outputs.add(target.sink) : outputs.add(path, run.stop);
     const bool wanted = write_points(stream, open, first, last, layout, target, output, run, part);
-    // Sets of a sequence have one for all, with the last of them.
+    // The sets of a sequence share their side files, which come with the last set.
     if (last - first > 1) write_side_files(open.side_files, outputs, run);
     return wanted;
 }
 
-/// Whether a file of several sets begins with what is known when all of them are made, or has files
-/// beside it, which are written before it is begun.
+/// Whether all sets must be made before their file is begun: because its head depends on all of
+/// them, or because they have side files, which are written first.
 bool waits_for_all(const SetStream& stream, const Target& target) {
     const FormatTraits& traits = target.format->traits;
     const bool first_tells = traits.counts_first || traits.equal_sets || target.meta;
@@ -211,7 +214,8 @@ std::vector<double> with_columns(std::span<const double> rows, std::span<const d
     if (densities.empty()) {
         const bool warped = stream.chain != nullptr && !stream.chain->empty();
         own = warped ? stream.chain->density(rows) : std::vector<double>(count, 1);
-        // Without warps, what the points are on is the unit cube, or what it was scaled to.
+        // Without warps, points are uniform on their domain: the unit cube, or a box to which it
+        // was scaled.
         if (!warped) volume = stream.domain->measure();
         densities = own;
     }

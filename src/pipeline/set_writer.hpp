@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The way of rows to a file: formatted block by block on all threads and written in order, while the
-// next ones are made. Memory is a few blocks a thread, whatever the size of the set.
+// Output of rows to files: formatted block by block on all threads and written in order, while the
+// next rows are made. Uses memory for a few blocks per thread, whatever the size of the set.
 #pragma once
 
 #include <cstdint>
@@ -17,11 +17,11 @@
 
 namespace stipple {
 
-/// Columns that are written behind the coordinates.
+/// Extra columns after the coordinates.
 struct Columns {
     bool pdf = false;       ///< the density of each point
     bool weight = false;    ///< 1 / density: the mean of f times weight estimates the integral of f
-    bool anywhere = false;  ///< points may be off the domain, with a density of 0
+    bool anywhere = false;  ///< points may be outside the domain: density 0
 
     [[nodiscard]] bool any() const { return pdf || weight; }
     [[nodiscard]] std::vector<std::string> names() const;
@@ -30,26 +30,29 @@ struct Columns {
 /// Where points go, and how they are written.
 struct Target {
     std::string path = "-";          ///< may hold {set} and {seed}: a file for each set
-    const Format* format = nullptr;  ///< none: format_of() the target
+    const Format* format = nullptr;  ///< null: format_of() decides
     bool header = true;
     bool meta = false;
     bool single = false;
     std::optional<int> precision = {};
     Columns columns = {};
-    /// Takes the bytes in place of a file; false: it wants no more.
+    /// If set, receives the bytes instead of a file; returns false to end the output.
     std::function<bool(std::string_view bytes)> sink = {};
-    /// Takes the sets, in place of all writing.
+    /// If set, receives the sets, and nothing is written.
     std::function<void(const SetStream&)> take = {};
 };
 
-/// As the target names it or its path ends; else csv.
+/// Format of the target: the one it names, or that of its path's extension, or csv for a path
+/// without extension.
+/// @throws Error(usage) for an unknown extension
 const Format& format_of(const Target& target);
 
-/// The target with the density columns that the file of these points had.
+/// Returns the target with those density columns added that the file of these points had.
 Target with_own_columns(Target target, const PointSet& points);
 
-/// Each row with the columns behind it. @throws Error(input) where a number is infinite
-/// @param densities of the points, where these have their own
+/// Returns the rows with their extra columns.
+/// @param densities of the points, if they have their own; otherwise empty
+/// @throws Error(input) if a number is infinite
 std::vector<double> with_columns(std::span<const double> rows, std::span<const double> densities,
                                  const Columns& columns, const SetStream& stream);
 
@@ -59,8 +62,8 @@ bool file_per_set(const std::string& path);
 /// The path with {set} and {seed} filled in.
 std::string path_of_set(std::string path, std::size_t set, std::uint64_t seed);
 
-/// Writes the sets to the target's file or files, and what comes with them: all of these or, when
-/// something fails, none. A closed pipe ends it early, without error.
+/// Writes the sets and their side files to the target. If anything fails, no files remain. Returns
+/// early, without an error, if the reader closes the pipe.
 /// @throws Error
 void write_sets(const SetStream& stream, const Target& target, const RunContext& run);
 

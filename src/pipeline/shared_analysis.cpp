@@ -22,7 +22,7 @@ struct Stretch {
 Stretch stretch_of(std::uint64_t count, std::uint64_t grain, const Peers& peers) {
     const std::uint64_t grains = (count + grain - 1) / grain;
     const auto size = static_cast<std::uint64_t>(peers.size());
-    // Where they do not come out even, the first ranks have one more: rank 0 always has some.
+    // If the grains cannot be split evenly, the first ranks get one more: rank 0 always has some.
     const auto begin = [&](std::uint64_t rank) {
         return std::min(count, (grains / size * rank + std::min(rank, grains % size)) * grain);
     };
@@ -30,7 +30,8 @@ Stretch stretch_of(std::uint64_t count, std::uint64_t grain, const Peers& peers)
     return {begin(rank), begin(rank + 1)};
 }
 
-/// What has looked at this rank's part of the set; nothing where it has none.
+/// Returns an accumulator that has processed this rank's part of the set; null if the part is
+/// empty, except on rank 0.
 std::shared_ptr<SharedAccumulator> counted_in(const Analyzer& analyzer, const SharedSet& set,
                                               const Values& options, const Ranks& ranks,
                                               const RunContext& run) {
@@ -61,7 +62,7 @@ std::shared_ptr<SharedAccumulator> counted_in(const Analyzer& analyzer, const Sh
     return measure;
 }
 
-/// What the ranks tell each other of a file.
+/// Properties of a file that the ranks exchange.
 struct FileFacts {
     std::uint64_t count = 0;
     std::size_t dimension = 0;
@@ -89,8 +90,9 @@ FileFacts facts_of(const std::string& path, const io::Opener& open) {
     return facts;
 }
 
-/// Ranks may have files of their own under one name.
-/// @throws Error(input) where these do not hold the same bytes
+/// Checks that all ranks read the same bytes: a name may stand for different files on different
+/// machines.
+/// @throws Error(input)
 void check_same_bytes(const std::vector<std::string>& paths, std::vector<Unpacker>& told,
                       Peers& peers) {
     for (const auto& path : paths) {
@@ -116,7 +118,8 @@ void check_alike(const std::vector<std::string>& paths, const std::vector<FileFa
     }
 }
 
-/// Ranks whose number has `step` as its lowest bit give what they know to those `step` before.
+/// Merges the accumulators of all ranks in rank 0. A rank whose lowest set bit is `step` sends its
+/// state to rank - step.
 void merge(SharedAccumulator* measure, Ranks& ranks, const RunContext& run) {
     const int rank = ranks.rank();
     for (int step = 1; step < ranks.size(); step *= 2) {

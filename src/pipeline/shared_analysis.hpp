@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// One set measured by several ranks. Each takes a stretch of it, in whole grains of the analyzer;
-// then rank r + 1 tells rank r what it has found, those two ranks on tell the even ones among
-// these, and so on, until rank 0 knows all.
+// One set analyzed by several ranks. Each processes a contiguous part of it, in whole grains of the
+// analyzer. The results are then merged in a tree: rank r + 1 sends its state to each even rank r,
+// then r + 2 to each r divisible by 4, and so on, until rank 0 has everything.
 //
-// Cost     every rank sends what it has found once, and rank 0 takes in log2(ranks) of these. Files
-//          whose head does not tell where each point stands (text) are read once more before, to
-//          count their points, each by one rank.
+// Cost     every rank sends its state once, and rank 0 merges log2(ranks) states. Before that,
+//          every rank reads all files for their fingerprints. Files whose head does not give the
+//          position of each point (text) are read once more, each by one rank, to count their
+//          points.
 // Promise  the report is to the last bit that of one process, for any number of ranks.
 #pragma once
 
@@ -23,27 +24,29 @@
 
 namespace stipple {
 
-/// A set of which each rank can take any stretch.
+/// A set of which every rank can read any part.
 struct SharedSet {
-    Arrival points;                                     ///< with their count
-    std::function<NextRows(std::uint64_t first)> from;  ///< gives its points from this one on
+    Arrival points;                                     ///< includes the count
+    std::function<NextRows(std::uint64_t first)> from;  ///< reader of the points from `first` on
 };
 
-/// A set that every rank has in memory.
+/// A set that is in the memory of every rank.
 SharedSet shared_in_memory(PointSet points);
 
-/// Files of one set each, one after the other, that all ranks can read; said to be on the unit cube.
-/// Counts their points; the ranks share the files, which must hold the same bytes everywhere.
-/// @throws Error(input), on all ranks, as io::join_points does
+/// The set formed by joining files of one set each; it is taken to be on the unit cube. The ranks
+/// count the points together. All ranks must be able to read all files, and find the same bytes.
+/// @throws Error(input), on all ranks, as io::join_points()
 SharedSet shared_in_files(const std::vector<std::string>& paths, const io::Opener& open,
                           Peers& peers, const RunContext& run);
 
-/// Measures the set by an analyzer that takes parts of it; rank 0 gets what was found.
-/// @throws Error, the same on all ranks unless rank 0's report is at fault
+/// Analyzes the set with an analyzer that can merge parts. Returns the result on rank 0, and
+/// nullopt on the others.
+/// @throws Error, the same on all ranks unless rank 0 fails to make its report
 std::optional<Found> analyze_shared(const Analyzer& analyzer, const SharedSet& set,
                                     const Values& options, Ranks& ranks, const RunContext& run);
 
-/// Does a part of what all do together: where that fails for some, all fail as the first of them.
+/// Runs this rank's part of a task. If it fails on some ranks, all throw the error of the first of
+/// them.
 void agreed(Peers& peers, const std::function<void()>& work);
 
 }  // namespace stipple

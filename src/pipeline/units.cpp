@@ -16,7 +16,7 @@
 namespace stipple {
 namespace {
 
-/// Whether a unit is called so, by its own name or another.
+/// Whether a word is the unit's name or one of its aliases.
 template <class Unit>
 bool is_called(const Unit& unit, std::string_view name) {
     if constexpr (requires { unit.aliases; })
@@ -38,11 +38,11 @@ const Unit& find_unit(std::string_view kind, const std::vector<Unit>& units,
     refuse_unit(kind, name);
 }
 
-/// What a unit is found by.
+/// Words by which a unit can be found.
 struct Entry {
     std::string kind;
     std::string name;
-    std::vector<std::string> names;  ///< its own, and others
+    std::vector<std::string> names;  ///< its name and aliases
     std::vector<std::string> related;
 };
 
@@ -65,7 +65,7 @@ std::vector<Entry> all_entries() {
     return all;
 }
 
-/// The units that a word leads to without being a name of theirs.
+/// Names of the units that list the word as related.
 std::vector<std::string> related_units(std::span<const Entry> entries, std::string_view word) {
     std::vector<std::string> units;
     for (const Entry& entry : entries)
@@ -73,7 +73,7 @@ std::vector<std::string> related_units(std::span<const Entry> entries, std::stri
     return units;
 }
 
-/// The names nearest to a word, one of each unit.
+/// Names that are nearest to a word, at most one for each unit.
 std::vector<std::string> near_names(std::span<const Entry> entries, std::string_view word) {
     std::map<std::string, std::string> unit_of;
     for (const Entry& entry : entries)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Units by name.
+// Units (generators, warps, scrambles and analyzers) by name.
 #pragma once
 
 #include <string_view>
@@ -12,24 +12,27 @@
 
 namespace stipple {
 
-/// The unit of that name. @throws Error(usage) naming the nearest one.
+/// Returns the unit with this name or alias.
+/// @throws Error(usage) that suggests the nearest name
 const Generator& find_generator(std::string_view name);
 const Warp& find_warp(std::string_view name);
 const Analyzer& find_analyzer(std::string_view name);
 
-/// Refuses the name of a "generator", "warp" (or scramble) or "analyzer" that there is not, with what
-/// may be meant: units that it is related to, or the nearest names. @throws Error(usage)
+/// Reports that there is no unit of this name, and suggests related units or the nearest names.
+/// @param kind "generator", "warp" (or scramble) or "analyzer"
+/// @throws Error(usage)
 [[noreturn]] void refuse_unit(std::string_view kind, std::string_view name);
 
-/// The unit of that name or alias; nullptr if there is none.
+/// Returns the unit with this name or alias; nullptr if there is none.
 const Generator* generator_named(std::string_view name);
 const Scramble* scramble_named(std::string_view name);
 
-/// A sentence on why prefixes of points that were made so tell little: they come in no order, or in
-/// that of their places; empty where they do, or where nobody knows.
+/// Sentence for the user: prefixes of such points are not sets of the same kind. Empty if they are,
+/// and if the generator is unknown.
 std::string unlike_prefixes(const Provenance& made);
 
-/// Adds to the provenance that a file holds what the record of its generator knows.
+/// Completes a provenance read from a file by what the record of its generator says: whether the
+/// points are independent.
 void complete(Provenance& provenance);
 
 }  // namespace stipple

@@ -16,7 +16,8 @@
 namespace stipple {
 namespace {
 
-/// Writes down that the set went through a warp. What was cut in writing was so before it.
+/// Records a warp in the provenance of a set. If the set's numbers were truncated when written,
+/// this becomes an earlier step.
 void record_warp(PointSet& set, const WarpChain& chain, bool inverse,
                  const std::vector<std::pair<std::string, std::string>>& inputs) {
     Provenance& meta = set.provenance;
@@ -37,7 +38,8 @@ void record_warp(PointSet& set, const WarpChain& chain, bool inverse,
     meta.warps.push_back(warp);
 }
 
-/// Numbers of a row that the warp makes into one of `after` numbers.
+/// Numbers per row before a warp, if its images have rows of `after` numbers.
+/// @throws Error(input) if the images have another dimension
 std::size_t dimension_before(const Spec& spec, std::size_t after, const RunContext& run) {
     const Warp& warp = find_warp(spec.name);
     const std::size_t given = spec.coordinates.empty() ? after : spec.coordinates.size();
@@ -49,8 +51,8 @@ std::size_t dimension_before(const Spec& spec, std::size_t after, const RunConte
     return after - gives + mapping->cube_dimension();
 }
 
-/// Whether all coordinates that are neither taken nor warped before are in the unit cube, on which
-/// they are said to be.
+/// Whether all coordinates that are neither taken nor already warped are in the unit cube, as their
+/// domain claims.
 bool others_in_cube(const PointSet& points, std::span<const std::size_t> taken,
                     const std::vector<Factor>& warped) {
     std::vector<bool> known(points.dimension());
@@ -63,16 +65,18 @@ bool others_in_cube(const PointSet& points, std::span<const std::size_t> taken,
     return true;
 }
 
-/// A text whose number of sets was not known when the first was begun must have no more.
+/// Checks that no other set follows in a text, if its number of sets was not known when output
+/// began.
+/// @throws Error(input)
 void refuse_second_set(io::PointStream& stream) {
     if (stream.sets() || !stream.next_set()) return;
     fail_with_hint(ErrorKind::input, "give each set in a file of its own",
                    "a second set begins in a text that is too large to be read as a whole");
 }
 
-/// A warp, or the way back through it, for points on a domain.
+/// A warp or its inverse, for points on a given domain.
 struct Warping {
-    /// @param densities whether points tell their own
+    /// @param densities whether the points have densities of their own
     Warping(const Spec& spec, bool back, const DomainPtr& on, const Target& target,
             const RunContext& run, const ChainSet& set = {}, bool densities = false)
         : inverse(back), taken(named_or_all(spec, on->dimension())) {
@@ -92,7 +96,9 @@ struct Warping {
         if (!spec.coordinates.empty()) cube += " in coordinates " + format_coordinates(taken);
     }
 
-    /// The points of a stream before these are in the cube; so must these be.
+    /// Checks that rows of a stream are in the cube.
+    /// @param first index of the first row
+    /// @throws Error(input)
     void require_in_cube(std::span<const double> rows, std::size_t d, std::uint64_t first) const {
         for (std::size_t i = 0; i < rows.size(); i += d)
             if (const auto row = rows.subspan(i, d); !in_cube(row, taken))
@@ -100,7 +106,8 @@ struct Warping {
                      fmt::join(gather(row, d, taken), ", "));
     }
 
-    /// The warp alone, without what points are on besides the unit cube.
+    /// Sets `stretch` to the warp alone, without the domains of other coordinates.
+    /// @throws Error(input) if the change of the densities is not known
     void find_stretch(const Spec& spec, const ChainSet& set, const RunContext& run) {
         if (!inverse && (chain->drops() || chain->reorders()))
             fail_with_hint(ErrorKind::input,
@@ -123,15 +130,15 @@ struct Warping {
     }
 
     bool inverse;
-    std::vector<std::size_t> taken;  ///< coordinates; no others need be in the unit cube
-    std::string cube;                ///< of these, for messages
-    std::vector<Factor> before;      ///< what the points are on besides the unit cube
+    std::vector<std::size_t> taken;  ///< coordinates of the warp; only these must be in the cube
+    std::string cube;                ///< name of the cube in messages
+    std::vector<Factor> before;      ///< domains of coordinates that are already warped
     std::shared_ptr<const WarpChain> chain;
     std::vector<std::pair<std::string, std::string>> inputs = {};
-    std::shared_ptr<const WarpChain> stretch = {};  ///< what densities are divided by
+    std::shared_ptr<const WarpChain> stretch = {};  ///< its density is the change of densities
 };
 
-/// The image of a set, as its provenance tells it.
+/// Image or preimage of a set, with updated provenance.
 PointSet warped(const PointSet& set, const Warping& warping, const RunContext& run) {
     const auto& [inverse, taken, cube, before, chain, inputs, stretch] = warping;
     if (!inverse) require_in_cube(set, taken, cube);
@@ -143,7 +150,7 @@ PointSet warped(const PointSet& set, const Warping& warping, const RunContext& r
     return image;
 }
 
-/// The images of the points of a stream, each of `wide` numbers.
+/// Reader of the images or preimages of a stream's points; rows of `wide` numbers.
 NextRows warped_rows(io::PointStream& stream, const Warping& warping, std::size_t wide,
                      const RunContext& run) {
     return [&stream, &warping, wide, quiet = silent(run), taken = std::vector<double>(),
@@ -168,7 +175,7 @@ NextRows warped_rows(io::PointStream& stream, const Warping& warping, std::size_
     };
 }
 
-/// One set or more, as they are read.
+/// Stream of sets that are read while they are written.
 SetStream stream_of(io::PointStream& points, const DomainPtr& on) {
     const auto next = [&points](std::span<double> rows) {
         const std::size_t count = points.read(rows);
@@ -189,7 +196,8 @@ SetStream stream_of(io::PointStream& points, const DomainPtr& on) {
                 }};
 }
 
-/// What is known of points that have a column which nothing of their making tells of.
+/// Provenance once a density column is added: keeps names, levels, size and domain, drops the
+/// recipe.
 Provenance without_making(const Provenance& meta) {
     Provenance known;
     known.columns = meta.columns;
@@ -267,7 +275,7 @@ void write_density_at(const Unwarped& at, const Spec& warp, Target target, const
     const DomainPtr& on = at.domain();
     const std::size_t d = dimension_before(warp, on->dimension(), run);
     auto chain = std::make_unique<WarpChain>(std::span(&warp, 1), d, ChainSet{}, run);
-    // Coordinates that the warp does not give are on what they are said to be on.
+    // Coordinates that the warp does not make keep their domains.
     auto others = warped_factors(chain->domain_before(on), named_or_all(warp, d));
     if (!others.empty())
         chain =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Points that exist already, from files or memory, through a warp or a scramble.
+// Warps and scrambles of existing points, from files or memory.
 #pragma once
 
 #include <cstdint>
@@ -13,48 +13,51 @@
 
 namespace stipple {
 
-/// Entries among the warps of a provenance for numbers that were truncated in writing.
+/// Entries in a provenance's list of warps for numbers that were truncated when written.
 inline constexpr std::string_view cut_to_single = "cut:dtype=f32";
 inline constexpr std::string_view cut_to_digits = "cut:precision=";
 
-/// Points to warp: sets in memory or, where they are many, as they are read.
+/// Points to warp: either sets in memory or, if there may be too many points, a stream.
 struct Unwarped {
     std::vector<PointSet> sets = {};
     io::PointStream* stream = nullptr;
-    DomainPtr on = {};  ///< of the points of a stream
+    DomainPtr on = {};  ///< domain of the stream's points
 
     [[nodiscard]] const DomainPtr& domain() const { return stream ? on : sets.front().domain; }
 };
 
-/// Bases of the digits of each coordinate, from the provenance of points that a generator made and
-/// that at most scrambles changed; empty: 2, or unknown.
+/// Base of the digits of each coordinate, for points that a generator made and that only scrambles
+/// and truncation have changed, according to their provenance. Empty if all bases are 2, or
+/// unknown.
 std::vector<std::uint32_t> digit_bases(const Provenance& meta);
 
-/// Whether the images of points of such a dimension depend on all points of their set.
+/// Whether the warp needs all points of a set at once, if they have this dimension.
 bool takes_whole_sets(const Spec& warp, std::size_t dimension, const RunContext& run);
 
-/// Whether points can be written to the target as they come, before their number is known.
+/// Whether points can be written to the target as they arrive, before their number is known.
 bool can_stream(const io::PointStream& stream, const Target& target);
 
-/// The image of a set under a warp or, with `inverse`, what it is made from; with its provenance.
-/// @throws as write_warped does
+/// Image of a set under a warp or, with `inverse`, its preimage; with updated provenance.
+/// @throws as write_warped()
 PointSet warped_set(const PointSet& set, const Spec& warp, bool inverse, const RunContext& run);
 
-/// Writes the images of points under a warp or, with `inverse`, what it makes them from; those of a
-/// stream in constant memory. An invalid point of a stream ends it when it comes; a file is not left
-/// then, but a pipe had the points before.
-/// @throws Error(input) where coordinates that the warp takes are outside the unit cube, or points
-/// off its domain, and for a streamed text of several sets; Error(usage) where they are on another
-/// domain already
+/// Writes the images of points under a warp or, with `inverse`, their preimages. A stream is
+/// processed in constant memory. An invalid point in it ends the output: a file is then discarded,
+/// but a pipe has already received the points before.
+/// @throws Error(input) if coordinates that the warp takes are outside the unit cube, if points to
+/// invert are outside the warp's domain, or if a streamed text has several sets; Error(usage) if
+/// coordinates that the warp takes are already on another domain
 void write_warped(Unwarped from, const Spec& warp, bool inverse, const Target& target,
                   const RunContext& run);
 
-/// Writes points as they are, each with the density that images of uniform points have there: 0 off
-/// the warp's domain.
-/// @throws Error(input) where points have another number of coordinates, or the density is infinite
+/// Writes the points unchanged, each with the density that images of uniform points have at its
+/// position: 0 outside the warp's domain.
+/// @throws Error(input) if the points and the warp's images differ in dimension, or the density is
+/// infinite
 void write_density_at(const Unwarped& at, const Spec& warp, Target target, const RunContext& run);
 
-/// Writes `replications` of each set, independently scrambled with the seeds seed, seed + 1, ...
+/// Writes `replications` independently scrambled copies of each set, with the seeds seed, seed + 1,
+/// ...
 /// @throws Error(input) for points outside the unit cube
 void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, std::uint64_t seed,
                      std::uint64_t replications, const Target& target, const RunContext& run);
