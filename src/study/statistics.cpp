@@ -47,7 +47,7 @@ SampleSummary summarize(std::span<const double> sample) {
     std::vector<double> sorted(sample.begin(), sample.end());
     std::ranges::sort(sorted);
     s.median = quantile(sorted, 0.5);
-    // A rounded sum would give equal numbers an error.
+    // If all numbers are equal, a rounded sum would give them an error.
     const bool same = sorted.front() == sorted.back();
     s.mean = same ? sorted.front() : std::accumulate(sample.begin(), sample.end(), 0.0) / n;
     if (sample.size() < 2) return s;

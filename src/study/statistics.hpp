@@ -12,7 +12,7 @@
 //
 // Promise  the bootstrap is a function of the numbers, their order and the seed alone.
 // Beware   if neither sample varies, no error can be estimated: p = 1 if the means are the same, else
-//          0. Values that do not exist, such as the error of one number, are NaN.
+//          0. Undefined values, such as the error of one number, are NaN.
 // Source   B. L. Welch, Biometrika 34 (1947) 28-35, doi:10.1093/biomet/34.1-2.28; S. Holm,
 //          Scandinavian Journal of Statistics 6 (1979) 65-70; B. Efron, Annals of Statistics 7
 //          (1979) 1-26, doi:10.1214/aos/1176344552.
@@ -38,7 +38,7 @@ struct SampleSummary {
     std::size_t count = 0;
     double mean = not_known;
     double median = not_known;
-    double deviation = not_known;       ///< standard, of one number
+    double deviation = not_known;       ///< standard deviation of the sample
     double standard_error = not_known;  ///< of the mean
 };
 
@@ -73,7 +73,7 @@ MeanTest welch_test(std::span<const double> a, std::span<const double> b);
 /// Compares a[i] with b[i]; both have the same length.
 MeanTest paired_test(std::span<const double> a, std::span<const double> b);
 
-/// Holm's corrected p-values, in the given order; a NaN stays, and is not counted as a test.
+/// Holm's corrected p-values, in the given order. A NaN stays NaN and does not count as a test.
 std::vector<double> holm(std::span<const double> p_values);
 
 }  // namespace stipple

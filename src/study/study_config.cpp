@@ -95,7 +95,7 @@ class ConfigReader {
         }
         if (!value.is_boolean())
             refuse(where, fmt::format("expected true or false, got {}", shown(json_text(value))));
-        // The option for seconds omits them; all others ask for something.
+        // The option --no-seconds omits results, all other flags request some.
         const bool left_out = name == "seconds";
         if (value.get<bool>() != left_out)
             settings_.emplace_back(left_out ? "no-seconds" : name, "true");
@@ -146,7 +146,8 @@ class ConfigReader {
         return text;
     }
 
-    /// A value as typed: numbers of a list are separated by commas, points by blanks.
+    /// Returns a value as it would be typed: numbers of a list are separated by commas, points by
+    /// blanks.
     std::string option_text(const Json& value, const std::string& where, int lists = 2) const {
         if (value.is_string()) return value.get<std::string>();
         if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
@@ -231,11 +232,12 @@ class CountRange {
         return *value;
     }
 
-    /// The written base: 2 in 2^4..2^16.
+    /// Base of the powers that a range is written with: 2 in 2^4..2^16.
+    /// @throws Error(usage) if there is none, as the numbers of the range are then unclear
     std::uint64_t base(std::uint64_t first, std::uint64_t last) const {
         const auto mark = text_.find('^');
         const auto end = text_.substr(0, mark);
-        const auto begin = end.find_last_of(". ") + 1;  // 0 if there is none
+        const auto begin = end.find_last_of(". ") + 1;  // 0 if nothing precedes the base
         const auto written = mark == std::string_view::npos ? std::optional<std::uint64_t>()
                                                             : parse_unsigned(end.substr(begin));
         if (written && *written > 1 && is_power(first, *written) && is_power(last, *written))

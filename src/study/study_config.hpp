@@ -16,20 +16,22 @@
 
 namespace stipple {
 
-/// Settings of a study: option and text. A list of units has one setting for each unit.
+/// Settings of a study, as pairs of an option and its text. A list of units is one setting per
+/// unit.
 using StudySettings = std::vector<std::pair<std::string, std::string>>;
 
-/// Settings of a configuration, as texts that the command line checks.
+/// Reads the settings from a configuration, as texts that the command line checks.
 /// @throws Error(input) naming `source` and the position, such as $.generators[1].options.scramble
 StudySettings parse_study_config(std::string_view json, const std::string& source);
 
 /// All keys that a configuration may have.
 std::vector<std::string> study_config_keys();
 
-/// Numbers of a list: 16,64,256; ranges by a factor 16..65536*2 or by a step 10..50+10; and all powers
-/// of the written base in 2^4..2^16. A range ends at the last number that is not above its end.
-/// @throws Error(usage) naming `who`: no numbers, a number outside [low, high], an empty range, a
-/// number given twice.
+/// Parses a list of numbers: 16,64,256; ranges by a factor, 16..65536*2, or by a step, 10..50+10;
+/// and 2^4..2^16 for all powers of the base as written. A range ends at the last number that is not
+/// above its end.
+/// @throws Error(usage) naming `who` for an empty list or range, a number outside [low, high], and
+/// a number given twice
 std::vector<std::uint64_t> parse_counts(std::string_view text, std::string_view who,
                                         std::uint64_t low, std::uint64_t high);
 

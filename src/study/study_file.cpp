@@ -26,7 +26,7 @@ std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? "." : path.substr(0, slash + 1);
 }
 
-/// The file itself: of a link, its target.
+/// Returns the path, or the target if it is a link.
 std::string real_file(const std::string& path) {
     std::error_code none;
     const bool link = std::filesystem::is_symlink(path, none);
@@ -48,7 +48,7 @@ int opened(const std::string& path) {
     return descriptor;
 }
 
-/// Writes all bytes, also when signals interrupt it.
+/// Writes all bytes, even if signals interrupt this.
 void write_all(int descriptor, std::string_view bytes, const std::string& path) {
     while (!bytes.empty()) {
         const auto written = ::write(descriptor, bytes.data(), bytes.size());
@@ -61,10 +61,12 @@ void cut_to(int descriptor, std::uint64_t size, const std::string& path) {
     if (::ftruncate(descriptor, static_cast<off_t>(size)) != 0) refuse(path);
 }
 
-/// Whether the bytes are on the disk. Some file systems cannot synchronise, and report so.
+/// Whether an fsync() with this result succeeded. File systems that cannot synchronise report so,
+/// which counts as success.
 bool is_synchronised(int result) { return result == 0 || errno == EINVAL || errno == ENOTSUP; }
 
-/// Writes a new file to the disk, and its name in the folder. False: errno has the reason.
+/// Flushes a new file and its entry in the folder to the disk. Returns false if this fails, with
+/// the reason in errno.
 bool synchronise_new(int descriptor, const std::string& path) {
     if (!is_synchronised(::fsync(descriptor))) return false;
     const int folder = ::open(folder_of(path).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -75,7 +77,8 @@ bool synchronise_new(int descriptor, const std::string& path) {
     return done;
 }
 
-/// Lines of a file, which may be missing. A read error is not its end.
+/// Reads a file line by line; a missing file is empty. A read error throws instead of ending the
+/// file.
 class Lines {
   public:
     explicit Lines(const std::string& path) : path_(path), in_(path, std::ios::binary) {
@@ -86,7 +89,8 @@ class Lines {
 
     [[nodiscard]] bool is_empty() const { return empty_; }
 
-    /// The next line; false at the end, and if the line has no end, which is then in `line`.
+    /// Reads the next line. Returns false at the end of the file; `line` is then the rest without a
+    /// line break, often empty.
     bool take(std::string& line) {
         const bool whole = std::getline(in_, line) && !in_.eof();
         require_read();
@@ -105,7 +109,7 @@ class Lines {
     bool empty_ = true;
 };
 
-/// The first line of a journal; null if it is not one.
+/// Returns the first line of a table's journal; null if it is missing or is not that of a journal.
 Json head_of_journal(const std::string& table) {
     std::string line;
     Json head = Lines(journal_of(table)).take(line) ? try_parse_json(line) : Json();
@@ -137,7 +141,7 @@ class StudyFile::TableReader {
         std::string text;
         if (file_.table_.style() == TableStyle::csv) take_line(lines, text);
         end_ = begin_ = file_.table_.head().size();
-        std::uint64_t damaged = 0;  // line
+        std::uint64_t damaged = 0;  // number of the first damaged line; 0: none
         while (take_line(lines, text)) {
             run.check_stop();
             const auto row = file_.table_.parse(text);
@@ -170,7 +174,7 @@ class StudyFile::TableReader {
         if (row.failed()) failure_ = row;
     }
 
-    /// Ends the rows of a smaller study: those of this one follow.
+    /// Ends the part with the rows of a smaller study. The rows of this study follow.
     void begin_own_part(const StudyRow& row) {
         if (part_ == &file_.sweep_ || row.study != file_.sweep_.fingerprint()) file_.refuse_other();
         end_part(false);
@@ -195,7 +199,7 @@ class StudyFile::TableReader {
         failure_.reset();
     }
 
-    /// Index in this study of the unit that is read.
+    /// Index, in this study, of the unit that is being read.
     [[nodiscard]] std::uint64_t own_unit() const {
         StudyRow row = *like_;
         row.study = file_.sweep_.fingerprint();
@@ -210,11 +214,11 @@ class StudyFile::TableReader {
         usual_keys_[like_->measure] = {*like_, std::move(keys_)};
     }
 
-    /// Stores the last unit of a part if it is whole. False: it may lack rows.
+    /// Stores the last unit of a part if it is complete. Returns false if it may lack rows.
     bool end_part(bool finished) {
         if (!like_) return true;
         const auto& [row, keys] = usual_keys_[like_->measure];
-        // Other sets may have lists of other lengths.
+        // Sets of another cell may have longer or shorter lists, so their keys prove nothing.
         const bool alike = finished || !keys_.back().ends_with(']') ||
                            (row.generator == like_->generator && row.count == like_->count &&
                             row.dimension == like_->dimension);
@@ -225,16 +229,16 @@ class StudyFile::TableReader {
 
     StudyFile& file_;
     std::optional<Sweep> smaller_;
-    const Sweep* part_;  ///< study of the rows that are read
+    const Sweep* part_;  ///< study of the rows being read
     bool unfinished_;    ///< there is a journal
-    bool ordered_;       ///< units are in order
+    bool ordered_;       ///< units must be in order
     std::uint64_t line_ = 0;
-    std::optional<StudyRow> like_;  ///< columns of the unit that is read
+    std::optional<StudyRow> like_;  ///< columns of the unit being read
     std::uint64_t unit_ = 0;
-    std::vector<std::string> keys_;    ///< of its rows
-    std::optional<StudyRow> failure_;  ///< its row, if it failed
-    std::uint64_t begin_ = 0;          ///< of the unit, in bytes
-    std::uint64_t end_ = 0;            ///< of the last row
+    std::vector<std::string> keys_;    ///< of the unit's rows
+    std::optional<StudyRow> failure_;  ///< row of the unit, if it failed
+    std::uint64_t begin_ = 0;          ///< position of the unit, in bytes
+    std::uint64_t end_ = 0;            ///< position after the last row
     std::map<std::string, std::pair<StudyRow, std::vector<std::string>>> usual_keys_;
 };
 
@@ -302,13 +306,14 @@ void StudyFile::lock_journal() {
     struct stat locked = {};
     struct stat there = {};
     const bool alone = ::flock(journal_, LOCK_EX | LOCK_NB) == 0;
-    // Another process may have finished meanwhile: then the opened file is its table now.
+    // Another process may have finished in the meantime: then the opened file has become its table.
     if (!alone || ::fstat(journal_, &locked) != 0 ||
         ::stat(journal_of(path_).c_str(), &there) != 0 || locked.st_ino != there.st_ino)
         fail(ErrorKind::io, "{}: another study is writing to it", path_);
 }
 
-/// False: the journal is damaged. @throws Error(input) if it is another study's
+/// Returns false if the journal is damaged.
+/// @throws Error(input) if it is another study's
 bool StudyFile::journal_is_ours() const {
     const Json head = head_of_journal(path_);
     if (head.is_object() && head["study"] != sweep_.fingerprint()) refuse_other();
@@ -340,7 +345,8 @@ void StudyFile::refuse_other() const {
                    "{}: --resume: the study there is another one{}", path_, differs);
 }
 
-/// The finished study that this one extends, if the table begins with its rows.
+/// Returns the finished study that this one extends, if the table begins with its rows; else
+/// nullopt.
 /// @throws Error(input) if they are the rows of any other study
 std::optional<Sweep> StudyFile::smaller_study(const RunContext& run) const {
     SweepRequest request = sweep_.request();
@@ -368,7 +374,8 @@ std::optional<Sweep> StudyFile::smaller_study(const RunContext& run) const {
     }
     if (fingerprint.empty()) return std::nullopt;
     request.seeds = last_seed - request.first_seed + 1;
-    // The fingerprint covers what rows do not show: keys, limits, and that none is missing.
+    // The fingerprint also covers what rows do not show: keys, limits, and whether sets are
+    // missing.
     std::optional<Sweep> sweep;
     try {
         sweep.emplace(std::move(request));
@@ -457,13 +464,13 @@ bool StudyFile::put_in_turn(const Segment& segment) {
 
 void StudyFile::sync() {
     if (!dirty_.exchange(false)) return;
-    // Without the journal, rows that are out of order would be taken for damage.
+    // Without the journal, rows out of order would be mistaken for damage.
     if (!journal_synced_ && !synchronise_new(journal_, journal_of(path_))) lost_ = errno;
     journal_synced_ = true;
     if (!is_synchronised(::fsync(output_))) lost_ = errno;
 }
 
-/// The line with this study's fingerprint.
+/// Returns the line with the fingerprint of this study.
 std::string StudyFile::renamed(const std::string& line) const {
     StudyRow row = table_.parse(line).value();
     row.study = sweep_.fingerprint();
@@ -472,7 +479,7 @@ std::string StudyFile::renamed(const std::string& line) const {
     return text;
 }
 
-/// Reads the lines of the table in the order of the study.
+/// Calls `visit` for the lines of the table, in the order of the study.
 void StudyFile::for_each_line(const std::function<void(const std::string&)>& visit,
                               const RunContext& run) const {
     Lines lines(path_);
@@ -521,7 +528,7 @@ void StudyFile::finish(const std::string& more, const RunContext& run) {
         stream_->write(more);
         return;
     }
-    // The system does not try again what an earlier sync could not write.
+    // The system does not retry a write that an earlier sync reported as failed.
     if (lost_ != 0) refuse_file(path_, lost_);
     const bool in_order = !mixed_ && index_.size() == 1 &&
                           table_.head().size() + index_.begin()->second.bytes == size_;

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// The output of a study. Units are appended to the table as they are measured, in any order. When
-// all are there, the table is rewritten in the order of the study. Until then it has a file
-// FILE.journal beside it, which names the study and is locked by the process that works on it:
+// Output of a study. Units are appended to the table as they are finished, in any order. When all
+// are present, the table is rewritten in the order of the study. Until then, a file FILE.journal
+// beside it names the study, and is locked by the process that works on it:
 //
 //     {"format":"stipple.study-journal","version":3,"study":...,"settings":{...}}
 //
-// The ordered rows are written into the journal, which is then renamed to the table: a crash leaves
-// the one or the other.
+// The ordered rows are written into the journal, which is then renamed to the table: after a crash,
+// either the old table or the new one is complete.
 //
-// Resuming   A table with a journal has its units in any order; one without has them in order, up to
-//            its end. Its last unit may lack rows: unless it has the keys of an earlier unit of the
-//            same measure, it is measured again. Behind the last row of an unfinished table may be
-//            anything, which is cut off; what is damaged anywhere else is refused.
-//            The rows of a finished smaller study stay in front, and get the fingerprint of this one
-//            when the table is rewritten.
-// Beware     standard output, pipes and devices get rows in order: those that come early wait in
-//            memory.
+// Resuming   If a table has a journal, its units are in any order; otherwise they are in order,
+//            without gaps. The last unit may lack rows. It is run again unless its keys are those
+//            of an earlier unit of the same measure. Anything after the last complete row of an
+//            unfinished table is cut off; damage anywhere else is an error. The rows of a finished
+//            smaller study stay at the front, and get the fingerprint of this one when the table is
+//            rewritten.
+// Beware     standard output, pipes and devices get rows in order: early rows wait in memory.
 #pragma once
 
 #include <atomic>
@@ -35,29 +34,29 @@
 
 namespace stipple {
 
-/// The file beside a study's table that is there until the study is finished.
+/// Path of the journal of a table, a file that exists until the study is finished.
 std::string journal_of(const std::string& table);
 
-/// Units without a result.
+/// Summary of the units that failed.
 struct StudyFailures {
     std::uint64_t units = 0;
     std::uint64_t first_unit = 0;
     StudyRow first = {};     ///< row of that unit
-    bool met_limit = false;  ///< of memory or time, at least once
+    bool met_limit = false;  ///< some unit exceeded the limit of memory or time
 };
 
 class StudyFile {
   public:
     using Listener = std::function<void(const StudyRow&)>;
 
-    /// What to do with a study that the file holds: refuse it, go on with it, or replace it.
+    /// What to do if the file holds a study: throw an error, resume it, or replace it.
     enum class Start { fresh, resume, anew };
 
     /// @param listener called with every row in the order of the study, including rows found in the
     /// file; may be empty
-    /// @throws Error: the file exists and is no study's table, holds a study without being asked to
-    /// resume or replace it, or holds another study than the one to be resumed; Error(io),
-    /// Error(cancelled).
+    /// @throws Error(input) if the file is not a study's table, or holds another study than the one
+    /// to be resumed; Error(usage) if it holds a study and `start` is fresh, or if a stream is to
+    /// be resumed; Error(io), Error(cancelled)
     StudyFile(std::string path, const Sweep& sweep, const StudyTable& table, Start start,
               Listener listener, const RunContext& run);
 
@@ -65,7 +64,7 @@ class StudyFile {
     StudyFile& operator=(const StudyFile&) = delete;
     ~StudyFile();
 
-    /// Units that the file has, in order.
+    /// Units that are in the file, in order.
     [[nodiscard]] std::vector<UnitRange> done() const;
     [[nodiscard]] std::uint64_t units_written() const { return written_; }
     [[nodiscard]] const StudyFailures& failures() const { return failures_; }
@@ -73,25 +72,28 @@ class StudyFile {
     [[nodiscard]] bool is_stream() const { return stream_.has_value(); }
     [[nodiscard]] bool has_journal() const { return journal_ >= 0; }
 
-    /// Writes units; any thread may call it. False: the reader of the pipe has closed it.
+    /// Writes units; safe to call from several threads. Returns false if the reader of the pipe has
+    /// closed it.
     /// @throws Error(io), now and in all later calls
     bool put(const Segment& segment);
 
-    /// Writes new rows to the disk itself; may be called beside put().
+    /// Flushes new rows to the disk; safe to call while another thread calls put().
     void sync();
 
-    /// Passes the rows of a file to the listener; all units have been put. A stream has done so.
+    /// Passes the rows of a file to the listener, after all units have been put. Does nothing for a
+    /// stream, whose rows were passed when they were written.
     /// @throws Error(cancelled), Error(io)
     void listen(const RunContext& run) const;
 
-    /// Puts the rows of a file in order and removes its journal; adds the text to a stream.
+    /// Puts the rows of a file in order and removes its journal. To a stream, it appends the text
+    /// `more`.
     /// @throws Error(cancelled), Error(io)
     void finish(const std::string& more, const RunContext& run);
 
   private:
-    /// Units that are together in the table, in order.
+    /// Consecutive units whose rows are together in the table, in order.
     struct Stored {
-        std::uint64_t last = 0;  ///< behind the last one
+        std::uint64_t last = 0;  ///< index after the last unit
         std::uint64_t offset = 0;
         std::uint64_t bytes = 0;
     };
@@ -119,13 +121,13 @@ class StudyFile {
     std::optional<io::Output> stream_;  ///< instead of a file: standard output, a pipe, a device
     int output_ = -1;
     int journal_ = -1;
-    std::mutex mutex_;                          // of all below
-    std::map<std::uint64_t, Stored> index_;     ///< by the first unit
-    std::map<std::uint64_t, Segment> waiting_;  ///< for their turn in a stream
-    std::uint64_t size_ = 0;                    ///< of the table, in bytes
-    std::uint64_t written_ = 0;                 ///< units
+    std::mutex mutex_;                          // guards the members down to failures_
+    std::map<std::uint64_t, Stored> index_;     ///< by their first unit
+    std::map<std::uint64_t, Segment> waiting_;  ///< early segments of a stream, by first unit
+    std::uint64_t size_ = 0;                    ///< bytes of the table
+    std::uint64_t written_ = 0;                 ///< number of units
     bool mixed_ = false;         ///< some rows have the fingerprint of a smaller study
-    std::exception_ptr broken_;  ///< a write failed: nothing may be written behind the gap
+    std::exception_ptr broken_;  ///< a write failed: nothing may follow the gap
     StudyFailures failures_;
     bool journal_synced_ = false;
     std::atomic<bool> dirty_ = false;  ///< something was written since the last sync

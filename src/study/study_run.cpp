@@ -19,7 +19,7 @@ namespace {
 
 using Work = std::vector<UnitRange>;
 
-// First byte of a message.
+// Kinds of messages: their first byte.
 constexpr char ask_message = 'A';   // request of a thread for work
 constexpr char work_message = 'W';  // its answer; empty after the last piece
 constexpr char done_message = 'D';  // results of a piece
@@ -70,11 +70,11 @@ WorkDone unpacked(Unpacker& from) {
     return done;
 }
 
-/// A run with the memory and the threads of one of several workers.
+/// A copy of the context for one of several workers, which share the memory.
 RunContext share_of(const RunContext& run, std::uint64_t workers, unsigned threads) {
     RunContext share = run;
     share.max_memory = run.max_memory / workers;
-    share.memory_in_use = {};  // it depends on other workers, and rows must not
+    share.memory_in_use = {};  // depends on other workers, but rows must not
     share.threads = threads;
     return share;
 }
@@ -175,7 +175,7 @@ class Leader {
         stop_.request_stop();
     }
 
-    /// Handles one message of another rank. False: there is none.
+    /// Handles one message from another rank. Returns false if there is none.
     bool serve(int& others) {
         const auto message = ranks_.poll();
         if (!message) return false;
@@ -197,7 +197,7 @@ class Leader {
     }
 
     void wait_a_little() {
-        // Other ranks wait for answers.
+        // Other ranks wait for answers, so pauses are shorter if there are any.
         std::this_thread::sleep_for(ranks_.size() > 1 ? short_pause : 5 * short_pause);
         if (run_.stop.stop_requested()) {
             const std::lock_guard lock(mutex_);
@@ -205,7 +205,8 @@ class Leader {
         }
     }
 
-    /// A power cut loses the rows of a second.
+    /// Flushes rows to the disk every second, so that a power cut loses at most those of the last
+    /// second.
     void keep_safe() {
         constexpr double apart = 1;  // second
         if (!run_.seconds || run_.seconds() < synced_ + apart) return;
@@ -223,7 +224,7 @@ class Leader {
         if (spent > 0) run_.progress(std::min(0.999, spent / (spent + left)));
     }
 
-    /// Runs units one after the other that need more memory than a worker has.
+    /// Runs the units that need more memory than a worker has, one after the other.
     void run_large() {
         RunContext alone = share_of(run_, 1, threads_of(ranks_, run_));
         for (const UnitRange& range : too_large_)
@@ -237,7 +238,7 @@ class Leader {
     const RunContext& run_;
     unsigned threads_;
     std::size_t workers_;
-    std::mutex mutex_;  // for all below
+    std::mutex mutex_;  // guards the members down to halted_
     WorkQueue queue_;
     Work too_large_;
     std::uint64_t running_ = 0;
@@ -252,7 +253,7 @@ class Leader {
     double shown_ = 0;   ///< time of the last progress
 };
 
-/// Another rank: threads that work, and this one, which exchanges messages with rank 0.
+/// Any other rank: threads that work, and the thread that exchanges messages with rank 0.
 class Worker {
   public:
     Worker(const UnitRunner& runner, Ranks& ranks, const RunContext& run)
@@ -282,7 +283,7 @@ class Worker {
         return true;
     }
 
-    /// Sends results, and asks for a piece after each.
+    /// Sends results to rank 0, and asks for a piece after each. Returns false if there were none.
     bool post() {
         bool any = false;
         for (std::string message; outbox_.try_pop(message); any = true) {
@@ -303,7 +304,7 @@ class Worker {
             std::string error;
             try {
                 result = runner_.run(ranges, share);
-            } catch (const std::exception& e) {  // mostly: cancelled
+            } catch (const std::exception& e) {  // usually because it was cancelled
                 error = e.what();
             }
             outbox_.push(packed(ranges, result, error));

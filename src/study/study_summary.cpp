@@ -74,7 +74,7 @@ MeanRow mean_of(const StudyRow& first, std::span<const double> values, std::uint
     return row;
 }
 
-/// Values of the seeds in both samples.
+/// Values of two samples, for the seeds that are in both.
 struct Paired {
     std::vector<double> a;
     std::vector<double> b;
@@ -201,9 +201,9 @@ std::string StudySummary::comparisons(TableStyle style, const SummaryOptions& op
             visit("study", row.study);
         });
     };
-    const Sample none{};  // without pairs, the table has only its names
+    const Sample none{};  // its cells are used only for the names of the columns
     std::string text = table_head(style, cells_of_pair({&none, &none}));
-    std::map<std::pair<std::string, std::string>, bool> same;  // whether two never differ
+    std::map<std::pair<std::string, std::string>, bool> same;  // true: no difference yet
     for (const auto& members : topics_) {
         run.check_stop();
         for (const Pair& pair : pairs_of(members, options.paired)) {
@@ -225,7 +225,7 @@ std::string StudySummary::comparisons(TableStyle style, const SummaryOptions& op
 
 namespace {
 
-/// Means of a study's table, which a summary may follow.
+/// Means over the rows of a study's table; a summary after them is ignored.
 std::vector<MeanRow> means_of_rows(std::span<const std::string_view> lines, const StudyTable& table,
                                    const std::string& source, const RunContext& run) {
     StudySummary summary;

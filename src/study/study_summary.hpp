@@ -39,10 +39,10 @@ struct MeanRow {
     double median = not_known;
     double standard_deviation = not_known;
     double rms = not_known;      ///< root mean square
-    double rms_low = not_known;  ///< of errors, and if there are values below 0
+    double rms_low = not_known;  ///< only for errors, and if some values are negative
     double rms_high = not_known;
-    double confidence = not_known;  ///< of these intervals
-    double t_low = not_known;       ///< of the mean
+    double confidence = not_known;  ///< level of the intervals
+    double t_low = not_known;       ///< of the mean, by Student's t
     double t_high = not_known;
     double bootstrap_low = not_known;
     double bootstrap_high = not_known;
@@ -65,12 +65,12 @@ class StudySummary {
     [[nodiscard]] std::vector<MeanRow> mean_rows(const SummaryOptions& options,
                                                  const RunContext& run) const;
 
-    /// These rows as a table.
+    /// mean_rows() as a table.
     /// @throws Error(cancelled)
     [[nodiscard]] std::string means(TableStyle style, const SummaryOptions& options,
                                     const RunContext& run) const;
 
-    /// Table with a row for each pair of generators that have values. Notifies of pairs with the same
+    /// Table with a row for each pair of generators that have values. Warns of pairs with the same
     /// values everywhere.
     /// @throws Error(cancelled)
     [[nodiscard]] std::string comparisons(TableStyle style, const SummaryOptions& options,
@@ -79,7 +79,7 @@ class StudySummary {
   private:
     /// Values of one generator in one topic.
     struct Sample {
-        StudyRow row;  ///< the first one
+        StudyRow row;  ///< first row of the sample
         std::vector<std::uint64_t> seeds = {};
         std::vector<double> values = {};
     };
@@ -88,7 +88,7 @@ class StudySummary {
     struct Pair {
         const Sample* a = nullptr;
         const Sample* b = nullptr;
-        std::size_t sets_a = 0;  ///< compared
+        std::size_t sets_a = 0;  ///< number of sets compared
         std::size_t sets_b = 0;
         MeanTest test = {};
         double p_holm = 1;
@@ -101,8 +101,8 @@ class StudySummary {
                                              bool by_seed) const;
 
     std::vector<Sample> samples_;                   ///< in the order of their first rows
-    std::map<Topic, std::size_t> topic_numbers_;    ///< by first rows, too
-    std::vector<std::vector<std::size_t>> topics_;  ///< samples of each topic
+    std::map<Topic, std::size_t> topic_numbers_;    ///< index in topics_
+    std::vector<std::vector<std::size_t>> topics_;  ///< indices in samples_, for each topic
     struct Failed {
         StudyRow row;
         std::uint64_t sets = 0;
@@ -111,11 +111,11 @@ class StudySummary {
     std::map<Cell, Failed> failed_;  ///< all cells, including those without failures
 };
 
-/// Whether results under a key are errors, of which the distance from 0 matters.
+/// Whether results under a key are errors, for which the distance from 0 matters.
 bool is_error_key(std::string_view key);
 
-/// Means of a study's table, without bootstrap intervals, or those in its summary; nullopt if the
-/// text is neither.
+/// Reads means from a study's table, without bootstrap intervals, or from its summary. Returns
+/// nullopt if the text is neither.
 /// @throws Error(input) for a line that is not a row; Error(cancelled)
 std::optional<std::vector<MeanRow>> read_means(std::string_view bytes, const std::string& source,
                                                const RunContext& run);

@@ -70,7 +70,7 @@ StudyRow row_of(const Sweep& sweep, const Unit& unit) {
 }
 
 std::vector<StudyRow> rows_of(const Sweep& sweep, const Unit& unit, const UnitResult& result) {
-    // Digits beyond microseconds would be noise.
+    // Digits below microseconds would be noise.
     const auto rounded = [](double seconds) { return std::round(seconds * 1e6) / 1e6; };
     StudyRow row = row_of(sweep, unit);
     row.domain = result.domain;

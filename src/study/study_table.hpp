@@ -51,14 +51,14 @@ struct UnitResult {
     std::optional<std::uint64_t> points = {};
     double generate_seconds = 0;
     double seconds = 0;
-    std::string failure = {};    ///< one line; empty if there is none
+    std::string failure = {};    ///< reason, on one line; empty if it succeeded
     bool out_of_memory = false;  ///< it needs more than this worker has
 };
 
 /// Results of consecutive units.
 struct Segment {
     UnitRange units;
-    std::vector<UnitResult> results = {};  ///< of each unit
+    std::vector<UnitResult> results = {};  ///< one per unit
 };
 
 /// Columns that are the same in all rows of a unit.
@@ -70,7 +70,7 @@ std::vector<StudyRow> rows_of(const Sweep& sweep, const Unit& unit, const UnitRe
 /// Index of the unit that a row belongs to; nullopt if it belongs to none.
 std::optional<std::uint64_t> unit_of(const Sweep& sweep, const StudyRow& row);
 
-/// Whether a row belongs to a unit, given by its row_of().
+/// Whether a row belongs to the unit whose row_of() is `unit`.
 bool belongs(const StudyRow& row, const StudyRow& unit);
 
 /// Form of the rows in a file.
@@ -80,13 +80,13 @@ class StudyTable {
 
     [[nodiscard]] TableStyle style() const { return style_; }
 
-    /// The line of names in CSV, empty in JSONL.
+    /// The line of column names in CSV; empty in JSONL.
     [[nodiscard]] std::string head() const;
 
-    /// A row as a line, with its end.
+    /// A row as a line, with its line break.
     [[nodiscard]] std::string line(const StudyRow& row) const;
 
-    /// Reads a line without its end; nullopt if it is not a whole row.
+    /// Reads a line without its line break; nullopt if it is not a complete row.
     [[nodiscard]] std::optional<StudyRow> parse(std::string_view line) const;
 
     /// Whether a file with this first line is a study's table of this style.
@@ -95,7 +95,7 @@ class StudyTable {
   private:
     TableStyle style_;
     bool seconds_;
-    std::vector<TableCell> columns_;  ///< names alone
+    std::vector<TableCell> columns_;  ///< only their names are used
 };
 
 }  // namespace stipple

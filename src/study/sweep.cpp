@@ -30,7 +30,7 @@ Chosen<Unit> chosen(const Unit& unit, const Spec& spec, std::string_view who) {
     return c;
 }
 
-/// Refuses options that write files: every set would overwrite them.
+/// Refuses options that write files, because every set would overwrite them.
 void refuse_files(const Chosen<Generator>& c) {
     for (const std::string& option : c.unit->writes)
         if (c.values.find(option).given)

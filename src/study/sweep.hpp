@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Units of a study: generators x dimensions x counts x seeds, each set measured by all measures.
+// Units of a study: generators x dimensions x counts x seeds, each set analyzed by all measures.
 //
 //     unit u = (cell * seeds + seed) * measures + measure,
 //     cell   = (generator * dimensions + dimension) * counts + count
 //
-// Shape    units() may be larger than memory: nothing here grows with it.
+// Shape    there may be more units than fit in memory: nothing here grows with their number.
 // Promise  units, their order and the fingerprint depend on the request alone.
 #pragma once
 
@@ -35,7 +35,7 @@ struct SweepRequest {
     std::vector<std::string> keys = {};     ///< results to keep; empty: all numbers
     bool curves = false;                    ///< keep lists of numbers, too
     std::optional<double> time_limit = {};  ///< seconds for making a set, and for each measure
-    bool seconds = true;                    ///< rows have their seconds
+    bool seconds = true;                    ///< rows include the seconds spent
 };
 
 /// A generator or an analyzer with its options.
@@ -68,7 +68,8 @@ struct UnitRange {
     bool operator==(const UnitRange&) const = default;
 };
 
-/// Whether `wanted` is a result's name or a part of it between dots; parts in capitals match any.
+/// Whether `wanted` is the name of a result, or a part of it between dots. Parts of the name that
+/// are in capitals match any word.
 bool names_result(const std::string& result, std::string_view wanted);
 
 class Sweep {
@@ -80,12 +81,12 @@ class Sweep {
     [[nodiscard]] const std::vector<Chosen<Generator>>& generators() const { return generators_; }
     [[nodiscard]] const std::vector<Chosen<Analyzer>>& measures() const { return measures_; }
     [[nodiscard]] const std::vector<Spec>& warps() const { return warps_; }
-    /// Scrambles in front of the first warp, and the rest.
+    /// Scrambles before the first warp; later_warps() has the remaining warps and scrambles.
     [[nodiscard]] std::span<const Spec> scrambles() const { return {warps_.data(), scrambles_}; }
     [[nodiscard]] std::span<const Spec> later_warps() const {
         return std::span(warps_).subspan(scrambles_);
     }
-    /// The warps as rows name them, separated by blanks.
+    /// The warps as written in rows, separated by blanks.
     [[nodiscard]] const std::string& warp_names() const { return warp_names_; }
 
     [[nodiscard]] std::uint64_t cells() const;
@@ -93,9 +94,10 @@ class Sweep {
     [[nodiscard]] Cell cell(std::uint64_t index) const;
     [[nodiscard]] Unit unit(std::uint64_t index) const;
     [[nodiscard]] std::uint64_t units_per_cell() const { return request_.seeds * measures_.size(); }
-    /// Something of a smaller sweep that is missing from this one, such as "seed 5"; or empty.
+    /// Names something in the sweep `part` that is missing from this one, such as "seed 5"; empty
+    /// if nothing is.
     [[nodiscard]] std::string missing_from(const Sweep& part) const;
-    /// Index of a unit; nullopt if there is none.
+    /// Index of a unit; nullopt if the study does not contain it.
     [[nodiscard]] std::optional<std::uint64_t> index_of(std::string_view generator,
                                                         std::uint64_t dimension,
                                                         std::uint64_t count, std::uint64_t seed,
@@ -104,11 +106,11 @@ class Sweep {
     /// Whether the sets of a generator differ from seed to seed.
     [[nodiscard]] bool seeded(std::size_t generator) const;
 
-    /// Names and texts of all that rows depend on.
+    /// Names and texts of all settings that rows depend on.
     [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& settings() const {
         return settings_;
     }
-    /// A hash of the settings: 16 hexadecimal digits.
+    /// Fingerprint of settings(): 16 hexadecimal digits.
     [[nodiscard]] const std::string& fingerprint() const { return fingerprint_; }
 
   private:
@@ -122,7 +124,7 @@ class Sweep {
     std::vector<Chosen<Analyzer>> measures_;
     std::vector<Spec> warps_;
     std::string warp_names_;
-    std::size_t scrambles_ = 0;  ///< before the first warp
+    std::size_t scrambles_ = 0;  ///< number of those before the first warp
     bool random_warps_ = false;
     std::uint64_t units_ = 0;
     std::vector<std::pair<std::string, std::string>> settings_;

@@ -19,11 +19,11 @@ namespace stipple::columns {
 
 inline std::string text_of(const std::string& text) { return text; }
 inline std::string text_of(std::uint64_t number) { return std::to_string(number); }
-/// Unknown numbers are NaN, and empty cells.
+/// An unknown number is NaN in a structure, and an empty cell in the table.
 inline std::string text_of(double number) {
     return std::isnan(number) ? "" : format_number(number);
 }
-/// A NaN among measured numbers is "nan".
+/// An unknown number is nullopt here, so that a measured NaN is "nan" in the table.
 inline std::string text_of(const std::optional<double>& field) {
     return field ? format_number(*field) : "";
 }
@@ -31,7 +31,7 @@ inline std::string text_of(const std::optional<std::uint64_t>& field) {
     return field ? std::to_string(*field) : "";
 }
 
-// Read a field from its cell. False: the text is not such a field.
+// These read a field from the text of a cell. They return false if the text does not fit the field.
 inline bool read(const std::string& text, std::string& field) {
     field = text;
     return true;
@@ -63,7 +63,7 @@ std::vector<TableCell> cells_of(const ForEach& for_each) {
     return cells;
 }
 
-/// False: a cell does not fit its field.
+/// Reads the cells of a row into its fields. Returns false if a cell does not fit its field.
 template <class ForEach>
 bool read_cells(const std::vector<std::string>& cells, const ForEach& for_each) {
     bool whole = true;

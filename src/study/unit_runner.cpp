@@ -21,7 +21,7 @@
 namespace stipple {
 namespace {
 
-/// A row is one line.
+/// Replaces line breaks by blanks, as a row is one line.
 std::string one_line(std::string text) {
     std::ranges::replace_if(
         text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
@@ -30,8 +30,8 @@ std::string one_line(std::string text) {
 
 using Task = std::function<void(const RunContext&)>;
 
-/// Calls work with a run that is stopped after so many seconds, measured by run.seconds. Returns
-/// whether it was stopped.
+/// Calls `work` with a context that is stopped after `limit` seconds by the clock run.seconds.
+/// Returns whether the limit was exceeded.
 bool over_time(const RunContext& run, std::optional<double> limit, const Task& work) {
     if (!limit || !run.seconds) {
         work(run);
@@ -60,7 +60,7 @@ bool over_time(const RunContext& run, std::optional<double> limit, const Task& w
     return over;
 }
 
-/// Runs work within the limit of time, and notes how long it took and why it failed.
+/// Runs `work` with a time limit. Stores the time it took and, if it failed, the reason.
 /// @throws Error(cancelled)
 void attempt(UnitResult& result, double& seconds, std::optional<double> limit,
              const RunContext& run, const Task& work) {
@@ -82,7 +82,7 @@ void attempt(UnitResult& result, double& seconds, std::optional<double> limit,
     seconds = run.seconds ? run.seconds() - start : 0;
 }
 
-/// Distinct points of the unit cube: odd multiples of sqrt(2), modulo 1.
+/// Distinct points of the unit cube: coordinate k of point i is (i + 1)(2 k + 1) sqrt(2), modulo 1.
 PointSet some_points(std::size_t dimension, std::size_t count = 64) {
     constexpr double step = 0.41421356237309515;
     PointSet points(count, dimension);
@@ -100,7 +100,8 @@ RunContext without_warnings(RunContext run) {
     return run;
 }
 
-/// Error of a measure for such points; nullopt if it takes them, or works on beyond the limit.
+/// Returns the error that a measure throws for such points; nullopt if it accepts them, fails for
+/// another reason, or is not done after `limit` seconds.
 std::optional<Error> refusal(const Chosen<Analyzer>& measure, const PointSet& points,
                              const RunContext& run, std::optional<double> limit = {}) {
     try {
@@ -121,7 +122,8 @@ bool takes_points(const Chosen<Analyzer>& measure, const PointSet& points, const
     return !error || (error->kind() != ErrorKind::input && error->kind() != ErrorKind::usage);
 }
 
-/// Whether a measure gets the warped points: if it takes them, or takes no points of the cube either.
+/// Whether a measure gets the warped points: it accepts them, or it does not accept points of the
+/// cube either.
 bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunContext& run) {
     const std::string spec = chain.domain()->spec();
     if (spec == "unit-cube") return true;
@@ -136,7 +138,7 @@ bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunCon
 /// A set of points before and after its warps.
 struct MadeSet {
     PointSet before = {};
-    std::optional<PointSet> image = {};  ///< nullopt without warps
+    std::optional<PointSet> image = {};  ///< nullopt if there are no warps
     UnitResult result = {};              ///< seconds and failure, the same for all measures
 };
 
@@ -153,7 +155,8 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
         *generator.unit, {.count = points.count(), .dimension = d, .seed = seed}, generator.values);
     if (!sweep.scrambles().empty())
         points = WarpChain(sweep.scrambles(), d, set, run).image(points, run);
-    // What a scramble draws depends on seed and coordinates: cut in two, the chain is the same.
+    // The random choices of a scramble depend only on seed and coordinates, so that a chain in two
+    // parts gives the same points.
     if (sweep.later_warps().empty()) return;
     const WarpChain chain(sweep.later_warps(), d, set, run);
     if (!chain.refills() && !chain.reorders()) {
@@ -176,8 +179,8 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
     points = made_together(warps);
 }
 
-/// Whether a word is a key's part between dots: value, centered and both match centered.value, mean
-/// matches mean[0].
+/// Whether one of the words is a part of the key between dots: value, centered and both match
+/// centered.value, mean matches mean[0].
 bool is_meant(const std::string& key, const std::vector<std::string>& wanted) {
     const auto dotted = [](std::string text) {
         replace_all(text, "[", ".[");
@@ -251,13 +254,13 @@ UnitRunner::UnitRunner(const Sweep& sweep, const RunContext& run)
             }
 }
 
-// Each set is made once, and only one if the seed changes nothing.
+// Makes each set once, and only one set if the seed has no effect.
 WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext& run) const {
     const RunContext quiet = without_warnings(run);
     const bool shares_memory = run.max_memory < whole_memory_;
     WorkDone done;
     MadeSet set;
-    std::map<std::size_t, UnitResult> results;  // of the set, by the measure's number
+    std::map<std::size_t, UnitResult> results;  // of the set, by index of the measure
     std::optional<std::pair<std::uint64_t, std::uint64_t>> made;  // cell and seed of the set
     for (const UnitRange& range : ranges)
         for (std::uint64_t index = range.first; index < range.last; ++index) {
@@ -267,7 +270,7 @@ WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext&
             const std::pair wanted{unit.cell, sweep_.seeded(cell.generator) ? unit.seed_index : 0};
             if (made != wanted) {
                 results.clear();
-                set = {};  // two would need twice the memory
+                set = {};  // frees it first, to need memory for one only
                 const std::uint64_t seed = sweep_.request().first_seed + unit.seed_index;
                 attempt(set.result, set.result.generate_seconds, sweep_.request().time_limit, quiet,
                         [&](const RunContext& limited) { make(set, sweep_, cell, seed, limited); });
@@ -315,7 +318,7 @@ void UnitRunner::require_options(const RunContext& run) const {
         const auto refused = [&](std::size_t d) {
             const auto few = refusal_of(m, d, 64, run);
             if (few && !first) first = few;
-            // A message that depends on the number of points differs.
+            // For 149 points, an error that depends on the number of points has another message.
             const auto more = few ? refusal_of(m, d, 149, run) : std::nullopt;
             return more && std::string_view(more->what()) == few->what();
         };

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Makes the sets of a study and measures them: units in, results out.
+// Makes the sets of a study and analyzes them: units in, results out.
 //
-// A set is measured after all warps. A measure that cannot take the warps' domain (most
-// discrepancies take the unit cube only) gets the points before the first warp, after the scrambles
-// in front of it; the row has that domain.
+// A set is analyzed after all warps. A measure that does not accept the warps' domain (most
+// discrepancies accept the unit cube only) gets the points before the first warp, but after any
+// scrambles before it; the row names the domain of these points.
 //
-// Promise  results, except seconds, depend on the unit alone: not on the units that are measured
-//          with it, nor on threads. A failure is a result with the reason.
+// Promise  results, except seconds, depend on the unit alone: neither on the units that are run
+//          together with it nor on threads. A failure is a result with the reason.
 #pragma once
 
 #include <cstdint>
@@ -27,23 +27,23 @@ namespace stipple {
 /// Results of a piece of work.
 struct WorkDone {
     std::vector<Segment> segments = {};
-    std::vector<UnitRange> too_large = {};  ///< units that need more memory than a worker has
+    std::vector<UnitRange> too_large = {};  ///< units that need more memory than this worker had
     double seconds = 0;                     ///< of making and measuring sets
 };
 
 class UnitRunner {
   public:
-    /// @param run its memory is what a unit may take that runs alone
+    /// @param run with the memory limit of a unit that runs alone
     /// @throws Error(cancelled)
     UnitRunner(const Sweep& sweep, const RunContext& run);
 
     [[nodiscard]] const Sweep& sweep() const { return sweep_; }
 
-    /// @param run its memory is what this worker may take; it gets no progress and no warnings
+    /// @param run with the memory limit of this worker; gets no progress and no warnings
     /// @throws Error(cancelled)
     [[nodiscard]] WorkDone run(const std::vector<UnitRange>& ranges, const RunContext& run) const;
 
-    /// A sentence for each measure that gets points before the warps.
+    /// One sentence for the user for each measure that gets the points before the warps.
     [[nodiscard]] std::vector<std::string> before_warps() const;
 
     /// @throws Error(usage) for options of a measure that are wrong for every set of the study
@@ -62,9 +62,10 @@ class UnitRunner {
     std::set<std::pair<std::size_t, std::size_t>> before_warps_;
 };
 
-/// A report's numbers in order, under dotted keys; flags are 0 and 1. Lists of numbers become
-/// NAME[I] with `curves`, with `keys`, or if there is nothing else. Non-empty `keys` keep numbers
-/// that have one as a part between dots: value is in centered.value, mean in mean[0].
+/// Returns a report's numbers in order, under dotted keys; flags are 0 and 1. Lists become numbers
+/// NAME[I] with `curves`, with `keys`, or if there is nothing else. Non-empty `keys` select the
+/// numbers whose key has one of them as a part between dots: value selects centered.value, mean
+/// selects mean[0].
 std::vector<KeyedNumber> numbers_of(const Report& report, const std::vector<std::string>& keys,
                                     bool curves);
 

@@ -20,7 +20,7 @@ std::vector<UnitRange> missing(std::span<const UnitRange> done, UnitRange range)
 }
 
 SetCost set_cost(const Sweep& sweep, const Cell& cell) {
-    constexpr double once = 2e-5;  // of every set and every measure, however small
+    constexpr double once = 2e-5;  // seconds, at least, for a set and for a measure
     const auto& generator = *sweep.generators()[cell.generator].unit;
     const auto n = static_cast<double>(cell.count);
     const auto d = static_cast<double>(cell.dimension);
@@ -64,7 +64,7 @@ WorkQueue::Piece WorkQueue::piece_of(std::uint64_t index) const {
     const double set = cost.all() * measured_ratio(work_[index]);
     const std::uint64_t measures = sweep_.measures().size();
     const std::uint64_t seeds = sweep_.request().seeds;
-    if (!sweep_.seeded(cell.generator)) {  // one set is all, but its rows take memory
+    if (!sweep_.seeded(cell.generator)) {  // one set for all seeds, but many rows
         constexpr std::uint64_t most_sets = 1 << 16;
         return {measures * std::min(seeds, most_sets), set};
     }
@@ -76,11 +76,11 @@ WorkQueue::Piece WorkQueue::piece_of(std::uint64_t index) const {
 
 void WorkQueue::sort() {
     constexpr double longest = 1;      // seconds of a piece
-    constexpr double shortest = 2e-3;  // less would be spent on handing out
+    constexpr double shortest = 2e-3;  // shorter ones cost more to hand out
     constexpr double pieces_of_worker = 32;
     grain_ = std::clamp(seconds_left() / (pieces_of_worker * workers_), shortest, longest);
     pieces_left_ = 0;
-    std::vector<double> seconds(work_.size());  // of pieces that are too long
+    std::vector<double> seconds(work_.size());  // of a piece, if longer than grain_; else 0
     for (const std::uint64_t cell : cells_) {
         const Piece piece = piece_of(cell);
         const std::uint64_t units = sweep_.units_per_cell() - work_[cell].pulled;

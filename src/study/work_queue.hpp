@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// Pieces of work of a study. Cells whose pieces take long come first, the longest first, so that
-// none is left when all others are done; the rest follows in the order of the study, so that a
-// stream can write its rows soon.
+// Pieces of work of a study. Cells with long pieces come first, the longest first, so that none of
+// these is left when everything else is done. All others follow in the order of the study, so that
+// a stream can write its rows early.
 //
-// A piece is some sets of one cell or, if measuring a set costs more than making it again, one of
-// its measures. Pieces take at most about a second if possible: an interruption loses little.
+// A piece is some sets of one cell or, if measuring a set costs more than making it again, one
+// measure of one set. Pieces take at most about a second if possible, so that little is lost by an
+// interruption.
 //
-// Times are modelled at first, by the costs in the records of the units and n d where there is
-// none, and measured after:
+// Times are first modelled, by the cost functions of the units (n d for units without one), and
+// later corrected by measured times:
 //
-//     seconds = model x (spent / model of what is finished),   of the cell, or else of all cells.
+//     seconds = model x (spent / model of finished work),   of the cell or, if it has none, of all.
 //
 // Shape   memory grows with the number of cells, not of sets.
-// Beware  the model is good to a factor of ten or so.
+// Beware  the model is wrong by a factor of up to ten or so.
 #pragma once
 
 #include <cstdint>
@@ -25,13 +26,14 @@
 
 namespace stipple {
 
-/// Parts of a range that are not done. @param done in order, without overlaps
+/// Returns the parts of a range that are not done.
+/// @param done in order, without overlaps
 std::vector<UnitRange> missing(std::span<const UnitRange> done, UnitRange range);
 
 /// Modelled seconds on one core.
 struct SetCost {
     double make = 0;
-    double measure = 0;  ///< with all measures
+    double measure = 0;  ///< by all measures
     [[nodiscard]] double all() const { return make + measure; }
 };
 
@@ -39,24 +41,26 @@ SetCost set_cost(const Sweep& sweep, const Cell& cell);
 
 class WorkQueue {
   public:
-    /// @param done in order @param workers that will pull at once
+    /// @param done units that are not to be run, in order
+    /// @param workers number of threads that pull at the same time
     explicit WorkQueue(const Sweep& sweep, std::vector<UnitRange> done = {},
                        std::size_t workers = 1);
 
-    /// The next piece; nullopt after the last.
+    /// Returns the next piece; nullopt after the last one.
     std::optional<std::vector<UnitRange>> pull();
 
-    /// Takes out what was done in so many seconds of one core.
+    /// Removes finished units from the estimate. @param seconds that they took on one core
     void finish(const std::vector<UnitRange>& ranges, double seconds);
 
-    /// About how many pieces have not been pulled.
+    /// Approximate number of pieces that have not been pulled.
     [[nodiscard]] std::uint64_t pieces_left() const { return pieces_left_; }
 
-    /// Seconds of one core for all that is not finished.
+    /// Estimated seconds on one core for all units that are not finished.
     [[nodiscard]] double seconds_left() const;
 
   private:
-    /// Modelled seconds of a cell, except `spent`, and its units that have been pulled.
+    /// Progress of a cell: `left` and `finished` in modelled seconds, `spent` in measured ones, and
+    /// the number of its units that were pulled.
     struct CellWork {
         double left = 0;
         double finished = 0;
@@ -78,10 +82,10 @@ class WorkQueue {
     double workers_;
     double grain_ = 0;  ///< seconds that a piece should take
     std::vector<CellWork> work_;
-    CellWork all_;                      ///< finished and spent in all cells
-    std::vector<std::uint64_t> cells_;  ///< not yet pulled, the last one first
+    CellWork all_;                      ///< `finished` and `spent` of all cells
+    std::vector<std::uint64_t> cells_;  ///< not pulled completely; the next one is the last
     std::uint64_t pieces_left_ = 0;
-    std::uint64_t finished_ = 0;  ///< pieces
+    std::uint64_t finished_ = 0;  ///< number of pieces
 };
 
 }  // namespace stipple
