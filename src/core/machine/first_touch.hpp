@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Memory that a run can be stopped from filling: some systems take a second to provide 400 MB when
-// they are touched first.
+// Allocation of much memory in steps, so that the run can be stopped meanwhile: some systems take a
+// second to provide 400 MB when they are first touched.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 
 namespace stipple {
 
-/// Appends to an empty container until it has n values of zero. @throws Error(cancelled)
+/// Grows an empty container to n values of zero, in steps between which the run can be stopped.
+/// @throws Error(cancelled)
 template <class Container>
 void grow(Container& values, std::size_t n, const RunContext& run) {
     constexpr std::size_t step = (std::size_t{4} << 20) / sizeof(typename Container::value_type);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Whole numbers of 128 bits, and their halves.
+// Integers of 128 bits, and their halves of 64 bits.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Includes the file STIPPLE_KERNELS three times, in the namespaces anywhere, fours and eights, with
-// STIPPLE_VECTOR_BITS = 128, 256 and 512. The wider two may use fused multiply-add. Compilers
-// without this feature get only the first; the other two names are aliases of it.
+// STIPPLE_VECTOR_BITS = 128, 256 and 512. The wider two may use fused multiply-add. They need GCC or
+// Clang on x86-64; elsewhere, their names are aliases of the first.
 //
 //     #define STIPPLE_KERNELS "folder/kernels.hpp"
 //     #include "core/machine/vector_widths.hpp"
