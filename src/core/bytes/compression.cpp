@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t block = std::size_t{1} << 16;
 constexpr int gzip_window = 15 + 16;  // largest window; +16 selects the gzip header and checksum
 
-/// zlib counts bytes with an int.
+/// Number of bytes to pass to zlib at once; it counts them with an int.
 uInt as_much(std::size_t size) { return static_cast<uInt>(std::min(size, std::size_t{1} << 30)); }
 
 /// Passes both spans to zlib; end() removes the parts that zlib consumed and filled.

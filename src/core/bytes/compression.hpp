@@ -17,10 +17,10 @@ namespace stipple {
 
 enum class Compression { none, gzip, zstd };
 
-/// Compression by the file name's extension: .gz or .zst, case ignored.
+/// Compression by the extension of a file's name: .gz or .zst, in any case; otherwise none.
 Compression compression_of_name(std::string_view path);
 
-/// Compression by the first bytes of a file.
+/// Compression by the first bytes of a file; none if they are those of another kind of file.
 Compression compression_of_bytes(std::string_view bytes);
 
 class Compressor {
@@ -60,7 +60,7 @@ class Decompressor {
     /// @param name of the file, for error messages
     Decompressor(Compression kind, Refill refill, std::string name);
 
-    /// Fills `bytes`, or less at the end; returns the number of bytes read.
+    /// Fills `bytes`, or only its front at the end of the data; returns the number of bytes read.
     /// @throws Error(input) if the compressed data is damaged or truncated
     std::size_t read(std::span<char> bytes);
 
@@ -78,7 +78,7 @@ class Decompressor {
     std::unique_ptr<Stream> stream_;
     std::string_view in_ = {};
     bool at_end_ = false;  ///< no compressed bytes are left
-    bool whole_ = false;   ///< a stream has ended and the next has not begun
+    bool whole_ = false;   ///< a stream has ended, and no other has begun
 };
 
 }  // namespace stipple

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Files read at once, such as tables, matrices and pictures that options name; and limits on which
-// files may be opened.
+// Files read at once, such as tables, matrices and pictures that options name; and restrictions
+// on which files may be opened.
 #pragma once
 
 #include <cstdint>
@@ -32,8 +32,8 @@ std::uint64_t file_fingerprint(const std::string& path, const RunContext& run);
 /// Sets the size limit of read_file(), at most 1 GiB.
 void limit_whole_files(std::uint64_t bytes);
 
-// Access control for files named in untrusted text. All readers and writers of files check here, so
-// no option can bypass it.
+// Access control for files that untrusted text names. All code that opens files checks here, so
+// that no option can bypass it.
 
 /// Restricts which files can be opened during its lifetime. Only one may exist at a time; no other
 /// thread may open files while it is created or destroyed. Standard input and output are not

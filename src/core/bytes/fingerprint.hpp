@@ -17,7 +17,7 @@
 
 namespace stipple {
 
-/// @param before fingerprint of the preceding bytes; nullopt: there are none
+/// @param before fingerprint of the preceding bytes; nullopt if these bytes are the first
 std::uint64_t fingerprint(std::string_view bytes, std::optional<std::uint64_t> before = {});
 
 /// Fingerprint of the numbers as little-endian float64.

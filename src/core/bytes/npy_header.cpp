@@ -50,7 +50,8 @@ class HeaderReader {
         return value;
     }
 
-    /// Text after the key and its colon in the dictionary.
+    /// Returns the text after a key of the dictionary and its colon.
+    /// @throws Error(input) if the key is missing
     std::string_view word_behind(std::string_view key) const {
         for (const char quote : {'\'', '"'}) {
             const auto at = text_.find(quote + std::string(key) + quote);

@@ -25,7 +25,7 @@ inline constexpr std::string_view npy_magic = "\x93NUMPY";
 struct NpyHeader {
     RawType type = {};
     bool columns_first = false;           ///< the first index runs fastest
-    std::vector<std::size_t> shape = {};  ///< extents; may be empty, and extents may be 0
+    std::vector<std::size_t> shape = {};  ///< extents; may be empty, or contain 0
     std::string shown_shape = {};         ///< as written in the file: "(1024, 2)"
     std::size_t start = 0;                ///< position of the dictionary, in bytes
     std::size_t size = 0;                 ///< bytes before the numbers
@@ -43,8 +43,8 @@ struct NpyHeader {
 /// @throws Error(input) "SOURCE: byte N: error; what is expected"
 NpyHeader read_npy_header(std::string_view bytes, const std::string& source);
 
-/// Number of elements in the array. @throws Error(input) unless a file of `bytes` bytes has exactly
-/// this many
+/// Number of elements in the array.
+/// @throws Error(input) unless a file of `bytes` bytes ends exactly after these elements
 std::size_t npy_numbers(const NpyHeader& header, std::size_t bytes);
 
 /// Header of version 1 for an array in row-major order, padded with blanks to a multiple of 64

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Serialization of values for another process on the same type of machine.
+// Conversion of values to bytes and back, for another process on a machine of the same type.
 #pragma once
 
 #include <cassert>
@@ -44,7 +44,7 @@ class Packer {
     std::string bytes_;
 };
 
-/// Takes values in the order in which they were put.
+/// Reads values in the order in which they were put, with the same types.
 class Unpacker {
   public:
     /// Refers to the bytes, which must outlive it.

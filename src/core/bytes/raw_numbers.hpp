@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Numbers in binary files.
+// Numbers as stored in binary files.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ struct RawType {
     bool big_endian = false;
 };
 
-/// Converts numbers.size() numbers from the front of `bytes`.
+/// Converts the numbers at the front of `bytes` until `numbers` is full.
 void take_raw(std::string_view bytes, const RawType& type, std::span<double> numbers);
 
 /// Appends numbers as little-endian float64, or as float32 rounded by to_single().

@@ -11,12 +11,12 @@
 
 namespace stipple {
 
-/// Bytes that are read in the order in which they were written, in a file in the temporary folder
-/// (TMPDIR). On Linux the file has no name and disappears with the process.
+/// A file in the temporary folder (TMPDIR); its bytes are read in the order in which they were
+/// written. On Linux it has no name and disappears with the process.
 /// @throws Error(io) if the disk is full
 class Spool {
   public:
-    /// Unbuffered writes keep earlier data readable even if a later write fails for lack of space.
+    /// Without a buffer, earlier bytes stay readable if a later write fails for lack of space.
     enum class Buffered { no, yes };
     explicit Spool(Buffered buffered = Buffered::yes);
     Spool(const Spool&) = delete;
@@ -28,10 +28,10 @@ class Spool {
     /// Ends writing; the next read() starts at the first byte.
     void rewind();
 
-    /// Fills `bytes`, or less at the end; returns the number of bytes read.
+    /// Fills `bytes`, or only its front at the end of the file; returns the number of bytes read.
     std::size_t read(std::span<char> bytes);
 
-    /// A path for opening the file during this object's lifetime.
+    /// Path by which the file can be opened during this object's lifetime.
     [[nodiscard]] std::string path() const;
 
   private:
