@@ -55,10 +55,12 @@ void put_odd_things(const Sandbox& box) {
     ::close(listener);
 }
 
-/// Shell command for the size of the unnamed file that a process is writing; 0 if there is none.
+/// Shell command for the bytes of the unnamed files that a process is writing: one number, whatever
+/// else `find` meets there, since what follows calculates with it.
 std::string unnamed_bytes(const std::string& pid) {
     return "$(find -L /proc/" + pid +
-           "/fd -type f -links 0 -printf '%s\\n' 2>/dev/null | grep . || echo 0)";
+           "/fd -type f -links 0 -printf '%s\\n' 2>/dev/null | awk '{ s += $1 } END { print s + 0 "
+           "}')";
 }
 
 }  // namespace
@@ -315,20 +317,22 @@ TEST(BadInput, AFailureLeavesTheOldTargetAlone) {
 TEST(BadInput, CtrlCLeavesNothingBehind) {
     SKIP_WITHOUT("/proc/self/fd");
     const Sandbox box;
+    // A shell that ends early takes the program with it, which would write for hours.
+    const std::string ends = "trap 'kill -KILL $! 2>/dev/null' EXIT; ";
     const std::string start = "stipple generate random -n 1e10 -o p.csv 2>&1 & until [ " +
                               unnamed_bytes("$!") + " -gt 0 ]; do sleep 0.01; done; ";
     for (const std::string signal : {"INT", "TERM", "HUP"}) {
-        const Outcome outcome = box.shell(start + "kill -" + signal + " $!; wait $!");
+        const Outcome outcome = box.shell(ends + start + "kill -" + signal + " $!; wait $!");
         EXPECT_EQ(outcome.code, 130);
         EXPECT_EQ(outcome.out, "stipple: interrupted\n");
         EXPECT_EQ(box.files(), std::vector<std::string>{});
     }
-    EXPECT_EQ(box.shell(start + "kill -KILL $!; wait $!").code, 137);
+    EXPECT_EQ(box.shell(ends + start + "kill -KILL $!; wait $!").code, 137);
     EXPECT_EQ(box.files(), std::vector<std::string>{});
     // A program started by nohup ignores SIGHUP.
     const Outcome nohup =
-        box.shell("nohup " + start + "kill -HUP $!; size=" + unnamed_bytes("$!") + "; until [ " +
-                  unnamed_bytes("$!") +
+        box.shell(ends + "nohup " + start + "kill -HUP $!; size=" + unnamed_bytes("$!") +
+                  "; until [ " + unnamed_bytes("$!") +
                   " -gt $((size + 100000)) ]; do sleep 0.01; done; kill -TERM $!; wait $!");
     EXPECT_EQ(nohup.code, 130);
     const Outcome walking =
