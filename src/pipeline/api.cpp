@@ -61,7 +61,7 @@ PointSet on_its_domain(PointSet set) {
 
 void require_rows(std::span<const double> rows, std::size_t dimension) {
     if (dimension == 0 || rows.size() % dimension != 0)
-        fail(ErrorKind::usage, "{} numbers are no whole rows of {}", rows.size(), dimension);
+        fail(ErrorKind::usage, "{} numbers do not make whole rows of {}", rows.size(), dimension);
 }
 
 }  // namespace
@@ -100,7 +100,8 @@ Sampler::Sampler(std::string_view text, const Request& request)
     const Spec spec = spec_without_coordinates(text);
     const Generator& generator = find_generator(spec.name);
     if (!generator.sequence)
-        fail(ErrorKind::usage, "a Sampler takes no {}, whose points are made all together",
+        fail(ErrorKind::usage,
+             "a Sampler cannot make {}: its points depend on each other; call generate()",
              generator.name);
     if (request.bounds)
         fail(ErrorKind::usage, "a Sampler gives points of the unit cube; leave out the bounds");

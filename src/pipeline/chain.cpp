@@ -318,8 +318,8 @@ void WarpChain::tell_infinite(const RunContext& run) const {
     if (row == none || row == told) return;
     infinite_ = told;
     run.notify(
-        fmt::format("point {} has a coordinate 0 or 1 whose image under {} is infinitely far; it "
-                    "is put in the far tail; leave such points out (generate --start 1) or "
+        fmt::format("point {} has a coordinate 0 or 1, which {} maps to infinity; a value far in "
+                    "the tail replaces it; leave such points out (generate --start 1) or "
                     "scramble them",
                     row, join(specs_, ", ")));
 }

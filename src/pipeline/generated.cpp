@@ -321,10 +321,11 @@ void check_share(std::uint64_t kept, std::uint64_t made, std::size_t d) {
     const std::uint64_t enough =
         std::max<std::uint64_t>(20'000'000 / std::max<std::size_t>(d, 2), 1'000'000);
     if (made < enough || static_cast<double>(kept) > 1e-6 * static_cast<double>(made)) return;
-    fail_with_hint(ErrorKind::input,
-                   "constraints that hold on a surface alone, as with ==, never do at random",
-                   "the constraints hold for {} of {} points; a share above 1e-6 is needed",
-                   kept == 0 ? "none" : std::to_string(kept), made);
+    fail_with_hint(
+        ErrorKind::input,
+        "constraints that hold on a surface alone, as with ==, never do at random",
+        "the constraints hold for {} of {} points; at least one in a million is required",
+        kept == 0 ? "none" : std::to_string(kept), made);
 }
 
 /// Searches for one random point that satisfies the constraints, before large sets are made in
@@ -361,8 +362,8 @@ GeneratedSets::Images GeneratedSets::next_images(std::uint64_t set, const RunCon
         const double more = pass == 0 ? lacking : std::max(1.1 * lacking / share, 4096.0);
         if (pass == 1 && more > 1e7)
             run.notify(
-                fmt::format("the constraints hold for a share of {:.2g}{}; some {:.1g} more "
-                            "points are needed",
+                fmt::format("the constraints hold for {:.2g} of the points{}; about {:.1g} more "
+                            "points must be made",
                             share, images.kept == 0 ? " or less" : "", more));
         check_share(images.kept, images.made, d);
         const std::uint64_t left = generator_.traits.max_index - images.made;

@@ -30,7 +30,8 @@ class Producer {
           run_(run),
           sets_(job, job.shard.index == 0 ? run : untold(run)) {
         if (job_.shard.of > 1 && job_.sets > 1)
-            fail(ErrorKind::usage, "--shard and --sets: parts are of one set; choose it by --seed");
+            fail(ErrorKind::usage,
+                 "--shard divides one set; use --seed to choose which, instead of --sets");
         if (job_.shard.of > 1 && sets_.chain().reorders())
             fail(ErrorKind::usage,
                  "--shard: the parameters of a whole set are reordered; make all points at once");
@@ -49,8 +50,7 @@ class Producer {
     void check_columns() const {
         const char* shaped = shaping_option(job_.options);
         if (!target_.columns.any() || shaped == nullptr) return;
-        fail_with_hint(ErrorKind::usage,
-                       "'generate random -w image:file=...' tells densities for certain",
+        fail_with_hint(ErrorKind::usage, "'generate random -w image:file=...' has exact densities",
                        "--with-{}: the density of points made with --{} is not known",
                        target_.columns.names().front(), shaped);
     }

@@ -114,7 +114,7 @@ class MpiRanks : public Ranks {
         });
         const std::uint64_t all = std::accumulate(sizes_.begin(), sizes_.end(), std::uint64_t{0});
         if (all > most_bytes)
-            fail(ErrorKind::limit, "the ranks have {} bytes to tell each other; {} are possible",
+            fail(ErrorKind::limit, "the ranks would exchange {} bytes; at most {} are possible",
                  all, most_bytes);
         counts_.clear();
         places_.clear();

@@ -116,12 +116,11 @@ Comparison compared(const SetStream& stream, const Target& written, io::PointStr
         ++result.sets;
         if (!same_points(stream, set, written, file, result, run)) return result;
         if ((!unmarked || set + 1 == stream.sets) && file.read(more) > 0)
-            result.mismatch = fmt::format("{} has more than {} points, which are made again",
+            result.mismatch = fmt::format("{} has more than the {} points of its recipe",
                                           name_of_set(set), head.counts[set]);
     }
     if (result.mismatch.empty() && file.next_set())
-        result.mismatch =
-            fmt::format("it has more sets than {}, which are made again", result.sets);
+        result.mismatch = fmt::format("it has more than the {} sets of its recipe", result.sets);
     return result;
 }
 

@@ -25,7 +25,7 @@ double finite(const char* column, double value, std::span<const double> point, b
     fail_with_hint(
         ErrorKind::input,
         starts ? "--start 1 leaves out a sequence's first point, where coordinates are 0" : "",
-        "--{}: it is infinite at the point ({})", column, fmt::join(point, ", "));
+        "--{}: the value at the point ({}) is infinite", column, fmt::join(point, ", "));
 }
 
 /// Writes the rows of one set, a batch of blocks at a time. Returns false if the pipe was closed.
@@ -110,8 +110,9 @@ std::string meta_beside(const Layout& layout, const std::string& path, const Tar
                         const RunContext& run) {
     if (!target.meta || !target.format->traits.meta_beside || target.sink) return {};
     if (path == "-" || path.starts_with("/dev/")) {
-        run.notify(fmt::format("--meta: {} has no place for provenance, and {} none beside it",
-                               target.format->name, path == "-" ? "standard output" : path));
+        run.notify(
+            fmt::format("--meta: the format {} cannot hold provenance, and {} has no side file",
+                        target.format->name, path == "-" ? "standard output" : path));
         return {};
     }
     return io::to_text(

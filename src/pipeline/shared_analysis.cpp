@@ -100,7 +100,7 @@ void check_same_bytes(const std::vector<std::string>& paths, std::vector<Unpacke
         for (std::size_t rank = 1; rank < told.size(); ++rank) {
             if (told[rank].take<std::uint64_t>() == bytes) continue;
             peers.end_together();
-            fail(ErrorKind::input, "{}: rank {} has another file of that name than rank 0", path,
+            fail(ErrorKind::input, "{}: this file is not the same for rank {} as for rank 0", path,
                  rank);
         }
     }

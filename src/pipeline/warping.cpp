@@ -297,9 +297,9 @@ void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, st
         fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed", seed,
              replications * sets.size());
     if (!sets.front().densities.empty())
-        fail_with_hint(ErrorKind::input,
-                       "--column picks the coordinates, which are then taken to be uniform",
-                       "the points have a column of densities; a scramble keeps no density but 1");
+        fail_with_hint(
+            ErrorKind::input, "--column picks the coordinates, which are then taken to be uniform",
+            "the points have a column of densities; scrambles are for points with density 1");
     const auto scrambled = [&](std::size_t set) {
         const PointSet& points = sets[set / replications];
         Spec spec = scramble;

@@ -127,7 +127,7 @@ class ConfigReader {
             if (std::ranges::find(known, name) == known.end())
                 refuse(path(where, name), "there is no such key", suggest(name, known));
         if (!object.contains("name") || !object["name"].is_string())
-            refuse(where, "the key 'name' is missing, or is no word");
+            refuse(where, "the key 'name' is missing, or is not a string");
         const auto name = object["name"].get<std::string>();
         if (!object.contains("options")) return name;
         const Json& options = object["options"];
@@ -247,7 +247,7 @@ class CountRange {
             ErrorKind::usage,
             fmt::format("{}..{}*2 goes by a factor, {}..{}+{} by a step, 2^4..2^16 by powers",
                         first, last, first, last, step),
-            "{}: '{}' does not say which numbers between", who_, text_);
+            "{}: '{}' does not say which numbers lie between its ends", who_, text_);
     }
 
     static std::vector<std::uint64_t> by_factor(std::uint64_t first, std::uint64_t last,
@@ -285,7 +285,7 @@ std::vector<std::uint64_t> parse_counts(std::string_view text, std::string_view 
     for (const auto item : items)
         for (const std::uint64_t number : CountRange(item, who, low, high).numbers()) {
             if (!seen.insert(number).second)
-                fail(ErrorKind::usage, "{}: {} stands twice in '{}'", who, number, text);
+                fail(ErrorKind::usage, "{}: {} is given twice in '{}'", who, number, text);
             all.push_back(number);
         }
     return all;

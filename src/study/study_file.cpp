@@ -147,7 +147,7 @@ class StudyFile::TableReader {
             const auto row = file_.table_.parse(text);
             if (!row && damaged == 0) damaged = line_;
             if (damaged != 0 && (row || !unfinished_))
-                fail(ErrorKind::input, "{}:{}: is no row of a study", file_.path_, damaged);
+                fail(ErrorKind::input, "{}:{}: this is not a row of a study", file_.path_, damaged);
             if (row) add(*row);
             if (row) end_ += text.size() + 1;
         }
@@ -192,7 +192,7 @@ class StudyFile::TableReader {
         if (unit) like_ = row_of(*part_, part_->unit(unit_ = *unit));
         if (!unit || file_.has(own_unit()))
             fail(ErrorKind::input,
-                 "{}:{}: this row is not where the study has it; it was moved or rows are missing",
+                 "{}:{}: this row is not in its place; it was moved, or rows before it are missing",
                  file_.path_, line_);
         begin_ = end_;
         keys_.clear();

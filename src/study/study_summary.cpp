@@ -233,7 +233,7 @@ std::vector<MeanRow> means_of_rows(std::span<const std::string_view> lines, cons
         run.check_stop();
         if (lines[i].empty() || lines[i].starts_with("{\"table\":")) break;
         const auto row = table.parse(lines[i]);
-        if (!row) fail(ErrorKind::input, "{}:{}: is no row of a study", source, i + 1);
+        if (!row) fail(ErrorKind::input, "{}:{}: this is not a row of a study", source, i + 1);
         summary.add(*row);
     }
     return summary.mean_rows({.resamples = 0}, run);
@@ -249,7 +249,8 @@ std::vector<MeanRow> means_in_summary(std::span<const std::string_view> lines, T
         const bool whole = cells && columns::read_cells(*cells, [&](const auto& visit) {
                                for_each_column(row, visit);
                            });
-        if (!whole) fail(ErrorKind::input, "{}:{}: is no row of a study's summary", source, i + 1);
+        if (!whole)
+            fail(ErrorKind::input, "{}:{}: this is not a row of a study's summary", source, i + 1);
     }
     return rows;
 }

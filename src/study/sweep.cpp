@@ -43,7 +43,7 @@ void refuse_twice(const std::vector<Chosen<Unit>>& list, std::string_view who) {
     for (std::size_t i = 0; i < list.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (list[i].spec == list[j].spec)
-                fail(ErrorKind::usage, "{}: '{}' stands twice", who, list[i].spec);
+                fail(ErrorKind::usage, "{}: '{}' is given twice", who, list[i].spec);
 }
 
 /// @throws Error(usage) for keys that no measure has, and for measures that have none of the keys
@@ -135,7 +135,7 @@ void Sweep::count_units() {
           std::uint64_t{request_.counts.size()}, request_.seeds, std::uint64_t{measures_.size()}}) {
         if (factor == 0) fail(ErrorKind::usage, "a study needs counts, dimensions and seeds");
         if (__builtin_mul_overflow(units, factor, &units) || units >= std::uint64_t{1} << 62)
-            fail(ErrorKind::limit, "the study has more rows than anything could hold");
+            fail(ErrorKind::limit, "the study would have more than 2^62 rows");
     }
     if (request_.seeds - 1 > ~request_.first_seed)
         fail(ErrorKind::usage, "--seed: {} and {} seeds go beyond the 64 bits of a seed",

@@ -237,7 +237,7 @@ TEST(Generate, AnInfiniteDensityIsHintedAtWhereThatHelps) {
     const Sandbox box;
     const std::vector<std::string> naive = {"disk:method=naive", "--with-pdf"};
     EXPECT_EQ(box.run({"warp", naive[0], naive[1]}, "0,0\n").err,
-              "stipple: --with-pdf: it is infinite at the point (0, 0)\n");
+              "stipple: --with-pdf: the value at the point (0, 0) is infinite\n");
     EXPECT_TRUE(box.run({"generate", "halton", "-n", "3", "-d", "2", "-w", naive[0], naive[1]})
                     .err.ends_with("(0, 0); --start 1 leaves out a sequence's first point, where "
                                    "coordinates are 0\n"));
@@ -587,7 +587,7 @@ TEST(Generate, RefusesColumnsThatNoReaderTakes) {
     };
     const Outcome refused = run("0");
     EXPECT_EQ(refused.code, 3);
-    EXPECT_THAT(refused.err, HasSubstr("--with-weight: it is infinite at the point (0)"));
+    EXPECT_THAT(refused.err, HasSubstr("--with-weight: the value at the point (0) is infinite"));
     EXPECT_EQ(run("1").code, 0);
 }
 

@@ -111,7 +111,7 @@ TEST(Plot, RefusesStudiesThatItCannotDraw) {
                    "--chart: is not for the table");
     expect_refusal(box.shell("head -n 1 s.csv | stipple plot"), 3, "the study has no rows");
     expect_refusal(box.shell("(cat s.csv; echo nonsense) | stipple plot"), 3,
-                   "is no row of a study");
+                   "this is not a row of a study");
     expect_refusal(box.shell("stipple generate random | stipple plot s.csv -"), 3,
                    "one kind is drawn in one picture");
 }

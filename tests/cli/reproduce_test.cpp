@@ -480,7 +480,7 @@ TEST(Meta, StandsBesideFormatsWithoutAPlaceForIt) {
     EXPECT_EQ(beside["meta"]["generator"], "random");
     const Outcome piped = box.shell("stipple generate random -n 10 --meta -f npy | wc -c");
     EXPECT_EQ(piped.code, 0);
-    EXPECT_THAT(piped.err, HasSubstr("--meta: npy has no place for provenance"));
+    EXPECT_THAT(piped.err, HasSubstr("--meta: the format npy cannot hold provenance"));
 }
 
 }  // namespace stipple::testing::reproduce_test

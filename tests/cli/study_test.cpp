@@ -356,10 +356,10 @@ TEST(Study, ResumeTakesRowsInAnyOrderAndCutsOffADamagedEnd) {
     third.insert(third.find(",ok,"), "5");
     EXPECT_EQ(good(resumed(row(4) + third)), "");
     EXPECT_EQ(box.read("cut.csv"), lines(whole, 3) + third + row(4));
-    expect_refusal(resumed(row(4) + "x\n" + row(3)), 3, "cut.csv:3: is no row of a study");
+    expect_refusal(resumed(row(4) + "x\n" + row(3)), 3, "cut.csv:3: this is not a row of a study");
     EXPECT_EQ(box.read("cut.csv"), names + row(4) + "x\n" + row(3));
     for (const std::string& twice : {row(4) + row(3) + row(4), row(1) + row(2) + row(1)})
-        expect_refusal(resumed(twice), 3, "cut.csv:4: this row is not where the study has it");
+        expect_refusal(resumed(twice), 3, "cut.csv:4: this row is not in its place");
     box.write("cut.csv.journal", head + "0\",\"settings\":{\"counts\":1,\"generators\":[]}}\n");
     expect_refusal(box.shell(study + "-o cut.csv --resume"), 3, "the study there is another one");
 }
@@ -665,11 +665,11 @@ TEST(Study, RowsThatWereChangedAreFoundOut) {
     box.write("study.csv", moved);
     Outcome outcome = box.shell(small + std::string("-o study.csv --resume"));
     EXPECT_EQ(outcome.code, 3);
-    EXPECT_THAT(outcome.err, HasSubstr("study.csv:2: this row is not where the study has it"));
+    EXPECT_THAT(outcome.err, HasSubstr("study.csv:2: this row is not in its place"));
     box.write("study.csv", lines(whole, 3) + "nonsense\n" + whole.substr(lines(whole, 4).size()));
     outcome = box.shell(small + std::string("-o study.csv --resume"));
     EXPECT_EQ(outcome.code, 3);
-    EXPECT_THAT(outcome.err, HasSubstr("study.csv:4: is no row of a study"));
+    EXPECT_THAT(outcome.err, HasSubstr("study.csv:4: this is not a row of a study"));
 }
 
 TEST(Study, HugeStudiesAreRefusedBeforeTheyStart) {
@@ -753,7 +753,7 @@ TEST(Study, BadInputIsOneLineThatHelps) {
          "stipple: study: --generators is missing; 'stipple study --help' has examples; --config "
          "FILE names a study in a file\n"},
         {"--generators random,random --analyze moments",
-         "stipple: generators: 'random' stands twice\n"},
+         "stipple: generators: 'random' is given twice\n"},
         {"--generators random --analyze moments --pairs t",
          "stipple: --pairs: 't' is not one of welch, paired\n"},
         {"--generators random --analyze moments --pairs paired",
@@ -767,7 +767,8 @@ TEST(Study, BadInputIsOneLineThatHelps) {
          "stipple: analyze: differential: --pixels: 8 is even; expected an odd number, so that one "
          "pixel is in the middle\n"},
         {"--generators random --analyze moments -d 1..6",
-         "stipple: --dimension: '1..6' does not say which numbers between; 1..6*2 goes by a "
+         "stipple: --dimension: '1..6' does not say which numbers lie between its ends; 1..6*2 "
+         "goes by a "
          "factor, 1..6+1 by a step, 2^4..2^16 by powers\n"},
         {"--generators random --analyze moments -f json",
          "stipple: --format: 'json' is not one of csv, jsonl; did you mean 'jsonl'?\n"},

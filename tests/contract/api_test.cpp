@@ -55,7 +55,8 @@ TEST(Api, ASamplerGivesThePointsOfTheSet) {
     EXPECT_TRUE(std::ranges::equal(rows, set.flat().subspan(40, 20)));
 
     std::vector<double> odd(3);
-    EXPECT_EQ(error_of([&] { sampler.fill(0, odd); }), "usage: 3 numbers are no whole rows of 2");
+    EXPECT_EQ(error_of([&] { sampler.fill(0, odd); }),
+              "usage: 3 numbers do not make whole rows of 2");
     const Sampler ends("jittered", {.count = 16, .dimension = 2});
     EXPECT_EQ(error_of([&] { ends.fill(7, rows); }),
               "usage: points 7 to 16 are beyond the last one, which is 15");

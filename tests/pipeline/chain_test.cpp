@@ -177,8 +177,8 @@ TEST(WarpChain, TellsOnceOfTheFirstPointThatIsInfinitelyFar) {
     ASSERT_EQ(first.size(), 1U);
     EXPECT_EQ(
         first[0],
-        "point 20001 has a coordinate 0 or 1 whose image under normal is infinitely far; it "
-        "is put in the far tail; leave such points out (generate --start 1) or scramble them");
+        "point 20001 has a coordinate 0 or 1, which normal maps to infinity; a value far in the "
+        "tail replaces it; leave such points out (generate --start 1) or scramble them");
     EXPECT_TRUE(told({"normal@2"}, far)[0].starts_with("point 20002 has"));
     EXPECT_TRUE(told({"exponential"}, far).empty()) << "0 is 0 there";
     EXPECT_TRUE(told({"disk"}, far).empty());

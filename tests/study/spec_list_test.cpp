@@ -37,16 +37,16 @@ TEST(ParseCounts, TakesListsAndRanges) {
 TEST(ParseCounts, RefusesWhatIsNoRangeAndSaysWhatIs) {
     EXPECT_EQ(error_of([] { counts("64..16"); }),
               "usage: --count: the range '64..16' is empty: 64 is above 16");
-    EXPECT_EQ(
-        error_of([] { counts("1..6"); }),
-        "usage: --count: '1..6' does not say which numbers between | 1..6*2 goes by a factor, "
-        "1..6+1 by a step, 2^4..2^16 by powers");
+    EXPECT_EQ(error_of([] { counts("1..6"); }),
+              "usage: --count: '1..6' does not say which numbers lie between its ends | 1..6*2 "
+              "goes by a factor, "
+              "1..6+1 by a step, 2^4..2^16 by powers");
     for (const char* unclear : {"16..256", "2^4..1000", "1^1..8", "2^3..3^3", "16..100"})
         EXPECT_THAT(error_of([&] { counts(unclear); }),
-                    HasSubstr("does not say which numbers between"));
+                    HasSubstr("does not say which numbers lie between its ends"));
     EXPECT_EQ(error_of([] { counts(" "); }), "usage: --count: there are no numbers");
     EXPECT_EQ(error_of([] { counts("16,32,16"); }),
-              "usage: --count: 16 stands twice in '16,32,16'");
+              "usage: --count: 16 is given twice in '16,32,16'");
     EXPECT_EQ(error_of([] { counts("16..64*1"); }),
               "usage: --count: '1' in '16..64*1' is not a factor of 2 or more");
     EXPECT_EQ(error_of([] { counts("16..64+0"); }),
