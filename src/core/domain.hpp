@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -45,14 +44,6 @@ struct Moments {
     std::vector<double> skewness;
 
     [[nodiscard]] std::size_t dimension() const { return mean.size(); }
-};
-
-/// Maps a unit coordinate to the outcomes of a discrete distribution.
-struct OutcomeAxis {
-    std::function<double(double u)> outcome = {};  ///< rises with u; empty: the axis is continuous
-    bool categories = false;  ///< outcomes are unordered categories, all equally different
-
-    [[nodiscard]] bool discrete() const { return static_cast<bool>(outcome); }
 };
 
 /// Part of a domain where its density is not 0. The mean of f / p over points with density p

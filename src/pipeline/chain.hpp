@@ -77,7 +77,7 @@ class WarpChain {
 
     /// Whether the image of a point depends on all points of its set: rows are then always those of a
     /// whole set.
-    [[nodiscard]] bool reorders() const;
+    [[nodiscard]] bool needs_whole_set() const;
 
     /// Whether the images depend on the set's seed.
     [[nodiscard]] bool seeded() const { return seeded_; }
@@ -134,6 +134,8 @@ class WarpChain {
     struct Step {
         DomainPtr domain = {};  ///< of the step's output; null for a randomization
         std::unique_ptr<Mapping> mapping = {};
+        Mapping::SetStep set_step = {};  ///< of the mapping, before it
+        bool refills = false;            ///< the points that the mapping drops are replaced
         Randomization randomization = {};
         std::vector<std::size_t> coordinates = {};  ///< taken from the row before
         std::vector<std::size_t> rest = {};         ///< of the row before
@@ -151,8 +153,8 @@ class WarpChain {
     /// The steps that take all rows of a set together, in order, and the number of steps.
     [[nodiscard]] std::vector<std::size_t> stops() const;
 
-    /// Of all rows of a set, those numbers that a step takes.
-    static void reorder(const Step& step, std::span<double> rows, const RunContext& run);
+    /// Applies a step's set_step to the coordinates that it takes, in all rows of a set.
+    static void apply_set_step(const Step& step, std::span<double> rows, const RunContext& run);
 
     /// Remembers the first of some rows of a step's cube whose image is infinitely far.
     void note_infinite(const Step& step, std::span<const double> cube, std::uint64_t first) const;

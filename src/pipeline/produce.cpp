@@ -31,7 +31,7 @@ class Producer {
           sets_(job, job.shard.index == 0 ? run : untold(run)) {
         if (job_.shard.of > 1 && job_.sets > 1)
             fail(ErrorKind::usage, "--shard and --sets: parts are of one set; choose it by --seed");
-        if (job_.shard.of > 1 && sets_.chain().reorders())
+        if (job_.shard.of > 1 && sets_.chain().needs_whole_set())
             fail(ErrorKind::usage,
                  "--shard: the parameters of a whole set are reordered; make all points at once");
         check_columns();

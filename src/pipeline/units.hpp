@@ -3,9 +3,11 @@
 // Units by name.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "analyzers/analyzer.hpp"
+#include "core/spec.hpp"
 #include "generators/generator.hpp"
 #include "scrambles/scramble.hpp"
 #include "warps/warp.hpp"
@@ -24,6 +26,14 @@ const Analyzer& find_analyzer(std::string_view name);
 /// The unit of that name or alias; nullptr if there is none.
 const Generator* generator_named(std::string_view name);
 const Scramble* scramble_named(std::string_view name);
+
+/// Domain that a parameter file describes; its spec is also that of the warp, and holds the contents
+/// of the file. @throws Error(input) naming the place in the file; Error(io); Error(usage) if this
+/// program has no such warp
+DomainPtr read_parameters(const std::string& path, const RunContext& run = {});
+
+/// The same warp, but with images in the unit cube.
+Spec in_unit_cube(Spec parameters);
 
 /// A sentence on why prefixes of points that were made so tell little: they come in no order, or in
 /// that of their places; empty where they do, or where nobody knows.
