@@ -13,7 +13,6 @@
 #include "io/source_text.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/units.hpp"
-#include "warps/parameters/parameter_file.hpp"
 
 namespace stipple::cli {
 
@@ -65,10 +64,10 @@ Reading reading_of(const std::string& path, const Arguments& arguments) {
     if (const auto columns = arguments.get("column"))
         for (const auto column : split(*columns, ',')) options.columns.emplace_back(trim(column));
     if (const auto file = arguments.get("parameters")) {
-        const auto named = parameters::read_parameters(*file);
-        options.levels = named.levels;
+        const auto named = read_parameters(*file);
+        options.levels = named->levels();
         if (arguments.verb != Verb::warp && !reads_tables(arguments))
-            options.expected = named.names;
+            options.expected = named->names();
     }
     return {std::move(options), from.empty() ? nullptr : &io::format_named(from)};
 }
@@ -102,9 +101,9 @@ void take_told(PointSet& table, const Arguments& arguments, const RunContext& ru
         if (dimension > 0 || told.generator.empty()) told.dimension = dimension;
     };
     if (const auto file = arguments.get("parameters")) {
-        const auto named = parameters::read_parameters(*file, run);
-        tell(named.domain, named.names.size());
-        told.levels = named.levels;
+        const auto named = read_parameters(*file, run);
+        tell(named->spec(), named->dimension());
+        told.levels = named->levels();
     }
     if (const auto bounds = arguments.get("bounds")) {
         const auto ranges = static_cast<std::size_t>(std::ranges::count(*bounds, ',')) + 1;
@@ -153,7 +152,7 @@ DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
                        const Arguments& arguments, const RunContext& run) {
     const auto file = arguments.get("parameters");
     const std::string domain = file && arguments.verb != Verb::warp
-                                   ? parameters::read_parameters(*file, run).domain
+                                   ? read_parameters(*file, run)->spec()
                                    : provenance.domain;
     // The file's domain does not describe columns selected by --column.
     if (arguments.has("column") || domain == "unit-cube" || domain.empty())
@@ -432,10 +431,10 @@ SetsToMake sets_asked(const Generator& generator, Values options, const Argument
     asked.sets = arguments.integer("sets").value_or(1);
     for (const auto& text : arguments.all("warp")) asked.warps.push_back(parse_spec(text));
     if (const auto file = arguments.get("parameters")) {
-        const auto named = parameters::read_parameters(*file);
-        if (!asked.request.dimension) asked.request.dimension = named.names.size();
-        asked.warps.push_back(arguments.has("unit-cube") ? parameters::in_unit_cube(named.spec)
-                                                         : named.spec);
+        const auto named = read_parameters(*file);
+        if (!asked.request.dimension) asked.request.dimension = named->dimension();
+        const Spec warp = parse_spec(named->spec());
+        asked.warps.push_back(arguments.has("unit-cube") ? in_unit_cube(warp) : warp);
     } else {
         arguments.refuse({"unit-cube"}, "is of --parameters, which is not given");
     }

@@ -15,8 +15,8 @@
 #include "core/text.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"
+#include "pipeline/units.hpp"
 #include "pipeline/warping.hpp"
-#include "warps/parameters/parameter_file.hpp"
 
 namespace stipple::cli {
 namespace {
@@ -209,7 +209,7 @@ int warp(const Arguments& arguments, Session& session) {
     settings_of(scrambled ? scrambled->options : find_warp(arguments.unit).options, arguments);
     Spec spec{.name = arguments.unit, .coordinates = {}, .settings = arguments.settings};
     if (const auto file = arguments.get("parameters")) {
-        const Spec named = parameters::read_parameters(*file, session.run()).spec;
+        const Spec named = parse_spec(read_parameters(*file, session.run())->spec());
         if (spec.name != named.name)
             fail(ErrorKind::usage, "--parameters: is of the warp {}", named.name);
         spec.settings.insert(spec.settings.end(), named.settings.begin(), named.settings.end());

@@ -16,12 +16,12 @@
 #include "io/files.hpp"
 #include "io/source_text.hpp"
 #include "pipeline/ranks.hpp"
+#include "pipeline/units.hpp"
 #include "study/study_config.hpp"
 #include "study/study_file.hpp"
 #include "study/study_run.hpp"
 #include "study/study_summary.hpp"
 #include "study/work_queue.hpp"
-#include "warps/parameters/parameter_file.hpp"
 
 namespace stipple::cli {
 namespace {
@@ -92,9 +92,9 @@ SweepRequest request_of(const Arguments& arguments, const Ranks& ranks, Session&
     request.seeds = arguments.integer("seeds").value_or(1);
     request.warps = arguments.all("warp");
     if (const auto file = arguments.get("parameters")) {
-        const auto named = parameters::read_parameters(*file, session.run());
-        request.warps.push_back(named.domain);
-        if (!arguments.has("dimension")) request.dimensions = {named.names.size()};
+        const auto named = read_parameters(*file, session.run());
+        request.warps.push_back(named->spec());
+        if (!arguments.has("dimension")) request.dimensions = {named->dimension()};
     }
     if (const auto keys = arguments.get("keys"))
         for (const auto key : split(*keys, ',')) request.keys.emplace_back(trim(key));

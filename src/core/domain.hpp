@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -47,14 +46,6 @@ struct Moments {
     [[nodiscard]] std::size_t dimension() const { return mean.size(); }
 };
 
-/// Maps a unit coordinate to the outcomes of a discrete distribution.
-struct OutcomeAxis {
-    std::function<double(double u)> outcome = {};  ///< rises with u; empty: the axis is continuous
-    bool categories = false;  ///< outcomes are unordered categories, all equally different
-
-    [[nodiscard]] bool discrete() const { return static_cast<bool>(outcome); }
-};
-
 /// Part of a domain where its density is not 0. The mean of f / p over points with density p
 /// estimates the integral of f over this part only, so comparisons with exact values need it.
 struct Support {
@@ -78,16 +69,18 @@ struct SphereCircle {
     double height = 0;
 };
 
-/// Circles at which a density on the sphere jumps, has a kink or is steep.
-struct Discontinuities {
-    std::vector<SphereCircle> circles;
-    bool level = true;  ///< the density is constant between circles
-};
+/// Density of directions: unit vectors in space.
+struct SphereShape {
+    /// Axis if the cube coordinates of a direction are the fraction of the directions nearer to the
+    /// axis, and longitude.
+    struct Pole {
+        std::array<double, 3> axis;  ///< a unit vector
+        bool hemisphere;             ///< only directions within 90 degrees of the axis; false: all
+    };
 
-/// Axis of a domain whose points are directions: unit vectors in space.
-struct Pole {
-    std::array<double, 3> axis;  ///< a unit vector
-    bool hemisphere;             ///< only directions within 90 degrees of the axis; false: all
+    std::vector<SphereCircle> circles;  ///< where it jumps, has a kink or is steep
+    bool level = true;                  ///< it is constant between circles
+    std::optional<Pole> pole = {};
 };
 
 class Domain {
@@ -162,21 +155,15 @@ class Domain {
     /// by_density.
     [[nodiscard]] virtual bool shows_gaps() const { return false; }
 
-    /// Circles where a density of directions is not smooth. nullopt for other domains, and if the
-    /// cells are zones of the sphere themselves.
-    [[nodiscard]] virtual std::optional<Discontinuities> discontinuities() const {
-        return std::nullopt;
-    }
+    /// Shape of a density of directions; nullopt for other domains, and if the cells are zones of the
+    /// sphere themselves.
+    [[nodiscard]] virtual std::optional<SphereShape> sphere_shape() const { return std::nullopt; }
 
     /// Names of the coordinates; empty: x, y, ...
     [[nodiscard]] virtual std::vector<std::string> names() const { return {}; }
 
     /// Level names of the categorical coordinates.
     [[nodiscard]] virtual Levels levels() const { return {}; }
-
-    /// For directions with cube coordinates (fraction of the directions nearer to the axis,
-    /// longitude): the axis. nullopt for other domains.
-    [[nodiscard]] virtual std::optional<Pole> pole() const { return std::nullopt; }
 };
 
 /// Probability of a box of the domain's own space. Requires that coordinate k of to_cube() is a

@@ -15,6 +15,7 @@
 
 #include "core/domain.hpp"
 #include "core/options.hpp"
+#include "core/outcome_axis.hpp"
 #include "core/point_set.hpp"
 #include "stipple/generate.hpp"
 #include "stipple/run.hpp"
@@ -84,6 +85,7 @@ struct GeneratorTraits {
     bool seeded = true;        ///< uses the seed, at least under some options
     bool boxed = false;        ///< makes points in the box itself, for its distances
     bool independent = false;  ///< points are statistically independent
+    bool levels = false;  ///< coordinates are levels of factors, which warps may have outcomes for
     std::uint64_t max_index = std::uint64_t{1} << 53;  ///< start + count is at most this
     std::string more_dimensions = {};  ///< option with a file for more than max_dimension
 };

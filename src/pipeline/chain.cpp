@@ -220,6 +220,8 @@ void WarpChain::add_warp(const Warp& warp, const Spec& spec, const RunContext& r
     const Values values = spec.values(warp.options);
     Step step{.coordinates = coordinates_of(spec), .width_in = dimension_out_};
     step.mapping = warp.make(values, step.coordinates.size(), run);
+    step.set_step = step.mapping->set_step();
+    step.refills = warp.traits.refills && step.mapping->drops();
     const std::size_t takes = step.mapping->cube_dimension();
     if (takes != step.coordinates.size()) refuse_coordinates(spec, takes, step.width_in);
     step.domain = step.mapping->domain();
@@ -254,10 +256,7 @@ bool WarpChain::drops() const {
         steps_, [](const Step& step) { return step.mapping && step.mapping->drops(); });
 }
 
-bool WarpChain::refills() const {
-    return std::ranges::any_of(
-        steps_, [](const Step& step) { return step.mapping && step.mapping->refills(); });
-}
+bool WarpChain::refills() const { return std::ranges::any_of(steps_, &Step::refills); }
 
 std::vector<OutcomeAxis> WarpChain::outcome_axes() const {
     std::vector<OutcomeAxis> axes(dimension_in_);
@@ -280,19 +279,19 @@ std::vector<OutcomeAxis> WarpChain::outcome_axes() const {
     return axes;
 }
 
-bool WarpChain::reorders() const { return stops().size() > 1; }
+bool WarpChain::needs_whole_set() const { return stops().size() > 1; }
 
 std::vector<std::size_t> WarpChain::stops() const {
     std::vector<std::size_t> at;
     for (std::size_t i = 0; i < steps_.size(); ++i)
-        if (steps_[i].mapping && steps_[i].mapping->reorders()) at.push_back(i);
+        if (steps_[i].set_step) at.push_back(i);
     at.push_back(steps_.size());
     return at;
 }
 
-void WarpChain::reorder(const Step& step, std::span<double> rows, const RunContext& run) {
+void WarpChain::apply_set_step(const Step& step, std::span<double> rows, const RunContext& run) {
     std::vector<double> part = gather(rows, step.width_in, step.coordinates);
-    step.mapping->reorder(part, run);
+    step.set_step(part, run);
     const std::size_t d = step.coordinates.size();
     for (std::size_t i = 0; i < part.size() / d; ++i)
         for (std::size_t k = 0; k < d; ++k)
@@ -328,7 +327,7 @@ std::vector<double> WarpChain::forward(std::vector<double> rows, std::uint64_t f
     std::size_t from = 0;
     for (const std::size_t stop : stops()) {
         rows = through(std::move(rows), first, from, stop);
-        if (stop < steps_.size()) reorder(steps_[stop], rows, {});
+        if (stop < steps_.size()) apply_set_step(steps_[stop], rows, {});
         from = stop;
     }
     return rows;
@@ -414,7 +413,7 @@ std::vector<double> WarpChain::mapped(std::span<const double> rows, bool back, s
         all = in_blocks(rows, width, run, [&](std::vector<double> block, std::size_t at) {
             return through(std::move(block), first + at, from, stop);
         });
-        if (stop < steps_.size()) reorder(steps_[stop], all, run);
+        if (stop < steps_.size()) apply_set_step(steps_[stop], all, run);
         rows = all;
         from = stop;
     }

@@ -82,7 +82,7 @@ class WarpChain {
 
     /// Whether the image of a point depends on all points of its set; rows must then be those of a
     /// whole set.
-    [[nodiscard]] bool reorders() const;
+    [[nodiscard]] bool needs_whole_set() const;
 
     /// Whether the images depend on the set's seed.
     [[nodiscard]] bool seeded() const { return seeded_; }
@@ -144,6 +144,8 @@ class WarpChain {
     struct Step {
         DomainPtr domain = {};  ///< of the step's output; null for a randomization
         std::unique_ptr<Mapping> mapping = {};
+        Mapping::SetStep set_step = {};  ///< of the mapping, before it
+        bool refills = false;            ///< the points that the mapping drops are replaced
         Randomization randomization = {};
         std::vector<std::size_t> coordinates = {};  ///< taken from the input row
         std::vector<std::size_t> rest = {};         ///< other coordinates of the input row
@@ -162,8 +164,8 @@ class WarpChain {
     /// Indices of the steps that reorder whole sets, in order, and then the number of steps.
     [[nodiscard]] std::vector<std::size_t> stops() const;
 
-    /// Reorders the numbers that a step takes, in all rows of a set.
-    static void reorder(const Step& step, std::span<double> rows, const RunContext& run);
+    /// Applies a step's set_step to the coordinates that it takes, in all rows of a set.
+    static void apply_set_step(const Step& step, std::span<double> rows, const RunContext& run);
 
     /// Stores the lowest index of a row whose image under a step is infinite.
     /// @param cube the numbers that the step takes, of several rows

@@ -10,7 +10,6 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
-#include "generators/designs/levels.hpp"
 #include "io/files.hpp"
 
 namespace stipple {
@@ -25,17 +24,11 @@ bool given(const Values& options, const char* option) {
     return item != nullptr && item->given;
 }
 
-/// Whether a generator makes designs of levels.
-bool has_levels(const Generator& generator) {
-    return std::ranges::find(generator.options.options(), generators::ends_option.name,
-                             &Option::name) != generator.options.options().end();
-}
-
 /// Spreads points with the same discrete outcome evenly over its interval in the unit cube; the
 /// inverse of a warp puts all of them in the middle.
 void spread(PointSet& cube, const std::vector<OutcomeAxis>& axes) {
     for (std::size_t k = 0; k < axes.size(); ++k) {
-        const auto ends = generators::outcome_ends(axes[k], 100'000);
+        const auto ends = outcome_ends(axes[k], 100'000);
         std::map<double, std::vector<std::size_t>> together;
         for (std::size_t i = 0; i < cube.count() && !ends.empty(); ++i)
             together[cube[i][k]].push_back(i);
@@ -67,7 +60,7 @@ PointSet read_runs(const Values& options, const WarpChain& chain, const RunConte
 void count_with_runs(const WarpChain& chain, Request& request, Values& options,
                      const RunContext& run) {
     if (!goes_on_from_runs(options, chain)) return;
-    if (chain.reorders())
+    if (chain.needs_whole_set())
         fail(
             ErrorKind::usage,
             "--extend: the parameters of a whole set are reordered; earlier points would not stay");
@@ -86,7 +79,7 @@ void count_with_runs(const WarpChain& chain, Request& request, Values& options,
 void take_levels(const WarpChain& chain, Values& options) {
     std::vector<double> levels;
     for (const OutcomeAxis& axis : chain.outcome_axes()) {
-        const auto ends = generators::level_ends(axis);
+        const auto ends = level_ends(axis);
         levels.push_back(ends.empty() ? 2 : static_cast<double>(ends.size() - 1));
     }
     if (std::ranges::any_of(levels, [](double m) { return m != 2; }))
@@ -118,7 +111,7 @@ void take_parameters(const Generator& generator, std::span<const Spec> warps, Re
                      Values& options, const RunContext& run) {
     const auto* levels = options.try_find(levels_of_factors);
     const bool extends = given(options, extend_option);
-    const bool takes_levels = has_levels(generator) && levels != nullptr &&
+    const bool takes_levels = generator.traits.levels && levels != nullptr &&
                               std::holds_alternative<std::vector<double>>(levels->value) &&
                               !levels->given && !request.count;
     if (!extends && !takes_levels) return;
@@ -138,8 +131,8 @@ void tell_absent_levels(std::span<const double> rows, const Generator& generator
     const Levels words = chain.levels();
     if (names.size() != axes.size()) return;
     for (std::size_t k = 0; k < axes.size(); ++k) {
-        if (!axes[k].categories && !has_levels(generator)) continue;
-        const auto ends = generators::level_ends(axes[k]);
+        if (!axes[k].categories && !generator.traits.levels) continue;
+        const auto ends = level_ends(axes[k]);
         std::set<double> outcomes;
         for (std::size_t l = 0; l + 1 < ends.size(); ++l) outcomes.insert(axes[k].outcome(ends[l]));
         std::set<double> absent = outcomes;

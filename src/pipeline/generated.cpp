@@ -161,7 +161,7 @@ GeneratedSets::GeneratedSets(SetsToMake asked, const RunContext& run)
 
 std::optional<std::uint64_t> GeneratedSets::streamed() const {
     const bool whole = generator_.whole && generator_.whole(asked_.options);
-    if (!generator_.traits.sequence || whole || chain_->drops() || chain_->reorders())
+    if (!generator_.traits.sequence || whole || chain_->drops() || chain_->needs_whole_set())
         return std::nullopt;
     return plan_.count;
 }
@@ -195,8 +195,8 @@ std::shared_ptr<Destination> destination_of(const std::shared_ptr<const WarpChai
     const auto has_image = [chain](std::uint64_t i, std::span<const double> row) {
         return !chain->forward({row.begin(), row.end()}, i).empty();
     };
-    return std::make_shared<Destination>(
-        Destination{has_image, chain->refills() && !chain->reorders(), chain->outcome_axes()});
+    return std::make_shared<Destination>(Destination{
+        has_image, chain->refills() && !chain->needs_whole_set(), chain->outcome_axes()});
 }
 
 }  // namespace
@@ -254,7 +254,7 @@ PointSet GeneratedSets::raw_points(std::uint64_t set, const Plan& plan,
 
 bool GeneratedSets::goes_on() const {
     return chain_->refills() && plan_.count > 0 && generator_.traits.sequence &&
-           generator_.traits.prefix && !chain_->reorders();
+           generator_.traits.prefix && !chain_->needs_whole_set();
 }
 
 void GeneratedSets::keep_runs(PointSet& points, const RunContext& run) const {

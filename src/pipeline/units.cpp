@@ -125,6 +125,19 @@ const Analyzer& find_analyzer(std::string_view name) {
     return find_unit("analyzer", analyzers::all(), name);
 }
 
+DomainPtr read_parameters(const std::string& path, const RunContext& run) {
+    const auto unit = std::ranges::find_if(
+        warps::all(), [](const Warp& warp) { return static_cast<bool>(warp.read); });
+    if (unit == warps::all().end())
+        fail(ErrorKind::usage, "--parameters: this program was built without STIPPLE_EXPERIMENTS");
+    return unit->read(path, run);
+}
+
+Spec in_unit_cube(Spec parameters) {
+    parameters.settings.emplace_back("unit-cube", "true");
+    return parameters;
+}
+
 std::string unlike_prefixes(const Provenance& made) {
     const Generator* generator = generator_named(made.generator);
     const std::pair<std::string, std::string> progressive{"order", "progressive"};

@@ -3,9 +3,11 @@
 // Units (generators, warps, scrambles and analyzers) by name.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "analyzers/analyzer.hpp"
+#include "core/spec.hpp"
 #include "generators/generator.hpp"
 #include "scrambles/scramble.hpp"
 #include "warps/warp.hpp"
@@ -26,6 +28,14 @@ const Analyzer& find_analyzer(std::string_view name);
 /// Returns the unit with this name or alias; nullptr if there is none.
 const Generator* generator_named(std::string_view name);
 const Scramble* scramble_named(std::string_view name);
+
+/// Domain that a parameter file describes; its spec is also that of the warp, and holds the contents
+/// of the file. @throws Error(input) naming the place in the file; Error(io); Error(usage) if this
+/// program has no such warp
+DomainPtr read_parameters(const std::string& path, const RunContext& run = {});
+
+/// The same warp, but with images in the unit cube.
+Spec in_unit_cube(Spec parameters);
 
 /// Sentence for the user: prefixes of such points are not sets of the same kind. Empty if they are,
 /// and if the generator is unknown.

@@ -109,7 +109,7 @@ struct Warping {
     /// Sets `stretch` to the warp alone, without the domains of other coordinates.
     /// @throws Error(input) if the change of the densities is not known
     void find_stretch(const Spec& spec, const ChainSet& set, const RunContext& run) {
-        if (!inverse && (chain->drops() || chain->reorders()))
+        if (!inverse && (chain->drops() || chain->needs_whole_set()))
             fail_with_hint(ErrorKind::input,
                            "--column picks the coordinates, which are then taken to be uniform",
                            "the points have a column of densities; how the warp {} changes these "
@@ -213,7 +213,8 @@ Provenance without_making(const Provenance& meta) {
 bool takes_whole_sets(const Spec& warp, std::size_t dimension, const RunContext& run) {
     const Warp& unit = find_warp(warp.name);
     const std::size_t given = warp.coordinates.empty() ? dimension : warp.coordinates.size();
-    return unit.traits.reorders && unit.make(warp.values(unit.options), given, run)->reorders();
+    return unit.traits.needs_whole_set &&
+           unit.make(warp.values(unit.options), given, run)->set_step();
 }
 
 std::vector<std::uint32_t> digit_bases(const Provenance& meta) {

@@ -15,8 +15,8 @@
 #include "pipeline/chain.hpp"
 #include "pipeline/generated.hpp"
 #include "pipeline/pipeline.hpp"
+#include "pipeline/units.hpp"
 #include "report/document.hpp"
-#include "warps/parameters/parameter_file.hpp"
 
 namespace stipple {
 namespace {
@@ -130,7 +130,7 @@ bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunCon
     if (measure.unit->traits.unit_cube) return false;
     if (measure.unit->traits.boxed && !spec.starts_with("box")) return false;
     const std::size_t d = chain.dimension_in();
-    const PointSet points = some_points(d, chain.reorders() ? 64 + d : 64);
+    const PointSet points = some_points(d, chain.needs_whole_set() ? 64 + d : 64);
     return takes_points(measure, chain.image(points, without_warnings(run)), run) ||
            !takes_points(measure, points, run);
 }
@@ -159,7 +159,7 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
     // parts gives the same points.
     if (sweep.later_warps().empty()) return;
     const WarpChain chain(sweep.later_warps(), d, set, run);
-    if (!chain.refills() && !chain.reorders()) {
+    if (!chain.refills() && !chain.needs_whole_set()) {
         made.image = chain.image(points, run);
         return;
     }
@@ -175,7 +175,7 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
     };
     std::vector<Spec> warps(sweep.later_warps().begin(), sweep.later_warps().end());
     made.image = made_together(warps);
-    warps.back() = parameters::in_unit_cube(warps.back());
+    warps.back() = in_unit_cube(warps.back());
     points = made_together(warps);
 }
 

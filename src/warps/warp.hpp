@@ -16,6 +16,7 @@
 
 #include "core/domain.hpp"
 #include "core/options.hpp"
+#include "core/outcome_axis.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple {
@@ -43,20 +44,17 @@ class Mapping {
     /// Whether some points may have no image.
     [[nodiscard]] virtual bool drops() const { return false; }
 
-    /// Whether a set must have the requested number of points, even though some have no image.
-    [[nodiscard]] virtual bool refills() const { return false; }
-
     /// Outcomes of each unit coordinate. Empty if all are continuous, or if outcomes depend on
     /// other coordinates.
     [[nodiscard]] virtual std::vector<OutcomeAxis> outcome_axes() const { return {}; }
 
-    /// Whether reorder() must be applied to a whole set before forward(), because the numbers of
-    /// each coordinate are first rearranged among its points.
-    [[nodiscard]] virtual bool reorders() const { return false; }
+    /// Changes all points of a set in place: count x cube_dimension() numbers.
+    /// @throws Error(input) for points that it cannot take; Error(limit), Error(cancelled)
+    using SetStep = std::function<void(std::span<double> cube, const RunContext& run)>;
 
-    /// Rearranges all points of a set in place: count x cube_dimension() numbers.
-    /// @throws Error(input) for points that cannot be reordered; Error(limit), Error(cancelled)
-    virtual void reorder(std::span<double> /*cube*/, const RunContext& /*run*/) const {}
+    /// Step that needs the whole set and comes before forward(); empty if points are mapped one by
+    /// one.
+    [[nodiscard]] virtual SetStep set_step() const { return {}; }
 
     /// Whether the image of a row of the cube is infinite and replaced by a finite one. Called only
     /// if the domain's measure is infinite.
@@ -109,10 +107,11 @@ struct WarpRequest {
 struct WarpTraits {
     bool invertible = true;
     bool drops = false;      ///< some options drop points
+    bool refills = false;    ///< a set gets as many images as requested, instead of those dropped
     bool biased = false;     ///< some options are deliberately wrong; their help says so
     bool tabulated = false;  ///< the points' density is a table's, near the domain's
-    bool reorders = false;   ///< some options reorder a set before mapping it
-    bool discrete = false;   ///< points are outcomes with probabilities, and have no density
+    bool needs_whole_set = false;  ///< some options have a Mapping::set_step()
+    bool discrete = false;         ///< points are outcomes with probabilities, and have no density
 };
 
 struct Warp {
@@ -132,6 +131,10 @@ struct Warp {
     std::uint64_t stream_version = 1;
 
     std::function<std::unique_ptr<Mapping>(const WarpRequest&)> mapping;
+
+    /// For a warp that a file describes: its domain, whose spec is the warp's and has the contents
+    /// of the file. @throws Error(input) naming the place in the file; Error(io)
+    std::function<DomainPtr(const std::string& path, const RunContext& run)> read = {};
 
     /// Makes the mapping for these options. `given` is the number of available coordinates; warps
     /// of fixed dimension ignore it. @throws Error(usage); for warps that read a file, also errors

@@ -559,21 +559,6 @@ TEST(Plot, LeavesOutRowsWithMissingNumbers) {
     expect_refusal(box.run({"plot", "p.csv", "-o", "q.svg"}), 3, "each of its 2 rows");
 }
 
-// Axes show levels as words, in pictures of every kind.
-TEST(Plot, ShowsWordsOfLevels) {
-    const Sandbox box;
-    box.write("p.json", R"({"parameters":[{"name":"a","range":[2,3]},)"
-                        R"({"name":"material","levels":["steel","brass","copper"]}]})");
-    good(box.shell("stipple generate sobol -n 64 --parameters p.json -o e.csv --meta"));
-    for (const std::string chart : {"", " --chart histogram", " --chart pairs"}) {
-        good(box.shell("stipple plot e.csv -o p.svg" + chart));
-        const std::string texts = xml(box, "p.svg", "text");
-        EXPECT_THAT(texts, HasSubstr("steel|")) << chart;
-        EXPECT_THAT(texts, HasSubstr("copper|")) << chart;
-        EXPECT_THAT(texts, HasSubstr("sobol, parameters|64 points|")) << chart;
-    }
-}
-
 TEST(Plot, LabelsAndAxesNameWhatIsDrawn) {
     const Sandbox box;
     const std::string three =

@@ -162,61 +162,6 @@ TEST(Report, ItsCommandsMeasureTheSameNumbers) {
     EXPECT_GE(checked, 30U);
 }
 
-namespace {
-
-constexpr const char* experiment =
-    R"({"parameters":[{"name":"width","unit":"mm","range":[2,3]},)"
-    R"({"name":"load","unit":"kN","distribution":"normal","mean":50,"deviation":5},)"
-    R"({"name":"material","levels":["steel","brass"]}],"constraints":["width*load < 200"]})";
-
-}  // namespace
-
-// Also if a file or an option defines parameters.
-TEST(Report, ItsCommandsAreOfTheParameters) {
-    const Sandbox box;
-    box.write("p.json",
-              R"({"parameters":[{"name":"a","range":[2,3]},{"name":"b","range":[0,9]}]})");
-    good(box.shell("stipple generate sobol -n 64 --parameters p.json -o e.csv"));
-    for (const std::string sources :
-         {"e.csv --parameters p.json", "--generate halton -n 64 --parameters p.json",
-          "--generate halton -n 64 --parameters p.json --unit-cube"}) {
-        const auto page = data_of(box.shell("stipple report " + sources + " --json"));
-        std::size_t checked = 0;
-        for (const auto& measure : page["sets"][0]["measures"]) {
-            if (measure.contains("left_out")) continue;
-            const Outcome again = box.shell(measure["command"].get<std::string>());
-            ASSERT_EQ(again.code, 0) << measure["command"] << again.err;
-            EXPECT_EQ(nlohmann::json::parse(again.out)["results"], measure["results"])
-                << measure["command"];
-            ++checked;
-        }
-        EXPECT_GE(checked, 2U) << sources;
-    }
-}
-
-// A table of parameters instead of their file's text, words instead of numbers of levels, and no
-// distances between millimetres and kilonewtons.
-TEST(Report, OfAnExperimentIsReadable) {
-    const Sandbox box;
-    box.write("p.json", experiment);
-    good(
-        box.shell("stipple generate sobol -n 64 --parameters p.json -o e.json && "
-                  "stipple generate sobol -n 64 --parameters p.json -o e.csv && "
-                  "stipple report e.json --quiet -o a.html && "
-                  "stipple report e.csv --parameters p.json --quiet -o b.html"));
-    for (const char* file : {"a.html", "b.html"}) {
-        const std::string page = box.read(file);
-        for (const char* words :
-             {"<h3>Parameters</h3>", "width</th><td>mm</td><td>range 2 to 3</td>",
-              "<td>normal; mean 50, deviation 5</td>", "<td>levels steel, brass</td>",
-              "width*load &lt; 200", ">steel</text>", ">brass</text>", "named parameters",
-              "would mix the units"})
-            EXPECT_THAT(page, HasSubstr(words)) << file;
-        for (const char* words : {"parameters:json", "{&quot;", "Mean nearest distance"})
-            EXPECT_THAT(page, Not(HasSubstr(words))) << file;
-    }
-}
-
 TEST(Report, LeavesOutRowsWithMissingNumbers) {
     const Sandbox box;
     box.write("p.csv", "x,y\n0.1,0.2\n,0.5\n0.3,NA\n0.4,nan\n0.9,0.8\n0.2,0.6\n");

@@ -10,6 +10,7 @@
 #include "cli/parsing/arguments.hpp"
 #include "cli/terminal.hpp"
 #include "math/densities/expression.hpp"
+#include "places.hpp"
 #include "support/program.hpp"
 
 namespace stipple::testing::topics_test {
@@ -29,6 +30,7 @@ std::string shown_file(std::istringstream& lines) {
 
 // Examples of topics run one after the other in one directory.
 TEST(Topics, ExamplesRun) {
+    if (!STIPPLE_EXPERIMENTS) GTEST_SKIP() << "the guide is of all units";
     for (const Topic& topic : topics()) {
         const Sandbox box;
         std::istringstream lines(topic.text);

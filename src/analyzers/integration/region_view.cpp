@@ -35,8 +35,8 @@ Frame axes_about(const Vector3& z) {
 
 RegionView::RegionView(const Domain& domain, const Support& support)
     : domain_(domain), finite_(support.finite), box_(filled_box(domain)) {
-    if (const auto pole = domain.pole())
-        (pole->hemisphere ? axes_ : pole_) = axes_about(pole->axis);
+    if (const auto shape = domain.sphere_shape(); shape && shape->pole)
+        (shape->pole->hemisphere ? axes_ : pole_) = axes_about(shape->pole->axis);
 }
 
 bool RegionView::has(Region region) const {

@@ -40,10 +40,10 @@ void add_corners(const SphereCircle& p, const SphereCircle& q, std::vector<doubl
     cuts.push_back(middle[2] - step);
 }
 
-std::vector<double> height_cuts(const Zone& zone, const Discontinuities& discontinuities) {
+std::vector<double> height_cuts(const Zone& zone, const SphereShape& shape) {
     std::vector<double> cuts;
-    for (std::size_t i = 0; i < discontinuities.circles.size(); ++i) {
-        const SphereCircle& circle = discontinuities.circles[i];
+    for (std::size_t i = 0; i < shape.circles.size(); ++i) {
+        const SphereCircle& circle = shape.circles[i];
         const auto& [n, h] = circle;
         const double across = std::sqrt(n[0] * n[0] + n[1] * n[1]);
         const double reach = across * std::sqrt(std::max(0.0, 1 - h * h));
@@ -51,16 +51,16 @@ std::vector<double> height_cuts(const Zone& zone, const Discontinuities& discont
         cuts.push_back(h * n[2] + reach);
         add_meridian(circle, zone.turn_low, cuts);
         add_meridian(circle, zone.turn_high, cuts);
-        for (std::size_t j = 0; j < i; ++j) add_corners(circle, discontinuities.circles[j], cuts);
+        for (std::size_t j = 0; j < i; ++j) add_corners(circle, shape.circles[j], cuts);
     }
     return ends_of(std::move(cuts), zone.z_low, zone.z_high);
 }
 
 /// Longitudes, in turns, at which circles cross this height.
-std::vector<double> turn_cuts(double z, const Zone& zone, const Discontinuities& discontinuities) {
+std::vector<double> turn_cuts(double z, const Zone& zone, const SphereShape& shape) {
     std::vector<double> cuts;
     const double r = std::sqrt((1 - z) * (1 + z));
-    for (const auto& [n, h] : discontinuities.circles) {
+    for (const auto& [n, h] : shape.circles) {
         const double across = r * std::sqrt(n[0] * n[0] + n[1] * n[1]);
         const double cosine = (h - n[2] * z) / across;
         if (!(std::abs(cosine) < 1)) continue;
@@ -74,15 +74,15 @@ std::vector<double> turn_cuts(double z, const Zone& zone, const Discontinuities&
 
 /// Integral over the longitudes at one height.
 Estimate integrate_row(const SphereDensity& f, double z, const Zone& zone,
-                       const Discontinuities& discontinuities) {
+                       const SphereShape& shape) {
     const double r = std::sqrt((1 - z) * (1 + z));
     const auto at = [&](double turn) {
         const auto [cos, sin] = cos_sin_turns(turn);
         return f({r * cos, r * sin, z});
     };
-    const auto turns = turn_cuts(z, zone, discontinuities);
+    const auto turns = turn_cuts(z, zone, shape);
     Estimate sum;
-    if (discontinuities.level)
+    if (shape.level)
         for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
             const double width = turns[i + 1] - turns[i];
             if (width > 0) sum.value += width * at(turns[i] + 0.5 * width);
@@ -94,21 +94,20 @@ Estimate integrate_row(const SphereDensity& f, double z, const Zone& zone,
 
 }  // namespace
 
-Estimate integrate_zone(const SphereDensity& f, const Zone& zone,
-                        const Discontinuities& discontinuities) {
+Estimate integrate_zone(const SphereDensity& f, const Zone& zone, const SphereShape& shape) {
     Estimate total;
-    if (discontinuities.level && discontinuities.circles.empty()) {
+    if (shape.level && shape.circles.empty()) {
         const double z = zone.z_low + 0.5 * (zone.z_high - zone.z_low);
-        total.value = (zone.z_high - zone.z_low) * integrate_row(f, z, zone, discontinuities).value;
+        total.value = (zone.z_high - zone.z_low) * integrate_row(f, z, zone, shape).value;
         return total;
     }
     double inner = 0;
     const auto slice = [&](double z) {
-        const Estimate row = integrate_row(f, z, zone, discontinuities);
+        const Estimate row = integrate_row(f, z, zone, shape);
         inner = std::max(inner, row.error);
         return row.value;
     };
-    total = integrate_pieces(slice, height_cuts(zone, discontinuities));
+    total = integrate_pieces(slice, height_cuts(zone, shape));
     total.error += inner * (zone.z_high - zone.z_low);
     return total;
 }

@@ -31,7 +31,6 @@ struct Zone {
 
 using SphereDensity = std::function<double(const Vector3&)>;
 
-Estimate integrate_zone(const SphereDensity& f, const Zone& zone,
-                        const Discontinuities& discontinuities);
+Estimate integrate_zone(const SphereDensity& f, const Zone& zone, const SphereShape& shape);
 
 }  // namespace stipple

@@ -95,8 +95,8 @@ class ConeDomain final : public NamedDomain {
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         put_clamped(cap_.shares(point), cube);
     }
-    std::optional<Discontinuities> discontinuities() const override {
-        return Discontinuities{.circles = {{cap_.frame.z, cap_.rim.cos}}};
+    std::optional<SphereShape> sphere_shape() const override {
+        return SphereShape{.circles = {{cap_.frame.z, cap_.rim.cos}}};
     }
     std::optional<Moments> moments() const override {
         // With v = 1 - z, which is uniform, thin cones lose no digits.

@@ -66,23 +66,25 @@ class LobeDomain final : public NamedDomain {
     }
     /// The horizon of a hemisphere; for other lobes, circles around nearly all and around nearly
     /// none of the probability, so that integration does not miss peaks.
-    std::optional<Discontinuities> discontinuities() const override {
+    std::optional<SphereShape> sphere_shape() const override {
         if constexpr (Lobe::hemisphere)
-            return Discontinuities{.circles = {{frame_.z, 0}}, .level = lobe_.level()};
+            return SphereShape{.circles = {{frame_.z, 0}},
+                               .level = lobe_.level(),
+                               .pole = SphereShape::Pole{frame_.z, true}};
         else
             return steep_circles();
     }
     std::optional<Moments> moments() const override {
         return axial_moments(lobe_.moments(), frame_);
     }
-    std::optional<Pole> pole() const override { return Pole{frame_.z, Lobe::hemisphere}; }
     std::vector<std::string> cube_axes() const override {
         return {"probability of the cone about the axis", "longitude in turns"};
     }
 
   private:
-    Discontinuities steep_circles() const {
-        Discontinuities found{.circles = {}, .level = false};
+    SphereShape steep_circles() const {
+        SphereShape found{
+            .circles = {}, .level = false, .pole = SphereShape::Pole{frame_.z, false}};
         for (const double u : {0.01, 0.5, 0.99, 1 - 1e-6, 1 - 1e-12})
             found.circles.push_back({frame_.z, lobe_.forward(u).cos});
         return found;

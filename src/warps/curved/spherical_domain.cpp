@@ -49,8 +49,8 @@ SphericalDomain::SphericalDomain(std::string spec, std::vector<Vector3> corners,
     turn_ = std::copysign(1.0, largest_turn);
 }
 
-std::optional<Discontinuities> SphericalDomain::discontinuities() const {
-    Discontinuities found{.circles = {}};
+std::optional<SphereShape> SphericalDomain::sphere_shape() const {
+    SphereShape found{.circles = {}};
     for (const Vector3& normal : inward_) found.circles.push_back({normal, 0});
     return found;
 }

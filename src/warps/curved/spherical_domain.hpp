@@ -63,7 +63,7 @@ class SphericalDomain final : public NamedDomain {
     }
 
     /// The great circles of the edges.
-    std::optional<Discontinuities> discontinuities() const override;
+    std::optional<SphereShape> sphere_shape() const override;
 
     /// Accurate to a relative 1e-8; nullopt for areas below 1e-3, where differences lose too many
     /// digits.

@@ -210,14 +210,13 @@ class MixtureDomain final : public NamedDomain {
         return sum;
     }
 
-    /// Probability of a zone of directions; parts without discontinuities use zones as cells
+    /// Probability of a zone of directions; parts without a sphere_shape() use zones as cells
     /// themselves.
     static Estimate zone_mass(const Domain& part, const Box& cell) {
-        const auto discontinuities = part.discontinuities();
-        if (!discontinuities) return part.probability(cell);
+        const auto shape = part.sphere_shape();
+        if (!shape) return part.probability(cell);
         const Zone zone{1 - 2 * cell.high[0], 1 - 2 * cell.low[0], cell.low[1], cell.high[1]};
-        return integrate_zone([&](const Vector3& v) { return part.density(v); }, zone,
-                              *discontinuities);
+        return integrate_zone([&](const Vector3& v) { return part.density(v); }, zone, *shape);
     }
 
     std::vector<DomainPtr> parts_;

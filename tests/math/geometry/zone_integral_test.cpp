@@ -13,9 +13,9 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// Density 1 inside the circles.
-SphereDensity within(const Discontinuities& discontinuities) {
-    return [&discontinuities](const Vector3& v) {
-        for (const auto& [n, h] : discontinuities.circles)
+SphereDensity within(const SphereShape& shape) {
+    return [&shape](const Vector3& v) {
+        for (const auto& [n, h] : shape.circles)
             if (dot(n, v) < h) return 0.0;
         return 1.0;
     };
@@ -33,13 +33,13 @@ TEST(ZoneIntegral, CapsHaveTheirArea) {
     for (const Vector3& axis :
          {Vector3{0, 0, 1}, Vector3{1, 0, 0}, Vector3{1, -2, 3}, Vector3{-1, 1e-9, -0.5}})
         for (const double h : {-0.9, 0.0, 0.3, 0.999}) {
-            const Discontinuities cap{.circles = {{normalized(axis), h}}};
+            const SphereShape cap{.circles = {{normalized(axis), h}}};
             expect_integral(integrate_zone(within(cap), {}, cap), 2 * pi * (1 - h));
         }
 }
 
 TEST(ZoneIntegral, ZonesWithoutCirclesAreExact) {
-    const Discontinuities none;
+    const SphereShape none;
     const Estimate zone = integrate_zone(within(none), {-0.25, 0.5, 0.125, 0.375}, none);
     EXPECT_DOUBLE_EQ(zone.value, 0.75 * pi / 2);
     EXPECT_EQ(zone.error, 0);
@@ -47,13 +47,13 @@ TEST(ZoneIntegral, ZonesWithoutCirclesAreExact) {
 
 // An octant, and its parts below and above z = 1/2 and 45 degrees.
 TEST(ZoneIntegral, CornersBetweenCirclesAreFound) {
-    const Discontinuities octant{.circles = {{{1, 0, 0}, 0}, {{0, 1, 0}, 0}, {{0, 0, 1}, 0}}};
+    const SphereShape octant{.circles = {{{1, 0, 0}, 0}, {{0, 1, 0}, 0}, {{0, 0, 1}, 0}}};
     expect_integral(integrate_zone(within(octant), {}, octant), pi / 2);
     expect_integral(integrate_zone(within(octant), {0.5, 1, 0, 0.125}, octant), pi / 8);
     // A triangle with three right angles and one corner in the direction (1, 1, 1).
     const Vector3 a = normalized({1, 1, 1});
     const Vector3 b = normalized({1, -1, 0});
-    const Discontinuities turned{.circles = {{a, 0}, {b, 0}, {cross(a, b), 0}}};
+    const SphereShape turned{.circles = {{a, 0}, {b, 0}, {cross(a, b), 0}}};
     expect_integral(integrate_zone(within(turned), {}, turned), pi / 2);
 }
 
@@ -62,11 +62,11 @@ TEST(ZoneIntegral, CornersBetweenCirclesAreFound) {
 TEST(ZoneIntegral, DensitiesThatAreNotLevel) {
     for (const Vector3& axis : {Vector3{0, 0, 1}, Vector3{1, 2, 2}, Vector3{0, 1, 0}}) {
         const Vector3 n = normalized(axis);
-        const Discontinuities discontinuities{.circles = {{n, 0}}, .level = false};
+        const SphereShape shape{.circles = {{n, 0}}, .level = false};
         const auto f = [&](const Vector3& v) { return std::max(dot(n, v), 0.0); };
-        expect_integral(integrate_zone(f, {}, discontinuities), pi);
+        expect_integral(integrate_zone(f, {}, shape), pi);
     }
-    const Discontinuities up{.circles = {{{0, 0, 1}, 0}}, .level = false};
+    const SphereShape up{.circles = {{{0, 0, 1}, 0}}, .level = false};
     const auto height = [](const Vector3& v) { return std::max(v[2], 0.0); };
     expect_integral(integrate_zone(height, {-1, 1, 0.25, 0.75}, up), pi / 2);
 }

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+//
+// Hadamard matrices: n x n matrices of -1 and 1 whose rows, and whose columns, are pairwise
+// orthogonal. Here the first column is all 1. With chi the quadratic character of the field of q
+// elements:
+//
+//     n = q + 1, q = 3 mod 4     Paley I: chi(k - i), where chi(0) counts as 1; for a prime q each
+//                                row is the previous one shifted by one, and the last is all -1
+//     n = p (p + 2) + 1          the same from the product of the characters of two twin primes
+//     n = 2 (q + 1), q = 1 mod 4 Paley II, from the symmetric conference matrix of order q + 1
+//     n = 4 v                    four circulant matrices of a table (goethals_seidel.hpp)
+//     n = 4 q, q = 1 mod 4       Miyamoto, from the conference matrix of order q + 1 and a Hadamard
+//                                matrix of order q - 1
+//     n = 2 m                    H_m H_m / H_m -H_m (Sylvester)
+//
+// They are tried in this order; q may also be a power of a prime.
+//
+// Shape   multiples of 4 up to 2^20: all up to 664, most of those beyond.
+// Cost    O(q) memory; O(log n) an entry.
+// Source  R. E. A. C. Paley, J. Math. Phys. 12 (1933) 311-320, doi:10.1002/sapm1933121311;
+//         R. G. Stanton, D. A. Sprott, Canad. J. Math. 10 (1958) 73-77, doi:10.4153/CJM-1958-008-5
+//         (twin primes); M. Miyamoto, J. Combin. Theory A 57 (1991) 86-108,
+//         doi:10.1016/0097-3165(91)90008-5.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "experiments/designs/goethals_seidel.hpp"
+
+namespace stipple::generators {
+
+inline constexpr std::uint64_t most_hadamard = std::uint64_t{1} << 20;
+
+/// Whether a matrix of this order can be built; only multiples of 4 can.
+bool has_hadamard(std::uint64_t order);
+
+class Hadamard {
+  public:
+    /// @param order one for which has_hadamard() holds
+    explicit Hadamard(std::uint64_t order);
+
+    /// Whether an entry is 1 rather than -1.
+    [[nodiscard]] bool positive(std::uint64_t row, std::uint64_t column) const;
+
+    /// Name of the construction, such as "Paley I, q = 11", with ", doubled" for each doubling.
+    [[nodiscard]] const std::string& construction() const { return construction_; }
+
+  private:
+    [[nodiscard]] bool core(std::uint64_t row, std::uint64_t column) const;
+    [[nodiscard]] bool paley_two(std::uint64_t row, std::uint64_t column) const;
+    [[nodiscard]] bool miyamoto(std::uint64_t row, std::uint64_t column) const;
+
+    enum class Kind { cyclic, field, conference, four_functions, miyamoto };
+
+    Kind kind_ = Kind::cyclic;
+    std::uint64_t base_ = 0;    ///< order before doubling
+    std::uint64_t prime_ = 0;   ///< q is a power of this prime
+    std::vector<bool> square_;  ///< whether the character is 1 or its argument 0
+    std::shared_ptr<const GoethalsSeidel> four_;
+    std::shared_ptr<const Hadamard> smaller_;  ///< Hadamard matrix of order q - 1
+    std::vector<std::uint64_t> elements_;      ///< nonzero squares, then nonsquares
+    std::string construction_;
+};
+
+}  // namespace stipple::generators

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+//
+// Named parameters: their distributions, their dependence, and the constraints that they satisfy.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "experiments/parameters/copula.hpp"
+#include "experiments/parameters/linear_part.hpp"
+#include "experiments/parameters/reordering.hpp"
+#include "math/densities/expression.hpp"
+#include "math/distributions/marginal.hpp"
+#include "stipple/points.hpp"
+
+namespace stipple::parameters {
+
+struct Parameter {
+    std::string name;
+    std::string unit;
+    std::vector<std::string> levels;  ///< level names of the numbers 0, 1, ...; empty: numeric
+    MarginalPtr law;                  ///< its distribution; null: depends on preceding parameters
+    bool uniform = false;             ///< the distribution is uniform
+    /// Conditional distribution, given the preceding parameters.
+    std::function<MarginalPtr(std::span<const double> before)> law_given = {};
+};
+
+class ParameterSpace {
+  public:
+    /// @param constraints formulas in all parameters; a constraint holds if its value is not 0
+    /// @throws Error(usage) if no parameters satisfy the linear constraints
+    ParameterSpace(std::vector<Parameter> parameters, std::optional<Copula> copula,
+                   std::vector<Expression> constraints,
+                   std::optional<Reordering> reordering = std::nullopt);
+
+    [[nodiscard]] const std::vector<Parameter>& parameters() const { return parameters_; }
+    /// Parameters joined by linear constraints; null if there are none.
+    [[nodiscard]] const LinearPart* linear() const { return linear_ ? &*linear_ : nullptr; }
+    /// Whether from_cube() maps onto the polytope, because rejection would keep too few points.
+    [[nodiscard]] bool maps_linear() const { return linear_ && linear_->share() < 0.1; }
+    /// Whether some rows of the cube are rejected.
+    [[nodiscard]] bool rejects() const { return !others_.empty() || (linear_ && !maps_linear()); }
+    /// Whether all constraints are linear, and sets are not reordered.
+    [[nodiscard]] bool density_known() const { return others_.empty() && !reordering_; }
+    [[nodiscard]] bool has_copula() const { return copula_.has_value(); }
+    /// Reordering to be applied to a whole set before from_cube(), instead of a copula.
+    [[nodiscard]] const std::optional<Reordering>& reordering() const { return reordering_; }
+    [[nodiscard]] std::vector<std::string> names() const;
+    [[nodiscard]] Levels levels() const;
+
+    /// Whether the parameter is a quantile of its own cube coordinate, unchanged by a copula.
+    [[nodiscard]] bool takes_own(std::size_t k) const { return !copula_ || copula_->leaves(k); }
+
+    /// Whether some parameter's distribution depends on others.
+    [[nodiscard]] bool conditional() const { return conditional_; }
+    /// Whether some parameter is discrete.
+    [[nodiscard]] bool discrete() const { return discrete_; }
+
+    /// Maps a row of the unit cube to parameters. Returns false if they violate a constraint.
+    [[nodiscard]] bool from_cube(std::span<const double> cube, std::span<double> row) const;
+
+    /// Maps each parameter back through its own distribution, before constraints; a discrete value
+    /// to the middle of its interval.
+    void to_cube(std::span<const double> row, std::span<double> cube) const;
+
+    /// Whether every parameter has a possible value and all constraints hold.
+    [[nodiscard]] bool contains(std::span<const double> row) const;
+
+    /// Density before nonlinear constraints and without a reordering; for discrete parameters,
+    /// probability.
+    [[nodiscard]] double density(std::span<const double> row) const;
+
+  private:
+    [[nodiscard]] bool in_linear(std::size_t k) const { return linear_ && linear_->holds(k); }
+    /// @param held keeps alive a distribution made for this row
+    [[nodiscard]] const Marginal& law(std::size_t k, std::span<const double> row,
+                                      MarginalPtr& held) const;
+    [[nodiscard]] std::vector<Share> shares(std::span<const double> row) const;
+
+    std::vector<Parameter> parameters_;
+    std::optional<Copula> copula_;
+    std::vector<Expression> constraints_;
+    std::optional<Reordering> reordering_;
+    std::vector<Expression> others_;  ///< nonlinear constraints
+    std::optional<LinearPart> linear_;
+    bool discrete_ = false;
+    bool conditional_ = false;
+};
+
+}  // namespace stipple::parameters

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+//
+// Sobol' indices from pick-freeze designs. Two independent samples A and B of N points are mixed:
+// AB_i is A with coordinate i of B, BA_i is B with coordinate i of A. With the outputs f centred at
+// their mean and V the variance of f(A) and f(B),
+//
+//     first   S_i   = mean f(B) (f(AB_i) - f(A)) / V
+//     total   ST_i  = mean (f(A) - f(AB_i))^2 / (2 V)
+//     second  S_ij  = mean (f(BA_i) f(AB_j) - f(A) f(B)) / V - S_i - S_j.
+//
+// Shape   n = N (k + 2) rows, for each base row A, AB_1, ..., AB_k, B; or N (2k + 2) rows: A, AB_1,
+//         ..., AB_k, BA_1, ..., BA_k, B. Coordinates that were copied must be equal to the last
+//         bit, as they are after any map of single coordinates.
+// Cost    O(n k) and the bootstrap over base rows, to which pairs add k (k - 1) / 2 terms.
+// Source  A. Saltelli, P. Annoni, I. Azzini, F. Campolongo, M. Ratto, S. Tarantola, Comput. Phys.
+//         Commun. 181 (2010) 259-270, doi:10.1016/j.cpc.2009.09.018, table 2 (b) and (f), the
+//         latter due to M. J. W. Jansen, Comput. Phys. Commun. 117 (1999) 35-43. Pairs and the
+//         order of rows: A. Saltelli, Comput. Phys. Commun. 145 (2002) 280-297.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+#include "experiments/sensitivity/bootstrap.hpp"
+#include "experiments/sensitivity/methods.hpp"
+
+namespace stipple::analyzers::sensitivity {
+namespace {
+
+/// Whether a row is `whole` with coordinate i taken from `other`.
+bool is_mixed(std::span<const double> row, std::span<const double> whole,
+              std::span<const double> other, std::size_t i) {
+    for (std::size_t j = 0; j < row.size(); ++j)
+        if (row[j] != (j == i ? other[j] : whole[j])) return false;
+    return true;
+}
+
+/// First row that does not fit groups of this size; the number of rows if all fit, 0 if first and
+/// last rows are always equal.
+std::size_t first_unfit(const PointSet& design, std::size_t group) {
+    const std::size_t k = design.dimension();
+    bool moves = false;
+    for (std::size_t at = 0; at < design.count(); at += group) {
+        const auto a = design[at];
+        const auto b = design[at + group - 1];
+        moves = moves || !std::ranges::equal(a, b);
+        for (std::size_t r = 1; r + 1 < group; ++r)
+            if (!(r <= k ? is_mixed(design[at + r], a, b, r - 1)
+                         : is_mixed(design[at + r], b, a, r - 1 - k)))
+                return at + r;
+    }
+    return moves ? design.count() : 0;
+}
+
+/// Whether first and last rows of groups differ in every coordinate although these have few values,
+/// as in a factorial design. For independent rows, this has a probability below exp(-most).
+bool is_factorial(const PointSet& design, std::size_t group) {
+    constexpr double most = 2;
+    const auto groups = design.count() / group;
+    double expected = 0;
+    for (std::size_t j = 0; j < design.dimension(); ++j) {
+        std::map<double, double> times;
+        for (std::size_t at = 0; at < design.count(); at += group) {
+            const double a = design[at][j];
+            const double b = design[at + group - 1][j];
+            if (a == b) return false;
+            ++times[a];
+            ++times[b];
+        }
+        if (times.size() > groups) return false;  // more than few levels
+        for (const auto& [value, count] : times)
+            expected += count * count / static_cast<double>(4 * groups);
+    }
+    return expected >= most;
+}
+
+/// Appends the terms of a base row with the outputs `f`: those of V, then first, total, pairs.
+void append_terms(std::span<const double> f, std::size_t k, std::vector<double>& terms) {
+    const double a = f.front();
+    const double b = f.back();
+    const auto ab = f.subspan(1, k);
+    terms.push_back((a + b) / 2);
+    terms.push_back((a * a + b * b) / 2);
+    for (const double mixed : ab) terms.push_back(b * (mixed - a));
+    for (const double mixed : ab) terms.push_back((a - mixed) * (a - mixed) / 2);
+    if (f.size() == k + 2) return;
+    const auto ba = f.subspan(k + 1, k);
+    for (std::size_t i = 0; i < k; ++i)
+        for (std::size_t j = i + 1; j < k; ++j) terms.push_back(ba[i] * ab[j] - a * b);
+}
+
+/// Mean, variance and indices from the means of such terms, in their order; NaN if the first and
+/// last rows, which give the variance, vary only by rounding.
+void indices_of(std::span<const double> means, std::size_t k, std::span<double> values) {
+    constexpr double rounding = 1e-12;  // for outputs with the largest magnitude 1
+    const double variance = means[1] - means[0] * means[0];
+    if (!(variance > rounding)) {
+        std::ranges::fill(values, none);
+        return;
+    }
+    values[0] = means[0];
+    values[1] = variance;
+    for (std::size_t t = 2; t < values.size(); ++t) values[t] = means[t] / variance;
+    std::size_t pair = 2 + 2 * k;
+    for (std::size_t i = 0; pair < values.size(); ++i)
+        for (std::size_t j = i + 1; j < k; ++j) values[pair++] -= values[2 + i] + values[2 + j];
+}
+
+/// Drops the indices of inputs whose mixed rows vary far more than A and B. These should be samples
+/// of the same, so V cannot be the variance of the output.
+void drop_unlike(Effects& effects, std::span<const double> f, std::size_t k, double variance) {
+    constexpr double most = 10;
+    const std::size_t group = f.size() / effects.samples;
+    effects.missing.resize(k);
+    for (std::size_t i = 0; i < k; ++i) {
+        double square = 0;
+        for (std::size_t at = 1 + i; at < f.size(); at += group) square += f[at] * f[at];
+        if (square <= most * variance * static_cast<double>(effects.samples)) continue;
+        for (IndexKind& kind : effects.kinds) kind.of[i] = {.value = none};
+        for (PairIndex& pair : effects.pairs)
+            if (pair.first == i || pair.second == i) pair.index = {.value = none};
+        effects.missing[i] =
+            "the rows that mix in this input vary far more than the first and last rows of groups, "
+            "although all should have the same distribution";
+    }
+}
+
+/// Outputs of the given groups, one after another.
+std::vector<double> joined(std::span<const double> y, std::size_t group,
+                           std::span<const std::size_t> groups) {
+    std::vector<double> all;
+    all.reserve(groups.size() * group);
+    for (const std::size_t g : groups)
+        std::ranges::copy(y.subspan(g * group, group), std::back_inserter(all));
+    return all;
+}
+
+}  // namespace
+
+Layout find_pick_freeze(const PointSet& design) {
+    const std::size_t k = design.dimension();
+    const std::size_t n = design.count();
+    Layout layout{.trouble =
+                      fmt::format("{} rows are not a multiple of {} or {}", n, k + 2, 2 * k + 2)};
+    for (const std::size_t group : {k + 2, 2 * k + 2}) {
+        if (n == 0 || n % group != 0) continue;
+        const std::size_t unfit = first_unfit(design, group);
+        if (unfit == n && is_factorial(design, group))
+            return {.trouble =
+                        "the first and last rows of groups differ in every coordinate, like "
+                        "corners of a factorial design; they are not independent samples"};
+        if (unfit == n) return {.group = group};
+        layout.trouble = fmt::format(
+            "in groups of {}, point {} is not the expected mix of the first and last points of its "
+            "group",
+            group, unfit);
+    }
+    return layout;
+}
+
+Effects pick_freeze(const Layout& layout, const Inputs& inputs, const Response& response,
+                    const Setting& setting, const RunContext& run) {
+    const std::size_t k = inputs.size();
+    const std::size_t group = layout.group;
+    const auto complete = complete_groups(response.y, group);
+    if (complete.size() < 2)
+        fail(ErrorKind::input,
+             "the output {} has {} base rows without failed runs; expected at least 2",
+             response.name, complete.size());
+    const Centred f = centred(joined(response.y, group, complete));
+    if (is_constant(f.z))
+        fail(ErrorKind::input, "the output {} is constant in the {} base rows without failed runs",
+             response.name, complete.size());
+
+    const std::size_t pairs = group == k + 2 ? 0 : k * (k - 1) / 2;
+    TermTable table{.terms = {}, .width = 2 + 2 * k + pairs};
+    run.need_memory(8.0 * static_cast<double>(complete.size() * table.width), "the bootstrap");
+    for (std::size_t at = 0; at < f.z.size(); at += group)
+        append_terms(std::span(f.z).subspan(at, group), k, table.terms);
+    constexpr double caution = 50;
+    const auto found = bootstrapped(
+        table, table.width, [k](auto means, auto values) { indices_of(means, k, values); }, caution,
+        setting, run);
+    Effects effects{
+        .used = f.z.size(),
+        .samples = complete.size(),
+        .mean = f.mean + f.unit * found[0].value,
+        .variance = f.unit * f.unit * found[1].value,
+        .kinds = {{"first", part_of(found, 2, k)}, {"total", part_of(found, 2 + k, k)}},
+        .no_intervals = too_few_for_intervals(complete.size(), least_rows, "base rows")};
+    std::size_t at = 2 + 2 * k;
+    for (std::size_t i = 0; at < found.size(); ++i)
+        for (std::size_t j = i + 1; j < k; ++j) effects.pairs.push_back({i, j, found[at++]});
+    drop_unlike(effects, f.z, k, found[1].value);
+    return effects;
+}
+
+}  // namespace stipple::analyzers::sensitivity

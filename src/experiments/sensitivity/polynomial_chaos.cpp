@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: MIT
+//
+// Sobol' indices of a sparse polynomial chaos expansion, fitted to any sample and validated by runs
+// it has not seen. The output is approximated by p(x) = c_0 + sum_a c_a P_a(x), with products P_a
+// of polynomials that are orthonormal for each input's own distribution in the sample
+// (orthonormal_basis.hpp). So p splits into orthogonal parts p_u of groups u of terms: those of
+// input i alone (first), all with input i (total), those of inputs i and j (second).
+//
+// Five times, a polynomial is fitted to four fifths of the runs: degree, terms and coefficients are
+// chosen from these alone (matching_pursuit.hpp). Let r = f - p be its errors in the other fifth.
+// With means over all runs, each by the polynomial that has not seen it,
+//
+//     V   = mean of sum_a c_a^2 + 2 (p - c_0) r + r^2,    Q2 = 1 - mean r^2 / Var f,
+//     S_u = (mean of |p_u|^2 + 2 p_u r) / V,  |p_u|^2 the sum of the c_a^2 of u.
+//
+// S_u is (||f_u||^2 - ||f_u - p_u||^2) / V up to chance: the part of the index that p_u explains,
+// and no more, because terms fitted to noise explain nothing of other runs. The unexplained part 1
+// - Q2 may belong to u or not. So the interval is from S_u minus its error to S_u + 1 - Q2 plus its
+// error. The errors are Student's quantile times the standard error of the ratio of the two means.
+//
+// If the inputs' distributions are unknown, the runs are a sample of these, too. The standard error
+// then takes p_u (2 p_v - p_u) instead of |p_u|^2, where v are all terms that contain the inputs of
+// u, and (f - mean f)^2 instead of V's terms: these are what changes with the frequencies of an
+// input's values.
+//
+// Shape   eight runs or more, twenty for intervals; independent inputs. Inputs that are known to be
+//         uniform, or in [0, 1] with the mean and variance of uniform ones, have Legendre
+//         polynomials. Others have those of their values or of the ranks of these, whichever fit
+//         better.
+// Cost    for P candidates and t terms O(n P t) time for each degree, n (P + t) numbers of memory.
+//         P is at most 600 and 1e7 / n, t at most 0.4 n and 300.
+// Beware  indices are fractions of the whole variance, including noise that no input explains.
+// Source  G. Blatman, B. Sudret, J. Comput. Phys. 230 (2011) 2345-2367,
+//         doi:10.1016/j.jcp.2010.12.021 (sparse polynomials); B. Sudret, Reliab. Eng. Syst. Saf. 93
+//         (2008) 964-979, doi:10.1016/j.ress.2007.04.002 (indices); M. Stone, J. R. Stat. Soc. B 36
+//         (1974) 111-147 (choice inside of cross-validation).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <set>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/rng.hpp"
+#include "experiments/sensitivity/matching_pursuit.hpp"
+#include "experiments/sensitivity/methods.hpp"
+#include "experiments/sensitivity/orthonormal_basis.hpp"
+
+namespace stipple::analyzers::sensitivity {
+namespace {
+
+constexpr std::size_t max_degree = 20;
+constexpr std::size_t fold_count = 5;
+
+/// Polynomials of the inputs in the runs that did not fail.
+struct Basis {
+    std::string scale;
+    std::vector<Polynomials> inputs = {};
+    bool known = false;  ///< whether they are for known distributions, not those of the sample
+};
+
+/// Terms with their values in all runs: one column per term, row after row.
+struct Table {
+    std::size_t degree;
+    std::vector<BasisTerm> terms;
+    std::vector<double> values;
+};
+
+/// A polynomial, the runs that it was fitted to (seen) and the others.
+struct Fold {
+    std::vector<std::size_t> seen = {};
+    std::vector<std::size_t> unseen = {};
+    std::string scale = {};
+    std::size_t degree = 0;  ///< largest degree of candidates; 0 before the first fit
+    double error = 0;
+    double constant = 0;
+    std::vector<BasisTerm> terms = {};
+    std::vector<double> coefficients = {};
+    std::vector<double> products = {};  ///< coefficients times terms: one row per unseen run
+
+    [[nodiscard]] bool is_settled(std::size_t next_degree) const {
+        constexpr double enough = 1e-6;
+        constexpr std::size_t patience = 3;  // even and odd terms alternate
+        return degree > 0 && (error < enough || next_degree > degree + patience);
+    }
+};
+
+std::vector<Fold> folds_of(std::size_t n) {
+    std::vector<std::size_t> order(n);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const Rng rng(1);
+    for (std::size_t i = n; i > 1; --i) std::swap(order[i - 1], order[rng.below(i, i)]);
+    std::vector<Fold> folds(fold_count);
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t f = 0; f < fold_count; ++f)
+            (i % fold_count == f ? folds[f].unseen : folds[f].seen).push_back(order[i]);
+    return folds;
+}
+
+/// Replaces the polynomial by the best one with terms of the table, if that is better.
+void improve(Fold& fold, const Table& table, const Basis& basis, std::span<const double> z,
+             const RunContext& run) {
+    const std::size_t columns = table.terms.size();
+    const SparseFit fit = sparse_fit({table.values, columns, fold.seen}, z, run);
+    if (fold.degree > 0 && !(fit.error < fold.error)) return;
+    fold.scale = basis.scale;
+    fold.degree = table.degree;
+    fold.error = fit.error;
+    fold.constant = fit.constant;
+    fold.coefficients = fit.coefficients;
+    fold.terms.clear();
+    for (const std::size_t t : fit.chosen) fold.terms.push_back(table.terms[t]);
+    fold.products.clear();
+    for (const std::size_t i : fold.unseen)
+        for (std::size_t t = 0; t < fit.chosen.size(); ++t)
+            fold.products.push_back(fit.coefficients[t] *
+                                    table.values[i * columns + fit.chosen[t]]);
+}
+
+/// Largest degree with an acceptable number of candidates, at least 1.
+std::size_t bearable_degree(std::size_t k, std::size_t n) {
+    const double most = std::min(600.0, 1e7 / static_cast<double>(n));
+    std::size_t degree = 1;
+    while (degree < max_degree && term_count(k, degree + 1) <= most) ++degree;
+    return degree;
+}
+
+/// Folds with their best polynomials of all acceptable degrees that may help, or of the given one.
+std::vector<Fold> fitted_folds(const Basis& basis, std::span<const double> z,
+                               const std::optional<std::size_t>& degree, const RunContext& run) {
+    std::vector<Fold> folds = folds_of(z.size());
+    const std::size_t k = basis.inputs.size();
+    const auto rows = static_cast<double>(z.size());
+    const std::size_t last = degree.value_or(bearable_degree(k, z.size()));
+    for (std::size_t p = degree.value_or(1); p <= last; ++p) {
+        run.tick(p - 1, max_degree);
+        if (std::ranges::all_of(folds, [p](const Fold& fold) { return fold.is_settled(p); })) break;
+        const double terms = term_count(k, p);
+        const double picked = std::min(terms, static_cast<double>(most_terms));
+        run.need_memory(8 * rows * (terms + picked * fold_count), "polynomial chaos");
+        Table table{.degree = p, .terms = basis_terms(basis.inputs, p), .values = {}};
+        table.values = basis_values(basis.inputs, z.size(), table.terms, run);
+        for_each_block(silent(run), folds.size(), 1, [&](const Block& block) {
+            Fold& fold = folds[block.index];
+            if (!fold.is_settled(p)) improve(fold, table, basis, z, run);
+        });
+    }
+    return folds;
+}
+
+/// Group of terms of an index: those with both inputs, or with only these inputs.
+struct Part {
+    std::size_t first;
+    std::size_t second;  ///< equal to `first` for a single input
+    bool alone;          ///< whether terms with other inputs are excluded
+
+    /// Whether a term contains the inputs, and whether it belongs to the group.
+    [[nodiscard]] std::pair<bool, bool> holds(const BasisTerm& term) const {
+        const auto has = [&](std::size_t i) {
+            return std::ranges::any_of(term, [i](const auto& factor) { return factor.first == i; });
+        };
+        const bool with = has(first) && has(second);
+        return {with, with && (!alone || term.size() == (first == second ? 1U : 2U))};
+    }
+};
+
+/// Sums over terms for each run, by the polynomial that has not seen it.
+struct Sums {
+    std::vector<double> norm;    ///< squares of coefficients
+    std::vector<double> own;     ///< values of the terms of the group
+    std::vector<double> around;  ///< values of all terms that contain the group's inputs
+};
+
+template <class Holds>
+Sums sums_of(std::span<const Fold> folds, std::size_t n, const Holds& holds) {
+    Sums sums{std::vector(n, 0.0), std::vector(n, 0.0), std::vector(n, 0.0)};
+    for (const Fold& fold : folds)
+        for (std::size_t t = 0; t < fold.terms.size(); ++t) {
+            const auto [with, inside] = holds(fold.terms[t]);
+            if (!with) continue;
+            const double square = fold.coefficients[t] * fold.coefficients[t];
+            for (std::size_t r = 0; r < fold.unseen.size(); ++r) {
+                const std::size_t i = fold.unseen[r];
+                const double value = fold.products[r * fold.terms.size() + t];
+                sums.around[i] += value;
+                if (!inside) continue;
+                sums.own[i] += value;
+                sums.norm[i] += square;
+            }
+        }
+    return sums;
+}
+
+double mean_of(std::span<const double> values) {
+    double sum = 0;
+    for (const double value : values) sum += value;
+    return sum / static_cast<double>(values.size());
+}
+
+/// Errors of the polynomials in runs that they have not seen, and the variance of the output.
+struct Judgement {
+    bool known = false;  ///< whether the inputs' distributions are known
+    std::vector<double> error;
+    std::vector<double> moving = {};  ///< numbers with the mean V: how each run changes it
+    double variance = 0;              ///< V, of the output
+    double q2 = 0;
+};
+
+Judgement judged(std::span<const Fold> folds, std::span<const double> z, bool known) {
+    const Sums all = sums_of(folds, z.size(), [](const auto&) { return std::pair(true, true); });
+    Judgement out{.known = known, .error = {z.begin(), z.end()}};
+    double squares = 0;
+    double whole = 0;
+    for (const Fold& fold : folds)
+        for (const std::size_t i : fold.unseen) out.error[i] -= fold.constant + all.own[i];
+    for (std::size_t i = 0; i < z.size(); ++i) {
+        const double r = out.error[i];
+        squares += r * r;
+        whole += z[i] * z[i];
+        const double term = all.norm[i] + 2 * all.own[i] * r + r * r;
+        out.variance += term;
+        out.moving.push_back(known ? term : z[i] * z[i]);
+    }
+    // A few wild predictions must not make the variance vanish.
+    out.variance = std::max(out.variance, whole / 2) / static_cast<double>(z.size());
+    out.q2 = 1 - squares / whole;
+    return out;
+}
+
+/// Standard error of mean(values) / V.
+double error_of_ratio(std::span<const double> values, double ratio, const Judgement& judgement) {
+    std::vector<double> rest(values.begin(), values.end());
+    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= ratio * judgement.moving[i];
+    const double mean = mean_of(rest);
+    double squares = 0;
+    for (const double value : rest) squares += (value - mean) * (value - mean);
+    const auto n = static_cast<double>(rest.size());
+    return std::sqrt(squares / (n - 1) / n) / judgement.variance;
+}
+
+Index index_of(const Sums& sums, const Judgement& judgement, double level) {
+    const std::size_t n = judgement.error.size();
+    std::vector<double> explained(n);
+    std::vector<double> moving(n);
+    double unexplained = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double r = judgement.error[i];
+        const double own = sums.own[i];
+        explained[i] = sums.norm[i] + 2 * own * r;
+        const double square = judgement.known ? sums.norm[i] : own * (2 * sums.around[i] - own);
+        moving[i] = square + 2 * own * r;
+        unexplained += r * r / static_cast<double>(n);
+    }
+    Index index{.value = mean_of(explained) / judgement.variance};
+    if (n < least_for_intervals) return index;
+    const double high = index.value + unexplained / judgement.variance;
+    const double t = interval_quantile(level, n - 1);
+    index.low = index.value - t * error_of_ratio(moving, index.value, judgement);
+    for (std::size_t i = 0; i < n; ++i) moving[i] += judgement.error[i] * judgement.error[i];
+    index.high = high + t * error_of_ratio(moving, high, judgement);
+    return index;
+}
+
+/// Whether the values are nearly their ranks, scaled to their range.
+bool is_even(std::span<const double> x, std::span<const double> ranks) {
+    const auto [low, high] = std::ranges::minmax(x);
+    constexpr double most = 0.1;
+    const double extent = high / 2 - low / 2;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (std::abs(x[i] / 2 - low / 2 - ranks[i] * extent) > most * extent) return false;
+    return true;
+}
+
+/// Whether numbers in [0, 1] are distinct and have the mean and variance of uniform ones, within
+/// `errors` standard errors.
+bool looks_uniform(std::span<const double> u, double errors) {
+    std::vector<double> sorted(u.begin(), u.end());
+    std::ranges::sort(sorted);
+    if (std::ranges::adjacent_find(sorted) != sorted.end()) return false;
+    const Polynomials legendre = legendre_polynomials(u, 2);
+    std::array<double, 3> sums = {};
+    for (std::size_t i = 0; i < legendre.values.size(); ++i) sums[i % 3] += legendre.values[i];
+    const double most = errors * std::sqrt(static_cast<double>(u.size()));
+    return std::abs(sums[1]) <= most && std::abs(sums[2]) <= most;
+}
+
+/// Column j of a table with rows of `width` numbers, in the given rows.
+std::vector<double> column_of(std::span<const double> table, std::size_t width, std::size_t j,
+                              std::span<const std::size_t> rows) {
+    std::vector<double> column;
+    column.reserve(rows.size());
+    for (const std::size_t i : rows) column.push_back(table[i * width + j]);
+    return column;
+}
+
+/// Legendre polynomials for inputs that are known to be uniform or look so. Otherwise polynomials
+/// of the values and, as a second basis if that may matter, of their ranks.
+std::vector<Basis> bases_of(const Inputs& inputs, std::span<const std::size_t> runs,
+                            std::size_t degree) {
+    const std::size_t k = inputs.size();
+    const UnitInputs unit = unit_inputs(inputs);
+    const bool told = inputs.domain != nullptr;
+    const bool cube = told || std::string_view(unit.scale) == "cube";
+    Basis values{.scale = unit.scale, .known = told};
+    Basis ranks{.scale = "ranks"};
+    bool even = true;
+    for (std::size_t j = 0; j < k; ++j) {
+        const auto u = column_of(unit.u, k, j, runs);
+        if (cube && looks_uniform(u, told ? 5 : 2.6)) {
+            values.inputs.push_back(legendre_polynomials(u, degree));
+            ranks.inputs.push_back(values.inputs.back());
+            continue;
+        }
+        const auto x = column_of(inputs.values.flat(), k, j, runs);
+        const auto rank = ranks_of(x);
+        values.scale = "values";
+        values.known = false;
+        even = even && is_even(x, rank);
+        values.inputs.push_back(sample_polynomials(x, degree));
+        ranks.inputs.push_back(sample_polynomials(rank, degree));
+    }
+    std::vector<Basis> bases = {std::move(values)};
+    if (!even) bases.push_back(std::move(ranks));
+    return bases;
+}
+
+/// Pairs of inputs that form a term of two.
+std::set<std::pair<std::size_t, std::size_t>> pairs_in(std::span<const Fold> folds) {
+    std::set<std::pair<std::size_t, std::size_t>> pairs;
+    for (const Fold& fold : folds)
+        for (const BasisTerm& term : fold.terms)
+            if (term.size() == 2) pairs.emplace(term[0].first, term[1].first);
+    return pairs;
+}
+
+void add_details(Report& details, std::span<const Fold> folds, double q2,
+                 const std::string& scale) {
+    std::size_t degree = 0;
+    std::size_t terms = 0;
+    std::size_t by_ranks = 0;
+    for (const Fold& fold : folds) {
+        degree = std::max(degree, fold.degree);
+        terms = std::max(terms, fold.terms.size());
+        by_ranks += fold.scale == "ranks";
+    }
+    details.add("q2", q2);
+    details.add("degree", degree);
+    details.add("terms", terms);
+    details.add("scale", 2 * by_ranks > folds.size() ? "ranks" : scale);
+}
+
+}  // namespace
+
+std::optional<Effects> polynomial_chaos(const Inputs& inputs, const Response& response,
+                                        const Setting& setting, const RunContext& run) {
+    const auto runs = succeeded(response.y);
+    constexpr std::size_t least = 8;
+    if (runs.size() < least)
+        fail(ErrorKind::input, "the output {} has {} successful runs; polynomial chaos needs {}",
+             response.name, runs.size(), least);
+    const Centred f = centred(picked(response.y, runs));
+    const std::size_t degree = setting.degree.value_or(bearable_degree(inputs.size(), runs.size()));
+    run.need_memory(16.0 * static_cast<double>(runs.size() * inputs.size() * (degree + 1)),
+                    "polynomial chaos");
+    std::vector<Fold> folds;
+    const auto bases = bases_of(inputs, runs, degree);
+    for (std::size_t b = 0; b < bases.size(); ++b) {
+        const auto share = 0.9 / static_cast<double>(bases.size());
+        auto next = fitted_folds(
+            bases[b], f.z, setting.degree,
+            run.stage(share * static_cast<double>(b), share * static_cast<double>(b + 1)));
+        if (b == 0) folds = next;
+        for (std::size_t i = 0; i < next.size(); ++i)
+            if (next[i].error < folds[i].error) folds[i] = std::move(next[i]);
+    }
+    if (std::ranges::all_of(folds, [](const Fold& fold) { return fold.terms.empty(); }))
+        return std::nullopt;
+
+    const Judgement judgement = judged(folds, f.z, bases[0].known);
+    const auto index = [&](const Part& part) {
+        run.check_stop();
+        const auto holds = [&](const BasisTerm& term) { return part.holds(term); };
+        return index_of(sums_of(folds, f.z.size(), holds), judgement, setting.level);
+    };
+    Effects effects{
+        .used = runs.size(),
+        .samples = runs.size(),
+        .mean = f.mean,
+        .variance = f.variance() * f.unit * f.unit,
+        .kinds = {{"first", {}}, {"total", {}}},
+        .no_intervals = too_few_for_intervals(runs.size(), least_for_intervals, "runs")};
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        effects.kinds[0].of.push_back(index({i, i, true}));
+        effects.kinds[1].of.push_back(index({i, i, false}));
+    }
+    for (const auto& [i, j] : pairs_in(folds)) effects.pairs.push_back({i, j, index({i, j, true})});
+    add_details(effects.details, folds, judgement.q2, bases[0].scale);
+    return effects;
+}
+
+}  // namespace stipple::analyzers::sensitivity

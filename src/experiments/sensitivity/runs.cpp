@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: MIT
+#include "experiments/sensitivity/runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/domain.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "io/columns.hpp"
+#include "io/files.hpp"
+#include "stipple/warp.hpp"
+
+namespace stipple::analyzers::sensitivity {
+namespace {
+
+using Names = std::vector<std::string>;
+using Numbers = std::vector<std::size_t>;
+
+/// A table with the names of its columns.
+struct Columns {
+    const PointSet& table;
+    Names names;
+    std::string place;  ///< name in messages
+};
+
+bool in(const Numbers& columns, std::size_t c) {
+    return std::ranges::find(columns, c) != columns.end();
+}
+
+Numbers without(Numbers columns, const Numbers& those) {
+    std::erase_if(columns, [&](std::size_t c) { return in(those, c); });
+    return columns;
+}
+
+std::string names_of(const Numbers& columns, const Names& names) {
+    Names some;
+    for (const std::size_t c : columns) some.push_back(names[c]);
+    return join(some, ", ");
+}
+
+Numbers all_columns(const PointSet& table) {
+    Numbers all(table.dimension());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
+}
+
+Numbers picked_columns(const std::string& wanted, const Columns& from, const char* option) {
+    Numbers columns;
+    for (const auto word : split(wanted, ',')) {
+        const auto c = io::find_column(std::string(trim(word)), from.names, from.place, option);
+        if (in(columns, c)) fail(ErrorKind::usage, "--{}: '{}' is given twice", option, trim(word));
+        columns.push_back(c);
+    }
+    return columns;
+}
+
+std::vector<double> column_of(const PointSet& table, std::size_t c) {
+    std::vector<double> values(table.count());
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = table[i][c];
+    return values;
+}
+
+PointSet columns_of(const PointSet& table, const Numbers& columns) {
+    PointSet part(table.count(), columns.size());
+    for (std::size_t i = 0; i < table.count(); ++i)
+        for (std::size_t j = 0; j < columns.size(); ++j) part[i][j] = table[i][columns[j]];
+    return part;
+}
+
+// ---------------------------------------------------------------- domain of the inputs
+
+/// Domain of the inputs, with the names of its coordinates; null if unknown.
+struct Known {
+    DomainPtr domain;
+    Names names;
+};
+
+/// Names and domain of the inputs from the provenance; for a domain given by the user, only the
+/// order of the inputs is known.
+Known known_inputs(const Provenance& told, std::size_t inputs, const RunContext& run) {
+    const bool made = !told.generator.empty();
+    if (told.domain.empty() || (told.domain == "unit-cube" && !made)) return {};
+    const std::size_t k = told.dimension > 0 ? told.dimension : inputs;
+    Known known{domain_named(told.domain, k, run), {}};
+    known.names = known.domain->names();
+    if (known.names.empty() && made) known.names = coordinate_names(k, told);
+    return known;
+}
+
+/// Columns with these names, in their order; empty if some are missing.
+Numbers named_columns(const Names& wanted, const Names& names) {
+    Numbers columns;
+    for (const auto& name : wanted) {
+        const auto it = std::ranges::find(names, name);
+        if (it == names.end()) return {};
+        columns.push_back(static_cast<std::size_t>(it - names.begin()));
+    }
+    return columns;
+}
+
+/// Columns of the inputs that are known by name.
+/// @throws Error(input) if some are missing
+Numbers known_columns(const Known& known, const Columns& from) {
+    Numbers columns = named_columns(known.names, from.names);
+    if (!columns.empty()) return columns;
+    Names missing;
+    for (const auto& name : known.names)
+        if (std::ranges::find(from.names, name) == from.names.end()) missing.push_back(name);
+    fail_with_hint(ErrorKind::input, "--inputs selects the inputs",
+                   "{} has no column {} for the inputs of its design; its columns are {}",
+                   from.place, join(missing, ", "), join(from.names, ", "));
+}
+
+/// Columns of the domain's coordinates; empty if it belongs to other columns.
+/// @throws Error(usage) if it has no names and another dimension
+Numbers coordinates_of(const Known& known, const Columns& from, const Numbers& columns,
+                       const RunContext& run) {
+    const std::size_t k = known.domain->dimension();
+    Numbers coordinates = named_columns(known.names, from.names);
+    if (!coordinates.empty()) return coordinates;
+    if (columns.size() == k) return columns;
+    if (known.names.empty())
+        fail(ErrorKind::usage, "--bounds and --domain: {} coordinates, but {} inputs: {}", k,
+             columns.size(), names_of(columns, from.names));
+    run.notify(fmt::format("{}: some of {} are missing, so that their distribution is ignored",
+                           from.place, join(known.names, ", ")));
+    return {};
+}
+
+/// Whether the density is a product over the coordinates. Then two points that exchange a
+/// coordinate keep the product of their densities.
+bool independent(const Domain& domain, const PointSet& points) {
+    constexpr std::size_t most = 100;
+    constexpr double rounding = 1e-9;
+    const std::size_t n = points.count();
+    for (std::size_t t = 0; t < std::min(n, most); ++t) {
+        const auto x = points[t * n / std::min(n, most)];
+        const auto y = points[(t * n / std::min(n, most) + n / 2 + t) % n];
+        for (std::size_t j = 0; j < points.dimension(); ++j) {
+            std::vector<double> a(x.begin(), x.end()), b(y.begin(), y.end());
+            std::swap(a[j], b[j]);
+            try {
+                const double before = std::log(domain.density(x)) + std::log(domain.density(y));
+                const double after = std::log(domain.density(a)) + std::log(domain.density(b));
+                if (!std::isfinite(before)) continue;  // infinite at the end of a range
+                if (!(std::abs(after - before) <= rounding * (1 + std::abs(before)))) return false;
+            } catch (const Error&) {  // unknown, as with constraints
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+void require_finite(const Inputs& inputs) {
+    for (std::size_t i = 0; i < inputs.runs(); ++i)
+        for (std::size_t j = 0; j < inputs.size(); ++j)
+            if (!std::isfinite(inputs.values[i][j]))
+                fail(ErrorKind::input,
+                     "the input {} of point {} is missing; only outputs may be missing",
+                     inputs.names[j], i);
+}
+
+/// Inputs in the given columns, with their domain if it is known and contains them.
+Inputs inputs_of(const Columns& from, const Numbers& columns, const Known& known,
+                 const RunContext& run) {
+    Inputs inputs{.values = columns_of(from.table, columns)};
+    for (const std::size_t c : columns) inputs.names.push_back(from.names[c]);
+    inputs.generator = from.table.provenance.generator;
+    require_finite(inputs);
+    if (!known.domain) return inputs;
+    const Numbers coordinates = coordinates_of(known, from, columns, run);
+    for (const std::size_t c : columns) {
+        const auto it = std::ranges::find(coordinates, c);
+        if (it == coordinates.end()) return inputs;
+        inputs.coordinates.push_back(static_cast<std::size_t>(it - coordinates.begin()));
+    }
+    inputs.points = columns_of(from.table, coordinates);
+    for (std::size_t i = 0; i < inputs.runs(); ++i)
+        if (!known.domain->contains(inputs.points[i])) {
+            run.notify(fmt::format("the inputs of point {} are outside {}; this domain is ignored",
+                                   i, known.domain->title()));
+            return inputs;
+        }
+    if (independent(*known.domain, inputs.points))
+        inputs.domain = known.domain;
+    else
+        run.notify(fmt::format(
+            "the inputs depend on each other on {}, but the indices assume independent inputs",
+            known.domain->title()));
+    return inputs;
+}
+
+// ---------------------------------------------------------------- outputs
+
+/// Output in a column. @throws Error(input) if it holds words
+Response response_of(const Columns& from, std::size_t c) {
+    for (const auto& [column, words] : from.table.provenance.levels)
+        if (column == from.names[c])
+            fail_with_hint(ErrorKind::input, "--response selects outputs",
+                           "the output {} contains words, such as {}; expected numbers", column,
+                           words.empty() ? "" : words.front());
+    return {from.names[c], column_of(from.table, c)};
+}
+
+/// First point at which column c of a table differs from column j of the design, by more than
+/// `rounding` of the latter's range and of the number; the number of points if there is none.
+std::size_t first_difference(const PointSet& table, std::size_t c, const PointSet& design,
+                             std::size_t j, double rounding) {
+    double room = 0;
+    if (rounding > 0) {
+        const auto [low, high] = std::ranges::minmax(column_of(design, j));
+        room = rounding * (high - low);
+    }
+    std::size_t i = 0;
+    while (i < table.count() && std::abs(table[i][c] - design[i][j]) <=
+                                    std::max(room, rounding * std::abs(design[i][j])))
+        ++i;
+    return i;
+}
+
+/// Columns of the table that are not copies of the candidate columns of the design.
+Numbers other_columns(const Columns& table, const Columns& design, const Numbers& candidates,
+                      const RunContext& run) {
+    const bool named = !table.table.provenance.columns.empty();
+    const std::size_t n = table.table.count();
+    Numbers others;
+    for (std::size_t c = 0; c < table.names.size(); ++c) {
+        bool copy = false;
+        for (const std::size_t j : candidates) {
+            const bool same_name = table.names[c] == design.names[j];
+            const std::size_t i =
+                first_difference(table.table, c, design.table, j, same_name ? 1e-5 : 0);
+            copy = copy || (i == n && same_name);
+            if (named && same_name && i < n)
+                fail_with_hint(ErrorKind::input,
+                               "are the rows in another order? --response selects outputs",
+                               "the column {} has the name of an input, but other numbers: {} in "
+                               "point {}, where {} has {}",
+                               table.names[c], format_number(table.table[i][c]), i, design.place,
+                               format_number(design.table[i][j]));
+            if (i == n && !same_name)
+                run.notify(fmt::format("the output {} is equal to the input {}", table.names[c],
+                                       design.names[j]));
+        }
+        if (!copy) others.push_back(c);
+    }
+    if (others.empty())
+        fail_with_hint(ErrorKind::input, "--response selects outputs",
+                       "all columns of the table are copies of inputs: {}",
+                       join(table.names, ", "));
+    return others;
+}
+
+/// Notes which columns are neither input nor output.
+void note_unused(const Columns& table, const Numbers& inputs, const Numbers& outputs,
+                 const RunContext& run) {
+    Numbers unused;
+    for (const std::size_t c : all_columns(table.table))
+        if (!in(inputs, c) && !in(outputs, c)) unused.push_back(c);
+    if (unused.empty()) return;
+    run.notify(fmt::format("{}: columns that are neither input nor output: {}", table.place,
+                           names_of(unused, table.names)));
+}
+
+// ---------------------------------------------------------------- two files, or one
+
+/// Names of the columns; a single output without a name is called "y".
+Names output_names(const PointSet& table) {
+    if (table.dimension() == 1 && table.provenance.columns.empty()) return {"y"};
+    return coordinate_names(table.dimension(), table.provenance);
+}
+
+/// Whether the columns of a table are the domain's coordinates in order, for lack of names.
+bool by_position(const Known& known, const PointSet& table) {
+    return known.names.empty() ||
+           (table.provenance.columns.empty() && known.names.size() == table.dimension());
+}
+
+Runs with_design(const PointSet& outputs, const ColumnsAsked& asked, const RunContext& run) {
+    const PointSet design =
+        io::read_given("design", asked.design, {.levels = outputs.provenance.levels}, run);
+    if (design.count() != outputs.count())
+        fail(ErrorKind::input, "{}: {} rows; the outputs have {}", asked.design, design.count(),
+             outputs.count());
+    const Columns table{outputs, output_names(outputs), "the table"};
+    const Columns from{design, coordinate_names(design.dimension(), design.provenance),
+                       asked.design};
+    Numbers candidates = all_columns(design);
+    Numbers inputs =
+        asked.inputs.empty() ? candidates : picked_columns(asked.inputs, from, "inputs");
+    Known known = known_inputs(outputs.provenance, inputs.size(), run);
+    if (!known.domain) known = known_inputs(design.provenance, inputs.size(), run);
+    if (asked.inputs.empty() && known.domain && !by_position(known, design)) {
+        candidates = inputs = known_columns(known, from);
+        note_unused(from, inputs, {}, run);
+    }
+    Runs runs{.inputs = inputs_of(from, inputs, known, run), .responses = {}};
+    const Numbers outs = asked.response.empty() ? other_columns(table, from, candidates, run)
+                                                : picked_columns(asked.response, table, "response");
+    for (const std::size_t c : outs) runs.responses.push_back(response_of(table, c));
+    return runs;
+}
+
+Runs without_design(const PointSet& all, const ColumnsAsked& asked, const RunContext& run) {
+    const Columns table{all, coordinate_names(all.dimension(), all.provenance), "the table"};
+    const Numbers columns = all_columns(all);
+    Numbers inputs, outputs;
+    if (!asked.inputs.empty()) inputs = picked_columns(asked.inputs, table, "inputs");
+    if (!asked.response.empty()) outputs = picked_columns(asked.response, table, "response");
+    const std::size_t others = columns.size() - std::max<std::size_t>(outputs.size(), 1);
+    const Known known = known_inputs(all.provenance, inputs.empty() ? others : inputs.size(), run);
+    const bool told = known.domain && !known.names.empty() && asked.inputs.empty();
+    const Numbers candidates = told ? known_columns(known, table) : columns;
+    if (asked.response.empty())
+        outputs = told ? without(columns, candidates) : Numbers{columns.back()};
+    if (asked.inputs.empty()) inputs = without(candidates, outputs);
+    for (const std::size_t c : outputs)
+        if (in(inputs, c))
+            fail_with_hint(ErrorKind::usage, "--response selects outputs",
+                           "--inputs: '{}' is also an output", table.names[c]);
+    if (inputs.empty() || outputs.empty())
+        fail_with_hint(
+            ErrorKind::input,
+            inputs.empty() ? "--design names the file of the inputs" : "--response selects outputs",
+            "a table of {} column{} has no {}", columns.size(), columns.size() == 1 ? "" : "s",
+            inputs.empty() ? "inputs besides the outputs" : "outputs besides the inputs");
+    if (asked.inputs.empty() && asked.response.empty() && !told)
+        run.notify(
+            fmt::format("the last column is used as the output, {}, and the others as inputs, {}; "
+                        "--response and --inputs select others",
+                        table.names[outputs[0]], names_of(inputs, table.names)));
+    note_unused(table, inputs, outputs, run);
+    Runs runs{.inputs = inputs_of(table, inputs, known, run), .responses = {}};
+    for (const std::size_t c : outputs) runs.responses.push_back(response_of(table, c));
+    return runs;
+}
+
+}  // namespace
+
+Runs runs_of(const PointSet& table, const ColumnsAsked& asked, const RunContext& run) {
+    return asked.design.empty() ? without_design(table, asked, run)
+                                : with_design(table, asked, run);
+}
+
+}  // namespace stipple::analyzers::sensitivity

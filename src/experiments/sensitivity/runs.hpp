@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// Runs of a model in tables: outputs with a separate file of inputs, or both in one table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "experiments/sensitivity/effects.hpp"
+
+namespace stipple::analyzers::sensitivity {
+
+/// Requested columns: names or numbers from 1, separated by commas; empty: automatic.
+struct ColumnsAsked {
+    std::string design = {};    ///< file of the inputs; empty: they are columns of the table
+    std::string inputs = {};    ///< columns of the design, or of the table
+    std::string response = {};  ///< columns of the table
+};
+
+struct Runs {
+    Inputs inputs;
+    std::vector<Response> responses;
+};
+
+/// Finds the inputs and outputs. Inputs are, by name, the coordinates of the domain in the
+/// provenance of the table or of the design. If neither has a domain, they are all columns of the
+/// design, or all of the table except the last. All other columns of the table are outputs, except
+/// copies of inputs, which have both the name and the numbers of one. Notes report assumptions and
+/// unused columns.
+/// @throws Error(input) for different numbers of rows, for a column with the name of an input and
+///         other numbers, and for words; Error(usage) for columns that do not exist
+Runs runs_of(const PointSet& table, const ColumnsAsked& asked, const RunContext& run);
+
+}  // namespace stipple::analyzers::sensitivity
