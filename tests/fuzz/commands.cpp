@@ -39,8 +39,8 @@ void add_option(Words& words, FuzzedDataProvider& input, const Option& option) {
 Words any_words(FuzzedDataProvider& input) {
     const cli::VerbInfo& verb = any_of(input, cli::verbs());
     Words words = {verb.name};
-    const cli::Kind* const kind = cli::units_for(verb.name);
-    const cli::UnitInfo* unit = kind ? &any_of(input, kind->units) : nullptr;
+    const Kind* const kind = units_for(verb.name);
+    const UnitInfo* unit = kind ? &any_of(input, kind->units) : nullptr;
     if (unit) words.push_back(unit->name);
     const auto common = cli::options_of(verb.verb);
     const std::vector<Option> own =

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "cli/help/guide.hpp"
-#include "cli/parsing/catalog.hpp"
 #include "core/options.hpp"
+#include "pipeline/catalog.hpp"
 
 namespace stipple::cli {
 
