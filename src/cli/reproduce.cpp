@@ -73,7 +73,8 @@ Arguments arguments_of(const Provenance& meta, const std::string& name) {
 /// Replaces --parameters by the warp in the provenance, which has the contents of that file.
 void take_parameters(Arguments& typed, const Provenance& meta) {
     if (!typed.has("parameters")) return;
-    const std::size_t before = typed.all("warp").size();
+    const auto before = static_cast<std::size_t>(std::ranges::count_if(
+        typed.common, [](const auto& option) { return option.first == "warp"; }));
     if (meta.warps.size() <= before)
         fail(ErrorKind::usage, "its command names parameters, which its warps do not hold");
     std::erase_if(typed.common, [](const auto& option) {
@@ -98,7 +99,7 @@ Arguments typed_for(const Original& original) {
 
 /// Everything needed to make the file again.
 struct Recipe {
-    Arguments typed;
+    GenerateRequest request;
     SetsToMake job;
     std::vector<std::string> steps;  ///< warps of later runs
 };
@@ -122,15 +123,16 @@ Recipe recipe_of(const Original& original, Session& session) {
     const Generator& generator = find_generator(meta.generator);
     Recipe recipe;
     if (!meta.flaw.empty()) fail(ErrorKind::usage, "{}", meta.flaw);
-    recipe.typed = typed_for(original);
+    Arguments typed = typed_for(original);
     // The options in the provenance are checked as on a command line.
     Values known = generator.options.defaults();
     for (const auto& [name, text] : meta.options) generator.options.set(known, name, text);
     // Options that only write side files do not affect the points.
-    std::erase_if(recipe.typed.settings, [&](const auto& setting) {
+    std::erase_if(typed.settings, [&](const auto& setting) {
         return std::ranges::find(generator.writes, setting.first) != generator.writes.end();
     });
-    recipe.job = sets_to_make(recipe.typed, session);
+    recipe.request = request_as<GenerateRequest>(typed);
+    recipe.job = sets_to_make(recipe.request, session);
     SetsToMake& job = recipe.job;
     if (job.generator->name != generator.name)
         fail(ErrorKind::usage, "its command makes points by {}, its generator is {}",
@@ -185,11 +187,11 @@ std::string changed_rules(const Provenance& meta) {
 
 /// Files that the recipe may read: only those named on the command line. Inputs are identified by
 /// their fingerprints, so they may have been renamed.
-std::unique_ptr<FileRules> rules_for(const Original& original, const Arguments& arguments,
+std::unique_ptr<FileRules> rules_for(const Original& original, const ReproduceRequest& request,
                                      const RunContext& run) {
     std::map<std::string, std::string> readable = {{original.path, original.path}};
     std::map<std::string, std::string> by_fingerprint;
-    for (const std::string& file : arguments.all("input")) {
+    for (const std::string& file : request.files) {
         readable.emplace(file, file);
         by_fingerprint.emplace(format_fingerprint(file_fingerprint(file, run)), file);
     }
@@ -209,7 +211,7 @@ std::unique_ptr<FileRules> rules_for(const Original& original, const Arguments& 
                            "{}: its points were made from {}, which is not read for that alone",
                            original.name, shown(file));
     }
-    const std::string output = arguments.get("output").value_or("-");
+    const std::string output = request.output.value_or("-");
     return std::make_unique<FileRules>(std::move(readable),
                                        std::vector{output, io::meta_path(output)});
 }
@@ -248,12 +250,12 @@ class Reproducer {
 
     /// Writes the points to a file.
     void write(const std::string& path) {
-        Arguments typed = recipe_.typed;
+        Arguments typed = recipe_.request;
         typed.common.emplace_back("output", path);
         if (io::format_of_extension(path) != nullptr)
             std::erase_if(typed.common, [](const auto& c) { return c.first == "format"; });
         reading_provenance(original_, [&] {
-            Target target = target_of(typed);
+            Target target = target_of(request_as<GenerateRequest>(typed));
             target.columns = written_.columns;
             making(1)(target);
         });
@@ -297,7 +299,7 @@ class Reproducer {
         if (width == d + 2) return {.pdf = true, .weight = true};
         if (width != d + 1) return {};
         const bool named = names_column("pdf") || names_column("weight");
-        const bool weight = named ? names_column("weight") : recipe_.typed.has("with-weight");
+        const bool weight = named ? names_column("weight") : recipe_.request.with_weight;
         return {.pdf = !weight, .weight = weight};
     }
 
@@ -384,8 +386,7 @@ class Reproducer {
         };
         Target target{.format = original_.format, .meta = true};
         target.single = says("property float ");
-        const auto digits = recipe_.typed.integer("precision");
-        if (says("format ascii") && digits) target.precision = static_cast<int>(*digits);
+        if (says("format ascii")) target.precision = recipe_.request.precision;
         target.columns = {.pdf = says(" pdf\n"), .weight = says(" weight\n")};
         if (!says("property int set")) recipe_.job.sets = 1;
         const std::string made = io::without_meta(bytes_of(making(1), target));
@@ -435,7 +436,7 @@ class Reproducer {
 };
 
 int say(const Original& original, const Verdict& verdict, const std::string& changed,
-        const Arguments& arguments) {
+        const ReproduceRequest& request) {
     std::string sentence = verdict.identical ? "identical: " : "different: ";
     sentence += verdict.sentence;
     if (!changed.empty()) sentence = changed;
@@ -443,7 +444,7 @@ int say(const Original& original, const Verdict& verdict, const std::string& cha
     if (!verdict.identical && changed.empty() && version != STIPPLE_VERSION)
         sentence += fmt::format(" (made by stipple {}; this is {})", version, STIPPLE_VERSION);
     std::string text = printable(fmt::format("{}: {}", original.name, sentence)) + "\n";
-    if (arguments.get("format") == "json") {
+    if (request.json) {
         Json out{{"format", "stipple.reproduction"}, {"version", 1}, {"file", original.name}};
         out["identical"] = verdict.identical;
         out["rules_changed"] = !changed.empty();
@@ -453,7 +454,7 @@ int say(const Original& original, const Verdict& verdict, const std::string& cha
         text = json_text(out, 2) + "\n";
     }
     // The verdict must not be mixed with points on standard output.
-    if (arguments.get("output") == "-")
+    if (request.output == "-")
         cli::say(text);
     else
         write_text("-", text);
@@ -461,43 +462,43 @@ int say(const Original& original, const Verdict& verdict, const std::string& cha
 }
 
 /// Makes the points of a picture by `plot` again; there are no numbers to compare.
-int remake_plotted(const Original& original, Reproducer& reproducer, const Arguments& arguments) {
+int remake_plotted(const Original& original, Reproducer& reproducer,
+                   const std::optional<std::string>& output) {
     const Provenance& meta = original.meta;
     const std::string made =
         meta.command.empty() ? fmt::format("generator {}", meta.generator) : meta.command;
-    if (!arguments.has("output"))
+    if (!output)
         fail_with_hint(
             ErrorKind::input, "-o FILE makes its points again",
             "{}: a picture, which has no numbers to compare; it was drawn by '{}' of the "
             "points of '{}'",
             original.name, original.plotted, made);
-    const std::string path = *arguments.get("output");
-    reproducer.write(path);
-    if (path != "-")
+    reproducer.write(*output);
+    if (*output != "-")
         write_text("-",
                    fmt::format("{}: a picture of the points of '{}'; {} has them, made again\n",
-                               original.name, made, path));
+                               original.name, made, *output));
     return 0;
 }
 
 }  // namespace
 
-int reproduce(const Arguments& arguments, Session& session) {
-    if (arguments.inputs.size() != 1)
-        fail(ErrorKind::usage, "reproduce takes one FILE; {} are given", arguments.inputs.size());
-    const Original original = read_original(arguments.inputs[0], session.run());
+int ReproduceRequest::perform(Session& session) const {
+    if (inputs.size() != 1)
+        fail(ErrorKind::usage, "reproduce takes one FILE; {} are given", inputs.size());
+    const Original original = read_original(inputs[0], session.run());
     const std::string changed =
         reading_provenance(original, [&] { return changed_rules(original.meta); });
-    if (!changed.empty()) return say(original, {}, changed, arguments);
-    const auto rules = rules_for(original, arguments, session.run());
+    if (!changed.empty()) return say(original, {}, changed, *this);
+    const auto rules = rules_for(original, *this, session.run());
     std::optional<Reproducer> reproducer;
     const Verdict verdict = reading_provenance(original, [&] {
         reproducer.emplace(original, recipe_of(original, session), session);
         return reproducer->go();
     });
-    if (!original.plotted.empty()) return remake_plotted(original, *reproducer, arguments);
-    if (const auto path = arguments.get("output")) reproducer->write(*path);
-    return say(original, verdict, {}, arguments);
+    if (!original.plotted.empty()) return remake_plotted(original, *reproducer, output);
+    if (output) reproducer->write(*output);
+    return say(original, verdict, {}, *this);
 }
 
 }  // namespace stipple::cli

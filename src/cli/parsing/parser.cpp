@@ -19,7 +19,8 @@
 namespace stipple::cli {
 namespace {
 
-using Texts = std::vector<std::pair<std::string, std::string>>;  ///< long names with texts
+using Text = std::pair<std::string, std::string>;  ///< long name and text
+using Texts = std::vector<Text>;
 
 /// @param names such as "-n,--count" @param texts receives the texts
 void add(CLI::App& app, const std::string& names, const Option& option, bool repeatable,
@@ -184,11 +185,12 @@ void refuse_second_unit(const Arguments& arguments, const Kind& kind) {
 void settle_format(Arguments& arguments) {
     for (const char* name : {"json", "markdown"}) {
         if (!arguments.has(name)) continue;
-        const auto format = arguments.get("format");
-        if (format && *format != name)
-            fail(ErrorKind::usage, "--{} and --format {}: give one of them", name, *format);
         std::erase_if(arguments.common, [&](const auto& given) { return given.first == name; });
-        if (!format) arguments.common.emplace_back("format", name);
+        const auto format = std::ranges::find(arguments.common, "format", &Text::first);
+        if (format == arguments.common.end())
+            arguments.common.emplace_back("format", name);
+        else if (format->second != name)
+            fail(ErrorKind::usage, "--{} and --format {}: give one of them", name, format->second);
     }
 }
 
@@ -284,7 +286,6 @@ Arguments parse_arguments(int argc, const char* const* argv) {
     if (unit != nullptr && !spec.name.empty() && arguments.specs.empty())
         take_spec(spec, *unit, arguments);
     settle_format(arguments);
-    if (!arguments.help) check_choices(arguments);
     return arguments;
 }
 
