@@ -169,7 +169,8 @@ class Study {
             if (e.kind() != ErrorKind::cancelled || !file.has_journal()) throw;
             fail_with_hint(
                 ErrorKind::cancelled,
-                fmt::format("what is done is in {0} and {0}.journal; --resume goes on", path_),
+                fmt::format("finished measurements are in {0} and {0}.journal; --resume continues",
+                            path_),
                 "interrupted");
         }
         const StudyFailures& failed = file.failures();

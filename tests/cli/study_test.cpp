@@ -477,8 +477,8 @@ TEST(Study, InterruptKeepsWhatIsDoneAndExits130) {
         "done; kill -INT $pid; wait $pid");
     EXPECT_EQ(outcome.code, 130) << outcome.err;
     EXPECT_EQ(outcome.err,
-              "stipple: interrupted; what is done is in study.csv and study.csv.journal; --resume "
-              "goes on\n");
+              "stipple: interrupted; finished measurements are in study.csv and study.csv.journal; "
+              "--resume continues\n");
     EXPECT_TRUE(box.exists("study.csv"));
     EXPECT_TRUE(box.exists("study.csv.journal"));
 }

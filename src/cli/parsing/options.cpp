@@ -220,27 +220,28 @@ const std::vector<Row> rows = {
     {"-w,--warp", "NAME[:OPT=V,...]", "", "warp or scramble before measuring, in order", study,
      &StudyRequest::warp_specs},
     {"--parameters", "FILE", "",
-     "named parameters, to which the points go after all warps (stipple help parameters)",
+     "file of named parameters, to which the points are mapped after all warps (see 'stipple help "
+     "parameters')",
      generate | study, &Request::parameters_file},
     {"--parameters", "FILE", "", "parameter file of the warp parameters", warp,
      &Request::parameters_file},
     {"--parameters", "FILE", "",
-     "the parameter file that the points are of, or those of --generate go to (stipple help "
-     "parameters)",
+     "file of named parameters that the points are values of, or that those of --generate are "
+     "mapped to (see 'stipple help parameters')",
      analyze | convert | plot | report, &Request::parameters_file},
     {"--unit-cube", "", "",
-     "with --parameters: the numbers in the unit cube, less those that break a constraint",
+     "with --parameters: leave the points in the unit cube, without those that break a constraint",
      generate | analyze | plot | report, &Sources::unit_cube},
     {"--start", "I", "0", "index of the first point of --generate", analyze | plot | report,
      &Sources::start, 0, most_points},
     {"--start", "I", "0", "index of a sequence's first point", generate, &Sources::start, 0,
      most_points},
     {"--bounds", "LO..HI,...", "",
-     "scale to a box: one range for all coordinates, or one for each; of warped points, those that "
-     "no warp takes",
+     "scale to a box: one range for all coordinates, or one for each; with --warp, only the "
+     "coordinates that no warp takes are scaled",
      generate, &Sources::bounds},
     {"--bounds", "LO..HI,...", "",
-     "the box that the points lie in; analyzers of the unit cube first map it to the cube", analyze,
+     "box that contains the points; analyzers of the unit cube first map it to the cube", analyze,
      &Sources::bounds},
     {"--coordinates", "I,J,...", "", "coordinates to warp, from 1; the same as WARP@I,J", warp,
      &WarpRequest::coordinates},
@@ -296,10 +297,14 @@ const std::vector<Row> rows = {
      "points|density|pairs|histogram|distances|spectrum|radial|pair-correlation|differential|"
      "local-discrepancy",
      "points",
-     "what to draw of points: their places (of three coordinates a view, of more each pair of the "
-     "first 8), counts, each pair of coordinates, histograms, distances to the nearest neighbour, "
-     "what analyze finds with its default options, or the local discrepancy of the square with the "
-     "worst boxes of the star discrepancy",
+     "chart of points. points: positions (of three coordinates a view in space, of more each pair "
+     "of the "
+     "first 8); density: counts by cell; pairs: each pair of coordinates; histogram: of each "
+     "coordinate; "
+     "distances: to the nearest neighbour; local-discrepancy: with the worst boxes of the star "
+     "discrepancy; spectrum, radial, pair-correlation, differential: results of analyze with "
+     "default "
+     "options",
      plot, &PlotRequest::chart},
     {"--key", "KEY", "", "result to draw of a report, such as prefixes.value or minimum", plot,
      &PlotRequest::key},
@@ -341,8 +346,8 @@ const std::vector<Row> rows = {
      "FILE.meta.json",
      writers, &Writing::meta},
     {"--vector-output", "FILE", "",
-     "of points of a lattice: also writes its generating vector, as their provenance tells it",
-     convert, &ConvertRequest::vector_output},
+     "also write the generating vector of a lattice, from the provenance of its points", convert,
+     &ConvertRequest::vector_output},
     {"--vector-format", "lddata|latnet-builder", "lddata", "form of --vector-output", convert,
      &ConvertRequest::vector_format},
     {"--with-pdf", "", "", "add a column with the density of each point", generate | warp,
@@ -351,7 +356,7 @@ const std::vector<Row> rows = {
      "add a column with 1 / density: the mean of f times weight estimates the integral of f",
      generate | warp, &Writing::with_weight},
     {"--density-at", "", "",
-     "the points stay where they are, with a column of the warp's density there: 0 off its domain",
+     "do not move the points; add a column with the warp's density at each, 0 outside its domain",
      warp, &WarpRequest::density_at},
     {"--shard", "I/K", "0/1",
      "the I-th of K (from 0) contiguous parts; concatenated they are the whole set", generate,
@@ -359,7 +364,7 @@ const std::vector<Row> rows = {
     {"--title", "TEXT", "", "default: from the provenance; '' for neither title nor subtitle", plot,
      &PlotRequest::title},
     {"--labels", "A,B,...", "",
-     "names of the sets or curves in legends and titles, in their order; of a study its generators",
+     "names of the sets or curves in legends and titles, in order; for a study, of its generators",
      plot, &PlotRequest::labels},
     {"--axes", "X,Y,...", "",
      "names of the axes: of points all coordinates; of curves x, then the y of each panel", plot,
@@ -383,8 +388,9 @@ const std::vector<Row> rows = {
     {"--bootstrap", "B", "2000", "bootstrap resamples", study, &StudyRequest::bootstrap, 1,
      10'000'000},
     {"--time-limit", "SECONDS", "",
-     "limit for making a set, and for each measure of it; what takes longer fails", study,
-     &StudyRequest::time_limit, 0, 1e9},
+     "time limit for making a set, and for each analyzer of it; a measurement that takes longer "
+     "fails",
+     study, &StudyRequest::time_limit, 0, 1e9},
     {"--no-seconds", "", "", "omit the timing columns, so that every run gives the same bytes",
      study, &StudyRequest::no_seconds},
     {"--yes", "", "", "start even with more than 10 million rows", study, &StudyRequest::yes},
