@@ -86,16 +86,14 @@ std::string kind_of(const Provenance& made, std::uint64_t count) {
     return fmt::format("{} {} {} {}", kind, made.start, made.shard, made.bounds);
 }
 
-Analysis::Analysis(const Analyzer& analyzer, Values options, const Arguments& arguments,
+Analysis::Analysis(const Analyzer& analyzer, Values options, const AnalyzeRequest& request,
                    Session& session, io::Outputs& files, bool one_of_several)
     : analyzer_(analyzer),
-      arguments_(arguments),
+      request_(request),
       session_(session),
       files_(files),
       one_of_several_(one_of_several),
-      asked_(std::move(options)),
-      pooled_(arguments.has("pool")),
-      averaged_(arguments.has("average") || pooled_) {}
+      asked_(std::move(options)) {}
 
 std::optional<std::string> Analysis::text_of(std::string_view name) const {
     const auto* option = asked_.try_find(name);
@@ -112,10 +110,8 @@ void Analysis::check_arguments(const std::string& output) const {
 }
 
 void Analysis::check_domain() const {
-    if (arguments_.has("bounds") && arguments_.has("domain"))
-        fail(ErrorKind::usage, "--bounds and --domain: give one of them");
-    const auto named = arguments_.get("domain");
-    const bool moved = arguments_.has("bounds") || arguments_.has("rescale");
+    const auto& named = request_.domain;
+    const bool moved = request_.bounds || request_.rescale;
     if (!named || *named == "unit-cube" || moved || !analyzer_.traits.unit_cube) return;
     fail_with_hint(ErrorKind::usage, "--rescale or --bounds lo..hi moves points into the cube",
                    "--domain: {} measures points against the unit cube, not against {}",
@@ -144,8 +140,8 @@ void Analysis::check_side_files(const std::string& output) const {
 void Analysis::warn_of_metric() const {
     const auto* metric = asked_.try_find("metric");
     if (metric == nullptr) return;
-    const auto bounds = arguments_.get("bounds");
-    if (arguments_.has("rescale")) {
+    const auto& bounds = request_.bounds;
+    if (request_.rescale) {
         if (bounds || metric->given) return;
         return session_.warn(
             "--rescale puts the outermost points on faces that the torus joins; --metric euclidean "
@@ -171,8 +167,8 @@ void Analysis::warn_of_prefixes(const Provenance& made) {
 
 /// Warns if the distances between points of a file mix columns of very different ranges.
 void Analysis::warn_of_ranges(const PointSet& points) {
-    if (told_of_ranges_ || !asked_.try_find("metric") || arguments_.has("bounds") ||
-        arguments_.has("generate"))
+    if (told_of_ranges_ || !asked_.try_find("metric") || request_.bounds ||
+        !request_.generate.empty())
         return;
     const bool boxed = points.domain->spec().starts_with("box");
     const auto [shortest, longest] = sides_of(
@@ -193,7 +189,8 @@ void Analysis::add(PointSet points, SetOrigin origin) {
     warn_of_ranges(points);
     const std::size_t numbers = points.flat().size();
     // The first set of a kind may determine options for the others.
-    const bool decides = averaged_ && analyzer_.follow && is_first(origin.kind, points.dimension());
+    const bool decides =
+        request_.averaged() && analyzer_.follow && is_first(origin.kind, points.dimension());
     if (numbers >= large || decides) measure_waiting();
     waiting_.push_back({std::move(points), std::move(origin)});
     numbers_ += numbers;
@@ -206,7 +203,7 @@ void Analysis::add(const Arrival& arrival, const NextRows& next, SetOrigin& orig
     const Values options = options_for(origin.kind, arrival.dimension());
     Measurement m = timed(origin, arrival.domain, options,
                           [&] { return stipple::analyze(analyzer_, arrival, next, options, run); });
-    if (averaged_ && origin.kind.empty()) origin.kind = kind_of(made, m.count);
+    if (request_.averaged() && origin.kind.empty()) origin.kind = kind_of(made, m.count);
     keep(std::move(m), origin);
 }
 
@@ -310,7 +307,7 @@ RunContext Analysis::naming_set(const SetOrigin& origin, const RunContext& run) 
 
 /// Key of a kind's group; sets of different dimensions are never of the same kind.
 std::string Analysis::group_name(const std::string& kind, std::size_t dimension) const {
-    return pooled_ ? "" : fmt::format("{} {}", dimension, kind);
+    return request_.pool ? "" : fmt::format("{} {}", dimension, kind);
 }
 
 bool Analysis::is_first(const std::string& kind, std::size_t dimension) const {
@@ -331,7 +328,7 @@ std::size_t Analysis::group_of(const std::string& kind, std::size_t dimension) {
 }
 
 void Analysis::keep(Measurement m, const SetOrigin& origin) {
-    if (!averaged_) {
+    if (!request_.averaged()) {
         save_grid(m.results, measurements_.size(), origin.several);
         measurements_.push_back(std::move(m));
         return;
@@ -371,7 +368,7 @@ void Analysis::finish_averages() {
 }
 
 void Analysis::finish() {
-    if (averaged_) finish_averages();
+    if (request_.averaged()) finish_averages();
     if (const auto path = text_of("wisdom")) save_beside(*path, wisdom_text());
 }
 
@@ -400,7 +397,7 @@ void Analysis::save_beside(const std::string& path, const std::string& bytes) {
 
 std::optional<std::string> Analysis::broken(const Check& check, const Report& results) const {
     // Results on which averaged sets disagree are missing from the mean; a condition on one fails.
-    if (averaged_ && !results.find(check.key) && find_result(analyzer_, check.key))
+    if (request_.averaged() && !results.find(check.key) && find_result(analyzer_, check.key))
         return "not the same for all sets";
     if (check.holds(results)) return std::nullopt;
     return check.found(results);

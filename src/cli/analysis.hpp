@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "analyzers/analyzer.hpp"
-#include "cli/session.hpp"
+#include "cli/parsing/requests.hpp"
 #include "io/output.hpp"
 #include "pipeline/pipeline.hpp"
 #include "report/average.hpp"
@@ -40,8 +40,8 @@ class Analysis {
   public:
     /// @param files receives the files that are written beside the report
     /// @param one_of_several makes errors name the analyzer
-    Analysis(const Analyzer& analyzer, Values options, const Arguments& arguments, Session& session,
-             io::Outputs& files, bool one_of_several);
+    Analysis(const Analyzer& analyzer, Values options, const AnalyzeRequest& request,
+             Session& session, io::Outputs& files, bool one_of_several);
 
     [[nodiscard]] const Analyzer& analyzer() const { return analyzer_; }
     /// Options as given.
@@ -50,7 +50,7 @@ class Analysis {
     [[nodiscard]] std::optional<std::string> text_of(std::string_view name) const;
     [[nodiscard]] std::vector<Measurement>& measurements() { return measurements_; }
 
-    /// @throws Error(usage) if a domain is given twice or the analyzer would ignore it, or if the
+    /// @throws Error(usage) if the analyzer would ignore the domain, or if the
     /// name of a file has the extension of another format or is given twice
     void check_arguments(const std::string& output) const;
 
@@ -131,13 +131,11 @@ class Analysis {
     void save_beside(const std::string& path, const std::string& bytes);
 
     const Analyzer& analyzer_;
-    const Arguments& arguments_;
+    const AnalyzeRequest& request_;
     Session& session_;
     io::Outputs& files_;
     bool one_of_several_;
     Values asked_;
-    bool pooled_;  ///< averages sets of all kinds together
-    bool averaged_;
     bool told_of_prefixes_ = false;
     bool told_of_ranges_ = false;
     std::vector<Measurement> measurements_;

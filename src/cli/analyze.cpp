@@ -24,15 +24,15 @@
 namespace stipple::cli {
 namespace {
 
-/// Returns text, json or csv.
-std::string report_format(const Arguments& arguments, const std::string& path) {
-    if (const auto format = arguments.get("format")) return *format;
+ReportFormat report_format(const AnalyzeRequest& request, const std::string& path) {
+    if (request.format) return *request.format;
     static const std::vector<std::string> known = {".json", ".csv", ".txt"};
     io::require_extension(path, known, "--format names what is written under any name");
     const std::string extension = io::extension_of(path);
-    if (extension == ".csv") return "csv";
-    if (extension.empty() && (arguments.has("full") || arguments.has("explain"))) return "text";
-    return is_terminal(path) || extension == ".txt" ? "text" : "json";
+    if (extension == ".csv") return ReportFormat::csv;
+    const bool for_people = extension.empty() && (request.full || request.explain);
+    return for_people || is_terminal(path) || extension == ".txt" ? ReportFormat::text
+                                                                  : ReportFormat::json;
 }
 
 std::vector<std::string> result_keys(const Analyzer& analyzer) {
@@ -49,18 +49,19 @@ std::optional<std::size_t> number_of(std::size_t set, std::size_t of) {
 /// One `analyze` call: its analyses, checks and outputs.
 class AnalyzeCall {
   public:
-    AnalyzeCall(const Arguments& arguments, Session& session, Ranks& ranks)
-        : arguments_(arguments),
+    AnalyzeCall(const AnalyzeRequest& request, Session& session, Ranks& ranks)
+        : request_(request),
           session_(session),
           ranks_(ranks),
-          inputs_(input_names(arguments)),
-          generators_(arguments.all("generate")),
-          path_(output_of(arguments)),
-          format_(report_format(arguments, path_)),
-          averaged_(arguments.has("average") || arguments.has("pool")) {
-        if (format_ != "text") arguments.refuse({"full", "explain"}, "is of --format text");
-        add_analyses();
-        for (const auto& text : arguments.all("check")) add_check(text);
+          inputs_(input_names(request)),
+          path_(output_of(request)),
+          format_(report_format(request, path_)) {
+        if (format_ != ReportFormat::text)
+            refuse_options(request, "full,explain", "is of --format text");
+        for (const auto& [analyzer, options] : request.analyzers)
+            analyses_.push_back(std::make_unique<Analysis>(*analyzer, options, request, session,
+                                                           files_, several_analyzers()));
+        for (const auto& text : request.checks) add_check(text);
     }
 
     int go() {
@@ -85,25 +86,7 @@ class AnalyzeCall {
     }
 
   private:
-    // ---------------------------------------------------------------- arguments
-
-    void add_analyses() {
-        const auto add = [this](const Analyzer& analyzer, Values options) {
-            analyses_.push_back(std::make_unique<Analysis>(analyzer, std::move(options), arguments_,
-                                                           session_, files_, several_analyzers()));
-        };
-        if (!several_analyzers()) {
-            const Analyzer& analyzer = find_analyzer(arguments_.unit);
-            return add(analyzer, settings_of(analyzer.options, arguments_));
-        }
-        for (const std::string& text : arguments_.specs) {
-            const Spec spec = parse_spec(text);
-            const Analyzer& analyzer = find_analyzer(spec.name);
-            add(analyzer, spec.values(analyzer.options));
-        }
-    }
-
-    [[nodiscard]] bool several_analyzers() const { return !arguments_.specs.empty(); }
+    [[nodiscard]] bool several_analyzers() const { return request_.analyzers.size() > 1; }
     /// First analysis, often the only one.
     [[nodiscard]] Analysis& only() const { return *analyses_.front(); }
 
@@ -120,14 +103,13 @@ class AnalyzeCall {
 
     /// Whether sets can be measured in blocks while they are read.
     [[nodiscard]] bool in_blocks() const {
-        return !several_analyzers() && only().analyzer().accumulate && !arguments_.has("rescale");
+        return !several_analyzers() && only().analyzer().accumulate && !request_.rescale;
     }
 
     /// @throws Error(usage) for options that do not apply to the given sources of points
     void require_sources() const {
-        require_options_of_sources(arguments_);
         if (strengths().empty()) return;
-        if (!generators_.empty())
+        if (!request_.generate.empty())
             fail(ErrorKind::usage, "--weights: generated points have no strengths");
         if (!in_blocks())
             fail(ErrorKind::usage, "--rescale and --weights: give --bounds in place of --rescale");
@@ -137,13 +119,13 @@ class AnalyzeCall {
 
     void add_sets(const std::string& input) {
         std::vector<PointSet> sets;
-        before_errors([&] { sets = read_input(input, arguments_, session_.run()); });
+        before_errors([&] { sets = read_input(input, request_, session_.run()); });
         const std::uint64_t count = sets.empty() ? 0 : sets[0].count();
         for (std::size_t set = 0; set < sets.size() && !interrupted(); ++set) {
             const Provenance& made = sets[set].provenance;
             const SetOrigin origin{.source = input,
                                    .number = number_of(set, sets.size()),
-                                   .kind = averaged_ ? kind_of(made, count) : "",
+                                   .kind = request_.averaged() ? kind_of(made, count) : "",
                                    .columns = made.columns,
                                    .several = several_sources() || sets.size() > 1};
             add_to_all(std::move(sets[set]), origin);
@@ -156,7 +138,7 @@ class AnalyzeCall {
             PointSet own = analysis == analyses_.back() ? std::move(points) : points;
             before_errors([&] {
                 naming(origin.source,
-                       [&] { own = prepared(std::move(own), analysis->analyzer(), arguments_); });
+                       [&] { own = prepared(std::move(own), analysis->analyzer(), request_); });
             });
             analysis->add(std::move(own), origin);
         }
@@ -190,7 +172,7 @@ class AnalyzeCall {
     void add_stream(const std::string& input) {
         const RunContext& run = session_.run();
         Analysis& analysis = only();
-        const auto stream = open_input(input, arguments_, run, strengths());
+        const auto stream = open_input(input, request_, run, strengths());
         const std::size_t before = analysis.measurements().size();
         std::size_t sets = 0;
         SetOrigin origin{.source = input};
@@ -198,29 +180,29 @@ class AnalyzeCall {
             naming(input, [&] {
                 const NextRows read = [&](std::span<double> rows) { return stream->read(rows); };
                 const Arrival points =
-                    arrival_of(*stream, !strengths().empty(), analysis.analyzer(), arguments_, run);
+                    arrival_of(*stream, !strengths().empty(), analysis.analyzer(), request_, run);
                 const Provenance& made = stream->provenance();
-                if (averaged_ && !made.generator.empty()) origin.kind = kind_of(made, 0);
+                if (request_.averaged() && !made.generator.empty()) origin.kind = kind_of(made, 0);
                 origin.columns = made.columns;
                 origin.number = sets;
                 origin.several = several_sources() || sets > 0;
-                analysis.add(points,
-                             within_bounds(read, points, 0, analysis.analyzer(), arguments_),
+                analysis.add(points, within_bounds(read, points, 0, analysis.analyzer(), request_),
                              origin, made, run);
             });
         if (sets == 1 && analysis.measurements().size() == before + 1) analysis.forget_number();
     }
 
     void add_generated() {
-        if (generators_.empty()) return;
-        const std::uint64_t seed = seed_for(arguments_, generators_, session_);
-        for (const std::string& text : generators_)
-            add_generated(text, generated_sets(text, seed, arguments_, session_.run()));
+        if (request_.generate.empty()) return;
+        const std::uint64_t seed = seed_for_generators(request_, session_);
+        for (const std::string& text : request_.generate)
+            add_generated(text, generated_sets(text, seed, request_, session_.run()));
     }
 
     void add_generated(const std::string& text, const GeneratedSets& generated) {
         // Identical sets add no information to a mean.
-        const std::uint64_t sets = averaged_ ? generated.different_sets() : generated.sets();
+        const std::uint64_t sets =
+            request_.averaged() ? generated.different_sets() : generated.sets();
         const auto count = generated.streamed();
         RunContext quiet = session_.run();
         if (sets > 1) quiet.progress = {};
@@ -238,7 +220,9 @@ class AnalyzeCall {
         }
     }
 
-    [[nodiscard]] bool several_sources() const { return inputs_.size() + generators_.size() > 1; }
+    [[nodiscard]] bool several_sources() const {
+        return inputs_.size() + request_.generate.size() > 1;
+    }
 
     // ---------------------------------------------------------------- one set, by all ranks
 
@@ -250,18 +234,18 @@ class AnalyzeCall {
             fail_with_hint(ErrorKind::usage,
                            "start one process; 'stipple study' shares many sets out",
                            "analyze: ranks do not share {}", analyzer.name);
-        if (arguments_.has("rescale"))
+        if (request_.rescale)
             fail(ErrorKind::usage, "--rescale: ranks see a part of the points; give --bounds");
         if (several_sources())
             fail(ErrorKind::usage, "analyze: ranks share one set; name its files{}",
                  inputs_.size() > 1 ? " with --concat" : "");
         if (!inputs_.empty() && inputs_.front() == "-")
             fail(ErrorKind::usage, "analyze: ranks share one set; name its files");
-        if (arguments_.integer("sets").value_or(1) > 1)
+        if (request_.sets > 1)
             fail_with_hint(ErrorKind::usage, "'stipple study' shares many sets out",
                            "--sets: ranks share one");
         require_sources();
-        if (!generators_.empty()) return measure_together(generators_.front());
+        if (!request_.generate.empty()) return measure_together(request_.generate.front());
         naming(inputs_.front(), [this] { measure_together(inputs_.front()); });
     }
 
@@ -271,8 +255,8 @@ class AnalyzeCall {
         SharedSet set;
         Measurement m =
             analysis.timed({.source = source}, set.points.domain, analysis.options(), [&] {
-                set = generators_.empty()
-                          ? shared_files(arguments_, analyzer, strengths(), ranks_, own_run())
+                set = request_.generate.empty()
+                          ? shared_files(request_, analyzer, strengths(), ranks_, own_run())
                           : shared_generated();
                 if (analyzer.sharing.together)
                     return Found{searched_together(set), *set.points.count};
@@ -283,9 +267,9 @@ class AnalyzeCall {
     }
 
     SharedSet shared_generated() {
-        const std::string& spec = generators_.front();
-        const auto generated = std::make_shared<GeneratedSets>(generated_sets(
-            spec, seed_for(arguments_, generators_, session_), arguments_, own_run()));
+        const std::string& spec = request_.generate.front();
+        const auto generated = std::make_shared<GeneratedSets>(
+            generated_sets(spec, seed_for_generators(request_, session_), request_, own_run()));
         const RunContext run = own_run();
         const auto count = generated->streamed();
         if (!count && !only().analyzer().sharing.together)
@@ -421,7 +405,7 @@ class AnalyzeCall {
     /// Prints the results that analyses returned after a stop request: the best found so far. Not
     /// for means, which would lack sets, nor for files.
     int print_what_is_known() {
-        if (averaged_ || path_ != "-" || ranks_.size() > 1) session_.run().check_stop();
+        if (request_.averaged() || path_ != "-" || ranks_.size() > 1) session_.run().check_stop();
         print();
         say_line("interrupted");
         constexpr int exit_code = 130;
@@ -429,8 +413,8 @@ class AnalyzeCall {
     }
 
     [[nodiscard]] TextStyle text_style() const {
-        TextStyle style{.full = arguments_.has("full")};
-        if (arguments_.has("explain"))
+        TextStyle style{.full = request_.full};
+        if (request_.explain)
             style.below = [](const Measurement& m, const std::string& key) {
                 constexpr std::size_t indent = 6;
                 std::string text;
@@ -448,19 +432,17 @@ class AnalyzeCall {
         for (const auto& [measurement, analysis] : in_order())
             all.push_back(std::move(*measurement));
         files_.add(path_, std::stop_token())
-            .write(format_ == "json"  ? to_json(all)
-                   : format_ == "csv" ? to_csv(all)
-                                      : to_text(all, text_style()));
+            .write(format_ == ReportFormat::json  ? to_json(all)
+                   : format_ == ReportFormat::csv ? to_csv(all)
+                                                  : to_text(all, text_style()));
     }
 
-    const Arguments& arguments_;
+    const AnalyzeRequest& request_;
     Session& session_;
     Ranks& ranks_;
     std::vector<std::string> inputs_;
-    std::vector<std::string> generators_;  ///< specs of --generate
     std::string path_;
-    std::string format_;
-    bool averaged_;
+    ReportFormat format_;
     io::Outputs files_;  ///< the report and the files beside it
     std::vector<std::unique_ptr<Analysis>> analyses_;
     std::vector<NamedCheck> checks_;
@@ -468,8 +450,8 @@ class AnalyzeCall {
 
 }  // namespace
 
-int analyze(const Arguments& arguments, Session& session) {
-    return AnalyzeCall(arguments, session, launched("analyze", session.run())).go();
+int AnalyzeRequest::perform(Session& session) const {
+    return AnalyzeCall(*this, session, launched("analyze", session.run())).go();
 }
 
 }  // namespace stipple::cli

@@ -4,11 +4,10 @@
 #include <array>
 #include <cstdlib>
 #include <exception>
-#include <map>
 #include <new>
 
 #include "cli/launched.hpp"
-#include "cli/parsing/arguments.hpp"
+#include "cli/parsing/requests.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -46,15 +45,9 @@ int dispatch(const Arguments& arguments) {
         return exit_code(ErrorKind::usage);
     }
     require_unit(arguments);
-    if (arguments.verb == Verb::list) return list(arguments);
-    if (arguments.verb == Verb::help) return help(arguments);
-    if (arguments.verb == Verb::completions) return completions(arguments);
-    Session session(arguments);
-    static const std::map<Verb, int (*)(const Arguments&, Session&)> work = {
-        {Verb::generate, generate}, {Verb::warp, warp},          {Verb::analyze, analyze},
-        {Verb::convert, convert},   {Verb::plot, plot},          {Verb::study, study},
-        {Verb::report, report},     {Verb::reproduce, reproduce}};
-    const int code = work.at(*arguments.verb)(arguments, session);
+    const auto request = request_of(arguments);
+    Session session(*request);
+    const int code = work_on(*request, session);
     try {
         session.tell_warnings();
     } catch (const std::bad_alloc&) {  // output files are already in place
@@ -100,6 +93,11 @@ int run_verb(int argc, char** argv) {
 }
 
 }  // namespace
+
+int work_on(Request& request, Session& session) {
+    read_parameter_file(request, session.run());
+    return request.perform(session);
+}
 
 void write_text(const std::string& path, const std::string& text) {
     io::Output output(path);

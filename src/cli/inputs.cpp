@@ -20,109 +20,73 @@ namespace stipple::cli {
 
 namespace {
 
-/// Options for reading an input.
-struct Reading {
-    ReadOptions options;
-    const Format* format = nullptr;  ///< given by name; nullptr: from the file's name or bytes
-};
-
-/// Analyzers named on an `analyze` command line; empty for other verbs.
-std::vector<const Analyzer*> analyzers_of(const Arguments& arguments) {
-    std::vector<const Analyzer*> named;
-    if (arguments.verb != Verb::analyze) return named;
-    for (const std::string& spec : arguments.specs)
-        named.push_back(&find_analyzer(parse_spec(spec).name));
-    if (named.empty()) named.push_back(&find_analyzer(arguments.unit));
-    return named;
-}
-
-/// Whether inputs are read as rows of tables, which is so if all analyzers need tables.
-bool reads_tables(const Arguments& arguments) {
-    const auto analyzers = analyzers_of(arguments);
-    return !analyzers.empty() &&
-           std::ranges::all_of(analyzers, [](const Analyzer* a) { return a->traits.table; });
-}
-
-Reading reading_of(const std::string& path, const Arguments& arguments) {
-    ReadOptions options{.source = path};
-    std::string from = arguments.get("from").value_or("");
-    options.single = from == "f32";
-    const auto analyzers = analyzers_of(arguments);
-    options.densities = arguments.verb == Verb::convert ||
-                        (arguments.verb == Verb::warp && !arguments.has("density-at")) ||
-                        std::ranges::any_of(analyzers, [](const Analyzer* analyzer) {
-                            return analyzer->traits.densities;
-                        });
-    // Plots and reports skip rows with gaps.
-    options.gaps =
-        arguments.verb == Verb::plot || arguments.verb == Verb::report || reads_tables(arguments);
-    auto type = arguments.get("input-dtype");
-    if (!type && arguments.verb != Verb::convert) type = arguments.get("dtype");
-    if (type) options.single = *type == "f32";
-    if (from == "f32" || from == "f64") from = "bin";
-    if (const auto d = arguments.integer("dimension")) options.dimension = *d;
-    if (const auto columns = arguments.get("column"))
-        for (const auto column : split(*columns, ',')) options.columns.emplace_back(trim(column));
-    if (const auto file = arguments.get("parameters")) {
-        const auto named = read_parameters(*file);
-        options.levels = named->levels();
-        if (arguments.verb != Verb::warp && !reads_tables(arguments))
-            options.expected = named->names();
+/// Options for reading an input, and its format; nullptr: from the file's name or bytes.
+std::pair<ReadOptions, const Format*> reading_of(const std::string& path, const Sources& from) {
+    ReadOptions options{.source = path, .columns = from.columns};
+    const bool raw = from.from == "f32" || from.from == "f64";
+    // The option of both files is that of the output for `convert`.
+    const auto type = from.dtype_in || from.verb == Verb::convert ? from.dtype_in : from.dtype;
+    options.single = type.value_or(from.from == "f32");
+    options.densities = from.densities;
+    options.gaps = from.gaps;
+    options.dimension = from.dimension;
+    if (from.parameters) {
+        options.levels = from.parameters->levels();
+        if (from.verb != Verb::warp && !from.tables) options.expected = from.parameters->names();
     }
-    return {std::move(options), from.empty() ? nullptr : &io::format_named(from)};
+    const Format* format = from.from.empty() ? nullptr : &io::format_named(raw ? "bin" : from.from);
+    return {std::move(options), format};
 }
 
 /// Files named on the command line, or standard input.
-std::vector<std::string> named_files(const Arguments& arguments) {
-    if (arguments.inputs.empty()) return {"-"};
-    if (std::ranges::count(arguments.inputs, "-") > 1)
+std::vector<std::string> named_files(const Sources& from) {
+    if (from.inputs.empty()) return {"-"};
+    if (std::ranges::count(from.inputs, "-") > 1)
         fail(ErrorKind::usage, "standard input is named twice");
-    return arguments.inputs;
+    return from.inputs;
 }
 
 /// Opens one file to be read in blocks.
-std::unique_ptr<io::PointStream> open_file(const std::string& path, const Arguments& arguments,
+std::unique_ptr<io::PointStream> open_file(const std::string& path, const Sources& from,
                                            const std::string& strengths, const RunContext& run) {
-    auto [options, format] = reading_of(path, arguments);
+    auto [options, format] = reading_of(path, from);
     options.strengths = strengths;
     return io::open_points(path, options, run, format);
 }
 
 /// Records the domain of the table's inputs, from --parameters, --bounds or --domain; the analyzer
 /// identifies the input columns.
-void take_told(PointSet& table, const Arguments& arguments, const RunContext& run) {
-    if (arguments.has("rescale"))
-        fail(ErrorKind::usage, "--rescale: these are rows of a table, not points");
-    if (arguments.has("parameters") + arguments.has("bounds") + arguments.has("domain") > 1)
+void take_told(PointSet& table, const Sources& from) {
+    if (from.rescale) fail(ErrorKind::usage, "--rescale: these are rows of a table, not points");
+    if (!!from.parameters + from.bounds.has_value() + from.domain.has_value() > 1)
         fail(ErrorKind::usage, "--parameters, --bounds and --domain: give one of them");
     Provenance& told = table.provenance;
     const auto tell = [&told](std::string domain, std::size_t dimension) {
         told.domain = std::move(domain);
         if (dimension > 0 || told.generator.empty()) told.dimension = dimension;
     };
-    if (const auto file = arguments.get("parameters")) {
-        const auto named = read_parameters(*file, run);
-        tell(named->spec(), named->dimension());
-        told.levels = named->levels();
+    if (from.parameters) {
+        tell(from.parameters->spec(), from.parameters->dimension());
+        told.levels = from.parameters->levels();
     }
-    if (const auto bounds = arguments.get("bounds")) {
-        const auto ranges = static_cast<std::size_t>(std::ranges::count(*bounds, ',')) + 1;
-        tell("box:bounds=[" + *bounds + "]", ranges > 1 ? ranges : 0);
+    if (from.bounds) {
+        const auto ranges = static_cast<std::size_t>(std::ranges::count(*from.bounds, ',')) + 1;
+        tell("box:bounds=[" + *from.bounds + "]", ranges > 1 ? ranges : 0);
     }
-    if (const auto domain = arguments.get("domain")) tell(*domain, 0);
+    if (from.domain) tell(*from.domain, 0);
     table.domain = unit_cube(table.dimension());
 }
 
 /// Completes the domain and provenance of the sets from the command line and their files.
-std::vector<PointSet> named(std::vector<PointSet> sets, const Arguments& arguments,
+std::vector<PointSet> named(std::vector<PointSet> sets, const Sources& from,
                             const RunContext& run) {
     for (PointSet& set : sets) {
-        if (reads_tables(arguments)) {
-            take_told(set, arguments, run);
+        if (from.tables) {
+            take_told(set, from);
             continue;
         }
         io::take_densities(set);
-        set.domain = input_domain(set.provenance, set.dimension(), arguments, run);
+        set.domain = input_domain(set.provenance, set.dimension(), from, run);
         set.provenance.domain = set.domain->spec();
         if (set.provenance.columns.empty()) set.provenance.columns = set.domain->names();
         if (set.provenance.levels.empty()) set.provenance.levels = set.domain->levels();
@@ -135,27 +99,25 @@ std::vector<PointSet> named(std::vector<PointSet> sets, const Arguments& argumen
 
 }  // namespace
 
-std::vector<std::string> input_names(const Arguments& arguments) {
-    if (arguments.inputs.empty() && arguments.has("generate")) return {};
-    const auto files = named_files(arguments);
-    return arguments.has("concat") ? std::vector{join(files, ", ")} : files;
+std::vector<std::string> input_names(const Sources& from) {
+    if (from.inputs.empty() && !from.generate.empty()) return {};
+    const auto files = named_files(from);
+    return from.concat ? std::vector{join(files, ", ")} : files;
 }
 
-std::string only_input(const Arguments& arguments, const std::string& hint) {
-    if (arguments.inputs.size() > 1 && !arguments.has("concat"))
+std::string only_input(const Sources& from, const std::string& hint) {
+    if (from.inputs.size() > 1 && !from.concat)
         fail_with_hint(ErrorKind::usage, hint, "{} takes one INPUT; {} are given",
-                       info_of(*arguments.verb).name, arguments.inputs.size());
-    return input_names(arguments).front();
+                       info_of(*from.verb).name, from.inputs.size());
+    return input_names(from).front();
 }
 
-DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
-                       const Arguments& arguments, const RunContext& run) {
-    const auto file = arguments.get("parameters");
-    const std::string domain = file && arguments.verb != Verb::warp
-                                   ? read_parameters(*file, run)->spec()
-                                   : provenance.domain;
+DomainPtr input_domain(const Provenance& provenance, std::size_t dimension, const Sources& from,
+                       const RunContext& run) {
+    const std::string domain =
+        from.parameters && from.verb != Verb::warp ? from.parameters->spec() : provenance.domain;
     // The file's domain does not describe columns selected by --column.
-    if (arguments.has("column") || domain == "unit-cube" || domain.empty())
+    if (!from.columns.empty() || domain == "unit-cube" || domain.empty())
         return unit_cube(dimension);
     try {
         return parse_domain(domain, dimension, run);
@@ -179,11 +141,6 @@ Error named_error(const Error& e, const std::string& input, const std::string& h
         named = named || what.starts_with(std::string(trim(part)) + ":");
     return {e.kind(), named ? what : fmt::format("{}: {}", name, what),
             hint.empty() ? e.hint() : hint};
-}
-
-void take_domain(PointSet& set, const Arguments& arguments) {
-    if (const auto domain = arguments.get("domain"))
-        set.domain = parse_domain(*domain, set.dimension());
 }
 
 std::size_t leave_out_gaps(PointSet& set, const std::string& input, const RunContext& run) {
@@ -212,29 +169,28 @@ std::size_t leave_out_gaps(PointSet& set, const std::string& input, const RunCon
     return left_out;
 }
 
-std::vector<PointSet> read_input(const std::string& path, const Arguments& arguments,
+std::vector<PointSet> read_input(const std::string& path, const Sources& from,
                                  const RunContext& run) {
-    return read_all(*open_input(path, arguments, run), arguments, run);
+    return read_all(*open_input(path, from, run), from, run);
 }
 
 std::vector<PointSet> read_input(std::string_view bytes, const std::string& path,
-                                 const Arguments& arguments, const RunContext& run) {
-    const auto [options, format] = reading_of(path, arguments);
-    return named(io::read_sets(bytes, path, options, run, format), arguments, run);
+                                 const Sources& from, const RunContext& run) {
+    const auto [options, format] = reading_of(path, from);
+    return named(io::read_sets(bytes, path, options, run, format), from, run);
 }
 
-std::unique_ptr<io::PointStream> open_input(const std::string& path, const Arguments& arguments,
+std::unique_ptr<io::PointStream> open_input(const std::string& path, const Sources& from,
                                             const RunContext& run, const std::string& strengths) {
-    if (!arguments.has("concat")) return open_file(path, arguments, strengths, run);
-    return io::join_points(named_files(arguments),
-                           [&arguments, &run, strengths](const std::string& file) {
-                               return open_file(file, arguments, strengths, run);
-                           });
+    if (!from.concat) return open_file(path, from, strengths, run);
+    return io::join_points(named_files(from), [&from, &run, strengths](const std::string& file) {
+        return open_file(file, from, strengths, run);
+    });
 }
 
-std::vector<PointSet> read_all(io::PointStream& stream, const Arguments& arguments,
+std::vector<PointSet> read_all(io::PointStream& stream, const Sources& from,
                                const RunContext& run) {
-    return named(stream.read_all(run), arguments, run);
+    return named(stream.read_all(run), from, run);
 }
 
 // ---------------------------------------------------------------- boxes
@@ -282,22 +238,14 @@ struct Bounds {
     }
 };
 
-PointSet rescaled(PointSet points) {
-    const Bounds around{box_around(points), true};
-    return around.taken(std::move(points));
+/// Sets the domain from --domain, if given.
+void take_domain(PointSet& set, const Sources& from) {
+    if (from.domain) set.domain = parse_domain(*from.domain, set.dimension());
 }
 
-/// --bounds, for an analyzer of points of d coordinates.
-std::optional<Bounds> bounds_of(const Arguments& arguments, const Analyzer& analyzer,
-                                std::size_t d) {
-    const auto text = arguments.get("bounds");
-    if (!text) return std::nullopt;
-    return Bounds{parse_box(*text, d), analyzer.traits.unit_cube || arguments.has("rescale")};
-}
-
-}  // namespace
-
-void require_width(const PointSet& points, const std::string& input) {
+/// @throws Error(input) if the bounding box is too wide for float64
+/// @param input named in the message; empty if the caller adds the name
+void require_width(const PointSet& points, const std::string& input = {}) {
     constexpr double most = 1e307;  // leaves room for margins
     const Box box = bounding_box(points.flat(), points.dimension());
     for (std::size_t k = 0; k < box.dimension(); ++k)
@@ -308,12 +256,8 @@ void require_width(const PointSet& points, const std::string& input) {
                  format_number(box.low[k]), format_number(box.high[k]));
 }
 
-PointSet placed(PointSet points, const std::string& input, const Arguments& arguments) {
-    require_width(points, input);
-    naming(input, [&] { take_domain(points, arguments); });
-    return arguments.has("rescale") ? rescaled(std::move(points)) : std::move(points);
-}
-
+/// Checks points for an analyzer of the unit cube: points of another domain may be in the cube
+/// without being a sample of it. @throws Error(input) if the set has another domain
 PointSet of_the_cube(PointSet points, const Analyzer& analyzer) {
     const std::string domain = points.domain->spec();
     const auto outside = [](double x) { return !(x >= 0 && x <= 1); };
@@ -328,12 +272,31 @@ PointSet of_the_cube(PointSet points, const Analyzer& analyzer) {
                    analyzer.name, points.domain->title());
 }
 
-PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& arguments) {
-    if (analyzer.traits.table && reads_tables(arguments)) return points;
-    take_domain(points, arguments);
-    if (const auto bounds = bounds_of(arguments, analyzer, points.dimension()))
+PointSet rescaled(PointSet points) {
+    const Bounds around{box_around(points), true};
+    return around.taken(std::move(points));
+}
+
+/// --bounds, for an analyzer of points of d coordinates.
+std::optional<Bounds> bounds_of(const Sources& from, const Analyzer& analyzer, std::size_t d) {
+    if (!from.bounds) return std::nullopt;
+    return Bounds{parse_box(*from.bounds, d), analyzer.traits.unit_cube || from.rescale};
+}
+
+}  // namespace
+
+PointSet placed(PointSet points, const std::string& input, const Sources& from) {
+    require_width(points, input);
+    naming(input, [&] { take_domain(points, from); });
+    return from.rescale ? rescaled(std::move(points)) : std::move(points);
+}
+
+PointSet prepared(PointSet points, const Analyzer& analyzer, const Sources& from) {
+    if (from.tables) return points;
+    take_domain(points, from);
+    if (const auto bounds = bounds_of(from, analyzer, points.dimension()))
         return bounds->taken(std::move(points));
-    if (arguments.has("rescale")) {
+    if (from.rescale) {
         require_width(points);
         return rescaled(std::move(points));
     }
@@ -341,21 +304,21 @@ PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& ar
 }
 
 Arrival arrival_of(const io::PointStream& stream, bool weighted, const Analyzer& analyzer,
-                   const Arguments& arguments, const RunContext& run) {
+                   const Sources& from, const RunContext& run) {
     const std::size_t d = stream.dimension() - (weighted ? 1 : 0);
     DomainPtr domain;
-    if (const auto bounds = bounds_of(arguments, analyzer, d))
+    if (const auto bounds = bounds_of(from, analyzer, d))
         domain = bounds->domain();
-    else if (const auto named = arguments.get("domain"))
-        domain = parse_domain(*named, d);
+    else if (from.domain)
+        domain = parse_domain(*from.domain, d);
     else
-        domain = input_domain(stream.provenance(), d, arguments, run);
+        domain = input_domain(stream.provenance(), d, from, run);
     return {.domain = std::move(domain), .count = stream.count(), .weighted = weighted};
 }
 
 NextRows within_bounds(NextRows next, const Arrival& arrival, std::uint64_t first,
-                       const Analyzer& analyzer, const Arguments& arguments) {
-    const auto bounds = bounds_of(arguments, analyzer, arrival.dimension());
+                       const Analyzer& analyzer, const Sources& from) {
+    const auto bounds = bounds_of(from, analyzer, arrival.dimension());
     if (!bounds) return next;
     return [next = std::move(next), width = arrival.width(), bounds = *bounds,
             at = first](std::span<double> rows) mutable {
@@ -366,17 +329,17 @@ NextRows within_bounds(NextRows next, const Arrival& arrival, std::uint64_t firs
     };
 }
 
-SharedSet shared_files(const Arguments& arguments, const Analyzer& analyzer,
-                       const std::string& strengths, Ranks& ranks, const RunContext& run) {
-    const auto open = [&arguments, run, strengths](const std::string& path) {
-        return open_file(path, arguments, strengths, run);
+SharedSet shared_files(const Sources& from, const Analyzer& analyzer, const std::string& strengths,
+                       Ranks& ranks, const RunContext& run) {
+    const auto open = [&from, run, strengths](const std::string& path) {
+        return open_file(path, from, strengths, run);
     };
-    const SharedSet files = shared_in_files(arguments.inputs, open, ranks, run);
+    const SharedSet files = shared_in_files(from.inputs, open, ranks, run);
     Arrival points =
-        arrival_of(*open(arguments.inputs.front()), !strengths.empty(), analyzer, arguments, run);
+        arrival_of(*open(from.inputs.front()), !strengths.empty(), analyzer, from, run);
     points.count = files.points.count;
-    return {.points = points, .from = [=, &analyzer, &arguments](std::uint64_t first) {
-                return within_bounds(files.from(first), points, first, analyzer, arguments);
+    return {.points = points, .from = [=, &analyzer, &from](std::uint64_t first) {
+                return within_bounds(files.from(first), points, first, analyzer, from);
             }};
 }
 
@@ -397,66 +360,50 @@ std::uint64_t largest_seed(const Generator& generator, const Values& values) {
     return generator.max_seed ? generator.max_seed(values) : ~std::uint64_t{0};
 }
 
-std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session& session) {
-    const auto text = arguments.get("seed");
-    if (!text) return 1;
-    if (*text == "random") {
-        const std::uint64_t seed = drawn_seed(largest);
-        session.tell(fmt::format("--seed {}", seed));
-        return seed;
-    }
-    const auto seed = parse_unsigned(*text);
-    if (!seed)
-        fail(ErrorKind::usage, "--seed: '{}' is not a whole number in [0, 2^64) or 'random'",
-             *text);
-    return *seed;
+std::uint64_t seed_of(const Request& request, std::uint64_t largest, Session& session) {
+    const Seed given = request.seed.value_or(Seed());
+    if (!given.random) return given.value;
+    const std::uint64_t seed = drawn_seed(largest);
+    session.tell(fmt::format("--seed {}", seed));
+    return seed;
 }
 
-std::uint64_t seed_for(const Arguments& arguments, std::span<const std::string> specs,
-                       Session& session) {
+std::uint64_t seed_for_generators(const Sources& from, Session& session) {
     std::uint64_t largest = ~std::uint64_t{0};
-    for (const std::string& text : specs) {
+    for (const std::string& text : from.generate) {
         const Spec spec = parse_spec(text);
         const Generator& generator = find_generator(spec.name);
         largest = std::min(largest, largest_seed(generator, spec.values(generator.options)));
     }
-    return seed_of(arguments, largest, session);
+    return seed_of(from, largest, session);
 }
 
-SetsToMake sets_asked(const Generator& generator, Values options, const Arguments& arguments) {
-    SetsToMake asked{.generator = &generator, .options = std::move(options)};
-    asked.request.count = arguments.integer("count");
-    if (const auto d = arguments.integer("dimension")) asked.request.dimension = *d;
-    asked.request.start = arguments.integer("start").value_or(0);
-    asked.sets = arguments.integer("sets").value_or(1);
-    for (const auto& text : arguments.all("warp")) asked.warps.push_back(parse_spec(text));
-    if (const auto file = arguments.get("parameters")) {
-        const auto named = read_parameters(*file);
-        if (!asked.request.dimension) asked.request.dimension = named->dimension();
-        const Spec warp = parse_spec(named->spec());
-        asked.warps.push_back(arguments.has("unit-cube") ? in_unit_cube(warp) : warp);
-    } else {
-        arguments.refuse({"unit-cube"}, "is of --parameters, which is not given");
-    }
+SetsToMake sets_asked(const Generator& generator, Values options, const Sources& from) {
+    SetsToMake asked{
+        .generator = &generator,
+        .options = std::move(options),
+        .request = {.count = from.count, .dimension = from.dimension, .start = from.start},
+        .sets = from.sets,
+        .warps = from.warps};
+    if (!from.parameters) return asked;
+    if (!asked.request.dimension) asked.request.dimension = from.parameters->dimension();
+    const Spec warp = parse_spec(from.parameters->spec());
+    asked.warps.push_back(from.unit_cube ? in_unit_cube(warp) : warp);
     return asked;
 }
 
-GeneratedSets generated_sets(const std::string& spec, std::uint64_t seed,
-                             const Arguments& arguments, const RunContext& run) {
+GeneratedSets generated_sets(const std::string& spec, std::uint64_t seed, const Sources& from,
+                             const RunContext& run) {
     const Spec named = parse_spec(spec);
     const Generator& generator = find_generator(named.name);
-    SetsToMake asked = sets_asked(generator, named.values(generator.options), arguments);
+    SetsToMake asked = sets_asked(generator, named.values(generator.options), from);
     asked.request.seed = seed;
     return {std::move(asked), run};
 }
 
-void require_options_of_sources(const Arguments& arguments) {
-    if (!arguments.has("generate"))
-        arguments.refuse({"count", "seed", "sets", "warp", "start", "unit-cube"},
-                         "is of --generate, which names a generator");
-    else if (arguments.inputs.empty())
-        arguments.refuse({"bounds", "rescale", "domain", "column", "from", "dtype", "input-dtype"},
-                         "is of points from files, not of --generate");
+void read_parameter_file(Request& request, const RunContext& run) {
+    if (request.parameters_file)
+        request.parameters = read_parameters(*request.parameters_file, run);
 }
 
 }  // namespace stipple::cli

@@ -42,25 +42,19 @@
 namespace stipple::cli {
 namespace {
 
-enum class Medium { svg, pdf, png, text };
-
 constexpr std::size_t most_overlaid = 7;  ///< sets in one frame, one per colour
 constexpr std::size_t most_frames = 12;   ///< frames on one sheet
 
 /// Extra width of the last frame of a row, for the bar of colours.
 constexpr double room_of_bar = plot::colour_bar_room - plot::picture_margin / 2;
 
-Medium medium_of(const Arguments& arguments, const std::string& path) {
+Medium medium_of(std::optional<Medium> named, const std::string& path) {
     const bool terminal = is_terminal(path);
-    if (const auto named = arguments.get("format")) {
-        if ((*named == "png" || *named == "pdf") && terminal)
-            fail_with_hint(ErrorKind::usage, "name a file with -o, or pipe it on",
-                           "--format: {} is binary, and standard output is a terminal", *named);
-        return *named == "svg"   ? Medium::svg
-               : *named == "pdf" ? Medium::pdf
-               : *named == "png" ? Medium::png
-                                 : Medium::text;
-    }
+    if (terminal && (named == Medium::png || named == Medium::pdf))
+        fail_with_hint(ErrorKind::usage, "name a file with -o, or pipe it on",
+                       "--format: {} is binary, and standard output is a terminal",
+                       named == Medium::png ? "png" : "pdf");
+    if (named) return *named;
     if (path == "-") return terminal ? Medium::text : Medium::svg;
     if (path.ends_with(".png")) return Medium::png;
     if (path.ends_with(".pdf")) return Medium::pdf;
@@ -69,11 +63,6 @@ Medium medium_of(const Arguments& arguments, const std::string& path) {
     fail_with_hint(ErrorKind::usage, "or name the format with -f svg, pdf, png or text",
                    "--output: {} has no extension of a picture; expected .svg, .pdf, .png or .txt",
                    path);
-}
-
-std::optional<bool> scale_of(const Arguments& arguments, const char* name) {
-    const auto text = arguments.get(name);
-    return text ? std::optional(*text == "log") : std::nullopt;
 }
 
 /// A set of points with its source.
@@ -162,20 +151,19 @@ std::string number_of(const Loaded& set) {
 /// One `plot` call: the sets or reports read, and their picture.
 class Plot {
   public:
-    Plot(const Arguments& arguments, Session& session)
-        : arguments_(arguments),
+    Plot(const PlotRequest& request, Session& session)
+        : request_(request),
           session_(session),
-          path_(output_of(arguments)),
-          medium_(medium_of(arguments, path_)),
-          chart_(arguments.get("chart").value_or("")),
-          labels_(names_in_list("labels")),
-          axes_(names_in_list("axes")) {
+          path_(output_of(request)),
+          medium_(medium_of(request.format, path_)),
+          chart_(request.chart),
+          labels_(request.labels),
+          axes_(request.axes) {
         take_style();
     }
 
     int go() {
-        require_options_of_sources(arguments_);
-        for (const std::string& input : input_names(arguments_)) read(input);
+        for (const std::string& input : input_names(request_)) read(input);
         add_generated();
         if (!reports_.empty() + !sets_.empty() + !means_.empty() > 1)
             fail(ErrorKind::input,
@@ -191,24 +179,17 @@ class Plot {
     }
 
   private:
-    /// Names in an option's list, separated by commas.
-    [[nodiscard]] std::vector<std::string> names_in_list(const char* option) const {
-        const std::string text = arguments_.get(option).value_or("");
-        std::vector<std::string> names;
-        for (const auto name : split(text, ',')) names.emplace_back(trim(name));
-        return names;
-    }
-
     void take_style() {
-        style_.theme = arguments_.get("theme") == "dark" ? &plot::dark_theme : &plot::light_theme;
-        style_.title = arguments_.get("title");
-        style_.log_x = scale_of(arguments_, "x-scale");
-        style_.log_y = scale_of(arguments_, "y-scale");
+        style_.theme = request_.dark ? &plot::dark_theme : &plot::light_theme;
+        style_.title = request_.title;
+        style_.log_x = request_.log_x;
+        style_.log_y = request_.log_y;
         const bool letters = medium_ == Medium::text;
-        const std::uint64_t least = letters ? 20 : 120;
         const std::uint64_t most = letters ? 1000 : 20000;
-        const auto width = arguments_.integer("width", least, most);
-        const auto height = arguments_.integer("height", letters ? 8 : 90, most);
+        const auto& width = request_.width;
+        const auto& height = request_.height;
+        require_range("width", width, letters ? 20 : 120, most);
+        require_range("height", height, letters ? 8 : 90, most);
         if (letters) {
             const TerminalSize terminal = terminal_size();
             room_ = {.columns = terminal.columns,
@@ -232,10 +213,17 @@ class Plot {
         style_.height = high / style_.scale;
     }
 
+    /// @throws Error(usage) for a number outside [low, high]
+    static void require_range(const char* option, const std::optional<std::uint64_t>& value,
+                              std::uint64_t low, std::uint64_t high) {
+        if (value && (*value < low || *value > high))
+            fail(ErrorKind::usage, "--{}: {} is outside [{}, {}]", option, *value, low, high);
+    }
+
     void read(const std::string& input) {
         const RunContext& run = session_.run();
         const std::string bytes = io::read_bytes(input, run);
-        if (!arguments_.has("from"))
+        if (request_.from.empty())
             if (auto means = read_means(bytes, io::source_name(input), run)) {
                 std::error_code none;
                 if (input != "-" && std::filesystem::exists(journal_of(input), none))
@@ -243,17 +231,17 @@ class Plot {
                 add_study(*std::move(means), input);
                 return;
             }
-        if (!arguments_.has("from") && looks_like_reports(bytes)) {
+        if (request_.from.empty() && looks_like_reports(bytes)) {
             for (Measurement& m : read_reports(bytes, io::source_name(input)))
                 reports_.push_back(std::move(m));
             return;
         }
         auto sets = naming(
-            input, [&] { return read_input(bytes, input, arguments_, run); },
+            input, [&] { return read_input(bytes, input, request_, run); },
             "plot takes points, the JSON of 'stipple analyze', or the table of a study");
         for (std::size_t i = 0; i < sets.size(); ++i) {
             const std::size_t left_out = leave_out_gaps(sets[i], input, run);
-            sets[i] = placed(std::move(sets[i]), input, arguments_);
+            sets[i] = placed(std::move(sets[i]), input, request_);
             const std::string title = title_of_points(sets[i].provenance, input);
             sets_.push_back({std::move(sets[i]), input,
                              sets.size() > 1 ? std::optional(i) : std::nullopt,
@@ -262,11 +250,10 @@ class Plot {
     }
 
     void add_generated() {
-        const auto specs = arguments_.all("generate");
-        if (specs.empty()) return;
-        seed_ = seed_for(arguments_, specs, session_);
-        for (const std::string& spec : specs) {
-            const GeneratedSets sets = generated_sets(spec, seed_, arguments_, session_.run());
+        if (request_.generate.empty()) return;
+        seed_ = seed_for_generators(request_, session_);
+        for (const std::string& spec : request_.generate) {
+            const GeneratedSets sets = generated_sets(spec, seed_, request_, session_.run());
             const std::uint64_t count = sets.different_sets();
             for (std::uint64_t set = 0; set < count; ++set) {
                 PointSet points = sets.made(set, session_.run());
@@ -282,7 +269,7 @@ class Plot {
     /// the file's name.
     void add_study(std::vector<MeanRow> means, const std::string& input) {
         if (means.empty()) fail(ErrorKind::input, "{}: the study has no rows", input);
-        if (input_names(arguments_).size() > 1)
+        if (input_names(request_).size() > 1)
             for (MeanRow& row : means)
                 row.generator = fmt::format("{}: {}", io::source_name(input), row.generator);
         std::ranges::move(means, std::back_inserter(means_));
@@ -292,7 +279,8 @@ class Plot {
     void pick_set() {
         if (!means_.empty()) return;
         const std::size_t there = std::max(sets_.size(), reports_.size());
-        const auto wanted = arguments_.integer("set", 0, there - 1);
+        const auto& wanted = request_.set;
+        require_range("set", wanted, 0, there - 1);
         if (!wanted) return;
         const auto pick = [&wanted](auto& all) {
             auto one = std::move(all[*wanted]);
@@ -387,9 +375,8 @@ class Plot {
     // ---------------------------------------------------------------- pictures
 
     std::string picture_of_study() {
-        arguments_.refuse({"chart", "set"}, "is not for the table of a study");
-        const plot::StudyChart found =
-            plot::study_chart(means_, arguments_.get("key").value_or(""));
+        refuse_options(request_, "chart,set", "is not for the table of a study");
+        const plot::StudyChart found = plot::study_chart(means_, request_.key.value_or(""));
         if (!found.left_out.empty())
             session_.warn(fmt::format("{} results are drawn; --key picks one: {}",
                                       found.chart.panels.size(), join(found.left_out, "; ")));
@@ -402,15 +389,14 @@ class Plot {
         if (!chart_.empty())
             fail(ErrorKind::usage, "--chart: is for points; a report of {} is drawn as what it is",
                  reports_[0].analyzer);
-        plot::Chart chart = plot::chart_of(reports_, arguments_.get("key").value_or(""));
+        plot::Chart chart = plot::chart_of(reports_, request_.key.value_or(""));
         rename(chart);
         rename_axes(chart);
         return drawn(chart);
     }
 
     std::string picture_of_points() {
-        if (arguments_.has("key"))
-            fail(ErrorKind::usage, "--key: is for reports; these are points");
+        if (request_.key) fail(ErrorKind::usage, "--key: is for reports; these are points");
         if (chart_ == "radial" || chart_ == "pair-correlation") {
             plot::Chart chart =
                 plot::chart_of(analyzed(chart_ == "radial" ? "periodogram" : "pair-correlation"));
@@ -443,11 +429,10 @@ class Plot {
 
     /// Adds the overlays of --draw to the picture of one set.
     void add_overlays(plot::PointsPicture& picture, const Loaded& set) {
-        const auto text = arguments_.get("draw");
-        if (!text) return;
+        if (request_.draw.empty()) return;
         if (set.points.dimension() != 2 || picture.sets.size() > 1 || medium_ == Medium::text)
             fail(ErrorKind::usage, "--draw: is for one set of points of the plane in each frame");
-        for (const auto word : split(*text, ',')) {
+        for (const std::string& word : request_.draw) {
             if (word == "cells") {
                 picture.cells = true;
             } else if (word == "gap") {
@@ -547,7 +532,7 @@ class Plot {
     }
 
     std::string in_letters(std::size_t parts, const WritePart& write) const {
-        const std::string title = arguments_.get("title").value_or("");
+        const std::string title = request_.title.value_or("");
         std::vector<std::string> written;
         for (std::size_t i = 0; i < parts; ++i)
             written.push_back(write(i, plot::shared_room(room_, parts)));
@@ -613,7 +598,7 @@ class Plot {
     }
 
     std::string saved(const plot::SpectralTable& table) {
-        const std::string title = arguments_.get("title").value_or(sets_[0].title);
+        const std::string title = request_.title.value_or(sets_[0].title);
         if (table.dimension == 1) return drawn(plot::power_chart(table.values, title));
         refuse_scales("a table");
         const std::string plane = table.dimension == 3 ? "plane fz = 0" : "";
@@ -627,7 +612,7 @@ class Plot {
         const std::vector<Measurement> found = analyzed_tables();
         if (found.size() > 1) return sheet_of_tables(found);
         const std::string what = differences ? "Pair differences" : "Power spectrum";
-        const std::string title = arguments_.get("title").value_or(what + " of " + sets_[0].title);
+        const std::string title = request_.title.value_or(what + " of " + sets_[0].title);
         return drawn_table(grid_of(found[0]), title, subtitle_of(sets_[0]) + number_of(sets_[0]),
                            names_of(found[0]));
     }
@@ -687,7 +672,7 @@ class Plot {
 
     /// Draws each set in a frame, all with the same colours and a bar at the end of each row.
     std::string local_discrepancies() {
-        arguments_.refuse({"overlay", "draw"}, "is not for the local discrepancy");
+        refuse_options(request_, "overlay,draw", "is not for the local discrepancy");
         refuse_scales("a local discrepancy");
         keep_few_sets(most_frames);
         std::vector<plot::WorstBoxes> worst;
@@ -700,7 +685,7 @@ class Plot {
         const bool single = sets_.size() == 1;
         const auto title_of = [&](std::size_t i) {
             if (!single) return sets_[i].title + number_of(sets_[i]);
-            return arguments_.get("title").value_or("Local discrepancy of " + sets_[i].title);
+            return request_.title.value_or("Local discrepancy of " + sets_[i].title);
         };
         const auto write = [&](std::size_t i, const plot::TextRoom& room) {
             return plot::local_discrepancy_as_text(sets_[i].points, worst[i], title_of(i), largest,
@@ -779,7 +764,7 @@ class Plot {
     /// Whether each set of points has a frame of its own.
     [[nodiscard]] bool has_frames() const {
         return sets_.size() > 1 && chart_ != "histogram" && chart_ != "distances" &&
-               !arguments_.has("overlay") && std::ranges::any_of(sets_, [](const Loaded& set) {
+               !request_.overlay && std::ranges::any_of(sets_, [](const Loaded& set) {
                    return set.points.dimension() > 1;
                });
     }
@@ -812,8 +797,8 @@ class Plot {
         if (chart_ == "points") picture.marking = plot::Marking::disks;
         if (chart_ == "density") picture.marking = plot::Marking::density;
         picture.pairs = chart_ == "pairs";
-        picture.title = arguments_.get("title").value_or(sets_[0].title);
-        if (sets_.size() > 1 && different_titles() && !arguments_.has("title"))
+        picture.title = request_.title.value_or(sets_[0].title);
+        if (sets_.size() > 1 && different_titles() && !request_.title)
             picture.title = join(picture.names, ", ");
         picture.subtitle = subtitle_of(sets_[0]) + number_of(sets_[0]);
         if (sets_.size() > 1) picture.subtitle.clear();
@@ -839,8 +824,8 @@ class Plot {
     // ---------------------------------------------------------------- provenance
 
     [[nodiscard]] std::string command() const {
-        std::string text = "stipple plot" + command_text(arguments_, {"seed"});
-        if (arguments_.has("seed")) text += typed_option("seed", std::to_string(seed_), false);
+        std::string text = "stipple plot" + command_text(request_, {"seed"});
+        if (request_.seed) text += typed_option("seed", std::to_string(seed_), false);
         return text;
     }
 
@@ -853,13 +838,13 @@ class Plot {
                 {"stipple", json_text(note)}};
     }
 
-    const Arguments& arguments_;
+    const PlotRequest& request_;
     Session& session_;
     std::string path_;
     Medium medium_;
-    std::string chart_;
-    std::vector<std::string> labels_;
-    std::vector<std::string> axes_;
+    const std::string& chart_;
+    const Names& labels_;
+    const Names& axes_;
     plot::PictureStyle style_;
     plot::TextRoom room_;
     std::vector<Loaded> sets_;
@@ -870,6 +855,6 @@ class Plot {
 
 }  // namespace
 
-int plot(const Arguments& arguments, Session& session) { return Plot(arguments, session).go(); }
+int PlotRequest::perform(Session& session) const { return Plot(*this, session).go(); }
 
 }  // namespace stipple::cli

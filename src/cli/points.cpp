@@ -21,52 +21,27 @@
 namespace stipple::cli {
 namespace {
 
-Shard parse_shard(const Arguments& arguments) {
-    const auto text = arguments.get("shard");
-    if (!text) return {};
-    const auto parts = split(*text, '/');
-    const auto index = parts.size() == 2 ? parse_unsigned(parts[0]) : std::nullopt;
-    const auto of = parts.size() == 2 ? parse_unsigned(parts[1]) : std::nullopt;
-    if (!index || !of || *index >= *of)
-        fail(ErrorKind::usage, "--shard: '{}' is not I/K with 0 <= I < K", *text);
-    return {*index, *of};
-}
-
-/// The box of --bounds, from one range per coordinate or a single one for all. The box may
-/// determine the dimension; options are checked against it.
-Box bounds_of(const std::string& text, const SetsToMake& job) {
-    const auto ranges = static_cast<std::size_t>(1 + std::ranges::count(text, ','));
-    Request request = job.request;
-    if (!job.warps.empty()) {  // bounds of the coordinates that the warps leave, or of all
-        const std::size_t d = plan_for(*job.generator, request, job.options).dimension;
-        const std::size_t kept = WarpChain(job.warps, d).kept().size();
-        return parse_box(text, ranges == d ? d : std::max<std::size_t>(kept, 1));
-    }
-    request.bounds = parse_box(text, request.dimension.value_or(std::max<std::size_t>(ranges, 2)));
-    return parse_box(text, plan_for(*job.generator, request, job.options).dimension);
-}
-
 /// Command that reproduces these bytes, without options that do not affect them.
-std::string command_of(const Arguments& arguments, const SetsToMake& job, const Target& target) {
+std::string command_of(const GenerateRequest& request, const SetsToMake& job,
+                       const Target& target) {
     const Generator& generator = *job.generator;
     const auto& options = generator.options.options();
-    std::string text = "stipple generate " + arguments.unit;
-    for (const auto& [name, value] : arguments.settings) {
+    std::string text = "stipple generate " + request.unit;
+    for (const auto& [name, value] : request.settings) {
         if (std::ranges::find(generator.writes, name) != generator.writes.end()) continue;
         const bool flag = std::ranges::find(options, name, &Option::name)->type == "flag";
         if (!flag || std::get<bool>(job.options.find(name).value))
             text += typed_option(name, value, flag);
     }
-    text += command_text(arguments, {"format", "seed"});
-    if (arguments.has("seed"))
-        text += typed_option("seed", std::to_string(job.request.seed), false);
+    text += command_text(request, {"format", "seed"});
+    if (request.seed) text += typed_option("seed", std::to_string(job.request.seed), false);
     if (target.format->name != "csv") text += typed_option("format", target.format->name, false);
     return text;
 }
 
 /// Files for --vector-output with the lattice in the provenance, using the results of its search if
 /// there was one.
-std::vector<SideFile> vector_files(const Provenance& meta, const Arguments& arguments,
+std::vector<SideFile> vector_files(const Provenance& meta, const ConvertRequest& request,
                                    const RunContext& run) {
     const Generator* generator = generator_named(meta.generator);
     if (!generator ||
@@ -85,8 +60,8 @@ std::vector<SideFile> vector_files(const Provenance& meta, const Arguments& argu
         if (std::ranges::find(usual, option) == usual.end() && option.first != "vector-output" &&
             option.first != "vector-format")
             set(option.first, option.second);
-    for (const char* name : {"vector-output", "vector-format"})
-        if (const auto text = arguments.get(name)) set(name, *text);
+    set("vector-output", *request.vector_output);
+    if (request.vector_format) set("vector-format", *request.vector_format);
     const GeneratedSets sets(std::move(asked), run);
     sets.prepare(run);
     return sets.side_files();
@@ -122,8 +97,8 @@ std::vector<std::size_t> coordinates_by_name(const Spec& spec,
 
 }  // namespace
 
-std::string output_of(const Arguments& arguments) {
-    std::string path = arguments.get("output").value_or("-");
+std::string output_of(const Request& request) {
+    std::string path = request.output.value_or("-");
     if (file_per_set(path))
         fail(ErrorKind::usage, "--output: one file is written for all sets; '{}' names several",
              path);
@@ -138,6 +113,16 @@ std::string typed_option(const std::string& name, const std::string& value, bool
     return flag ? fmt::format(" --{}", name) : fmt::format(" --{} {}", name, shell_word(value));
 }
 
+namespace {
+
+std::string typed_common(const Arguments& arguments, const std::string& name,
+                         const std::string& value) {
+    const Option& option = find_common("--" + name, *arguments.verb)->option;
+    return typed_option(name, value, option.type == "flag");
+}
+
+}  // namespace
+
 std::string command_text(const Arguments& arguments,
                          std::initializer_list<std::string_view> left_out) {
     constexpr std::array<std::string_view, 5> silent = {"output", "threads", "quiet", "progress",
@@ -147,8 +132,7 @@ std::string command_text(const Arguments& arguments,
     for (const auto& [name, value] : arguments.common)
         if (std::ranges::find(silent, name) == silent.end() &&
             std::ranges::find(left_out, name) == left_out.end())
-            text += typed_option(name, value,
-                                 find_common("--" + name, *arguments.verb)->option.type == "flag");
+            text += typed_common(arguments, name, value);
     return text;
 }
 
@@ -161,19 +145,25 @@ std::string shell_word(const std::string& word) {
     return "'" + quoted + "'";
 }
 
-Target target_of(const Arguments& arguments) {
-    Target target;
-    target.path = arguments.get("output").value_or("-");
-    if (const auto name = arguments.get("format")) target.format = &io::format_named(*name);
+std::string typed_options(const Arguments& arguments,
+                          std::initializer_list<std::string_view> names) {
+    std::string text;
+    for (const auto wanted : names)
+        for (const auto& [name, value] : arguments.common)
+            if (name == wanted) text += typed_common(arguments, name, value);
+    return text;
+}
+
+Target target_of(const Writing& request) {
+    Target target{.path = request.output.value_or("-"), .format = request.format};
     target.format = &format_of(target);
-    target.header = !arguments.has("no-header");
-    target.meta = arguments.has("meta");
-    auto type = arguments.get("output-dtype");
-    if (!type) type = arguments.get("dtype");
-    target.single = type ? *type == "f32" : io::extension_is_single(target.path);
-    if (const auto digits = arguments.integer("precision"))
-        target.precision = static_cast<int>(*digits);
-    target.columns = {.pdf = arguments.has("with-pdf"), .weight = arguments.has("with-weight")};
+    target.header = !request.no_header;
+    target.meta = request.meta;
+    target.single = request.dtype_out ? *request.dtype_out
+                    : request.dtype   ? *request.dtype
+                                      : io::extension_is_single(target.path);
+    target.precision = request.precision;
+    target.columns = {.pdf = request.with_pdf, .weight = request.with_weight};
     if (target.format->traits.binary && is_terminal(target.path))
         fail_with_hint(ErrorKind::usage, "name a file with -o, or pipe it on",
                        "--format: {} is binary, and standard output is a terminal",
@@ -181,92 +171,88 @@ Target target_of(const Arguments& arguments) {
     return target;
 }
 
-Values settings_of(const Schema& schema, const Arguments& arguments) {
-    Values values = schema.defaults();
-    for (const auto& [name, text] : arguments.settings) schema.set(values, name, text);
-    return values;
-}
-
-SetsToMake sets_to_make(const Arguments& arguments, Session& session) {
-    const Generator& generator = find_generator(arguments.unit);
-    SetsToMake job = sets_asked(generator, settings_of(generator.options, arguments), arguments);
-    job.request.seed = seed_of(arguments, largest_seed(generator, job.options), session);
-    job.shard = parse_shard(arguments);
-    if (const auto bounds = arguments.get("bounds")) job.request.bounds = bounds_of(*bounds, job);
+SetsToMake sets_to_make(const GenerateRequest& request, Session& session) {
+    const Generator& generator = find_generator(request.unit);
+    SetsToMake job = sets_asked(generator, settings_of(generator.options, request), request);
+    job.request.seed = seed_of(request, largest_seed(generator, job.options), session);
+    job.shard = request.shard;
+    if (request.bounds) job.request.bounds = bounds_for(job, *request.bounds);
     return job;
 }
 
-int generate(const Arguments& arguments, Session& session) {
-    SetsToMake job = sets_to_make(arguments, session);
-    const Target target = target_of(arguments);
-    job.command = command_of(arguments, job, target);
+int GenerateRequest::perform(Session& session) const {
+    SetsToMake job = sets_to_make(*this, session);
+    const Target target = target_of(*this);
+    job.command = command_of(*this, job, target);
     produce(job, target, session.run());
     return 0;
 }
 
-int warp(const Arguments& arguments, Session& session) {
-    const Scramble* scrambled = scramble_named(arguments.unit);
-    settings_of(scrambled ? scrambled->options : find_warp(arguments.unit).options, arguments);
-    Spec spec{.name = arguments.unit, .coordinates = {}, .settings = arguments.settings};
-    if (const auto file = arguments.get("parameters")) {
-        const Spec named = parse_spec(read_parameters(*file, session.run())->spec());
+namespace {
+
+/// The warp or scramble of the request, with its parameters. @throws Error(usage)
+Spec spec_of(const WarpRequest& request, const Scramble* scrambled) {
+    settings_of(scrambled ? scrambled->options : find_warp(request.unit).options, request);
+    Spec spec{.name = request.unit, .coordinates = {}, .settings = request.settings};
+    if (request.parameters) {
+        const Spec named = parse_spec(request.parameters->spec());
         if (spec.name != named.name)
             fail(ErrorKind::usage, "--parameters: is of the warp {}", named.name);
         spec.settings.insert(spec.settings.end(), named.settings.begin(), named.settings.end());
     }
-    if (const auto coordinates = arguments.get("coordinates"))
-        spec.coordinates = parse_spec(spec.name + "@" + *coordinates).coordinates;
-    if (!scrambled)
-        arguments.refuse({"seed", "sets"}, spec.name + " is a warp, which is not random");
-    const Target target = target_of(arguments);
-    const std::string path = only_input(arguments);
+    if (request.coordinates)
+        spec.coordinates = parse_spec(spec.name + "@" + *request.coordinates).coordinates;
+    if (scrambled)
+        refuse_options(request, "inverse,density-at,with-pdf,with-weight",
+                       spec.name + " is a scramble, random and of density 1");
+    else
+        refuse_options(request, "seed,sets", spec.name + " is a warp, which is not random");
+    return spec;
+}
+
+}  // namespace
+
+int WarpRequest::perform(Session& session) const {
     const RunContext& run = session.run();
+    const Scramble* scrambled = scramble_named(unit);
+    Spec spec = spec_of(*this, scrambled);
+    const Target target = target_of(*this);
+    const std::string path = only_input(*this);
     if (scrambled) {
-        const auto sets = read_input(path, arguments, run);
-        arguments.refuse({"inverse", "density-at", "with-pdf", "with-weight"},
-                         spec.name + " is a scramble, random and of density 1");
-        const std::uint64_t seed = seed_of(arguments, ~std::uint64_t{0}, session);
-        const auto replications = arguments.integer("sets").value_or(1);
-        write_scrambled(sets, spec, seed, replications, target, run);
+        write_scrambled(read_input(path, *this, run), spec,
+                        seed_of(*this, ~std::uint64_t{0}, session), sets, target, run);
         return 0;
     }
-    const auto stream = open_input(path, arguments, run);
-    const bool inverse = arguments.has("inverse");
-    const bool at_points = arguments.has("density-at");
-    if (at_points)
-        arguments.refuse({"inverse", "with-pdf", "with-weight"},
-                         "--density-at leaves the points where they are");
-    if (const auto& columns = stream->provenance().columns;
-        spec.coordinates.empty() && !columns.empty())
+    const auto stream = open_input(path, *this, run);
+    if (const auto& names = stream->provenance().columns;
+        spec.coordinates.empty() && !names.empty())
         spec.coordinates = naming(
-            path, [&] { return coordinates_by_name(spec, columns, inverse || at_points, run); });
-    const bool densities = !stream->provenance().density_column.empty();
+            path, [&] { return coordinates_by_name(spec, names, inverse || density_at, run); });
     const bool whole =
-        densities || (!inverse && !at_points && takes_whole_sets(spec, stream->dimension(), run));
+        !stream->provenance().density_column.empty() ||
+        (!inverse && !density_at && takes_whole_sets(spec, stream->dimension(), run));
     Unwarped points;
     if (whole || !can_stream(*stream, target))
-        points.sets = read_all(*stream, arguments, run);
+        points.sets = read_all(*stream, *this, run);
     else
         points = {.stream = stream.get(),
-                  .on = input_domain(stream->provenance(), stream->dimension(), arguments, run)};
-    if (at_points)
+                  .on = input_domain(stream->provenance(), stream->dimension(), *this, run)};
+    if (density_at)
         write_density_at(points, spec, target, run);
     else
         write_warped(std::move(points), spec, inverse, target, run);
     return 0;
 }
 
-int convert(const Arguments& arguments, Session& session) {
-    const std::string path = only_input(arguments, "--concat takes several as one set");
-    const Target target = target_of(arguments);
-    auto sets = read_input(path, arguments, session.run());
-    if (arguments.has("vector-output"))
+int ConvertRequest::perform(Session& session) const {
+    const std::string path = only_input(*this, "--concat takes several as one set");
+    const Target target = target_of(*this);
+    auto points = read_input(path, *this, session.run());
+    if (vector_output)
         naming(path, [&] {
-            sets[0].side_files = vector_files(sets[0].provenance, arguments, session.run());
+            points[0].side_files = vector_files(points[0].provenance, *this, session.run());
         });
-    else
-        arguments.refuse({"vector-format"}, "is of --vector-output, which is not given");
-    write_sets(sets, target, session.run());
+    write_sets(points, target, session.run());
     return 0;
 }
 

@@ -86,20 +86,18 @@ Check opposite_of(const Check& check) {
 
 class Reporter {
   public:
-    Reporter(const Arguments& arguments, Session& session)
-        : arguments_(arguments),
+    Reporter(const ReportRequest& request, Session& session)
+        : request_(request),
           session_(session),
-          path_(output_of(arguments)),
-          json_(arguments.get("format").value_or(
-                    io::extension_of(path_) == ".json" ? "json" : "html") == "json") {
+          path_(output_of(request)),
+          json_(request.json.value_or(io::extension_of(path_) == ".json")) {
         if (!json_ && is_terminal(path_))
             fail_with_hint(ErrorKind::usage, "name a file with -o, or pipe it on",
                            "a page is not for terminals");
-        if (const auto work = arguments.integer("max-work"))
-            work_ = static_cast<std::int64_t>(*work);
-        for (const auto& text : arguments.all("check"))
+        if (request.max_work) work_ = static_cast<std::int64_t>(*request.max_work);
+        for (const auto& text : request.checks)
             conditions_.push_back(condition_of(text, "--check"));
-        for (const auto& text : arguments.all("fail-on")) {
+        for (const auto& text : request.fail_on) {
             const Check check = opposite_of(condition_of(text, "--fail-on"));
             session.warn(fmt::format("--fail-on {} is, in the form of all verbs, --check {}", text,
                                      shell_word(check.key + check.op + check.value)));
@@ -108,10 +106,9 @@ class Reporter {
     }
 
     int go() {
-        require_options_of_sources(arguments_);
         keep_inputs();
         static const std::vector<std::string> known = {".html", ".htm", ".json"};
-        if (!arguments_.has("format"))
+        if (!request_.json)
             io::require_extension(path_, known, "--format names what is written under any name");
         io::Output output(path_, session_.run().stop);
         load();
@@ -134,31 +131,30 @@ class Reporter {
     /// Ensures that the page does not overwrite its input.
     void keep_inputs() const {
         std::error_code none;
-        for (const std::string& input : arguments_.inputs)
+        for (const std::string& input : request_.inputs)
             if (std::filesystem::is_regular_file(path_, none) &&
                 std::filesystem::equivalent(path_, input, none))
                 fail(ErrorKind::usage, "--output: {} is an input, which it would overwrite", path_);
     }
 
     void load() {
-        for (const std::string& input : input_names(arguments_)) add_file(input);
-        const auto specs = arguments_.all("generate");
-        if (!specs.empty()) seed_ = seed_for(arguments_, specs, session_);
-        for (const std::string& spec : specs) add_generated(spec);
+        for (const std::string& input : input_names(request_)) add_file(input);
+        if (!request_.generate.empty()) seed_ = seed_for_generators(request_, session_);
+        for (const std::string& spec : request_.generate) add_generated(spec);
     }
 
     void add_file(const std::string& input) {
-        auto sets = read_input(input, arguments_, session_.run());
+        auto sets = read_input(input, request_, session_.run());
         for (std::size_t i = 0; i < sets.size(); ++i) {
             PendingSet next;
             next.set.left_out = leave_out_gaps(sets[i], input, session_.run());
-            sets[i] = placed(std::move(sets[i]), input, arguments_);
+            sets[i] = placed(std::move(sets[i]), input, request_);
             next.set.source = input;
             next.set.provenance = sets[i].provenance;
             next.set.command = sets[i].provenance.command;
             // No command can reproduce a set with rows left out.
             if (next.set.left_out == 0) next.input.words = words_of_file(input);
-            next.input.bounds = !arguments_.has("domain");
+            next.input.bounds = !request_.domain;
             if (sets.size() > 1) {
                 next.set.number = i;
                 next.input.remark = fmt::format("  # result {} of the array", i);
@@ -170,17 +166,14 @@ class Reporter {
 
     /// The file as an argument of 'stipple analyze'.
     [[nodiscard]] std::string words_of_file(const std::string& input) const {
-        std::string words = shell_word(input);
-        for (const char* name :
-             {"from", "dimension", "column", "input-dtype", "dtype", "domain", "parameters"})
-            if (const auto text = arguments_.get(name)) words += typed_option(name, *text, false);
-        if (arguments_.has("rescale")) words += " --rescale";
-        return words;
+        return shell_word(input) +
+               typed_options(request_, {"from", "dimension", "column", "input-dtype", "dtype",
+                                        "domain", "parameters", "rescale"});
     }
 
     void add_generated(const std::string& text) {
         const auto sets = std::make_shared<const GeneratedSets>(
-            generated_sets(text, seed_, arguments_, session_.run()));
+            generated_sets(text, seed_, request_, session_.run()));
         PendingSet next;
         next.points = sets->made(0, session_.run());
         if (sets->sets() > 1) next.others = sets;
@@ -194,12 +187,9 @@ class Reporter {
 
     /// Options shared by all generated sets, as typed for the first set of each generator.
     [[nodiscard]] std::string of_generated() const {
-        std::string words;
-        for (const char* name : {"count", "dimension", "start", "warp", "parameters"})
-            for (const auto& text : arguments_.all(name)) words += typed_option(name, text, false);
-        if (arguments_.has("unit-cube")) words += " --unit-cube";
-        if (arguments_.has("seed")) words += fmt::format(" --seed {}", seed_);
-        return words;
+        return typed_options(request_,
+                             {"count", "dimension", "start", "warp", "parameters", "unit-cube"}) +
+               (request_.seed ? fmt::format(" --seed {}", seed_) : "");
     }
 
     /// @throws Error if the sets cannot be on one page
@@ -278,7 +268,7 @@ class Reporter {
 
     /// Warns if nothing could be measured of a set of the inputs, which is usually a mistake.
     void warn_of_nothing(const page::Set& set) const {
-        const auto inputs = input_names(arguments_);
+        const auto inputs = input_names(request_);
         if (std::ranges::find(inputs, set.source) == inputs.end() ||
             page::is_experiment(set.domain) ||  // its page explains why each measure is missing
             std::ranges::any_of(set.measures, [](const auto& m) { return m.results.has_value(); }))
@@ -348,12 +338,12 @@ class Reporter {
     /// Command that makes this page, without options that do not affect it.
     [[nodiscard]] std::string command() const {
         std::string text =
-            "stipple report" + command_text(arguments_, {"format", "check", "fail-on", "seed"});
-        if (arguments_.has("seed")) text += fmt::format(" --seed {}", seed_);
+            "stipple report" + command_text(request_, {"format", "check", "fail-on", "seed"});
+        if (request_.seed) text += fmt::format(" --seed {}", seed_);
         return text + (json_ ? " --json" : " -o report.html");
     }
 
-    const Arguments& arguments_;
+    const ReportRequest& request_;
     Session& session_;
     std::string path_;
     bool json_;
@@ -365,8 +355,6 @@ class Reporter {
 
 }  // namespace
 
-int report(const Arguments& arguments, Session& session) {
-    return Reporter(arguments, session).go();
-}
+int ReportRequest::perform(Session& session) const { return Reporter(*this, session).go(); }
 
 }  // namespace stipple::cli

@@ -10,24 +10,176 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 
-#include "cli/original.hpp"
 #include "cli/verbs.hpp"
 #include "core/bytes/file_bytes.hpp"
 #include "core/bytes/fingerprint.hpp"
+#include "core/bytes/spool.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "core/text.hpp"
 #include "io/carried_meta.hpp"
 #include "io/files.hpp"
+#include "io/point_stream.hpp"
+#include "io/provenance.hpp"
 #include "io/source_text.hpp"
 #include "media/png_picture.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/reproduction.hpp"
+#include "study/study_table.hpp"
 
 namespace stipple::cli {
 namespace {
+
+// ---------------------------------------------------------------- the file
+
+/// A file with known provenance.
+struct Original {
+    std::string name;                   ///< name for messages
+    std::string path;                   ///< path that can be opened repeatedly
+    std::shared_ptr<Spool> spool = {};  ///< owns the copy of a pipe
+    Provenance meta = {};
+    const Format* format = nullptr;         ///< if not determined by the file's name and bytes
+    std::optional<std::size_t> width = {};  ///< numbers per point, if not determined by the bytes
+    std::size_t sets = 0;                   ///< sets in the file; 0: determined by the bytes
+    std::string picture = {};  ///< option of the generator that wrote it, if it is a picture
+    bool drawn = false;        ///< SVG or PLY, which cannot be read back
+    std::string plotted = {};  ///< command that drew it, if it is a picture of points
+};
+
+[[noreturn]] void refuse_without_provenance(const Original& original) {
+    fail_with_hint(ErrorKind::input,
+                   "json and jsonl always hold it; generate --meta puts it into other formats",
+                   "{}: it does not say how its points were made", original.name);
+}
+
+/// Whether a file begins like a table of a study, its summary or its comparison.
+bool is_study(std::string_view front) {
+    const auto line = front.substr(0, front.find('\n'));
+    for (const TableStyle style : {TableStyle::csv, TableStyle::jsonl})
+        if (StudyTable(style, true).is_head(line)) return true;
+    return line.starts_with("table,generator,") || line.starts_with("table,dimension,");
+}
+
+/// @throws Error(input) for stipple's files without points, such as reports, with a hint about what
+/// can be made again from them
+/// @param front first bytes of the file, at least a few hundred if it has so many
+void refuse_without_points(const std::string& name, std::string_view front) {
+    const auto top = front.substr(0, 1000);
+    const auto has = [top](std::string_view words) {
+        return top.find(words) != std::string_view::npos;
+    };
+    const auto is = [&](const char* format) {
+        return (top.starts_with('[') || top.starts_with('{')) && has(fmt::format("\"{}\"", format));
+    };
+    struct Other {
+        bool is;
+        const char* what;
+        const char* hint;
+    };
+    const Other others[] = {
+        {is("stipple.report") || top.starts_with("analyzer,source,"),
+         "it holds results of analyze, and names the points that they are of, but not how these "
+         "were made",
+         "reproduce takes files of points"},
+        {is("stipple.comparison") || has("name=\"generator\" content=\"stipple"),
+         "a report about points, which it does not hold",
+         "it names the command that makes it again, and those that make its points"},
+        {is("stipple.study-journal"), "the journal of a study that is not finished, without points",
+         "the same 'stipple study' with --resume goes on"},
+        {is_study(front), "a table of a study, without points",
+         "'stipple generate' with a row's generator, its options, count, dimension, warps and "
+         "seed makes the points of that row again"},
+        {is("stipple.meta"), "it says how the points in the file beside it were made",
+         "reproduce takes the file of points"},
+        {has("<!DOCTYPE html") || has("<html"), "an HTML page, which holds no points", ""}};
+    for (const auto& [is_it, what, hint] : others)
+        if (is_it) fail_with_hint(ErrorKind::input, hint, "{}: {}", name, what);
+}
+
+/// A pipe's bytes in a temporary file.
+std::shared_ptr<Spool> spooled(const std::string& pipe, const RunContext& run) {
+    auto spool = std::make_shared<Spool>();
+    spool->write(io::read_bytes(pipe, run));
+    spool->rewind();
+    return spool;
+}
+
+/// Reads the provenance from a picture by `stipple plot`; false if it is not one.
+bool take_plot(Original& original, std::string_view picture) {
+    const Json note = try_parse_json(io::picture_note(picture).value_or(""));
+    if (!note.is_object() || note.contains("format") || !note.contains("command")) return false;
+    original.plotted = note["command"].get<std::string>();
+    if (!note.contains("meta"))
+        fail(ErrorKind::input, "{}: a picture drawn by '{}', of no single set with provenance",
+             original.name, original.plotted);
+    original.meta = io::provenance_from(note["meta"]);
+    return true;
+}
+
+/// Reads the provenance of files that are not read as points; false if it is not such a file.
+bool take_carried(Original& original, std::string_view front, const RunContext& run) {
+    std::optional<io::CarriedMeta> carried;
+    const std::string beside = io::meta_path(original.path);
+    const bool picture = front.starts_with(png_magic);
+    const bool svg = front.starts_with("<svg") || front.starts_with("<?xml");
+    original.drawn = front.starts_with("ply\n") || svg;
+    if (picture || original.drawn) {
+        const std::string whole = io::read_bytes(original.path, run);
+        if (take_plot(original, whole)) return true;
+        carried = io::find_carried_meta(whole, original.name);
+        if (!carried) refuse_without_provenance(original);
+    } else if (exists(status_of(beside))) {
+        carried = io::carried_meta(io::read_bytes(beside, run), beside);
+        original.format = &io::format_named(carried->of);
+        if (carried->width > 0) original.width = carried->width;
+        original.sets = carried->sets;
+    }
+    if (!carried) return false;
+    original.meta = carried->provenance;
+    if (picture) original.picture = carried->of;
+    if (original.drawn) original.format = &io::format_named(carried->of);
+    return true;
+}
+
+/// Opens its points, read by one thread: the others make the points again.
+/// @param options columns to read
+std::unique_ptr<io::PointStream> open_original(const Original& original, ReadOptions options,
+                                               const RunContext& run) {
+    RunContext reading = run;
+    reading.threads = 1;
+    options.source = original.name;
+    options.any_count = true;  // differences in the count are reported by the comparison
+    options.single = original.meta.single;
+    if (original.width) options.dimension = original.width;
+    return io::open_points(original.path, options, reading, original.format);
+}
+
+/// @throws Error(input) for a file without points or without a record of how they were made; the
+/// message names its type and what can be made again from it
+Original read_original(const std::string& input, const RunContext& run) {
+    const auto status = status_of(input);
+    const bool pipe =
+        input == "-" || (exists(status) && !is_regular_file(status) && !is_directory(status));
+    Original original{.name = io::source_name(input), .path = input};
+    if (pipe) {
+        original.spool = spooled(input, run);
+        original.path = original.spool->path();
+    }
+    const io::Feed feed(original.path, run);
+    refuse_without_points(original.name, feed.front());
+    const bool carried = take_carried(original, feed.front(), run);
+    if (!carried && io::format_of_extension(original.path) == &io::format_named("bin"))
+        refuse_without_provenance(original);  // the format cannot store one
+    if (!carried) original.meta = open_original(original, {}, run)->provenance();
+    if (original.meta.generator.empty()) refuse_without_provenance(original);
+    return original;
+}
+
+// ---------------------------------------------------------------- the recipe
 
 /// Splits a command into words like a shell: at blanks, except inside 'quotes'; \' is a quote.
 std::vector<std::string> shell_words(std::string_view command) {
@@ -73,7 +225,8 @@ Arguments arguments_of(const Provenance& meta, const std::string& name) {
 /// Replaces --parameters by the warp in the provenance, which has the contents of that file.
 void take_parameters(Arguments& typed, const Provenance& meta) {
     if (!typed.has("parameters")) return;
-    const std::size_t before = typed.all("warp").size();
+    const auto before = static_cast<std::size_t>(std::ranges::count_if(
+        typed.common, [](const auto& option) { return option.first == "warp"; }));
     if (meta.warps.size() <= before)
         fail(ErrorKind::usage, "its command names parameters, which its warps do not hold");
     std::erase_if(typed.common, [](const auto& option) {
@@ -98,7 +251,7 @@ Arguments typed_for(const Original& original) {
 
 /// Everything needed to make the file again.
 struct Recipe {
-    Arguments typed;
+    GenerateRequest request;
     SetsToMake job;
     std::vector<std::string> steps;  ///< warps of later runs
 };
@@ -122,15 +275,16 @@ Recipe recipe_of(const Original& original, Session& session) {
     const Generator& generator = find_generator(meta.generator);
     Recipe recipe;
     if (!meta.flaw.empty()) fail(ErrorKind::usage, "{}", meta.flaw);
-    recipe.typed = typed_for(original);
+    Arguments typed = typed_for(original);
     // The options in the provenance are checked as on a command line.
     Values known = generator.options.defaults();
     for (const auto& [name, text] : meta.options) generator.options.set(known, name, text);
     // Options that only write side files do not affect the points.
-    std::erase_if(recipe.typed.settings, [&](const auto& setting) {
+    std::erase_if(typed.settings, [&](const auto& setting) {
         return std::ranges::find(generator.writes, setting.first) != generator.writes.end();
     });
-    recipe.job = sets_to_make(recipe.typed, session);
+    recipe.request = request_as<GenerateRequest>(typed);
+    recipe.job = sets_to_make(recipe.request, session);
     SetsToMake& job = recipe.job;
     if (job.generator->name != generator.name)
         fail(ErrorKind::usage, "its command makes points by {}, its generator is {}",
@@ -185,11 +339,11 @@ std::string changed_rules(const Provenance& meta) {
 
 /// Files that the recipe may read: only those named on the command line. Inputs are identified by
 /// their fingerprints, so they may have been renamed.
-std::unique_ptr<FileRules> rules_for(const Original& original, const Arguments& arguments,
+std::unique_ptr<FileRules> rules_for(const Original& original, const ReproduceRequest& request,
                                      const RunContext& run) {
     std::map<std::string, std::string> readable = {{original.path, original.path}};
     std::map<std::string, std::string> by_fingerprint;
-    for (const std::string& file : arguments.all("input")) {
+    for (const std::string& file : request.files) {
         readable.emplace(file, file);
         by_fingerprint.emplace(format_fingerprint(file_fingerprint(file, run)), file);
     }
@@ -209,10 +363,12 @@ std::unique_ptr<FileRules> rules_for(const Original& original, const Arguments& 
                            "{}: its points were made from {}, which is not read for that alone",
                            original.name, shown(file));
     }
-    const std::string output = arguments.get("output").value_or("-");
+    const std::string output = request.output.value_or("-");
     return std::make_unique<FileRules>(std::move(readable),
                                        std::vector{output, io::meta_path(output)});
 }
+
+// ---------------------------------------------------------------- the verdict
 
 /// Result, for people and for programs.
 struct Verdict {
@@ -248,12 +404,12 @@ class Reproducer {
 
     /// Writes the points to a file.
     void write(const std::string& path) {
-        Arguments typed = recipe_.typed;
+        Arguments typed = recipe_.request;
         typed.common.emplace_back("output", path);
         if (io::format_of_extension(path) != nullptr)
             std::erase_if(typed.common, [](const auto& c) { return c.first == "format"; });
         reading_provenance(original_, [&] {
-            Target target = target_of(typed);
+            Target target = target_of(request_as<GenerateRequest>(typed));
             target.columns = written_.columns;
             making(1)(target);
         });
@@ -297,7 +453,7 @@ class Reproducer {
         if (width == d + 2) return {.pdf = true, .weight = true};
         if (width != d + 1) return {};
         const bool named = names_column("pdf") || names_column("weight");
-        const bool weight = named ? names_column("weight") : recipe_.typed.has("with-weight");
+        const bool weight = named ? names_column("weight") : recipe_.request.with_weight;
         return {.pdf = !weight, .weight = weight};
     }
 
@@ -317,9 +473,8 @@ class Reproducer {
         for (const auto& option : original_.meta.options)
             if (std::ranges::find(made.options, option) == made.options.end())
                 session_.warn(
-                    fmt::format("{}: its provenance has {} {}, which is not what is found "
-                                "today",
-                                original_.name, option.first, option.second));
+                    fmt::format("{}: its provenance has {} {}, but stipple {} finds another value",
+                                original_.name, option.first, option.second, STIPPLE_VERSION));
     }
 
     /// Message if the points are equal but the provenance is wrong; empty if it is right.
@@ -384,8 +539,7 @@ class Reproducer {
         };
         Target target{.format = original_.format, .meta = true};
         target.single = says("property float ");
-        const auto digits = recipe_.typed.integer("precision");
-        if (says("format ascii") && digits) target.precision = static_cast<int>(*digits);
+        if (says("format ascii")) target.precision = recipe_.request.precision;
         target.columns = {.pdf = says(" pdf\n"), .weight = says(" weight\n")};
         if (!says("property int set")) recipe_.job.sets = 1;
         const std::string made = io::without_meta(bytes_of(making(1), target));
@@ -435,7 +589,7 @@ class Reproducer {
 };
 
 int say(const Original& original, const Verdict& verdict, const std::string& changed,
-        const Arguments& arguments) {
+        const ReproduceRequest& request) {
     std::string sentence = verdict.identical ? "identical: " : "different: ";
     sentence += verdict.sentence;
     if (!changed.empty()) sentence = changed;
@@ -443,7 +597,7 @@ int say(const Original& original, const Verdict& verdict, const std::string& cha
     if (!verdict.identical && changed.empty() && version != STIPPLE_VERSION)
         sentence += fmt::format(" (made by stipple {}; this is {})", version, STIPPLE_VERSION);
     std::string text = printable(fmt::format("{}: {}", original.name, sentence)) + "\n";
-    if (arguments.get("format") == "json") {
+    if (request.json) {
         Json out{{"format", "stipple.reproduction"}, {"version", 1}, {"file", original.name}};
         out["identical"] = verdict.identical;
         out["rules_changed"] = !changed.empty();
@@ -453,7 +607,7 @@ int say(const Original& original, const Verdict& verdict, const std::string& cha
         text = json_text(out, 2) + "\n";
     }
     // The verdict must not be mixed with points on standard output.
-    if (arguments.get("output") == "-")
+    if (request.output == "-")
         cli::say(text);
     else
         write_text("-", text);
@@ -461,43 +615,43 @@ int say(const Original& original, const Verdict& verdict, const std::string& cha
 }
 
 /// Makes the points of a picture by `plot` again; there are no numbers to compare.
-int remake_plotted(const Original& original, Reproducer& reproducer, const Arguments& arguments) {
+int remake_plotted(const Original& original, Reproducer& reproducer,
+                   const std::optional<std::string>& output) {
     const Provenance& meta = original.meta;
     const std::string made =
         meta.command.empty() ? fmt::format("generator {}", meta.generator) : meta.command;
-    if (!arguments.has("output"))
+    if (!output)
         fail_with_hint(
             ErrorKind::input, "-o FILE makes its points again",
             "{}: a picture, which has no numbers to compare; it was drawn by '{}' of the "
             "points of '{}'",
             original.name, original.plotted, made);
-    const std::string path = *arguments.get("output");
-    reproducer.write(path);
-    if (path != "-")
+    reproducer.write(*output);
+    if (*output != "-")
         write_text("-",
                    fmt::format("{}: a picture of the points of '{}'; {} has them, made again\n",
-                               original.name, made, path));
+                               original.name, made, *output));
     return 0;
 }
 
 }  // namespace
 
-int reproduce(const Arguments& arguments, Session& session) {
-    if (arguments.inputs.size() != 1)
-        fail(ErrorKind::usage, "reproduce takes one FILE; {} are given", arguments.inputs.size());
-    const Original original = read_original(arguments.inputs[0], session.run());
+int ReproduceRequest::perform(Session& session) const {
+    if (inputs.size() != 1)
+        fail(ErrorKind::usage, "reproduce takes one FILE; {} are given", inputs.size());
+    const Original original = read_original(inputs[0], session.run());
     const std::string changed =
         reading_provenance(original, [&] { return changed_rules(original.meta); });
-    if (!changed.empty()) return say(original, {}, changed, arguments);
-    const auto rules = rules_for(original, arguments, session.run());
+    if (!changed.empty()) return say(original, {}, changed, *this);
+    const auto rules = rules_for(original, *this, session.run());
     std::optional<Reproducer> reproducer;
     const Verdict verdict = reading_provenance(original, [&] {
         reproducer.emplace(original, recipe_of(original, session), session);
         return reproducer->go();
     });
-    if (!original.plotted.empty()) return remake_plotted(original, *reproducer, arguments);
-    if (const auto path = arguments.get("output")) reproducer->write(*path);
-    return say(original, verdict, {}, arguments);
+    if (!original.plotted.empty()) return remake_plotted(original, *reproducer, output);
+    if (output) reproducer->write(*output);
+    return say(original, verdict, {}, *this);
 }
 
 }  // namespace stipple::cli

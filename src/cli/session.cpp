@@ -12,6 +12,7 @@
 #include <fstream>
 #include <utility>
 
+#include "cli/parsing/requests.hpp"
 #include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -87,21 +88,6 @@ double memory_of_machine() {
     return bytes;
 }
 
-std::uint64_t memory_limit(const Arguments& arguments) {
-    const auto text = arguments.get("max-memory");
-    if (!text) return static_cast<std::uint64_t>(0.8 * memory_of_machine());
-    const auto bytes = parse_bytes(*text);
-    if (!bytes || *bytes == 0)
-        fail(ErrorKind::usage, "--max-memory: '{}' is not a size such as 500M or 2G", *text);
-    return *bytes;
-}
-
-ProgressBar::Mode progress_mode(const Arguments& arguments) {
-    const std::string text = arguments.get("progress").value_or("auto");
-    if (arguments.has("quiet") || text == "never") return ProgressBar::Mode::never;
-    return text == "always" ? ProgressBar::Mode::always : ProgressBar::Mode::automatic;
-}
-
 std::string duration(double seconds) {
     if (seconds < 60) return fmt::format("{:.0f} s", seconds);
     if (seconds < 3600) return fmt::format("{:.0f} min", seconds / 60);
@@ -141,10 +127,11 @@ void ProgressBar::clear() {
     visible_ = false;
 }
 
-Session::Session(const Arguments& arguments)
-    : quiet_(arguments.has("quiet")), bar_(progress_mode(arguments)) {
-    run_.threads = static_cast<unsigned>(arguments.integer("threads").value_or(0));
-    run_.max_memory = memory_limit(arguments);
+Session::Session(const Request& request)
+    : quiet_(request.quiet), bar_(request.quiet ? ProgressBar::Mode::never : request.progress) {
+    run_.threads = request.threads;
+    run_.max_memory = request.max_memory ? *request.max_memory
+                                         : static_cast<std::uint64_t>(0.8 * memory_of_machine());
     limit_whole_files(run_.max_memory / 3);  // processing a file takes twice its bytes
     run_.memory_in_use = [before = allocated_bytes()] {
         const std::uint64_t now = allocated_bytes();

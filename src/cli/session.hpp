@@ -42,7 +42,7 @@ class ProgressBar {
 
 class Session {
   public:
-    explicit Session(const Arguments& arguments);
+    explicit Session(const Request& request);
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 

@@ -28,34 +28,34 @@ namespace {
 
 constexpr std::uint64_t most_units = 10'000'000;  // above it, --yes is needed
 
-/// Arguments completed by the configuration file; typed options take precedence.
-Arguments with_config(const Arguments& typed, std::uint64_t ranks, const RunContext& run) {
-    Arguments all = typed;
-    const auto path = typed.get("config");
-    if (!path) return all;
-    if (*path == "-" && ranks > 1)
+/// The request completed by the configuration file; typed options take precedence. Errors of
+/// settings in the file name it and the key.
+StudyRequest with_config(const StudyRequest& typed, const RunContext& run) {
+    const std::string& path = *typed.config;
+    if (path == "-" && launched_ranks() > 1)
         fail(ErrorKind::usage, "--config: the ranks have no standard input; name a file");
-    for (auto& setting : parse_study_config(io::read_bytes(*path, run), io::source_name(*path)))
+    Arguments all = typed;
+    std::erase_if(all.common, [](const auto& option) { return option.first == "config"; });
+    for (auto& setting : parse_study_config(io::read_bytes(path, run), io::source_name(path)))
         if (!typed.has(setting.first)) all.common.push_back(std::move(setting));
-    return all;
+    auto request = request_as<StudyRequest>(all);
+    request.parameters = typed.parameters;
+    if (!request.parameters) read_parameter_file(request, run);
+    return request;
 }
 
 /// Rethrows an error; if its option is from the configuration, the message names the file and key.
-[[noreturn]] void refuse_setting(const Error& e, const Arguments& typed) {
+[[noreturn]] void refuse_setting(const Error& e, const StudyRequest& typed) {
     const std::string_view what = e.what();
     const auto end = what.find(": ");
-    const auto path = typed.get("config");
-    if (!path || !what.starts_with("--") || end == std::string_view::npos ||
+    if (!typed.config || !what.starts_with("--") || end == std::string_view::npos ||
         typed.has(what.substr(2, end - 2)))
         throw e;
-    throw Error(ErrorKind::input, fmt::format("{}: $.{}", io::source_name(*path), what.substr(2)),
-                e.hint());
+    throw Error(ErrorKind::input,
+                fmt::format("{}: $.{}", io::source_name(*typed.config), what.substr(2)), e.hint());
 }
 
-std::vector<std::string> specs_of(const Arguments& arguments, const std::string& name) {
-    std::vector<std::string> specs;
-    for (const auto& text : arguments.all(name))
-        for (auto& spec : split_specs(text, "--" + name)) specs.push_back(std::move(spec));
+const Specs& required(const Specs& specs, const char* name) {
     if (specs.empty())
         fail_with_hint(ErrorKind::usage,
                        "'stipple study --help' has examples; --config FILE names a study in a file",
@@ -63,58 +63,34 @@ std::vector<std::string> specs_of(const Arguments& arguments, const std::string&
     return specs;
 }
 
-std::vector<std::uint64_t> numbers_of(const Arguments& arguments, const char* name,
-                                      std::uint64_t otherwise, std::uint64_t high) {
-    const auto text = arguments.get(name);
-    if (!text) return {otherwise};
-    return parse_counts(*text, fmt::format("--{}", name), 1, high);
-}
-
-std::optional<double> real_of(const Arguments& arguments, const char* name, double low, double high,
-                              const char* range) {
-    const auto text = arguments.get(name);
-    if (!text) return std::nullopt;
-    const auto value = parse_number(*text);
-    if (!value || !(*value > low) || !(*value < high))
-        fail(ErrorKind::usage, "--{}: '{}' is not a number {}", name, *text, range);
-    return value;
-}
-
-SweepRequest request_of(const Arguments& arguments, const Ranks& ranks, Session& session) {
-    SweepRequest request;
-    request.generators = specs_of(arguments, "generators");
-    request.measures = specs_of(arguments, "analyze");
-    request.counts = numbers_of(arguments, "count", 1024, std::uint64_t{1} << 53);
-    request.dimensions = numbers_of(arguments, "dimension", 2, 1'000'000);
-    if (ranks.size() > 1 && arguments.get("seed") == "random")
+SweepRequest sweep_of(const StudyRequest& asked, const Ranks& ranks, Session& session) {
+    SweepRequest sweep{.generators = required(asked.generators, "generators"),
+                       .measures = required(asked.analyze, "analyze")};
+    if (!asked.counts.empty()) sweep.counts = asked.counts;
+    if (!asked.dimensions.empty()) sweep.dimensions = asked.dimensions;
+    if (ranks.size() > 1 && asked.seed && asked.seed->random)
         fail(ErrorKind::usage, "--seed: every rank would draw another one; give a number");
-    request.first_seed = seed_of(arguments, ~std::uint64_t{0}, session);
-    request.seeds = arguments.integer("seeds").value_or(1);
-    request.warps = arguments.all("warp");
-    if (const auto file = arguments.get("parameters")) {
-        const auto named = read_parameters(*file, session.run());
-        request.warps.push_back(named->spec());
-        if (!arguments.has("dimension")) request.dimensions = {named->dimension()};
+    sweep.first_seed = seed_of(asked, ~std::uint64_t{0}, session);
+    sweep.seeds = asked.seeds;
+    sweep.warps = asked.warp_specs;
+    if (asked.parameters) {
+        sweep.warps.push_back(asked.parameters->spec());
+        if (asked.dimensions.empty()) sweep.dimensions = {asked.parameters->dimension()};
     }
-    if (const auto keys = arguments.get("keys"))
-        for (const auto key : split(*keys, ',')) request.keys.emplace_back(trim(key));
-    if (std::ranges::find(request.keys, "") != request.keys.end())
-        fail(ErrorKind::usage, "--keys: '{}' has an empty name", *arguments.get("keys"));
-    request.curves = arguments.has("curves");
-    request.time_limit = real_of(arguments, "time-limit", 0, 1e9, "of seconds above 0");
-    request.seconds = !arguments.has("no-seconds");
-    return request;
+    if (std::ranges::find(asked.keys, "") != asked.keys.end())
+        fail(ErrorKind::usage, "--keys: '{}' has an empty name", join(asked.keys, ","));
+    sweep.keys = asked.keys;
+    sweep.curves = asked.curves;
+    sweep.time_limit = asked.time_limit;
+    sweep.seconds = !asked.no_seconds;
+    return sweep;
 }
 
-SummaryOptions summary_options(const Arguments& arguments, std::uint64_t seed) {
+SummaryOptions summary_options(const StudyRequest& asked, std::uint64_t seed) {
     SummaryOptions options{.seed = seed};
-    options.paired = arguments.get("pairs") == "paired";
-    options.confidence =
-        real_of(arguments, "confidence", 0, 1, "between 0 and 1").value_or(options.confidence);
-    options.resamples = arguments.integer("bootstrap").value_or(options.resamples);
-    if (!arguments.has("summary"))
-        arguments.refuse({"pairs", "confidence", "bootstrap"},
-                         "is of --summary, which is not given");
+    options.paired = asked.paired;
+    options.confidence = asked.confidence.value_or(options.confidence);
+    options.resamples = asked.bootstrap.value_or(options.resamples);
     return options;
 }
 
@@ -124,14 +100,13 @@ std::string extension_of(const std::string& path) {
     return std::filesystem::path(path).extension().string();
 }
 
-TableStyle table_style(const Arguments& arguments, const std::string& path) {
+TableStyle table_style(const StudyRequest& request, const std::string& path) {
     const std::string extension = extension_of(path);
     const bool lines = extension == ".jsonl" || extension == ".ndjson";
-    const auto format = arguments.get("format");
-    if (!format && !lines && !extension.empty() && extension != ".csv")
+    if (!request.format && !lines && !extension.empty() && extension != ".csv")
         fail_with_hint(ErrorKind::usage, "--format csv or jsonl says what it is to hold",
                        "--output: a study's table is .csv or .jsonl; '{}' is neither", path);
-    return (format ? *format == "jsonl" : lines) ? TableStyle::jsonl : TableStyle::csv;
+    return request.format.value_or(lines ? TableStyle::jsonl : TableStyle::csv);
 }
 
 /// Path beside the table: study.csv -> study.summary.csv.
@@ -150,15 +125,14 @@ std::string long_time(double seconds) {
 
 class Study {
   public:
-    Study(const Arguments& arguments, Session& session, Ranks& ranks)
-        : arguments_(arguments),
+    Study(const StudyRequest& request, Session& session, Ranks& ranks)
+        : request_(request),
           session_(session),
           ranks_(ranks),
-          sweep_(request_of(arguments, ranks, session)),
-          path_(output_of(arguments)),
-          table_(table_style(arguments, path_), sweep_.request().seconds),
-          summary_options_(summary_options(arguments, sweep_.request().first_seed)),
-          summarized_(arguments.has("summary")) {}
+          sweep_(sweep_of(request, ranks, session)),
+          path_(output_of(request)),
+          table_(table_style(request, path_), sweep_.request().seconds),
+          summary_options_(summary_options(request, sweep_.request().first_seed)) {}
 
     int go() {
         refuse_too_much();
@@ -177,11 +151,11 @@ class Study {
   private:
     int lead() {
         const RunContext& run = session_.run();
-        const StudyFile::Start start = arguments_.has("resume")      ? StudyFile::Start::resume
-                                       : arguments_.has("overwrite") ? StudyFile::Start::anew
-                                                                     : StudyFile::Start::fresh;
+        const StudyFile::Start start = request_.resume      ? StudyFile::Start::resume
+                                       : request_.overwrite ? StudyFile::Start::anew
+                                                            : StudyFile::Start::fresh;
         StudyFile::Listener listen;
-        if (summarized_) listen = [this](const StudyRow& row) { summary_.add(row); };
+        if (request_.summary) listen = [this](const StudyRow& row) { summary_.add(row); };
         const UnitRunner runner(sweep_, run);
         runner.require_options(run);
         StudyFile file(path_, sweep_, table_, start, listen, run);
@@ -195,7 +169,8 @@ class Study {
             if (e.kind() != ErrorKind::cancelled || !file.has_journal()) throw;
             fail_with_hint(
                 ErrorKind::cancelled,
-                fmt::format("what is done is in {0} and {0}.journal; --resume goes on", path_),
+                fmt::format("finished measurements are in {0} and {0}.journal; --resume continues",
+                            path_),
                 "interrupted");
         }
         const StudyFailures& failed = file.failures();
@@ -210,7 +185,7 @@ class Study {
 
     void finish(StudyFile& file) const {
         const RunContext& run = session_.run();
-        if (!summarized_) return file.finish("", run);
+        if (!request_.summary) return file.finish("", run);
         file.listen(run);
         const auto means = summary_.means(table_.style(), summary_options_, run);
         const auto pairs = summary_.comparisons(table_.style(), summary_options_, run);
@@ -237,7 +212,7 @@ class Study {
 
     /// @throws Error(limit) for a huge study without --yes: one of months is probably a mistake
     void refuse_too_much() const {
-        if (arguments_.has("yes") || sweep_.units() <= most_units) return;
+        if (request_.yes || sweep_.units() <= most_units) return;
         const StudyRow row = row_of(sweep_, sweep_.unit(0));
         const double bytes = static_cast<double>(table_.line(row).size() + 40);
         const auto units = static_cast<double>(sweep_.units());
@@ -258,34 +233,30 @@ class Study {
             r.measures.size(), takes);
     }
 
-    const Arguments& arguments_;
+    const StudyRequest& request_;
     Session& session_;
     Ranks& ranks_;
     Sweep sweep_;
     std::string path_;
     StudyTable table_;
     SummaryOptions summary_options_;
-    bool summarized_;
     bool began_ = false;
     StudySummary summary_;
 };
 
 }  // namespace
 
-int study(const Arguments& arguments, Session& session) {
-    if (arguments.has("resume") && arguments.has("overwrite"))
-        fail(ErrorKind::usage, "--resume and --overwrite: give one of them");
-    if (!arguments.inputs.empty())
-        fail(ErrorKind::usage, "study takes no input; '{}' is not understood",
-             arguments.inputs.front());
+int StudyRequest::perform(Session& session) const {
+    if (!inputs.empty())
+        fail(ErrorKind::usage, "study takes no input; '{}' is not understood", inputs.front());
     Ranks& ranks = launched("study", session.run());
-    const Arguments all = with_config(arguments, launched_ranks(), session.run());
+    std::optional<StudyRequest> completed;
     std::optional<Study> study;
     try {
-        check_choices(all);
-        study.emplace(all, session, ranks);
+        if (config) completed = with_config(*this, session.run());
+        study.emplace(completed ? *completed : *this, session, ranks);
     } catch (const Error& e) {
-        refuse_setting(e, arguments);
+        refuse_setting(e, *this);
     }
     return study->go();
 }

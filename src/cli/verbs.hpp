@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Functions of the verbs; each returns the exit code.
+// What the sources of the command line share.
 #pragma once
 
 #include <initializer_list>
@@ -8,8 +8,7 @@
 #include <string_view>
 
 #include "analyzers/analyzer.hpp"
-#include "cli/parsing/arguments.hpp"
-#include "cli/session.hpp"
+#include "cli/parsing/requests.hpp"
 #include "pipeline/produce.hpp"
 #include "report/average.hpp"
 #include "report/document.hpp"
@@ -19,17 +18,8 @@ namespace stipple::cli {
 /// Runs the whole program; returns the exit code.
 int run(int argc, char** argv);
 
-int generate(const Arguments& arguments, Session& session);
-int warp(const Arguments& arguments, Session& session);
-int analyze(const Arguments& arguments, Session& session);
-int convert(const Arguments& arguments, Session& session);
-int plot(const Arguments& arguments, Session& session);
-int report(const Arguments& arguments, Session& session);
-int study(const Arguments& arguments, Session& session);
-int list(const Arguments& arguments);
-int reproduce(const Arguments& arguments, Session& session);
-int help(const Arguments& arguments);
-int completions(const Arguments& arguments);
+/// Reads the parameter file of the request, and performs it; returns the exit code.
+int work_on(Request& request, Session& session);
 
 /// Candidates for the last of the words, with explanations, one per line; "@files" where a file
 /// name is possible. Called by the scripts of `completions`.
@@ -46,19 +36,23 @@ std::string picture_in_letters(Verb verb, const UnitInfo& unit);
 std::string version_text();
 
 /// The sets requested of `generate`.
-SetsToMake sets_to_make(const Arguments& arguments, Session& session);
+SetsToMake sets_to_make(const GenerateRequest& request, Session& session);
 
 /// Output as requested by -o, -f, --dtype, --precision, --meta and --no-header.
-Target target_of(const Arguments& arguments);
+Target target_of(const Writing& request);
 
 /// Path of a verb's single output file. @throws Error(usage) for a name with {set} or {seed}
-std::string output_of(const Arguments& arguments);
+std::string output_of(const Request& request);
 
 /// Whether the path is standard output, and that is a terminal.
 bool is_terminal(const std::string& path);
 
 /// A word quoted for a shell if necessary.
 std::string shell_word(const std::string& word);
+
+/// The texts of these common options as typed, in this order, quoted for a shell.
+std::string typed_options(const Arguments& arguments,
+                          std::initializer_list<std::string_view> names);
 
 /// " --name value", quoted for a shell.
 std::string typed_option(const std::string& name, const std::string& value, bool flag);
@@ -67,9 +61,6 @@ std::string typed_option(const std::string& name, const std::string& value, bool
 /// and those that never affect a result.
 std::string command_text(const Arguments& arguments,
                          std::initializer_list<std::string_view> left_out = {});
-
-/// Values of the unit's options. @throws Error(usage)
-Values settings_of(const Schema& schema, const Arguments& arguments);
 
 /// Stores the mean of an analyzer's results on several sets in a measurement.
 void take_mean(Measurement& m, const ReportAverage& average, std::span<const Report> sets,

@@ -92,6 +92,16 @@ void Scaling::apply(std::span<double> rows, std::size_t width) const {
 
 namespace {
 
+/// Dimension of the generator's points, and those of their coordinates that no warp takes.
+std::pair<std::size_t, std::vector<std::size_t>> left_by_warps(const SetsToMake& asked) {
+    Request request = asked.request;
+    request.bounds.reset();
+    const std::size_t d = plan_for(*asked.generator, request, asked.options).dimension;
+    std::vector<std::size_t> left;
+    for (const auto& [from, at] : WarpChain(asked.warps, d).kept()) left.push_back(from);
+    return {d, std::move(left)};
+}
+
 /// Completes a job: adds the settings that follow from named parameters, and expands the bounds to
 /// a range for each coordinate of the generator's points, [0, 1) for those that warps take.
 /// @throws Error(usage)
@@ -100,10 +110,7 @@ SetsToMake completed(SetsToMake asked, const RunContext& run) {
         take_parameters(*asked.generator, asked.warps, asked.request, asked.options, run);
     auto& bounds = asked.request.bounds;
     if (!bounds || asked.warps.empty()) return asked;
-    Request request = asked.request;
-    request.bounds.reset();
-    const std::size_t d = plan_for(*asked.generator, request, asked.options).dimension;
-    const auto kept = WarpChain(asked.warps, d).kept();
+    const auto [d, kept] = left_by_warps(asked);
     Box all{std::vector<double>(d, 0), std::vector<double>(d, 1)};
     if (kept.empty())
         fail(ErrorKind::usage,
@@ -112,7 +119,7 @@ SetsToMake completed(SetsToMake asked, const RunContext& run) {
         fail(ErrorKind::usage, "--bounds: {} ranges; the warps leave {} of {} coordinates",
              bounds->dimension(), kept.size(), d);
     for (std::size_t i = 0; i < kept.size(); ++i) {
-        const std::size_t k = kept[i].first;
+        const std::size_t k = kept[i];
         const std::size_t range = bounds->dimension() == d ? k : i;
         all.low[k] = bounds->low[range];
         all.high[k] = bounds->high[range];
@@ -128,6 +135,17 @@ SetsToMake completed(SetsToMake asked, const RunContext& run) {
 }
 
 }  // namespace
+
+Box bounds_for(const SetsToMake& asked, std::string_view text) {
+    const auto ranges = static_cast<std::size_t>(1 + std::ranges::count(text, ','));
+    if (!asked.warps.empty()) {
+        const auto [d, left] = left_by_warps(asked);
+        return parse_box(text, ranges == d ? d : std::max<std::size_t>(left.size(), 1));
+    }
+    Request request = asked.request;
+    request.bounds = parse_box(text, request.dimension.value_or(std::max<std::size_t>(ranges, 2)));
+    return parse_box(text, plan_for(*asked.generator, request, asked.options).dimension);
+}
 
 GeneratedSets::GeneratedSets(SetsToMake asked, const RunContext& run)
     : asked_(completed(std::move(asked), run)),

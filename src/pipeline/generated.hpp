@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,10 @@ struct SetsToMake {
     Shard shard = {};          ///< the part to write
     std::string command = {};  ///< command line, for the provenance
 };
+
+/// The box of a text "lo..hi,...", with one range for all coordinates, or one for each of the points
+/// or of those that the warps leave. It may decide the dimension. @throws Error(usage)
+Box bounds_for(const SetsToMake& asked, std::string_view text);
 
 /// Generates all points of a request in memory, without notes to the user, scaling to the bounds
 /// and provenance.

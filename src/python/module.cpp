@@ -8,11 +8,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/parsing/catalog.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "core/spec.hpp"
 #include "io/provenance.hpp"
+#include "pipeline/catalog.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/generated.hpp"
 #include "pipeline/pipeline.hpp"
@@ -365,8 +365,7 @@ PYBIND11_MODULE(_stipple, module) {
                 std::move(bounds),    std::move(warps)};
         }));
     module.attr("version") = STIPPLE_VERSION;
-    module.def("records",
-               [] { return python::object_of(stipple::cli::json_of(stipple::cli::catalog())); });
+    module.def("records", [] { return python::object_of(stipple::json_of(stipple::catalog())); });
     module.def("generate", python::generate);
     module.def("warp", python::warp);
     module.def("domain_of_images", python::domain_of_images);

@@ -585,7 +585,7 @@ TEST(Analyze, SaysHowSeveralAnalyzersAreNamed) {
     const Sandbox box;
     good(box.shell("stipple generate random -n 50 -m 2 -f json -o u.json"));
     expect_refusal(box.run({"analyze", "star-discrepancy", "moments", "u.json"}), 2,
-                   "several analyzers stand between commas: star-discrepancy,moments");
+                   "separate several analyzers by commas: star-discrepancy,moments");
     const Outcome broken =
         box.run({"analyze", "star-discrepancy", "u.json", "--check", "value<0.01"});
     EXPECT_EQ(broken.code, 1);
@@ -716,7 +716,7 @@ TEST(Analyze, ChecksResultsOfSeveralAnalyzersByTheirNames) {
             "b.csv: star-discrepancy.value<0.01 does not hold: it is 0.0");
     refused("--check -o r.json", 1, "b.csv: poisson-disk.valid==true does not hold");
     refused("--check 'mean[0]<0.6'", 2, "such as star-discrepancy.mean[0] or moments.mean[0]");
-    refused("--radius 0.1", 2, "options stand behind their names; such as poisson-disk:radius=");
+    refused("--radius 0.1", 2, "options follow the analyzer's name; such as poisson-disk:radius=");
     expect_refusal(box.shell("stipple analyze moments,momnets b.csv"), 2,
                    "unknown analyzer 'momnets'; did you mean 'moments'?");
     expect_refusal(box.shell("stipple analyze moments,t-value b.csv"), 3, "b.csv: t-value");

@@ -81,7 +81,7 @@ TEST(Completions, NameAllThatThereIs) {
     const std::string all = good(box.run({"complete", ""}));
     for (const auto& info : stipple::cli::verbs())
         EXPECT_THAT(all, HasSubstr(info.name + "\t" + info.summary + "\n"));
-    for (const auto& kind : stipple::cli::catalog()) {
+    for (const auto& kind : stipple::catalog()) {
         const std::string verb = kind.verb.empty() ? "convert" : kind.verb;
         const std::string units =
             good(kind.verb.empty() ? box.run({"complete", verb, "--format", ""})

@@ -9,10 +9,10 @@
 #include <set>
 
 #include "cli/parsing/arguments.hpp"
-#include "cli/parsing/catalog.hpp"
 #include "cli/terminal.hpp"
 #include "core/text.hpp"
 #include "math/fourier/fft.hpp"
+#include "pipeline/catalog.hpp"
 #include "support/program.hpp"
 
 namespace stipple::testing::help_test {

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "cli/parsing/catalog.hpp"
+#include "pipeline/catalog.hpp"
 #include "places.hpp"
 #include "support/program.hpp"
 
@@ -79,7 +79,7 @@ TEST(Guide, TablesAreTheRegistry) {
 
 TEST(Guide, GalleryHasAllGeneratorsAndWarps) {
     const std::string text = page("data/guide/gallery.md");
-    for (const auto& kind : cli::catalog()) {
+    for (const auto& kind : catalog()) {
         if (kind.name != "generators" && kind.name != "warps") continue;
         for (const auto& unit : kind.units)
             EXPECT_THAT(text, HasSubstr("- `" + unit.name + "`: ")) << "run scripts/gallery";

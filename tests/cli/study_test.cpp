@@ -477,8 +477,8 @@ TEST(Study, InterruptKeepsWhatIsDoneAndExits130) {
         "done; kill -INT $pid; wait $pid");
     EXPECT_EQ(outcome.code, 130) << outcome.err;
     EXPECT_EQ(outcome.err,
-              "stipple: interrupted; what is done is in study.csv and study.csv.journal; --resume "
-              "goes on\n");
+              "stipple: interrupted; finished measurements are in study.csv and study.csv.journal; "
+              "--resume continues\n");
     EXPECT_TRUE(box.exists("study.csv"));
     EXPECT_TRUE(box.exists("study.csv.journal"));
 }
@@ -718,8 +718,8 @@ TEST(Study, ValuesOfAConfigurationThatNoOptionTakesAreNamedByTheirKey) {
         {R"("seeds": 2.5)", "seeds: '2.5' is not a whole number, such as 1000, 1e6, 2^20 or 64k"},
         {R"("count": [16, "64..16"])", "count: the range '64..16' is empty: 64 is above 16"},
         {R"("confidence": 95, "summary": true)",
-         "confidence: '95' is not a number between 0 and 1"},
-        {R"("time-limit": 0)", "time-limit: '0' is not a number of seconds above 0"},
+         "confidence: '95' is not a number above 0 and below 1"},
+        {R"("time-limit": 0)", "time-limit: '0' is not a number above 0 and below 1000000000"},
         {R"("bootstrap": 0, "summary": true)", "bootstrap: 0 is outside [1, 10000000]"},
         {R"("pairs": "t", "summary": true)", "pairs: 't' is not one of welch, paired"},
         {R"("format": "json")", "format: 'json' is not one of csv, jsonl; did you mean 'jsonl'?"}};
@@ -759,7 +759,7 @@ TEST(Study, BadInputIsOneLineThatHelps) {
         {"--generators random --analyze moments --pairs paired",
          "stipple: --pairs: is of --summary, which is not given\n"},
         {"--generators random --analyze moments --confidence 95",
-         "stipple: --confidence: '95' is not a number between 0 and 1\n"},
+         "stipple: --confidence: '95' is not a number above 0 and below 1\n"},
         {"--generators random --analyze l2-discrepancy:kind=centred -n 16,32 -d 2,3",
          "stipple: analyze: l2-discrepancy: --kind: 'centred' is not a kind of L2 discrepancy; did "
          "you mean 'centered'?\n"},

@@ -39,8 +39,8 @@ void add_option(Words& words, FuzzedDataProvider& input, const Option& option) {
 Words any_words(FuzzedDataProvider& input) {
     const cli::VerbInfo& verb = any_of(input, cli::verbs());
     Words words = {verb.name};
-    const cli::Kind* const kind = cli::units_for(verb.name);
-    const cli::UnitInfo* unit = kind ? &any_of(input, kind->units) : nullptr;
+    const Kind* const kind = units_for(verb.name);
+    const UnitInfo* unit = kind ? &any_of(input, kind->units) : nullptr;
     if (unit) words.push_back(unit->name);
     const auto common = cli::options_of(verb.verb);
     const std::vector<Option> own =
@@ -59,24 +59,15 @@ Words any_words(FuzzedDataProvider& input) {
 
 /// Runs parsed arguments, with little memory and for a short time.
 void work_on(const cli::Arguments& arguments) {
-    using cli::Verb;
-    constexpr std::pair<Verb, int (*)(const cli::Arguments&, cli::Session&)> verbs[] = {
-        {Verb::generate, cli::generate},  {Verb::warp, cli::warp}, {Verb::analyze, cli::analyze},
-        {Verb::convert, cli::convert},    {Verb::plot, cli::plot}, {Verb::report, cli::report},
-        {Verb::reproduce, cli::reproduce}};
-    for (const auto& [verb, work] : verbs) {
-        if (arguments.verb != verb) continue;
-        cli::Session session(arguments);
-        auto& run = const_cast<RunContext&>(session.run());
-        const RunContext limits = small_run();
-        run.threads = limits.threads;
-        run.stop = limits.stop;
-        run.max_memory = std::min(run.max_memory, limits.max_memory);
-        work(arguments, session);
-    }
-    if (arguments.verb == Verb::list) cli::list(arguments);
-    if (arguments.verb == Verb::help) cli::help(arguments);
-    if (arguments.verb == Verb::completions) cli::completions(arguments);
+    if (arguments.verb == cli::Verb::study) return;
+    const auto request = cli::request_of(arguments);
+    cli::Session session(*request);
+    auto& run = const_cast<RunContext&>(session.run());
+    const RunContext limits = small_run();
+    run.threads = limits.threads;
+    run.stop = limits.stop;
+    run.max_memory = std::min(run.max_memory, limits.max_memory);
+    cli::work_on(*request, session);
 }
 
 void command(std::string_view bytes) {

@@ -190,11 +190,11 @@ std::string complete(std::vector<std::string> words) {
     return text;
 }
 
-int completions(const Arguments& arguments) {
-    const std::string shell = arguments.inputs.size() == 1 ? arguments.inputs[0] : "";
+int CompletionsRequest::perform(Session&) const {
+    const std::string shell = inputs.size() == 1 ? inputs[0] : "";
     if (shell != "bash" && shell != "zsh" && shell != "fish")
         fail(ErrorKind::usage, "completions takes one shell, bash, zsh or fish; given: '{}'",
-             join(arguments.inputs, " "));
+             join(inputs, " "));
     write_text("-", shell == "bash"  ? bash_completion()
                     : shell == "zsh" ? zsh_completion()
                                      : fish_completion());

@@ -329,22 +329,19 @@ std::string help_text(const Arguments& arguments) {
     return page_of_unit(info, unit_of(info.name, arguments.unit)).text();
 }
 
-int help(const Arguments& arguments) {
-    const auto& words = arguments.inputs;
-    const std::size_t most = arguments.has("man") ? 1 : 2;
-    if (words.size() > most)
+int HelpRequest::perform(Session&) const {
+    const std::size_t most = man ? 1 : 2;
+    if (inputs.size() > most)
         fail(ErrorKind::usage, "help takes {} at most; {} are given",
-             most == 1 ? "one word with --man" : "a topic, or a verb and a unit", words.size());
-    const auto folder = arguments.get("output");
-    if (folder && (!arguments.has("man") || !words.empty()))
+             most == 1 ? "one word with --man" : "a topic, or a verb and a unit", inputs.size());
+    if (output && (!man || !inputs.empty()))
         fail(ErrorKind::usage, "--output: a folder is for all manual pages: help --man -o {}",
-             *folder);
-    if (folder) {
-        write_manual(*folder);
+             *output);
+    if (output) {
+        write_manual(*output);
         return 0;
     }
-    write_text("-",
-               arguments.has("man") ? manual_page(words.empty() ? "" : words[0]) : help_on(words));
+    write_text("-", man ? manual_page(inputs.empty() ? "" : inputs[0]) : help_on(inputs));
     return 0;
 }
 

@@ -72,12 +72,12 @@ std::string list_markdown(const std::vector<Kind>& kinds) {
 
 }  // namespace
 
-int list(const Arguments& arguments) {
+int ListRequest::perform(Session&) const {
     std::vector<Kind> kinds = catalog();
-    if (arguments.inputs.size() > 1)
-        fail(ErrorKind::usage, "list takes one KIND; {} are given", arguments.inputs.size());
-    if (!arguments.inputs.empty()) {
-        const std::string& wanted = arguments.inputs[0];
+    if (inputs.size() > 1)
+        fail(ErrorKind::usage, "list takes one KIND; {} are given", inputs.size());
+    if (!inputs.empty()) {
+        const std::string& wanted = inputs[0];
         std::erase_if(kinds, [&](const Kind& kind) {
             return kind.name != wanted && kind.name != wanted + "s";
         });
@@ -86,12 +86,10 @@ int list(const Arguments& arguments) {
                            "known: generators, scrambles, warps, analyzers, formats",
                            "unknown kind '{}'", wanted);
     }
-    const std::string format = arguments.get("format").value_or("text");
-    write_text(arguments.get("output").value_or("-"), format == "json"
-                                                          ? json_of(kinds).dump(2) + "\n"
-                                                      : format == "markdown"  ? list_markdown(kinds)
-                                                      : arguments.has("long") ? list_long(kinds)
-                                                                              : list_text(kinds));
+    write_text(output.value_or("-"), format == ListFormat::json ? json_of(kinds).dump(2) + "\n"
+                                     : format == ListFormat::markdown ? list_markdown(kinds)
+                                     : full                           ? list_long(kinds)
+                                                                      : list_text(kinds));
     return 0;
 }
 

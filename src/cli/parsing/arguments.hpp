@@ -3,7 +3,7 @@
 // The command line as data: verbs, options that all units share, and the parsed arguments.
 #pragma once
 
-#include <initializer_list>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "cli/help/guide.hpp"
-#include "cli/parsing/catalog.hpp"
 #include "core/options.hpp"
+#include "pipeline/catalog.hpp"
 
 namespace stipple::cli {
 
@@ -47,20 +47,18 @@ const VerbInfo* find_verb(std::string_view name);
 
 const VerbInfo& info_of(Verb verb);
 
+struct Request;
+
 /// An option that verbs accept for every unit.
 struct CommonOption {
-    /// @param placeholder type of the value; empty for a flag; alternatives separated by |
-    /// @param high above 0: the value is an integer up to this
-    CommonOption(std::string_view all_names, std::string_view placeholder,
-                 const char* shown_default, const char* help, Verb of_verbs, bool several = false,
-                 double low = 0, double high = 0);
-
     std::string names;     ///< such as "-n,--count", with the long name last
     std::string value;     ///< placeholder; empty for a flag
     std::string fallback;  ///< default as shown in help; may be empty
     Option option;         ///< long name, type, range and help
     Verb verbs;            ///< verbs that accept it
-    bool repeatable;
+    /// Stores a text in the request of one of these verbs. @throws Error(usage)
+    std::function<void(Request&, const Option&, const std::string& text)> store;
+    bool repeatable = false;
 };
 
 /// All common options that the verb accepts.
@@ -85,23 +83,16 @@ struct Arguments {
     bool help = false;
     bool version = false;
 
+    /// Whether a common option is given.
     [[nodiscard]] bool has(std::string_view name) const;
-    /// Text of a common option, the last one if repeated; nullopt if not given.
-    [[nodiscard]] std::optional<std::string> get(std::string_view name) const;
-    [[nodiscard]] std::vector<std::string> all(std::string_view name) const;
-
-    /// @throws Error(usage) "--NAME: WHY" for the first of these common options that is given
-    void refuse(std::initializer_list<std::string_view> names, std::string_view why) const;
-
-    /// Value as an integer in [low, high]; nullopt if not given. @throws Error(usage)
-    [[nodiscard]] std::optional<std::uint64_t> integer(std::string_view name, std::uint64_t low,
-                                                       std::uint64_t high) const;
-    /// Value as an integer in the range of the verb's option. @throws Error(usage)
-    [[nodiscard]] std::optional<std::uint64_t> integer(std::string_view name) const;
 };
 
-/// @throws Error(usage) if the text of a common option is not one of its choices
-void check_choices(const Arguments& arguments);
+/// @throws Error(usage) "--NAME: WHY" for the first of these common options that is given
+/// @param names separated by commas
+void refuse_options(const Arguments& arguments, std::string_view names, std::string_view why);
+
+/// Values of the unit's options. @throws Error(usage)
+Values settings_of(const Schema& schema, const Arguments& arguments);
 
 /// @throws Error(usage) naming the unknown word and the most similar known one
 Arguments parse_arguments(int argc, const char* const* argv);

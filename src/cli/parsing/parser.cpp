@@ -19,7 +19,8 @@
 namespace stipple::cli {
 namespace {
 
-using Texts = std::vector<std::pair<std::string, std::string>>;  ///< long names with texts
+using Text = std::pair<std::string, std::string>;  ///< long name and text
+using Texts = std::vector<Text>;
 
 /// @param names such as "-n,--count" @param texts receives the texts
 void add(CLI::App& app, const std::string& names, const Option& option, bool repeatable,
@@ -38,32 +39,6 @@ void add(CLI::App& app, const std::string& names, const Option& option, bool rep
     if (repeatable) added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-void add_help(CLI::App& app, Arguments& arguments) {
-    app.set_help_flag();
-    app.add_flag_callback("-h,--help", [&arguments] { arguments.help = true; });
-}
-
-void add_inputs(CLI::App& app, Arguments& arguments) {
-    app.add_option("INPUT", CLI::callback_t([&arguments](const CLI::results_t& found) {
-                       arguments.inputs = found;
-                       return true;
-                   }))
-        ->expected(1, CLI::detail::expected_max_vector_size)
-        ->allow_extra_args();
-}
-
-/// Only the unit that is named becomes a subcommand, so that files may have names of other units.
-CLI::App& add_unit(CLI::App& parent, const UnitInfo& unit, Arguments& arguments) {
-    CLI::App& app = *parent.add_subcommand(unit.name);
-    for (const std::string& alias : unit.aliases) app.alias(alias);
-    app.fallthrough();
-    app.allow_extras();
-    add_help(app, arguments);
-    for (const Option& option : own_options(*arguments.verb, unit))
-        add(app, "--" + option.name, option, false, arguments.settings);
-    return app;
-}
-
 [[noreturn]] void refuse(const CLI::ParseError& error) {
     const std::string text = error.what();
     const std::string option = text.substr(0, text.find(':'));
@@ -73,37 +48,32 @@ CLI::App& add_unit(CLI::App& parent, const UnitInfo& unit, Arguments& arguments)
     fail(ErrorKind::usage, "{}", text);
 }
 
-/// Parses the words after a verb; returns those that were not understood.
-std::vector<std::string> take_words(std::vector<std::string> words, bool takes_units,
-                                    const UnitInfo* unit, Arguments& arguments) {
+/// Parses the words after a verb, without its unit; returns those that were not understood.
+/// @param own options of the unit
+std::vector<std::string> take_words(std::vector<std::string> words, const std::vector<Option>& own,
+                                    bool takes_inputs, Arguments& arguments) {
     CLI::App app("stipple");
     app.allow_extras();
-    add_help(app, arguments);
+    app.set_help_flag();
+    app.add_flag_callback("-h,--help", [&arguments] { arguments.help = true; });
     for (const CommonOption* common : options_of(*arguments.verb))
         add(app, common->names, common->option, common->repeatable, arguments.common);
-    if (unit == nullptr) {
-        if (!takes_units) add_inputs(app, arguments);
-    } else {
-        CLI::App& of_unit = add_unit(app, *unit, arguments);
-        if (arguments.verb != Verb::generate) add_inputs(of_unit, arguments);
-    }
+    for (const Option& option : own)
+        add(app, "--" + option.name, option, false, arguments.settings);
+    if (takes_inputs)
+        app.add_option("INPUT", CLI::callback_t([&arguments](const CLI::results_t& found) {
+                           arguments.inputs = found;
+                           return true;
+                       }))
+            ->expected(1, CLI::detail::expected_max_vector_size)
+            ->allow_extra_args();
     std::ranges::reverse(words);
     try {
         app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
         refuse(error);
     }
-    if (!app.get_subcommands().empty()) arguments.unit = unit->name;
-    return app.remaining(true);
-}
-
-/// Options of the verb and unit, for suggestions.
-std::vector<std::string> known_options(Verb verb, const UnitInfo* unit) {
-    std::vector<std::string> names = {"--help"};
-    for (const CommonOption* option : options_of(verb)) names.push_back("--" + option->option.name);
-    if (unit != nullptr)
-        for (const auto& option : own_options(verb, *unit)) names.push_back("--" + option.name);
-    return names;
+    return app.remaining();
 }
 
 [[noreturn]] void complain(std::string_view what, const std::string& word,
@@ -127,15 +97,19 @@ void complete_checks(std::vector<std::string>& words) {
     }
 }
 
-void check_rest(const std::vector<std::string>& rest, const VerbInfo& verb, const Kind* kind,
-                const UnitInfo* unit) {
+/// @throws Error(usage) for words that were not understood
+void check_rest(const std::vector<std::string>& rest, const VerbInfo& verb,
+                const std::vector<Option>& own, bool lacks_unit) {
     if (rest.empty()) return;
     // A misspelt unit is the most likely reason for words that were not understood.
-    if (kind != nullptr && unit == nullptr && rest.front()[0] != '-')
-        unit_of(verb.name, rest.front());
+    if (lacks_unit && rest.front()[0] != '-') unit_of(verb.name, rest.front());
+    std::vector<std::string> known = {"--help"};
+    for (const CommonOption* option : options_of(verb.verb))
+        known.push_back("--" + option->option.name);
+    for (const Option& option : own) known.push_back("--" + option.name);
     for (const std::string& word : rest)
         if (word.size() > 1 && word[0] == '-')
-            complain("option", word.substr(0, word.find('=')), known_options(verb.verb, unit));
+            complain("option", word.substr(0, word.find('=')), known);
     fail(ErrorKind::usage, "unexpected argument '{}'", rest.front());
 }
 
@@ -158,7 +132,7 @@ void refuse_loose_options(const std::vector<std::string>& rest, const Arguments&
             const std::string option = word.substr(2, word.find('=') - 2);
             if (std::ranges::find(unit->options, option, &Option::name) != unit->options.end())
                 fail_with_hint(ErrorKind::usage, fmt::format("such as {}:{}=...", name, option),
-                               "--{}: of several analyzers, options stand behind their names",
+                               "--{}: with several analyzers, options follow the analyzer's name",
                                option);
         }
 }
@@ -173,7 +147,7 @@ void refuse_second_unit(const Arguments& arguments, const Kind& kind) {
             continue;
         fail_with_hint(
             ErrorKind::usage,
-            fmt::format("several analyzers stand between commas: {},{}",
+            fmt::format("separate several analyzers by commas: {},{}",
                         arguments.specs.empty() ? arguments.unit : join(arguments.specs, ","),
                         word),
             "{}: no such file, but an analyzer", word);
@@ -184,11 +158,12 @@ void refuse_second_unit(const Arguments& arguments, const Kind& kind) {
 void settle_format(Arguments& arguments) {
     for (const char* name : {"json", "markdown"}) {
         if (!arguments.has(name)) continue;
-        const auto format = arguments.get("format");
-        if (format && *format != name)
-            fail(ErrorKind::usage, "--{} and --format {}: give one of them", name, *format);
         std::erase_if(arguments.common, [&](const auto& given) { return given.first == name; });
-        if (!format) arguments.common.emplace_back("format", name);
+        const auto format = std::ranges::find(arguments.common, "format", &Text::first);
+        if (format == arguments.common.end())
+            arguments.common.emplace_back("format", name);
+        else if (format->second != name)
+            fail(ErrorKind::usage, "--{} and --format {}: give one of them", name, format->second);
     }
 }
 
@@ -255,36 +230,34 @@ Arguments parse_arguments(int argc, const char* const* argv) {
     const Verb verb = info->verb;
     const Kind* kind = units_for(info->name);
     if (verb == Verb::analyze) complete_checks(words);
-    const UnitInfo* unit = nullptr;
-    UnitInfo without_options;
-    Spec spec;
     Arguments arguments{.verb = verb, .unit = {}, .inputs = {}, .common = {}, .settings = {}};
+    const UnitInfo* unit = nullptr;
+    std::vector<Option> own;
+    Spec spec;
     if (const std::string* named = kind ? word_of_unit(words, *kind, verb) : nullptr) {
-        std::string& word = words[static_cast<std::size_t>(named - words.data())];
-        if (find_unit(*kind, word) == nullptr) {
-            arguments.specs = several_specs(word, verb);
-            spec = parse_spec(arguments.specs.empty() ? word : arguments.specs.front());
-            word = spec.name;
+        unit = find_unit(*kind, *named);
+        if (unit == nullptr) {
+            arguments.specs = several_specs(*named, verb);
+            spec = parse_spec(arguments.specs.empty() ? *named : arguments.specs.front());
+            unit = find_unit(*kind, spec.name);
         }
-        unit = find_unit(*kind, word);
-        if (!arguments.specs.empty() && unit != nullptr) {
-            without_options = *unit;
-            without_options.options.clear();
-            unit = &without_options;
-        }
+        if (arguments.specs.empty()) own = own_options(verb, *unit);
+        arguments.unit = unit->name;
+        words.erase(words.begin() + (named - words.data()));
     }
-    const auto rest = take_words(std::move(words), kind != nullptr, unit, arguments);
+    const bool takes_inputs = kind == nullptr || (unit != nullptr && verb != Verb::generate);
+    const auto rest = take_words(std::move(words), own, takes_inputs, arguments);
     if (verb == Verb::analyze && !arguments.help) refuse_second_unit(arguments, *kind);
     if (verb == Verb::generate && inputs.size() > 1)
         fail(ErrorKind::usage, "unexpected argument '{}'", inputs[1]);
     if (!inputs.empty())
         arguments.inputs.insert(arguments.inputs.end(), inputs.begin() + 1, inputs.end());
-    if (!arguments.help && !arguments.specs.empty()) refuse_loose_options(rest, arguments, *kind);
-    if (!arguments.help) check_rest(rest, *info, kind, arguments.unit.empty() ? nullptr : unit);
-    if (unit != nullptr && !spec.name.empty() && arguments.specs.empty())
-        take_spec(spec, *unit, arguments);
+    if (!arguments.help) {
+        if (!arguments.specs.empty()) refuse_loose_options(rest, arguments, *kind);
+        check_rest(rest, *info, own, kind != nullptr && unit == nullptr);
+    }
+    if (!spec.name.empty() && arguments.specs.empty()) take_spec(spec, *unit, arguments);
     settle_format(arguments);
-    if (!arguments.help) check_choices(arguments);
     return arguments;
 }
 

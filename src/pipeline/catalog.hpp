@@ -12,7 +12,7 @@
 #include "core/json.hpp"
 #include "core/options.hpp"
 
-namespace stipple::cli {
+namespace stipple {
 
 struct UnitInfo {
     std::string name;
@@ -60,4 +60,4 @@ std::string option_notes(const Option& option);
 /// Option as it is typed, such as "--radius R".
 std::string option_usage(const Option& option);
 
-}  // namespace stipple::cli
+}  // namespace stipple

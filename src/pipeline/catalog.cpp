@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/parsing/catalog.hpp"
+#include "pipeline/catalog.hpp"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@
 #include "scrambles/scramble.hpp"
 #include "warps/warp.hpp"
 
-namespace stipple::cli {
+namespace stipple {
 namespace {
 
 constexpr std::size_t any_dimension = 1'000'000;
@@ -232,4 +232,4 @@ Json json_of(const std::vector<Kind>& kinds) {
     return out;
 }
 
-}  // namespace stipple::cli
+}  // namespace stipple

@@ -1,0 +1,617 @@
+// SPDX-License-Identifier: MIT
+//
+// The options that all units of a verb share, as data: names, help, the field of the request that
+// each one sets, and which of them go together.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "cli/parsing/requests.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "io/files.hpp"
+#include "pipeline/units.hpp"
+#include "study/study_config.hpp"
+
+namespace stipple::cli {
+namespace {
+
+// ---------------------------------------------------------------- texts
+
+std::uint64_t whole_number(const Option& option, const std::string& text) {
+    const auto value = parse_unsigned(text);
+    const auto low = static_cast<std::uint64_t>(option.low);
+    const auto high = static_cast<std::uint64_t>(option.high);
+    if (value && *value >= low && *value <= high) return *value;
+    const auto number = parse_number(text);
+    if (!value && (!number || *number != std::floor(*number)))
+        fail(ErrorKind::usage, "--{}: '{}' is not a whole number, such as 1000, 1e6, 2^20 or 64k",
+             option.name, text);
+    fail(ErrorKind::usage, "--{}: {} is outside [{}, {}]", option.name, text, low, high);
+}
+
+std::uint64_t byte_count(const Option& option, const std::string& text) {
+    const auto bytes = parse_bytes(text);
+    if (!bytes || *bytes == 0)
+        fail(ErrorKind::usage, "--{}: '{}' is not a size such as 500M or 2G", option.name, text);
+    return *bytes;
+}
+
+// Each take() stores a text in a field of its type.
+
+void take(std::string& field, const Option&, const std::string& text) { field = text; }
+
+/// Flags, choices and whole numbers. Of a choice, the field gets the index.
+template <class Field>
+requires std::is_enum_v<Field> || std::is_integral_v<Field>
+void take(Field& field, const Option& option, const std::string& text) {
+    if (option.type == "flag")
+        field = static_cast<Field>(true);
+    else if (option.type == "choice")
+        field =
+            static_cast<Field>(std::ranges::find(option.choices, text) - option.choices.begin());
+    else
+        field = static_cast<Field>(option.type == "size" ? byte_count(option, text)
+                                                         : whole_number(option, text));
+}
+
+void take(double& field, const Option& option, const std::string& text) {
+    const auto value = parse_number(text);
+    if (!value || !(*value > option.low) || !(*value < option.high))
+        fail(ErrorKind::usage, "--{}: '{}' is not a number above {} and below {}", option.name,
+             text, option.low, option.high);
+    field = *value;
+}
+
+void take(Seed& field, const Option& option, const std::string& text) {
+    field.random = text == "random";
+    if (field.random) return;
+    const auto seed = parse_unsigned(text);
+    if (!seed)
+        fail(ErrorKind::usage, "--{}: '{}' is not a whole number in [0, 2^64) or 'random'",
+             option.name, text);
+    field.value = *seed;
+}
+
+void take(Shard& field, const Option& option, const std::string& text) {
+    const auto parts = split(text, '/');
+    const auto index = parts.size() == 2 ? parse_unsigned(parts[0]) : std::nullopt;
+    const auto of = parts.size() == 2 ? parse_unsigned(parts[1]) : std::nullopt;
+    if (!index || !of || *index >= *of)
+        fail(ErrorKind::usage, "--{}: '{}' is not I/K with 0 <= I < K", option.name, text);
+    field = {*index, *of};
+}
+
+void take(const Format*& field, const Option&, const std::string& text) {
+    field = &io::format_named(text);
+}
+
+void take(Names& field, const Option&, const std::string& text) {
+    for (const auto name : split(text, ',')) field.emplace_back(trim(name));
+}
+
+void take(NumberList& field, const Option& option, const std::string& text) {
+    const auto high = static_cast<std::uint64_t>(option.high);
+    field = {parse_counts(text, "--" + option.name, 1, high)};
+}
+
+void take(Specs& field, const Option& option, const std::string& text) {
+    for (auto& spec : split_specs(text, "--" + option.name)) field.push_back(std::move(spec));
+}
+
+void take(std::vector<std::string>& field, const Option&, const std::string& text) {
+    field.push_back(text);
+}
+
+void take(std::vector<Spec>& field, const Option&, const std::string& text) {
+    field.push_back(parse_spec(text));
+}
+
+template <class Field>
+void take(std::optional<Field>& field, const Option& option, const std::string& text) {
+    take(field.emplace(), option, text);
+}
+
+// ---------------------------------------------------------------- the table
+
+struct Row : CommonOption {
+    /// @param placeholder type of the value; empty for a flag; alternatives separated by |
+    /// @param field of the requests of these verbs
+    /// @param high above 0: the largest number
+    template <class VerbRequest, class Field>
+    Row(std::string_view all_names, std::string_view placeholder, const char* shown_default,
+        const char* help, Verb of_verbs, Field VerbRequest::*field, double low = 0, double high = 0)
+        : Row(all_names, placeholder, shown_default, help, of_verbs, nullptr, low, high) {
+        store = [field](Request& request, const Option& own, const std::string& text) {
+            take(dynamic_cast<VerbRequest&>(request).*field, own, text);
+        };
+        repeatable = std::is_same_v<Field, std::vector<std::string>> ||
+                     std::is_same_v<Field, std::vector<Spec>> || std::is_same_v<Field, Specs>;
+    }
+
+    /// An option that the parser replaces by another one.
+    Row(std::string_view all_names, std::string_view placeholder, const char* shown_default,
+        const char* help, Verb of_verbs, std::nullptr_t, double low = 0, double high = 0);
+};
+
+Row::Row(std::string_view all_names, std::string_view placeholder, const char* shown_default,
+         const char* help, Verb of_verbs, std::nullptr_t, double low, double high)
+    : CommonOption{.names = std::string(all_names),
+                   .value = std::string(placeholder),
+                   .fallback = shown_default,
+                   .option = {.name = std::string(all_names.substr(all_names.rfind("--") + 2)),
+                              .type = "text",
+                              .fallback = std::string(shown_default),
+                              .optional = true,
+                              .low = low,
+                              .high = high,
+                              .help = help},
+                   .verbs = of_verbs,
+                   .store = [](Request&, const Option&, const std::string&) {}} {
+    if (value.empty()) option.type = "flag";
+    if (value == "SIZE") option.type = "size";
+    if (value == "FILE" || value == "FOLDER") option.type = "file";
+    if (value.find('|') == std::string::npos) return;
+    option.type = "choice";
+    for (const auto word : split(value, '|')) option.choices.emplace_back(word);
+}
+
+namespace table {
+
+using enum Verb;
+constexpr Verb writers = generate | warp | convert;
+constexpr Verb readers = warp | analyze | convert | plot | report;
+constexpr Verb workers = writers | analyze | plot | study | report | reproduce;
+
+constexpr double most_points = 0x1p53;
+constexpr double most_dimensions = 1'000'000;
+constexpr double most_sets = 1'000'000'000;
+constexpr double most_work = 0x1p60;
+
+const std::vector<Row> rows = {
+    {"--generators", "SPECS", "", "generators to compare: sobol:scramble=owen,halton", study,
+     &StudyRequest::generators},
+    {"--analyze", "SPECS", "", "analyzers to run: star-discrepancy,integration:integrand=...",
+     study, &StudyRequest::analyze},
+    {"--config", "FILE", "",
+     "a study as JSON, as data/study.schema.json says; options on the command line override it",
+     study, &StudyRequest::config},
+    {"--generate", "GENERATOR[:OPT=V,...]", "",
+     "generated points, behind those of the INPUTs, without a file; all share -n, -d, --seed, "
+     "--start and --warp, as in 'stipple generate'",
+     analyze | plot | report, &Sources::generate},
+    {"-n,--count", "COUNTS", "1024", "points in a set: 16,64,256 or 2^4..2^16 or 16..65536*2",
+     study, &StudyRequest::counts, 1, most_points},
+    {"-n,--count", "N", "1024", "points in a set; 1e6, 2^20 and 64k (= 65536) are accepted",
+     generate, &Sources::count, 1, most_points},
+    {"-n,--count", "N", "1024", "points of a set of --generate", analyze | plot | report,
+     &Sources::count, 1, most_points},
+    {"-d,--dimension", "DIMENSIONS", "2", "one or several, written as for -n", study,
+     &StudyRequest::dimensions, 1, most_dimensions},
+    {"-d,--dimension", "D", "2", "dimension", generate, &Sources::dimension, 1, most_dimensions},
+    {"-s,--seed", "S", "1", "the first 64-bit seed; 'random' draws one and reports it", study,
+     &Request::seed},
+    {"-s,--seed", "S", "1", "64-bit seed; 'random' draws one and reports it", generate,
+     &Request::seed},
+    {"-s,--seed", "S", "1", "64-bit seed of a scramble; 'random' draws one and reports it", warp,
+     &Request::seed},
+    {"-s,--seed", "S", "1", "64-bit seed of --generate; 'random' draws one and reports it",
+     analyze | plot | report, &Request::seed},
+    {"-m,--seeds,--sets", "R", "1", "independent realizations, with seeds S, S + 1, ...", generate,
+     &Sources::sets, 1, most_sets},
+    {"-m,--seeds,--sets", "R", "1",
+     "independent replications by a scramble, with seeds S, S + 1, ...", warp, &Sources::sets, 1,
+     most_sets},
+    {"-m,--seeds,--sets", "R", "1", "sets of each --generate, with seeds S, S + 1, ...",
+     analyze | plot, &Sources::sets, 1, most_sets},
+    {"-m,--seeds,--sets", "R", "1",
+     "sets of each --generate, with seeds S, S + 1, ...: the first is shown, and all are compared "
+     "by their means",
+     report, &Sources::sets, 1, 1000},
+    {"-m,--sets,--seeds", "R", "1",
+     "sets of each generator, dimension and count: seeds S, S + 1, ...", study,
+     &StudyRequest::seeds, 1, most_points},
+    {"-w,--warp", "NAME[:OPT=V,...]", "", "warp or scramble of --generate", analyze | plot | report,
+     &Sources::warps},
+    {"-w,--warp", "NAME[:OPT=V,...]", "",
+     "warp or scramble the points; NAME@I,J takes two coordinates", generate, &Sources::warps},
+    {"-w,--warp", "NAME[:OPT=V,...]", "", "warp or scramble before measuring, in order", study,
+     &StudyRequest::warp_specs},
+    {"--parameters", "FILE", "",
+     "file of named parameters, to which the points are mapped after all warps (see 'stipple help "
+     "parameters')",
+     generate | study, &Request::parameters_file},
+    {"--parameters", "FILE", "", "parameter file of the warp parameters", warp,
+     &Request::parameters_file},
+    {"--parameters", "FILE", "",
+     "file of named parameters that the points are values of, or that those of --generate are "
+     "mapped to (see 'stipple help parameters')",
+     analyze | convert | plot | report, &Request::parameters_file},
+    {"--unit-cube", "", "",
+     "with --parameters: leave the points in the unit cube, without those that break a constraint",
+     generate | analyze | plot | report, &Sources::unit_cube},
+    {"--start", "I", "0", "index of the first point of --generate", analyze | plot | report,
+     &Sources::start, 0, most_points},
+    {"--start", "I", "0", "index of a sequence's first point", generate, &Sources::start, 0,
+     most_points},
+    {"--bounds", "LO..HI,...", "",
+     "scale to a box: one range for all coordinates, or one for each; with --warp, only the "
+     "coordinates that no warp takes are scaled",
+     generate, &Sources::bounds},
+    {"--bounds", "LO..HI,...", "",
+     "box that contains the points; analyzers of the unit cube first map it to the cube", analyze,
+     &Sources::bounds},
+    {"--coordinates", "I,J,...", "", "coordinates to warp, from 1; the same as WARP@I,J", warp,
+     &WarpRequest::coordinates},
+    {"--inverse", "", "", "map points back to the unit cube", warp, &WarpRequest::inverse},
+    {"-o,--output", "FILE", "-",
+     "- is standard output; {set} and {seed} in the name make a file for each set", writers,
+     &Request::output},
+    {"-o,--output", "FILE", "-", "- is standard output", analyze | list | plot | study | report,
+     &Request::output},
+    {"-o,--output", "FILE", "", "also write the reproduced points", reproduce, &Request::output},
+    {"-o,--output", "FOLDER", "", "with --man: all manual pages, as files in a folder", help,
+     &Request::output},
+    {"-f,--format", "FORMAT", "", "file format; default: from the extension, else csv", writers,
+     &Writing::format},
+    {"-f,--format", "text|json|csv", "", "output format; default: text on a terminal, else json",
+     analyze, &AnalyzeRequest::format},
+    {"-f,--format", "html|json", "", "output format; default: from the extension, else html",
+     report, &ReportRequest::json},
+    {"-f,--format", "text|json|markdown", "text", "output format; json is complete and stable",
+     list, &ListRequest::format},
+    {"-f,--format", "text|json", "text", "output format", reproduce, &ReproduceRequest::json},
+    {"-f,--format", "svg|pdf|png|text", "",
+     "picture format; default: from the extension; text is Braille, as wide as the terminal", plot,
+     &PlotRequest::format},
+    {"-f,--format", "csv|jsonl", "", "table format; default: from the extension, else csv", study,
+     &StudyRequest::format},
+    {"--json", "", "", "short for --format json", analyze | list | report | reproduce, nullptr},
+    {"--markdown", "", "", "short for --format markdown", list, nullptr},
+    {"--long", "", "", "with the traits and options of every unit", list, &ListRequest::full},
+    {"--man", "", "", "as a manual page, for man", help, &HelpRequest::man},
+    {"--check", "[KEY<VALUE]", "",
+     "exit with 1 unless it holds; also <= > >= == !=; mean[0] picks one of a list; alone: "
+     "valid==true",
+     analyze, &AnalyzeRequest::checks},
+    {"--check", "KEY<VALUE", "",
+     "exit with 1 unless it holds for all sets: star-discrepancy.value<0.01; also <= > >= == !=",
+     report, &ReportRequest::checks},
+    {"--fail-on", "KEY>VALUE", "", "older form: --check of the opposite", report,
+     &ReportRequest::fail_on},
+    {"--average", "", "",
+     "one result, the mean over all sets, with standard errors where they apply; one of each kind "
+     "where the sets were made by different generators, options, counts or warps",
+     analyze, &AnalyzeRequest::average},
+    {"--pool", "", "", "one mean of all sets, however they were made", analyze,
+     &AnalyzeRequest::pool},
+    {"--full", "", "", "as text, with all numbers of long lists, as tables", analyze,
+     &AnalyzeRequest::full},
+    {"--explain", "", "",
+     "as text, with what each result means, which of two is better, and what is typical of 1024 "
+     "points in the plane",
+     analyze, &AnalyzeRequest::explain},
+    {"--chart",
+     "points|density|pairs|histogram|distances|spectrum|radial|pair-correlation|differential|"
+     "local-discrepancy",
+     "points",
+     "chart of points. points: positions (of three coordinates a view in space, of more each pair "
+     "of the "
+     "first 8); density: counts by cell; pairs: each pair of coordinates; histogram: of each "
+     "coordinate; "
+     "distances: to the nearest neighbour; local-discrepancy: with the worst boxes of the star "
+     "discrepancy; spectrum, radial, pair-correlation, differential: results of analyze with "
+     "default "
+     "options",
+     plot, &PlotRequest::chart},
+    {"--key", "KEY", "", "result to draw of a report, such as prefixes.value or minimum", plot,
+     &PlotRequest::key},
+    {"--set", "K", "", "draw only set or report K, from 0; default: all", plot, &PlotRequest::set,
+     0, most_points},
+    {"--overlay", "", "",
+     "several sets of points in one frame, in colours; default: a frame for each", plot,
+     &PlotRequest::overlay},
+    {"--draw", "cells,gap", "",
+     "over the points of a plane: their Voronoi cells, the largest empty circle, or both", plot,
+     &PlotRequest::draw},
+    {"--keys", "KEY,...", "",
+     "results to keep, by name or by a dotted part of it: value, radial.power, mean[0]; "
+     "default: all numbers",
+     study, &StudyRequest::keys},
+    {"--summary", "", "",
+     "means with standard errors, t and bootstrap intervals, medians, root mean squares, and "
+     "pairwise comparisons of generators with Holm-corrected p-values",
+     study, &StudyRequest::summary},
+    {"--curves", "", "", "also keep lists, a row for each number: radial.power[3]", study,
+     &StudyRequest::curves},
+    {"--resume", "", "",
+     "continue the study in the output file, also with more seeds, counts, generators, ...; start "
+     "it if there is none",
+     study, &StudyRequest::resume},
+    {"--overwrite", "", "", "replace the study that the file holds", study,
+     &StudyRequest::overwrite},
+    {"--domain", "SPEC", "",
+     "domain of the points: unit-cube, disk, triangle:vertices=[...], ...; default: as the file "
+     "states",
+     analyze | plot | report, &Sources::domain},
+    {"--rescale", "", "",
+     "first map the box of --bounds, else the bounding box of the points, to the unit cube",
+     analyze, &Sources::rescale},
+    {"--rescale", "", "", "first map the bounding box of the points of files to the unit cube",
+     plot | report, &Sources::rescale},
+    {"--meta", "", "",
+     "write the provenance: in '# ' lines on top of text formats; for npy, bin, utk and psa in "
+     "FILE.meta.json",
+     writers, &Writing::meta},
+    {"--vector-output", "FILE", "",
+     "also write the generating vector of a lattice, from the provenance of its points", convert,
+     &ConvertRequest::vector_output},
+    {"--vector-format", "lddata|latnet-builder", "lddata", "form of --vector-output", convert,
+     &ConvertRequest::vector_format},
+    {"--with-pdf", "", "", "add a column with the density of each point", generate | warp,
+     &Writing::with_pdf},
+    {"--with-weight", "", "",
+     "add a column with 1 / density: the mean of f times weight estimates the integral of f",
+     generate | warp, &Writing::with_weight},
+    {"--density-at", "", "",
+     "do not move the points; add a column with the warp's density at each, 0 outside its domain",
+     warp, &WarpRequest::density_at},
+    {"--shard", "I/K", "0/1",
+     "the I-th of K (from 0) contiguous parts; concatenated they are the whole set", generate,
+     &GenerateRequest::shard},
+    {"--title", "TEXT", "", "default: from the provenance; '' for neither title nor subtitle", plot,
+     &PlotRequest::title},
+    {"--labels", "A,B,...", "",
+     "names of the sets or curves in legends and titles, in order; for a study, of its generators",
+     plot, &PlotRequest::labels},
+    {"--axes", "X,Y,...", "",
+     "names of the axes: of points all coordinates; of curves x, then the y of each panel", plot,
+     &PlotRequest::axes},
+    {"--theme", "light|dark", "light", "colours", plot, &PlotRequest::dark},
+    {"--width", "W", "", "pixels, or characters of text; default: automatic", plot,
+     &PlotRequest::width, 0, most_points},
+    {"--height", "H", "",
+     "pixels, or lines of text; default: automatic; with --width, several sets stand in the rows "
+     "that make them largest",
+     plot, &PlotRequest::height, 0, most_points},
+    {"--x-scale", "linear|log", "", "scale of curves and histograms; default: automatic", plot,
+     &PlotRequest::log_x},
+    {"--y-scale", "linear|log", "", "scale of curves and histograms; default: automatic", plot,
+     &PlotRequest::log_y},
+    {"--pairs", "welch|paired", "welch",
+     "compare by Welch's t test, or by paired differences of sets with one seed", study,
+     &StudyRequest::paired},
+    {"--confidence", "C", "0.95", "confidence level of the intervals", study,
+     &StudyRequest::confidence, 0, 1},
+    {"--bootstrap", "B", "2000", "bootstrap resamples", study, &StudyRequest::bootstrap, 1,
+     10'000'000},
+    {"--time-limit", "SECONDS", "",
+     "time limit for making a set, and for each analyzer of it; a measurement that takes longer "
+     "fails",
+     study, &StudyRequest::time_limit, 0, 1e9},
+    {"--no-seconds", "", "", "omit the timing columns, so that every run gives the same bytes",
+     study, &StudyRequest::no_seconds},
+    {"--yes", "", "", "start even with more than 10 million rows", study, &StudyRequest::yes},
+    {"--max-work", "N", "1e9",
+     "comparisons of each search for a worst box (a few seconds); a search that stops there "
+     "gives rigorous bounds",
+     report, &ReportRequest::max_work, 1, most_work},
+    {"--concat", "", "", "join all INPUTs into one set, in order, such as the shards of a set",
+     analyze | convert, &Sources::concat},
+    {"--column", "X,Y,...", "", "columns to read, by name or number (from 1)", readers,
+     &Sources::columns},
+    {"--from", "FORMAT", "", "format of the input; default: from its extension or first bytes",
+     readers, &Sources::from},
+    {"-d,--dimension", "D", "", "coordinates of a point; required for raw binary files", readers,
+     &Sources::dimension, 1, most_dimensions},
+    {"--input", "FILE", "",
+     "a file that the points were made from, under whatever name; no other file is read", reproduce,
+     &ReproduceRequest::files},
+    {"--input-dtype", "f64|f32", "f64", "number type of raw binary input", readers,
+     &Sources::dtype_in},
+    {"--output-dtype", "f64|f32", "f64", "number type of binary formats that are written", writers,
+     &Writing::dtype_out},
+    {"--dtype", "f64|f32", "f64", "short for --output-dtype", generate | convert, &Sources::dtype},
+    {"--dtype", "f64|f32", "f64", "short for --input-dtype", analyze | plot | report,
+     &Sources::dtype},
+    {"--dtype", "f64|f32", "f64", "short for --input-dtype and --output-dtype", warp,
+     &Sources::dtype},
+    {"--precision", "P", "",
+     "digits after the point, truncated; default: the shortest text that reads back exactly",
+     writers, &Writing::precision, 0, 1000},
+    {"--no-header", "", "", "omit the header line of csv", writers, &Writing::no_header},
+    {"--threads", "T", "0", "0 = all cores; never changes a result", workers, &Request::threads, 0,
+     4096},
+    {"--max-memory", "SIZE", "80 % of the machine's",
+     "refuse, before starting, what would need more; 500M, 2G", workers, &Request::max_memory},
+    {"--quiet", "", "", "no warnings and no progress", workers, &Request::quiet},
+    {"--progress", "auto|always|never", "auto", "a bar on stderr, after 0.5 s on a terminal",
+     workers, &Request::progress}};
+
+/// Whether `options` need or exclude another one.
+struct Rule {
+    Verb verbs;
+    std::string_view options;  ///< separated by commas
+    enum Relation { need, exclude } relation;
+    std::string_view other;
+    std::string_view why;
+};
+
+const Rule rules[] = {
+    {analyze | plot | report, "count,seed,sets,warp,start,unit-cube", Rule::need, "generate",
+     "is of --generate, which names a generator"},
+    {analyze | plot | report, "bounds,rescale,domain,column,from,dtype,input-dtype", Rule::need,
+     "INPUT", "is of points from files, not of --generate"},
+    {generate | analyze | plot | report, "unit-cube", Rule::need, "parameters",
+     "is of --parameters, which is not given"},
+    {analyze, "bounds", Rule::exclude, "domain", {}},
+    {warp, "inverse,with-pdf,with-weight", Rule::exclude, "density-at",
+     "--density-at leaves the points where they are"},
+    {convert, "vector-format", Rule::need, "vector-output",
+     "is of --vector-output, which is not given"},
+    {study, "pairs,confidence,bootstrap", Rule::need, "summary",
+     "is of --summary, which is not given"},
+    {study, "resume", Rule::exclude, "overwrite", {}}};
+
+}  // namespace table
+
+bool includes(Verb verbs, Verb verb) {
+    return (static_cast<unsigned>(verbs) & static_cast<unsigned>(verb)) != 0;
+}
+
+void check_rules(const Arguments& arguments) {
+    const auto given = [&](std::string_view name) {
+        return name == "INPUT" ? !arguments.inputs.empty() || !arguments.has("generate")
+                               : arguments.has(name);
+    };
+    for (const auto& [verbs, options, relation, other, why] : table::rules) {
+        const bool needs = relation == table::Rule::need;
+        // What an option needs may be in the configuration of a study.
+        if (!includes(verbs, *arguments.verb) || given(other) == needs ||
+            (needs && given("config")))
+            continue;
+        if (!why.empty())
+            refuse_options(arguments, options, why);
+        else if (given(options))
+            fail(ErrorKind::usage, "--{} and --{}: give one of them", options, other);
+    }
+}
+
+// ---------------------------------------------------------------- requests
+
+template <class VerbRequest>
+std::unique_ptr<Request> filled(const Arguments& arguments) {
+    auto request = std::make_unique<VerbRequest>();
+    static_cast<Arguments&>(*request) = arguments;
+    for (const auto& [name, text] : arguments.common) {
+        const CommonOption& common = *find_common("--" + name, *arguments.verb);
+        if (common.option.type == "choice") static_cast<void>(common.option.parse(text));
+        common.store(*request, common.option, text);
+    }
+    check_rules(arguments);
+    request->settle();
+    return request;
+}
+
+}  // namespace
+
+std::unique_ptr<Request> request_of(const Arguments& arguments) {
+    switch (*arguments.verb) {
+        case Verb::generate:
+            return filled<GenerateRequest>(arguments);
+        case Verb::warp:
+            return filled<WarpRequest>(arguments);
+        case Verb::analyze:
+            return filled<AnalyzeRequest>(arguments);
+        case Verb::convert:
+            return filled<ConvertRequest>(arguments);
+        case Verb::plot:
+            return filled<PlotRequest>(arguments);
+        case Verb::study:
+            return filled<StudyRequest>(arguments);
+        case Verb::report:
+            return filled<ReportRequest>(arguments);
+        case Verb::reproduce:
+            return filled<ReproduceRequest>(arguments);
+        case Verb::list:
+            return filled<ListRequest>(arguments);
+        case Verb::help:
+            return filled<HelpRequest>(arguments);
+        case Verb::completions:
+            break;
+    }
+    return filled<CompletionsRequest>(arguments);
+}
+
+void WarpRequest::settle() { densities = !density_at; }
+
+void ConvertRequest::settle() { densities = true; }
+
+// Plots and reports skip rows with gaps.
+void PlotRequest::settle() { gaps = true; }
+void ReportRequest::settle() { gaps = true; }
+
+void AnalyzeRequest::settle() {
+    for (const std::string& text : specs) {
+        const Spec spec = parse_spec(text);
+        const Analyzer& analyzer = find_analyzer(spec.name);
+        analyzers.emplace_back(&analyzer, spec.values(analyzer.options));
+    }
+    if (specs.empty()) {
+        const Analyzer& analyzer = find_analyzer(unit);
+        analyzers.emplace_back(&analyzer, settings_of(analyzer.options, *this));
+    }
+    using Chosen = std::pair<const Analyzer*, Values>;
+    tables = gaps = std::ranges::all_of(
+        analyzers, [](const Chosen& chosen) { return chosen.first->traits.table; });
+    densities = std::ranges::any_of(
+        analyzers, [](const Chosen& chosen) { return chosen.first->traits.densities; });
+}
+
+bool Arguments::has(std::string_view name) const {
+    return std::ranges::any_of(common, [&](const auto& given) { return given.first == name; });
+}
+
+void refuse_options(const Arguments& arguments, std::string_view names, std::string_view why) {
+    for (const auto name : split(names, ','))
+        if (arguments.has(name)) fail(ErrorKind::usage, "--{}: {}", name, why);
+}
+
+Values settings_of(const Schema& schema, const Arguments& arguments) {
+    Values values = schema.defaults();
+    for (const auto& [name, text] : arguments.settings) schema.set(values, name, text);
+    return values;
+}
+
+const std::vector<VerbInfo>& verbs() {
+    static const auto table = [] {
+        std::vector<VerbInfo> all;
+        for (const auto& [verb, name] : {std::pair{Verb::generate, "generate"},
+                                         {Verb::warp, "warp"},
+                                         {Verb::analyze, "analyze"},
+                                         {Verb::convert, "convert"},
+                                         {Verb::plot, "plot"},
+                                         {Verb::study, "study"},
+                                         {Verb::report, "report"},
+                                         {Verb::list, "list"},
+                                         {Verb::reproduce, "reproduce"},
+                                         {Verb::help, "help"},
+                                         {Verb::completions, "completions"}})
+            all.push_back({verb_page(name), verb, name});
+        return all;
+    }();
+    return table;
+}
+
+const VerbInfo* find_verb(std::string_view name) {
+    const auto it = std::ranges::find(verbs(), name, &VerbInfo::name);
+    return it == verbs().end() ? nullptr : &*it;
+}
+
+const VerbInfo& info_of(Verb verb) { return *std::ranges::find(verbs(), verb, &VerbInfo::verb); }
+
+std::vector<const CommonOption*> options_of(Verb verb) {
+    std::vector<const CommonOption*> found;
+    for (const CommonOption& option : table::rows)
+        if (includes(option.verbs, verb)) found.push_back(&option);
+    return found;
+}
+
+const CommonOption* find_common(std::string_view name, Verb verb) {
+    for (const CommonOption* option : options_of(verb))
+        for (const auto known : split(option->names, ','))
+            if (known == name) return option;
+    return nullptr;
+}
+
+std::vector<Option> own_options(Verb verb, const UnitInfo& unit) {
+    std::vector<Option> own = unit.options;
+    std::erase_if(own, [&](const Option& option) {
+        return find_common("--" + option.name, verb) != nullptr;
+    });
+    return own;
+}
+
+}  // namespace stipple::cli

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+//
+// Typed requests: the options of each verb, parsed and checked. The table in options.cpp binds every
+// option to its field.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analyzers/analyzer.hpp"
+#include "cli/parsing/arguments.hpp"
+#include "cli/session.hpp"
+#include "core/spec.hpp"
+#include "io/format.hpp"
+#include "pipeline/generated.hpp"
+#include "report/table_line.hpp"
+
+namespace stipple::cli {
+
+/// Words between commas.
+struct Names : std::vector<std::string> {};
+/// Specs of units; a text may hold several, between commas.
+struct Specs : std::vector<std::string> {};
+/// Numbers in the form of parse_counts().
+struct NumberList : std::vector<std::uint64_t> {};
+
+/// A given seed, or one to be drawn.
+struct Seed {
+    std::uint64_t value = 1;
+    bool random = false;
+};
+
+/// The words of a verb, with the options that all verbs that work share.
+struct Request : Arguments {
+    virtual ~Request() = default;
+
+    /// Completes the fields that other ones determine.
+    virtual void settle() {}
+
+    /// Does what the verb does; returns the exit code. Defined in the verb's source.
+    virtual int perform(Session& session) const = 0;
+
+    std::optional<std::string> output = {};
+    std::optional<std::string> parameters_file = {};
+    /// Domain that the parameter file describes, after read_parameter_file(); nullptr without one.
+    DomainPtr parameters = {};
+    std::optional<Seed> seed = {};
+    unsigned threads = 0;
+    std::optional<std::uint64_t> max_memory = {};  ///< bytes
+    bool quiet = false;
+    ProgressBar::Mode progress = ProgressBar::Mode::automatic;
+};
+
+/// Points from files or from --generate.
+struct Sources : Request {
+    std::vector<std::string> generate = {};  ///< specs
+    std::optional<std::uint64_t> count = {};
+    std::optional<std::uint64_t> dimension = {};
+    std::uint64_t start = 0;
+    std::uint64_t sets = 1;
+    std::vector<Spec> warps = {};
+    bool unit_cube = false;
+    std::optional<std::string> bounds = {};
+    std::optional<std::string> domain = {};
+    bool rescale = false;
+    bool concat = false;
+    Names columns = {};
+    std::string from = {};              ///< name of a format; empty: from the file
+    std::optional<bool> dtype_in = {};  ///< whether numbers are float32
+    std::optional<bool> dtype = {};
+
+    // From the verb and its units.
+    bool densities = false;  ///< reads the column pdf or weight
+    bool gaps = false;       ///< reads rows with missing numbers
+    bool tables = false;     ///< reads rows of tables, not points
+};
+
+/// Points written to files.
+struct Writing : Sources {
+    const Format* format = nullptr;
+    std::optional<bool> dtype_out = {};
+    std::optional<int> precision = {};
+    bool meta = false;
+    bool no_header = false;
+    bool with_pdf = false;
+    bool with_weight = false;
+};
+
+struct GenerateRequest : Writing {
+    Shard shard = {};
+
+    int perform(Session& session) const override;
+};
+
+struct WarpRequest : Writing {
+    std::optional<std::string> coordinates = {};
+    bool inverse = false;
+    bool density_at = false;
+
+    void settle() override;
+    int perform(Session& session) const override;
+};
+
+struct ConvertRequest : Writing {
+    std::optional<std::string> vector_output = {};
+    std::optional<std::string> vector_format = {};
+
+    void settle() override;
+    int perform(Session& session) const override;
+};
+
+enum class ReportFormat { text, json, csv };
+
+struct AnalyzeRequest : Sources {
+    std::vector<std::pair<const Analyzer*, Values>> analyzers = {};
+    std::optional<ReportFormat> format = {};
+    std::vector<std::string> checks = {};
+    bool average = false;
+    bool pool = false;
+    bool full = false;
+    bool explain = false;
+
+    [[nodiscard]] bool averaged() const { return average || pool; }
+
+    void settle() override;
+    int perform(Session& session) const override;
+};
+
+enum class Medium { svg, pdf, png, text };
+
+struct PlotRequest : Sources {
+    std::optional<Medium> format = {};
+    std::string chart = {};
+    std::optional<std::string> key = {};
+    std::optional<std::uint64_t> set = {};
+    bool overlay = false;
+    Names draw = {};
+    std::optional<std::string> title = {};
+    Names labels = {};
+    Names axes = {};
+    bool dark = false;
+    std::optional<std::uint64_t> width = {};
+    std::optional<std::uint64_t> height = {};
+    std::optional<bool> log_x = {};
+    std::optional<bool> log_y = {};
+
+    void settle() override;
+    int perform(Session& session) const override;
+};
+
+struct ReportRequest : Sources {
+    std::optional<bool> json = {};
+    std::vector<std::string> checks = {};
+    std::vector<std::string> fail_on = {};
+    std::optional<std::uint64_t> max_work = {};
+
+    void settle() override;
+    int perform(Session& session) const override;
+};
+
+struct StudyRequest : Request {
+    Specs generators = {};
+    Specs analyze = {};
+    std::optional<std::string> config = {};
+    NumberList counts = {};
+    NumberList dimensions = {};
+    std::uint64_t seeds = 1;
+    std::vector<std::string> warp_specs = {};
+    std::optional<TableStyle> format = {};
+    Names keys = {};
+    bool summary = false;
+    bool curves = false;
+    bool resume = false;
+    bool overwrite = false;
+    bool paired = false;
+    std::optional<double> confidence = {};
+    std::optional<std::uint64_t> bootstrap = {};
+    std::optional<double> time_limit = {};
+    bool no_seconds = false;
+    bool yes = false;
+
+    int perform(Session& session) const override;
+};
+
+struct ReproduceRequest : Request {
+    bool json = false;
+    std::vector<std::string> files = {};  ///< of --input
+
+    int perform(Session& session) const override;
+};
+
+enum class ListFormat { text, json, markdown };
+
+struct ListRequest : Request {
+    ListFormat format = ListFormat::text;
+    bool full = false;
+
+    int perform(Session& session) const override;
+};
+
+struct HelpRequest : Request {
+    bool man = false;
+
+    int perform(Session& session) const override;
+};
+
+struct CompletionsRequest : Request {
+    int perform(Session& session) const override;
+};
+
+/// Parses the texts of all options of the arguments' verb and checks that they go together.
+/// @throws Error(usage)
+std::unique_ptr<Request> request_of(const Arguments& arguments);
+
+/// The same for the struct of the arguments' verb.
+template <class VerbRequest>
+VerbRequest request_as(const Arguments& arguments) {
+    return dynamic_cast<VerbRequest&>(*request_of(arguments));
+}
+
+}  // namespace stipple::cli
