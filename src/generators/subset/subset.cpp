@@ -39,8 +39,6 @@
 #include "generators/subset/choice.hpp"
 #include "io/files.hpp"
 #include "io/point_stream.hpp"
-#include "math/kernels/bandwidth.hpp"
-#include "math/kernels/pair_sums.hpp"
 #include "stipple/generate.hpp"
 
 namespace stipple::generators::subset {

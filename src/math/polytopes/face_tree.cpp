@@ -9,6 +9,7 @@
 #include "core/rng.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
+#include "math/functions/powers.hpp"
 
 namespace stipple {
 namespace {
@@ -55,14 +56,6 @@ void break_off(double* xi, double* rest, std::size_t m, std::size_t rows) {
         xi[i] = rest[i] - left;
         rest[i] = left;
     }
-}
-
-/// Inverse: xi from the fraction of r that is left.
-double unit_of_share(double share, std::size_t m) {
-    double power = 1;
-    for (; m > 0; m /= 2, share *= share)
-        if (m % 2 == 1) power *= share;
-    return power;
 }
 
 }  // namespace
@@ -320,7 +313,7 @@ void FaceTree::inverse(const double* point, double* cube) const {
         weight = std::clamp(weight, 0.0, rest);
         const double share = rest > 0 ? (rest - weight) / rest : 0;
         if (k + 1 < d_)
-            cube[k + 1] = unit_of_share(share, d_ - k);
+            cube[k + 1] = whole_power(share, d_ - k);
         else
             cube[0] = number_of(path, share);
         const PolytopePoint& apex = vertices_[faces_[face].apex];

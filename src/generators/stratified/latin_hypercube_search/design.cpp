@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/rng.hpp"
+#include "math/combinatorics/order.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
 
@@ -134,9 +135,8 @@ Design lattice_start(std::size_t points, std::size_t dimension, SplitMix64& draw
     const auto kept = middle_of(x, points, dimension, draws);
     Design design(points, points, dimension);
     for (std::size_t k = 0; k < dimension; ++k) {
-        std::vector<std::size_t> order(points);
-        std::iota(order.begin(), order.end(), std::size_t{0});
-        std::ranges::sort(order, {}, [&](std::size_t i) { return x[kept[i] * dimension + k]; });
+        const auto order =
+            order_by(points, [&](std::uint32_t i) { return x[kept[i] * dimension + k]; });
         for (std::size_t level = 0; level < points; ++level)
             design.along(k)[order[level]] = static_cast<Level>(level);
     }
