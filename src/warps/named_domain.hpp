@@ -12,7 +12,6 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "core/domain.hpp"
 #include "warps/warp.hpp"
@@ -33,14 +32,6 @@ class NamedDomain : public Domain {
     std::size_t dimension_;
     std::size_t cube_dimension_;
 };
-
-/// Names of `d` cube coordinates that are probabilities given the preceding coordinates.
-inline std::vector<std::string> conditional_axes(std::size_t d) {
-    std::vector<std::string> axes{"probability below x1"};
-    for (std::size_t k = 2; k <= d; ++k)
-        axes.push_back("probability below x" + std::to_string(k) + ", given the preceding");
-    return axes;
-}
 
 /// Writes cube coordinates, clamped to [0, 1] since rounding may leave it.
 template <std::size_t d>

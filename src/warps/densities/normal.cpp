@@ -146,7 +146,12 @@ class NormalDomain final : public NamedDomain {
         return m;
     }
     std::vector<std::string> cube_axes() const override {
-        return conditional_axes(cube_dimension());
+        std::vector<std::string> axes;
+        for (std::size_t k = 0; k < dimension(); ++k)
+            axes.push_back(k == 0
+                               ? "probability below x1"
+                               : fmt::format("probability below x{}, given the preceding", k + 1));
+        return axes;
     }
 
     bool infinite(std::span<const double> row) const {

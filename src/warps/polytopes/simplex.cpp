@@ -95,7 +95,10 @@ class SimplexDomain final : public NamedDomain {
         return m;
     }
     std::vector<std::string> cube_axes() const override {
-        return conditional_axes(cube_dimension());
+        std::vector<std::string> axes{"probability below x1"};
+        for (std::size_t k = 2; k <= dimension(); ++k)
+            axes.push_back(fmt::format("probability below x{}, given the preceding", k));
+        return axes;
     }
 
     void from_cube(std::span<const double> cube, std::span<double> image) const {
