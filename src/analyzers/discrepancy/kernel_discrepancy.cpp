@@ -18,7 +18,7 @@
 //
 //     default     the distribution of the points' own domain. For the unit cube expectations have a
 //                 closed form. Other domains must have independent coordinates and take integrals
-//                 over their distribution functions (math/kernels/domain_kernel.hpp); for the
+//                 over their distribution functions (math/kernels/domain_kernel.cpp); for the
 //                 periodic kernel they must be boxes, whose torus is that of the cube
 //     --target    the points of a file
 //     stein       the density whose scores grad log p follow the coordinates in each row
@@ -46,9 +46,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
-#include "math/kernels/bandwidth.hpp"
-#include "math/kernels/domain_kernel.hpp"
-#include "math/kernels/pair_sums.hpp"
+#include "math/kernels/kernel.hpp"
 #include "math/l2/squares.hpp"
 
 namespace stipple::analyzers::kernel_discrepancy {

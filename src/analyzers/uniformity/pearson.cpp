@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "analyzers/uniformity/cell_grid.hpp"
-#include "analyzers/uniformity/count_law.hpp"
 #include "core/error.hpp"
 #include "core/machine/int128.hpp"
 #include "math/functions/distributions.hpp"

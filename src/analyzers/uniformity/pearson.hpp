@@ -18,7 +18,7 @@
 //
 // Counts are integers, so with few groups X^2 takes few values. Its smallest values then have a
 // probability that is almost 0 for the continuous chi-square distribution. The lower tail is exact
-// if the counts can be enumerated (count_law.hpp). Otherwise, let q_s be the probability of the
+// if the counts can be enumerated (count_law.cpp). Otherwise, let q_s be the probability of the
 // most probable counts in the s groups with the smallest expectations, and F_f the chi-square
 // distribution function (F_0 = 1). With these s groups fixed and the others treated as continuous,
 // the probability is q_s F_(f-s). A ball contains about as many lattice points as its volume and
@@ -33,6 +33,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -78,6 +79,14 @@ Tails chi_square_tails(double statistic, double freedom);
 
 /// The same with a lower tail for integer counts, for a statistic on the groups of `fit`.
 Tails count_tails(double statistic, const Fit& fit);
+
+/// Probability that the statistic of n independent points is at most `statistic`, for groups of
+/// equal probability, at most n of them; nullopt if it would take too long (count_law.cpp).
+std::optional<double> exact_lower_tail(double statistic, std::uint64_t n, std::uint64_t groups);
+
+/// The same for two or more groups with these expected numbers of points, n together.
+std::optional<double> exact_lower_tail(double statistic, std::uint64_t n,
+                                       std::span<const double> expected);
 
 /// Sidak's combination of independent tests, for each tail: 1 - (1 - p)^T of the smallest p.
 Tails sidak(std::span<const Tails> tests);

@@ -22,7 +22,6 @@
 //         long in 3-D. c n^3 steps in more dimensions: 20 s for 10^4 points in 5-D with c = 1.
 // Promise the distribution of the points is exactly that of Mitchell's method, with all m
 //         candidates made. Point i does not depend on the number of points.
-//         Point i does not depend on the number of points.
 // Source  D. P. Mitchell, Comput. Graph. (SIGGRAPH) 25 (1991) 157-164, doi:10.1145/122718.122736.
 
 #include <fmt/format.h>
@@ -40,6 +39,7 @@
 #include "generators/box_space.hpp"
 #include "generators/generator.hpp"
 #include "math/combinatorics/splitmix64.hpp"
+#include "math/functions/powers.hpp"
 #include "math/functions/roots.hpp"
 #include "math/neighbors/covering_bound.hpp"
 #include "math/neighbors/point_grid.hpp"
@@ -68,7 +68,7 @@ class PointDraws {
         // Split in two, as the probability of no hit at all could underflow.
         if (m > 1 && static_cast<double>(m) * p > 16)
             return binomial(m / 2, p) + binomial(m - m / 2, p);
-        double chance = power(1 - p, m);  // probability of k hits, from k = 0 on
+        double chance = whole_power(1 - p, m);  // probability of k hits, from k = 0 on
         double u = next();
         std::uint64_t k = 0;
         for (; k < m && u >= chance; ++k) {
@@ -79,13 +79,6 @@ class PointDraws {
     }
 
   private:
-    static double power(double base, std::uint64_t exponent) {
-        double product = 1;
-        for (; exponent > 0; exponent /= 2, base *= base)
-            if (exponent % 2 == 1) product *= base;
-        return product;
-    }
-
     SplitMix64 stream_;
 };
 

@@ -4,13 +4,13 @@
 //
 //     E = sum over pairs i < j of  exp(-(n / V)^(2/d) |x_i - x_j|^2 / 2)
 //
-// by --iterations accelerated gradient steps (relaxation/gaussian_relaxation.hpp). Up to constants,
+// by --iterations accelerated gradient steps (relaxation/gaussian_relaxation.cpp). Up to constants,
 // E is the integral of the square of the points convolved with Gaussians of standard deviation
 // sqrt(1/2) (V / n)^(1/d). At its minimum these sums are nearly constant, so the spectrum vanishes
 // below the frequency (n / V)^(1/d) / 2.
 //
 // With a --density, kernels are as wide as the local spacing of points, and the density attracts as
-// much as the points repel (relaxation/density_relaxation.hpp).
+// much as the points repel (relaxation/density_relaxation.cpp).
 //
 // Shape   d = 1 ... 4, distances on the torus, which is the unit cube or a box with no side a
 //         thousand times another; a density in 2-D.
@@ -27,8 +27,7 @@
 #include "core/error.hpp"
 #include "core/machine/first_touch.hpp"
 #include "core/rng.hpp"
-#include "generators/blue_noise/relaxation/density_relaxation.hpp"
-#include "generators/blue_noise/relaxation/gaussian_relaxation.hpp"
+#include "generators/blue_noise/relaxation/relaxation.hpp"
 #include "generators/box_space.hpp"
 #include "generators/density_options.hpp"
 #include "generators/generator.hpp"

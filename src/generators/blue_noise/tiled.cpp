@@ -4,7 +4,7 @@
 //
 //     K x K tiles,  K = least with K^2 T >= n,  of  t = ceil(n / K^2) points,   T = --tile-points.
 //
-// The tile is toroidal Gaussian blue noise (relaxation/gaussian_relaxation.hpp) with ranked points:
+// The tile is toroidal Gaussian blue noise (relaxation/gaussian_relaxation.cpp) with ranked points:
 // the first m of them are well spread, for every m. Ranks are given from the last to the first:
 // each time, the most crowded of the remaining points is removed,
 //
@@ -56,7 +56,7 @@
 #include "core/machine/int128.hpp"
 #include "core/machine/wide.hpp"
 #include "core/rng.hpp"
-#include "generators/blue_noise/relaxation/gaussian_relaxation.hpp"
+#include "generators/blue_noise/relaxation/relaxation.hpp"
 #include "generators/blue_noise/thinned_tiles.hpp"
 #include "generators/box_space.hpp"
 #include "generators/density_options.hpp"

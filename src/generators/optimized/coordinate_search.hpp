@@ -16,10 +16,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "generators/optimized/objective.hpp"
-#include "generators/optimized/search_run.hpp"
 #include "math/combinatorics/splitmix64.hpp"
 #include "stipple/run.hpp"
 
@@ -55,5 +55,13 @@ struct CoordinateSearch {
 /// @throws Error(cancelled)
 OptimizedRows search_coordinates(const CoordinateSearch& search, const std::string& words,
                                  const RunContext& run);
+
+/// Finds the lattice with the least objective among all of Korobov's form: points
+/// i (1, g, g^2, ...) / n modulo 1, for every g. In the plane these are all lattices of rank 1
+/// whose projections have n distinct coordinates. Takes n / 2 objective values, because g and n - g
+/// give mirror images. Progress and errors are those of search_coordinates().
+OptimizedRows least_lattice(std::size_t count, std::size_t dimension,
+                            const std::function<std::unique_ptr<Objective>()>& objective,
+                            const std::string& words, const RunContext& run);
 
 }  // namespace stipple::optimized

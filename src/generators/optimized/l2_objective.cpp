@@ -6,18 +6,67 @@
 //     d/dx_ij  =  -2/n f_j'(x_ij) prod_{l != j} f_l(x_il)
 //                 + 2/n^2 sum_k d_1 K_j(x_ij, x_kj) prod_{l != j} K_l(x_il, x_kl),
 //
-// where the slope of |x - y| at x = y is 0.
+// where the slope of |x - y| at x = y is 0. In an even order of points, after m points p comes the
+// point x that minimizes
+//
+//     2 sum_p K(x, p) + K(x, x) - 2 (m + 1) int K(x, y) dy.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "core/machine/wide.hpp"
 #include "core/parallel.hpp"
-#include "generators/optimized/l2_factor.hpp"
 #include "generators/optimized/objective.hpp"
+#include "math/l2/axis_factor.hpp"
 
 namespace stipple::optimized {
 namespace {
+
+/// The function a[0] + a[1] x + a[2] x^2 + a[3] |x - 1/2|.
+struct Curve {
+    std::array<double, 4> a{};
+
+    explicit Curve(const l2::AxisFactor::Curve& of) {
+        for (std::size_t i = 0; i < a.size(); ++i) a[i] = static_cast<double>(of[i]);
+    }
+    [[nodiscard]] double at(double x) const {
+        return a[0] + (a[1] + a[2] * x) * x + a[3] * std::abs(x - 0.5);
+    }
+    [[nodiscard]] double slope(double x) const {
+        return a[1] + 2 * a[2] * x + (x < 0.5 ? -a[3] : a[3]);
+    }
+};
+
+/// The factor own(x) + own(y) + product x y + distance |x - y|.
+struct Factor {
+    explicit Factor(const l2::AxisFactor& of)
+        : own(of.own),
+          mean(of.mean),
+          product(static_cast<double>(of.product)),
+          distance(static_cast<double>(of.distance)),
+          total(static_cast<double>(of.total)) {}
+
+    [[nodiscard]] double at(double x, double y) const {
+        return (own.at(x) + own.at(y)) + product * (x * y) + distance * std::abs(x - y);
+    }
+
+    Curve own;
+    Curve mean;
+    double product;
+    double distance;
+    double total;
+};
+
+/// Factors of all axes.
+std::vector<Factor> factors_of(l2::Kind kind, const l2::AxisWeights& weights,
+                               std::size_t dimension) {
+    const bool alone = l2::is_kernel_alone(kind, weights);
+    std::vector<Factor> factors;
+    for (std::size_t j = 0; j < dimension; ++j)
+        factors.emplace_back(l2::AxisFactor(kind, alone, l2::weight_of(weights, j)));
+    return factors;
+}
 
 constexpr std::size_t lanes = 64;  ///< points per block
 
@@ -154,11 +203,79 @@ class L2Objective final : public Objective {
     std::vector<double> owns_;     ///< own() of each coordinate
 };
 
+/// Greedy choice of the next point: the remaining one that adds least to the discrepancy.
+class Greedy {
+  public:
+    Greedy(const std::vector<double>& rows, std::size_t dimension, std::vector<Factor> factors)
+        : rows_(rows),
+          d_(dimension),
+          factors_(std::move(factors)),
+          sums_(rows.size() / dimension),
+          taken_(sums_.size()) {
+        for (std::size_t i = 0; i < sums_.size(); ++i) {
+            double mean = 1;
+            for (std::size_t j = 0; j < d_; ++j) mean *= factors_[j].mean.at(rows[i * d_ + j]);
+            means_.push_back(mean);
+            own_.push_back(kernel(i, i));
+        }
+    }
+
+    void take(std::size_t i) {
+        taken_[i] = true;
+        ++chosen_;
+        for (std::size_t k = 0; k < sums_.size(); ++k)
+            if (!taken_[k]) sums_[k] += kernel(i, k);
+    }
+
+    [[nodiscard]] std::size_t next() const {
+        std::size_t best = sums_.size();
+        for (std::size_t k = 0; k < sums_.size(); ++k)
+            if (!taken_[k] && (best == sums_.size() || added(k) < added(best))) best = k;
+        return best;
+    }
+
+  private:
+    [[nodiscard]] double kernel(std::size_t i, std::size_t k) const {
+        double product = 1;
+        for (std::size_t j = 0; j < d_; ++j)
+            product *= factors_[j].at(rows_[i * d_ + j], rows_[k * d_ + j]);
+        return product;
+    }
+    [[nodiscard]] double added(std::size_t k) const {
+        return 2 * sums_[k] + own_[k] - 2 * static_cast<double>(chosen_ + 1) * means_[k];
+    }
+
+    const std::vector<double>& rows_;
+    std::size_t d_;
+    std::vector<Factor> factors_;
+    std::vector<double> sums_;  ///< sums of kernels with the points already taken
+    std::vector<bool> taken_;
+    std::vector<double> means_;
+    std::vector<double> own_;
+    std::size_t chosen_ = 0;
+};
+
 }  // namespace
 
 std::unique_ptr<Objective> l2_objective(l2::Kind kind, const l2::AxisWeights& weights,
                                         std::size_t count, std::size_t dimension) {
     return std::make_unique<L2Objective>(kind, weights, count, dimension);
+}
+
+std::vector<double> in_even_order(const std::vector<double>& rows, std::size_t dimension,
+                                  std::size_t kept, l2::Kind kind, const l2::AxisWeights& weights,
+                                  const RunContext& run) {
+    Greedy greedy(rows, dimension, factors_of(kind, weights, dimension));
+    std::vector<double> ordered;
+    const std::size_t n = rows.size() / dimension;
+    for (std::size_t i = 0; i < n; ++i) {
+        run.check_stop();
+        const std::size_t next = i < kept ? i : greedy.next();
+        greedy.take(next);
+        const auto row = rows.begin() + static_cast<std::ptrdiff_t>(next * dimension);
+        ordered.insert(ordered.end(), row, row + static_cast<std::ptrdiff_t>(dimension));
+    }
+    return ordered;
 }
 
 }  // namespace stipple::optimized

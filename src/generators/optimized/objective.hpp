@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Objectives of the search for optimized sets: functions of the coordinates, with a gradient.
+// Objectives of the search for optimized sets: functions of the coordinates, with a gradient; and
+// what a search finds.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +15,14 @@
 #include "stipple/run.hpp"
 
 namespace stipple::optimized {
+
+/// Result of a search.
+struct OptimizedRows {
+    std::vector<double> rows;
+    double value = 0;
+    bool stopped = false;  ///< before the budget was used up, for a run that keeps the best
+    bool certain = true;   ///< whether the value is exact, not possibly too small
+};
 
 class Objective {
   public:
@@ -46,6 +55,12 @@ class Objective {
 /// Squared L2 discrepancy, over all pairs of points.
 std::unique_ptr<Objective> l2_objective(l2::Kind kind, const l2::AxisWeights& weights,
                                         std::size_t count, std::size_t dimension);
+
+/// Returns the rows in an order in which every prefix has a small L2 discrepancy; the first `kept`
+/// keep their positions. O(n^2 d).
+std::vector<double> in_even_order(const std::vector<double>& rows, std::size_t dimension,
+                                  std::size_t kept, l2::Kind kind, const l2::AxisWeights& weights,
+                                  const RunContext& run);
 
 /// Star discrepancy in two or three dimensions, over all boxes.
 std::unique_ptr<Objective> anchored_objective(const std::vector<double>& weights, std::size_t count,

@@ -15,7 +15,7 @@
 //     others       descents along the gradient from many sets (coordinate_search.hpp), over all
 //                  boxes for the star discrepancy of three axes, over those near the worst for
 //                  other boxes, and over all pairs of points for L2 kinds
-//     --lattice    all lattices of Korobov's form (lattice_search.hpp)
+//     --lattice    all lattices of Korobov's form (coordinate_search.hpp)
 //
 // Shape   d <= 6 for boxes, up to 100 for L2 kinds. The search over orders needs 8 n^2 bytes per
 //         thread; the search over coordinates takes up to 2^16 points.
@@ -41,8 +41,6 @@
 #include "generators/generator.hpp"
 #include "generators/given_points.hpp"
 #include "generators/optimized/coordinate_search.hpp"
-#include "generators/optimized/even_order.hpp"
-#include "generators/optimized/lattice_search.hpp"
 #include "generators/optimized/order_search.hpp"
 #include "generators/optimized/published.hpp"
 #include "generators/optimized/starts.hpp"

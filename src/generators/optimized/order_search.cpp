@@ -10,6 +10,7 @@
 #include "core/rng.hpp"
 #include "core/text.hpp"
 #include "generators/optimized/planar_order.hpp"
+#include "generators/search_run.hpp"
 #include "math/combinatorics/order.hpp"
 
 namespace stipple {

@@ -17,7 +17,8 @@
 #pragma once
 
 #include <cstdint>
-#include "generators/optimized/search_run.hpp"
+
+#include "generators/optimized/objective.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple {

@@ -2,7 +2,7 @@
 //
 // Chooses the best n of N points by a discrepancy:
 //
-//     star        the star discrepancy, by exchanges that break its worst box (star_choice.hpp)
+//     star        the star discrepancy, by exchanges that break its worst box (star_choice.cpp)
 //     l2-star, l2-centered, l2-wraparound, l2-mixture, l2-average
 //                 L2 discrepancies, as in l2-discrepancy
 //     periodic, gaussian, matern
@@ -10,10 +10,10 @@
 //                 kernel-discrepancy; periodic is the diaphony
 //     stein       the kernel Stein discrepancy: rows are d coordinates, then d scores grad log p
 //
-// All except star choose points greedily by a kernel, then exchange some (kernel_choice.hpp).
+// All except star choose points greedily by a kernel, then exchange some (kernel_choice.cpp).
 //
 // --split K: partitions all N points into K similarly even sets of N / K points, one set after the
-// other (partition.hpp). For star, the partition by l2-star is then improved by exchanges.
+// other (partition.cpp). For star, the partition by l2-star is then improved by exchanges.
 //
 // The points are those of a file (--from) or of another generator (--of, --candidates of them).
 //
@@ -36,12 +36,9 @@
 #include "core/text.hpp"
 #include "generators/generator.hpp"
 #include "generators/given_points.hpp"
-#include "generators/subset/partition.hpp"
-#include "generators/subset/star_choice.hpp"
+#include "generators/subset/choice.hpp"
 #include "io/files.hpp"
 #include "io/point_stream.hpp"
-#include "math/kernels/bandwidth.hpp"
-#include "math/kernels/pair_sums.hpp"
 #include "stipple/generate.hpp"
 
 namespace stipple::generators::subset {

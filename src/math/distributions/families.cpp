@@ -14,25 +14,6 @@ namespace {
 
 using Parameter = MarginalParameter;
 
-Parameter number(std::string_view name, double fallback, std::string_view help) {
-    return {.name = name, .help = help, .fallback = fallback};
-}
-Parameter within(double low, double high, Parameter parameter) {
-    parameter.low = low;
-    parameter.high = high;
-    return parameter;
-}
-Parameter whole(double low, double high, Parameter parameter) {
-    parameter.whole = true;
-    return within(low, high, parameter);
-}
-Parameter scale(std::string_view name, double fallback, std::string_view help) {
-    return within(1e-100, 1e100, number(name, fallback, help));
-}
-Parameter location(std::string_view help) {
-    return within(-1e100, 1e100, number("location", 0, help));
-}
-
 void require_below(const ParameterValues& p, std::string_view low, std::string_view high) {
     if (!(p[low] < p[high]))
         fail(ErrorKind::usage, "{}{}: {} is not below {}{}, {}", p.where, low, p[low], p.where,
@@ -97,72 +78,68 @@ MarginalPtr integers_of(const ParameterValues& p) {
 
 std::vector<MarginalFamily> all_families() {
     constexpr double most_whole = 1e15;
-    const auto ends = [](double low, double high) {
-        return std::pair{number("low", low, "Lower end"), number("high", high, "Upper end")};
+    const Parameter low{"low", "Lower end", 0};
+    const Parameter high{"high", "Upper end", 1};
+    const auto scale = [](std::string_view help) {
+        return Parameter{"scale", help, 1, 1e-100, 1e100};
     };
-    const auto [low, high] = ends(0, 1);
+    const auto location = [](std::string_view help) {
+        return Parameter{"location", help, 0, -1e100, 1e100};
+    };
     return {
         {"beta",
-         {within(0.05, 1e6, number("a", 2, "First shape parameter, alpha, in [0.05, 1e6]")),
-          within(0.05, 1e6, number("b", 2, "Second shape parameter, beta, in [0.05, 1e6]")), low,
+         {{"a", "First shape parameter, alpha, in [0.05, 1e6]", 2, 0.05, 1e6},
+          {"b", "Second shape parameter, beta, in [0.05, 1e6]", 2, 0.05, 1e6},
+          low,
           high},
          beta_of},
         {"binomial",
-         {whole(1, 1e8, number("trials", 10, "Number of trials, up to 1e8")),
-          within(1e-12, 1 - 1e-12,
-                 number("probability", 0.5, "Success probability of each trial, between 0 and 1"))},
+         {{"trials", "Number of trials, up to 1e8", 10, 1, 1e8, true},
+          {"probability", "Success probability of each trial, between 0 and 1", 0.5, 1e-12,
+           1 - 1e-12}},
          [](const auto& p) { return binomial_law(p["trials"], p["probability"]); }},
         {"exponential",
-         {within(1e-150, 1e150, number("rate", 1, "Rate lambda, 1 / mean, above 0"))},
+         {{"rate", "Rate lambda, 1 / mean, above 0", 1, 1e-150, 1e150}},
          [](const auto& p) { return exponential_law(p["rate"]); }},
         {"gamma",
-         {within(0.05, 1e6, number("shape", 2, "Shape k, in [0.05, 1e6]")),
-          scale("scale", 1, "Scale theta, above 0: the mean is k theta")},
+         {{"shape", "Shape k, in [0.05, 1e6]", 2, 0.05, 1e6},
+          scale("Scale theta, above 0: the mean is k theta")},
          [](const auto& p) { return gamma_law(p["shape"], p["scale"]); }},
         {"gumbel",
-         {location("Position of the highest density"), scale("scale", 1, "Scale, above 0")},
+         {location("Position of the highest density"), scale("Scale, above 0")},
          [](const auto& p) { return gumbel_law(p["location"], p["scale"]); }},
         {"integers",
-         {whole(-most_whole, most_whole, number("low", 1, "The smallest number")),
-          whole(-most_whole, most_whole, number("high", 6, "The largest number"))},
+         {{"low", "The smallest number", 1, -most_whole, most_whole, true},
+          {"high", "The largest number", 6, -most_whole, most_whole, true}},
          integers_of},
         {"log-uniform",
-         {within(1e-150, 1e150, number("low", 1, "Lower end, above 0")),
-          within(1e-150, 1e150, number("high", 10, "Upper end"))},
+         {{"low", "Lower end, above 0", 1, 1e-150, 1e150},
+          {"high", "Upper end", 10, 1e-150, 1e150}},
          log_uniform_of},
         {"lognormal",
-         {{.name = "mu", .help = "Mean of the logarithm; default: 0", .fallback = {}},
-          {.name = "sigma",
-           .help = "Standard deviation of the logarithm, above 0; default: 1",
-           .fallback = {},
-           .low = 0},
-          {.name = "mean",
-           .help = "Instead of mu and sigma: mean of the number itself, above 0",
-           .fallback = {},
-           .low = 1e-150},
-          {.name = "deviation",
-           .help = "With mean: standard deviation of the number itself, above 0",
-           .fallback = {},
-           .low = 1e-150}},
+         {{"mu", "Mean of the logarithm; default: 0", {}},
+          {"sigma", "Standard deviation of the logarithm, above 0; default: 1", {}, 0},
+          {"mean", "Instead of mu and sigma: mean of the number itself, above 0", {}, 1e-150},
+          {"deviation", "With mean: standard deviation of the number itself, above 0", {}, 1e-150}},
          lognormal_of},
         {"normal",
-         {number("mean", 0, "Mean"),
-          within(1e-150, 1e150, number("deviation", 1, "Standard deviation, above 0"))},
+         {{"mean", "Mean", 0}, {"deviation", "Standard deviation, above 0", 1, 1e-150, 1e150}},
          [](const auto& p) { return normal_law(p["mean"], p["deviation"]); }},
         {"poisson",
-         {within(1e-12, 1e8, number("mean", 4, "Mean, above 0, up to 1e8"))},
+         {{"mean", "Mean, above 0, up to 1e8", 4, 1e-12, 1e8}},
          [](const auto& p) { return poisson_law(p["mean"]); }},
         {"student-t",
-         {within(0.5, 1e6, number("degrees", 5, "Degrees of freedom, in [0.5, 1e6]")),
-          location("Middle"), scale("scale", 1, "Scale, above 0")},
+         {{"degrees", "Degrees of freedom, in [0.5, 1e6]", 5, 0.5, 1e6},
+          location("Middle"),
+          scale("Scale, above 0")},
          [](const auto& p) { return student_t_law(p["degrees"], p["location"], p["scale"]); }},
         {"triangular",
-         {low, number("mode", 0.5, "Position of the highest density, from low to high"), high},
+         {low, {"mode", "Position of the highest density, from low to high", 0.5}, high},
          triangular_of},
         {"uniform", {low, high}, uniform_of},
         {"weibull",
-         {within(0.05, 1e3, number("shape", 2, "Shape k, in [0.05, 1000]")),
-          scale("scale", 1, "Scale, above 0: the quantile at 1 - 1/e")},
+         {{"shape", "Shape k, in [0.05, 1000]", 2, 0.05, 1e3},
+          scale("Scale, above 0: the quantile at 1 - 1/e")},
          [](const auto& p) { return weibull_law(p["shape"], p["scale"]); }},
     };
 }

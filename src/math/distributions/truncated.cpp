@@ -11,9 +11,7 @@
 
 #include "core/error.hpp"
 #include "math/densities/quadrature.hpp"
-#include "math/distributions/laws.hpp"
 #include "math/distributions/marginal.hpp"
-#include "math/distributions/marginal_of.hpp"
 #include "math/distributions/outcomes.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"

@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "math/kernels/bandwidth.hpp"
+//
+// Default length scales of kernels.
+//
+// Source  the median heuristic: A. Gretton, K. M. Borgwardt, M. J. Rasch, B. Schoelkopf, A. Smola,
+//         J. Mach. Learn. Res. 13 (2012) 723-773.
+
+#include "math/kernels/kernel.hpp"
 
 #include <algorithm>
 #include <cmath>

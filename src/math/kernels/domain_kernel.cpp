@@ -1,5 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "math/kernels/domain_kernel.hpp"
+//
+// Kernels K(x, y) = prod k(|x_j - y_j|) with their means over a domain of independent coordinates
+// Y_j, computed from the distribution functions F_j:
+//
+//     E k(|x - Y|)  =  integral over t > 0 of -k'(t) (F(x + t) - F(x - t)) dt
+//     E E k         =  integral over u of E k(|q(u) - Y|) du,    F(q(u)) = u.
+//
+// Cost    about 300 values of F for the mean in one coordinate, about 10^5 for its total.
+// Promise means have an error of about 1e-11, which rounding() includes.
+
+#include "math/kernels/kernel.hpp"
 
 #include <algorithm>
 #include <array>

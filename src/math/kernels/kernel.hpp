@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: MIT
 //
-// Positive definite kernels K(x, y), and points stored by column so that loops vectorise.
+// Positive definite kernels K(x, y), points stored by column so that loops vectorise, and the
+// squared discrepancies that kernels define.
 //
 // Promise the same bits on every machine with IEEE 754 arithmetic, because subsets of points are
 //         chosen by kernel values.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "core/domain.hpp"
 #include "math/l2/kinds.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::kernels {
 
@@ -82,5 +87,50 @@ KernelPtr of_l2(std::size_t dimension, l2::Kind kind);
 
 /// Langevin Stein kernel; points have d coordinates followed by d scores. See stein.cpp.
 KernelPtr stein(std::size_t dimension, double bandwidth);
+
+// domain_kernel.cpp
+
+/// True if the domain's coordinates are independent, and each cube coordinate is the distribution
+/// function of one of them. Tested at the given points, moved along single coordinates.
+bool has_independent_axes(const Domain& domain, std::span<const double> points);
+
+/// Kernels for arbitrary points whose target is a domain with independent axes.
+/// @param order nullopt for the Gaussian kernel, otherwise the order of Matern's
+KernelPtr of_domain(DomainPtr domain, double bandwidth, std::optional<unsigned> order,
+                    const RunContext& run);
+
+// pair_sums.cpp
+
+struct SquaredDiscrepancy {
+    double squared;
+    double error;     ///< bound on the error of `squared` from the rounding of K
+    double expected;  ///< for n random points of the target: (mean of K(x,x) - total) / n
+};
+
+/// Squared discrepancy from the kernel's target, whose means it knows. If mean_diagonal() is
+/// unknown, `expected` uses the mean K(x, x) of the points. @throws Error(limit) if values are too
+/// large for a double
+SquaredDiscrepancy squared_from_mean(const Kernel& kernel, const Columns& points,
+                                     const RunContext& run);
+
+/// Squared discrepancy from target points. @throws Error(limit) like squared_from_mean
+SquaredDiscrepancy squared_from_points(const Kernel& kernel, const Columns& points,
+                                       const Columns& target, const RunContext& run);
+
+// bandwidth.cpp
+
+struct MedianDistance {
+    double value = 0;         ///< mean of the two middle distances if `pairs` is even
+    std::uint64_t pairs = 0;  ///< number of pairs used
+    bool of_all = true;       ///< false if the pairs are a random sample, always the same
+};
+
+/// Median distance between two of the union of `points` and `others`, from the first `dimension`
+/// coordinates. Uses all pairs, or a sample of 2^22 if there are more.
+MedianDistance median_distance(const Columns& points, const Columns& others, std::size_t dimension,
+                               const RunContext& run = {});
+
+/// Root mean square distance of two uniform points in the unit cube, sqrt(d / 6).
+double uniform_distance(std::size_t dimension);
 
 }  // namespace stipple::kernels

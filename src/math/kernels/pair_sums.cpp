@@ -1,5 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "math/kernels/pair_sums.hpp"
+//
+// Squared maximum mean discrepancy of points x_1, ..., x_n from a target, by sums over all pairs:
+//
+//     squared = total - 2/n sum_i mean(x_i) + n^-2 sum_i sum_k K(x_i, x_k)        (known mean)
+//     squared = m^-2 sum K(y, y') - 2/(n m) sum K(x, y) + n^-2 sum K(x, x')       (points y)
+//
+// Values of K are rounded to multiples of 2^-70 times their upper bound. These are added, and the
+// terms combined, as integers, so that the result is rounded only once.
+//
+// Cost    n^2 / 2 values of K, plus m^2 / 2 + n m for target points y; O(n + m) memory.
+// Promise the same result for any number of threads and any order of the points; 0 if points and
+//         target points are equal.
+
+#include "math/kernels/kernel.hpp"
 
 #include <algorithm>
 #include <array>

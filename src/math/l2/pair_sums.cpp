@@ -70,19 +70,15 @@ class FactorForm {
     /// @param two_sided true if the two minima of the centered kernel form one factor
     FactorForm(Kind kind, bool alone, bool two_sided, double weight)
         : kind_(kind), alone_(alone), two_sided_(two_sided) {
-        const double times = kind == Kind::diaphony    ? diaphony
-                             : kind == Kind::average   ? 0.5
-                             : kind == Kind::symmetric ? 2
-                                                       : 1;
-        const Quad curve = Quad(times) * weight;
+        // A kernel of the distance is s00 + sigma t + ..., in units of 1/48.
+        const AxisKernel& kernel = record_of(kind).kernel;
+        const double steep = is_of_distance() ? -static_cast<double>(kernel.sigma) / 48 : 1;
+        const Quad curve = Quad(record_of(kind).scale * steep) * weight;
         inverse_ = alone ? Quad(0) : Quad(1) / curve;
         scale_ = curve;
         if (kind == Kind::centered) scale_ *= curve;
         if (kind == Kind::mixture) scale_ /= 2;
-        const Quad top = kind == Kind::diaphony  ? Quad(1) / 6
-                         : kind == Kind::average ? Quad(1)
-                                                 : Quad(1) / 2;
-        if (is_of_distance()) base_ = inverse_ + top - reach();
+        if (is_of_distance()) base_ = inverse_ + Quad(kernel.s00) / -kernel.sigma - reach();
         if (kind == Kind::extreme) base_ = inverse_;
         if (kind == Kind::mixture) {
             base_ = inverse_ + Quad(7) / 8 - Quad(9) / 32;

@@ -12,7 +12,7 @@
 //
 // Forward, xi_1 selects a facet at each face by its share of the volume, and its remainder is the
 // position along the last edge. xi_2 ... xi_d split off the weights of the apexes, one after
-// another (math/polytopes/simplex_map.hpp), with small xi near the apex. Inverse: the ray from the
+// another, with small xi near the apex. Inverse: the ray from the
 // apex through a point meets the facet with the smallest ratio height(point) / height(apex) above
 // it. That ratio is the weight of the apex.
 //

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "analyzers/uniformity/count_law.hpp"
+#include "analyzers/uniformity/pearson.hpp"
 
 #include <gtest/gtest.h>
 

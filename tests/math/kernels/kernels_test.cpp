@@ -7,9 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "math/kernels/bandwidth.hpp"
 #include "math/kernels/kernel.hpp"
-#include "math/kernels/pair_sums.hpp"
 #include "support/units.hpp"
 
 namespace stipple::testing::kernels_test {

@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "math/combinatorics/splitmix64.hpp"
+
 namespace stipple::latin_hypercube_search {
 
 using Level = std::int32_t;
@@ -33,6 +35,13 @@ struct Design {
     }
     bool operator==(const Design&) const = default;
 };
+
+/// Design close to a lattice, with points that are far apart. Some random lattices of rank 1 with
+/// N = n, ..., 1.3 n points are compared, and the one of largest minimum distance is shifted at
+/// random on the torus. Its n points nearest to the middle are kept, by a maximum norm with random
+/// weights. Levels are the ranks of their coordinates. For N = n + 1 there is no shift: the removed
+/// point is a corner, and distances stay the same.
+Design lattice_start(std::size_t points, std::size_t dimension, SplitMix64& draws);
 
 /// Coordinate whose levels represent outcomes; levels of the same outcome are consecutive.
 struct Axis {

@@ -14,7 +14,7 @@
 // Cost      the budget in trials of an exchange, each O(n) except for correlations, and 4 n^2 or
 //           8 n^2 bytes for each of eight annealings, two if there are more than 2000 points.
 // Promise   a function of the search and its seed, for any number of threads; never worse with more
-//           trials; optimal if all designs can be tried instead (enumeration.hpp).
+//           trials; optimal if there are so few designs that all can be tried.
 // Source    ideas of M. D. Morris, T. J. Mitchell, J. Statist. Plann. Inference 43 (1995) 381-402
 //           (annealing), R. Jin, W. Chen, A. Sudjianto, ibid. 134 (2005) 268-287,
 //           doi:10.1016/j.jspi.2004.02.014 (updates by exchanges).
@@ -39,5 +39,9 @@ Result best_design(const Search& search, const std::string& words, const RunCont
 
 /// Default number of trials: about 20 seconds of one core, fewer for few points.
 double usual_trials(const Objective& objective, const Design& design);
+
+/// Number of all designs but mirror images, (n! / 2)^(d - 1); infinite for more than 11 points in
+/// two or more coordinates.
+double designs_to_try(const Design& start);
 
 }  // namespace stipple::latin_hypercube_search

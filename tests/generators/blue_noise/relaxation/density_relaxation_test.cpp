@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "generators/blue_noise/relaxation/density_relaxation.hpp"
+#include "generators/blue_noise/relaxation/relaxation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/rng.hpp"
-#include "generators/blue_noise/relaxation/gaussian_relaxation.hpp"
 
 namespace stipple::testing::density_relaxation_test {
 namespace {

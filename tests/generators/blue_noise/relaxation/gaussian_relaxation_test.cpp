@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "generators/blue_noise/relaxation/gaussian_relaxation.hpp"
+#include "generators/blue_noise/relaxation/relaxation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,6 @@
 #include <map>
 
 #include "generators/stratified/latin_hypercube_search/annealing.hpp"
-#include "generators/stratified/latin_hypercube_search/enumeration.hpp"
-#include "generators/stratified/latin_hypercube_search/lattice_start.hpp"
 #include "generators/stratified/latin_hypercube_search/support.hpp"
 #include "support/units.hpp"
 

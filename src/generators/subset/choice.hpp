@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+//
+// Ways to choose n of N points, or to split all of them, each described in its source. Each depends
+// only on the points and its arguments, not on the number of threads.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/point_set.hpp"
+#include "math/kernels/kernel.hpp"
+#include "stipple/run.hpp"
+
+namespace stipple::generators::subset {
+
+/// Rows of points, ascending.
+using Rows = std::vector<std::size_t>;
+
+// kernel_choice.cpp
+
+/// @param values budget of kernel evaluations after the greedy choice
+Rows choose_by_kernel(const kernels::Kernel& kernel, const kernels::Columns& points, std::size_t n,
+                      double values, std::uint64_t seed, const RunContext& run);
+
+/// Bytes that choose_by_kernel() needs besides the columns.
+double choice_memory(double points);
+
+/// Columns of the given rows.
+kernels::Columns columns_of(const kernels::Columns& points, const Rows& rows,
+                            const RunContext& run);
+
+// partition.cpp
+
+/// @param sets must divide the number of points
+/// @param values budget of kernel evaluations beyond the first few rounds
+std::vector<Rows> part_by_kernel(const kernels::Kernel& kernel, const kernels::Columns& points,
+                                 std::size_t sets, double values, std::uint64_t seed,
+                                 const RunContext& run);
+
+// star_choice.cpp
+
+/// Bounds of a star discrepancy, equal if it is known.
+struct StarBounds {
+    double lower = 0;
+    double upper = 1;
+};
+
+/// Star discrepancy of the rows, exact unless that takes minutes.
+StarBounds star_discrepancy(const PointSet& points, const Rows& rows, const RunContext& run);
+
+/// @param start initial rows
+/// @param measures number of sets that may be measured
+Rows choose_by_star(const PointSet& points, Rows start, std::uint64_t measures, std::uint64_t seed,
+                    const RunContext& run);
+
+/// Reduces the largest star discrepancy among `sets`, a partition of the points, by exchanging
+/// points between them.
+void even_out_by_star(const PointSet& points, std::vector<Rows>& sets, std::uint64_t measures,
+                      std::uint64_t seed, const RunContext& run);
+
+/// Bytes that choose_by_star() needs.
+double star_memory(double points);
+
+}  // namespace stipple::generators::subset
