@@ -12,7 +12,7 @@
 
 #include "cli/help/guide.hpp"
 #include "core/options.hpp"
-#include "pipeline/catalog.hpp"
+#include "report/catalog.hpp"
 
 namespace stipple::cli {
 
@@ -57,7 +57,7 @@ struct CommonOption {
     Option option;         ///< long name, type, range and help
     Verb verbs;            ///< verbs that accept it
     /// Stores a text in the request of one of these verbs. @throws Error(usage)
-    std::function<void(Request&, const Option&, const std::string& text)> store;
+    std::function<void(Request&, const CommonOption&, const std::string& text)> store;
     bool repeatable = false;
 };
 

@@ -18,19 +18,14 @@
 #include "io/format.hpp"
 #include "pipeline/generated.hpp"
 #include "report/table_line.hpp"
+#include "study/study_summary.hpp"
+#include "study/sweep.hpp"
 
 namespace stipple::parameters {
 struct NamedParameters;
 }
 
 namespace stipple::cli {
-
-/// Words between commas.
-struct Names : std::vector<std::string> {};
-/// Specs of units; a text may hold several, between commas.
-struct Specs : std::vector<std::string> {};
-/// Numbers in the form of parse_counts().
-struct NumberList : std::vector<std::uint64_t> {};
 
 /// A given seed, or one to be drawn.
 struct Seed {
@@ -72,7 +67,7 @@ struct Sources : Request {
     std::optional<std::string> domain = {};
     bool rescale = false;
     bool concat = false;
-    Names columns = {};
+    std::vector<std::string> columns = {};
     std::string from = {};              ///< name of a format; empty: from the file
     std::optional<bool> dtype_in = {};  ///< whether numbers are float32
     std::optional<bool> dtype = {};
@@ -89,7 +84,7 @@ struct Writing : Sources {
     std::optional<bool> dtype_out = {};
     std::optional<int> precision = {};
     bool meta = false;
-    bool no_header = false;
+    bool header = true;
     bool with_pdf = false;
     bool with_weight = false;
 };
@@ -142,10 +137,10 @@ struct PlotRequest : Sources {
     std::optional<std::string> key = {};
     std::optional<std::uint64_t> set = {};
     bool overlay = false;
-    Names draw = {};
+    std::vector<std::string> draw = {};
     std::optional<std::string> title = {};
-    Names labels = {};
-    Names axes = {};
+    std::vector<std::string> labels = {};
+    std::vector<std::string> axes = {};
     bool dark = false;
     std::optional<std::uint64_t> width = {};
     std::optional<std::uint64_t> height = {};
@@ -166,25 +161,12 @@ struct ReportRequest : Sources {
     int perform(Session& session) const override;
 };
 
-struct StudyRequest : Request {
-    Specs generators = {};
-    Specs analyze = {};
+struct StudyRequest : Request, SweepRequest, SummaryOptions {
     std::optional<std::string> config = {};
-    NumberList counts = {};
-    NumberList dimensions = {};
-    std::uint64_t seeds = 1;
-    std::vector<std::string> warp_specs = {};
     std::optional<TableStyle> format = {};
-    Names keys = {};
     bool summary = false;
-    bool curves = false;
     bool resume = false;
     bool overwrite = false;
-    bool paired = false;
-    std::optional<double> confidence = {};
-    std::optional<std::uint64_t> bootstrap = {};
-    std::optional<double> time_limit = {};
-    bool no_seconds = false;
     bool yes = false;
 
     int perform(Session& session) const override;
