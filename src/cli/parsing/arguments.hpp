@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,9 +36,13 @@ constexpr Verb operator|(Verb a, Verb b) {
     return static_cast<Verb>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
 }
 
+struct Arguments;
+struct Request;
+
 struct VerbInfo : VerbPage {
     Verb verb;
     std::string name;
+    std::unique_ptr<Request> (*fill)(const Arguments&);  ///< for request_of()
 };
 
 const std::vector<VerbInfo>& verbs();
@@ -46,8 +51,6 @@ const std::vector<VerbInfo>& verbs();
 const VerbInfo* find_verb(std::string_view name);
 
 const VerbInfo& info_of(Verb verb);
-
-struct Request;
 
 /// An option that verbs accept for every unit.
 struct CommonOption {

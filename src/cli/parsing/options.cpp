@@ -499,40 +499,10 @@ std::unique_ptr<Request> filled(const Arguments& arguments) {
 }  // namespace
 
 std::unique_ptr<Request> request_of(const Arguments& arguments) {
-    switch (*arguments.verb) {
-        case Verb::generate:
-            return filled<GenerateRequest>(arguments);
-        case Verb::warp:
-            return filled<WarpRequest>(arguments);
-        case Verb::analyze:
-            return filled<AnalyzeRequest>(arguments);
-        case Verb::convert:
-            return filled<ConvertRequest>(arguments);
-        case Verb::plot:
-            return filled<PlotRequest>(arguments);
-        case Verb::study:
-            return filled<StudyRequest>(arguments);
-        case Verb::report:
-            return filled<ReportRequest>(arguments);
-        case Verb::reproduce:
-            return filled<ReproduceRequest>(arguments);
-        case Verb::list:
-            return filled<ListRequest>(arguments);
-        case Verb::help:
-            return filled<HelpRequest>(arguments);
-        case Verb::completions:
-            break;
-    }
-    return filled<CompletionsRequest>(arguments);
+    return info_of(*arguments.verb).fill(arguments);
 }
 
 void WarpRequest::settle() { densities = !density_at; }
-
-void ConvertRequest::settle() { densities = true; }
-
-// Plots and reports skip rows with gaps.
-void PlotRequest::settle() { gaps = true; }
-void ReportRequest::settle() { gaps = true; }
 
 void AnalyzeRequest::settle() {
     for (const std::string& text : specs) {
@@ -569,18 +539,20 @@ Values settings_of(const Schema& schema, const Arguments& arguments) {
 const std::vector<VerbInfo>& verbs() {
     static const auto table = [] {
         std::vector<VerbInfo> all;
-        for (const auto& [verb, name] : {std::pair{Verb::generate, "generate"},
-                                         {Verb::warp, "warp"},
-                                         {Verb::analyze, "analyze"},
-                                         {Verb::convert, "convert"},
-                                         {Verb::plot, "plot"},
-                                         {Verb::study, "study"},
-                                         {Verb::report, "report"},
-                                         {Verb::list, "list"},
-                                         {Verb::reproduce, "reproduce"},
-                                         {Verb::help, "help"},
-                                         {Verb::completions, "completions"}})
-            all.push_back({verb_page(name), verb, name});
+        const auto add = [&all](Verb verb, const char* name, const auto& fill) {
+            all.push_back({verb_page(name), verb, name, fill});
+        };
+        add(Verb::generate, "generate", filled<GenerateRequest>);
+        add(Verb::warp, "warp", filled<WarpRequest>);
+        add(Verb::analyze, "analyze", filled<AnalyzeRequest>);
+        add(Verb::convert, "convert", filled<ConvertRequest>);
+        add(Verb::plot, "plot", filled<PlotRequest>);
+        add(Verb::study, "study", filled<StudyRequest>);
+        add(Verb::report, "report", filled<ReportRequest>);
+        add(Verb::list, "list", filled<ListRequest>);
+        add(Verb::reproduce, "reproduce", filled<ReproduceRequest>);
+        add(Verb::help, "help", filled<HelpRequest>);
+        add(Verb::completions, "completions", filled<CompletionsRequest>);
         return all;
     }();
     return table;

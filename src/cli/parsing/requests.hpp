@@ -74,7 +74,7 @@ struct Sources : Request {
 
     // From the verb and its units.
     bool densities = false;  ///< reads the column pdf or weight
-    bool gaps = false;       ///< reads rows with missing numbers
+    bool gaps = false;       ///< reads rows with missing numbers, to be left out
     bool tables = false;     ///< reads rows of tables, not points
 };
 
@@ -105,10 +105,11 @@ struct WarpRequest : Writing {
 };
 
 struct ConvertRequest : Writing {
+    ConvertRequest() { densities = true; }
+
     std::optional<std::string> vector_output = {};
     std::optional<std::string> vector_format = {};
 
-    void settle() override;
     int perform(Session& session) const override;
 };
 
@@ -132,6 +133,8 @@ struct AnalyzeRequest : Sources {
 enum class Medium { svg, pdf, png, text };
 
 struct PlotRequest : Sources {
+    PlotRequest() { gaps = true; }
+
     std::optional<Medium> format = {};
     std::string chart = {};
     std::optional<std::string> key = {};
@@ -147,17 +150,17 @@ struct PlotRequest : Sources {
     std::optional<bool> log_x = {};
     std::optional<bool> log_y = {};
 
-    void settle() override;
     int perform(Session& session) const override;
 };
 
 struct ReportRequest : Sources {
+    ReportRequest() { gaps = true; }
+
     std::optional<bool> json = {};
     std::vector<std::string> checks = {};
     std::vector<std::string> fail_on = {};
     std::optional<std::uint64_t> max_work = {};
 
-    void settle() override;
     int perform(Session& session) const override;
 };
 
