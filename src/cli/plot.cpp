@@ -843,8 +843,8 @@ class Plot {
     std::string path_;
     Medium medium_;
     const std::string& chart_;
-    const Names& labels_;
-    const Names& axes_;
+    const std::vector<std::string>& labels_;
+    const std::vector<std::string>& axes_;
     plot::PictureStyle style_;
     plot::TextRoom room_;
     std::vector<Loaded> sets_;

@@ -157,7 +157,7 @@ std::string typed_options(const Arguments& arguments,
 Target target_of(const Writing& request) {
     Target target{.path = request.output.value_or("-"), .format = request.format};
     target.format = &format_of(target);
-    target.header = !request.no_header;
+    target.header = request.header;
     target.meta = request.meta;
     target.single = request.dtype_out ? *request.dtype_out
                     : request.dtype   ? *request.dtype

@@ -55,42 +55,30 @@ StudyRequest with_config(const StudyRequest& typed, const RunContext& run) {
                 fmt::format("{}: $.{}", io::source_name(*typed.config), what.substr(2)), e.hint());
 }
 
-const Specs& required(const Specs& specs, const char* name) {
-    if (specs.empty())
-        fail_with_hint(ErrorKind::usage,
-                       "'stipple study --help' has examples; --config FILE names a study in a file",
-                       "study: --{} is missing", name);
-    return specs;
-}
-
 SweepRequest sweep_of(const StudyRequest& asked, const Ranks& ranks, Session& session) {
-    SweepRequest sweep{.generators = required(asked.generators, "generators"),
-                       .measures = required(asked.analyze, "analyze")};
-    if (!asked.counts.empty()) sweep.counts = asked.counts;
-    if (!asked.dimensions.empty()) sweep.dimensions = asked.dimensions;
-    if (ranks.size() > 1 && asked.seed && asked.seed->random)
+    SweepRequest sweep = asked;
+    for (const auto& [specs, name] :
+         {std::pair{&sweep.generators, "generators"}, {&sweep.measures, "analyze"}})
+        if (specs->empty())
+            fail_with_hint(
+                ErrorKind::usage,
+                "'stipple study --help' has examples; --config FILE names a study in a file",
+                "study: --{} is missing", name);
+    if (ranks.size() > 1 && asked.Request::seed && asked.Request::seed->random)
         fail(ErrorKind::usage, "--seed: every rank would draw another one; give a number");
     sweep.first_seed = seed_of(asked, ~std::uint64_t{0}, session);
-    sweep.seeds = asked.seeds;
-    sweep.warps = asked.warp_specs;
     if (asked.parameters) {
         sweep.warps.push_back(asked.parameters->spec());
-        if (asked.dimensions.empty()) sweep.dimensions = {asked.parameters->dimension()};
+        if (!asked.has("dimension")) sweep.dimensions = {asked.parameters->dimension()};
     }
-    if (std::ranges::find(asked.keys, "") != asked.keys.end())
-        fail(ErrorKind::usage, "--keys: '{}' has an empty name", join(asked.keys, ","));
-    sweep.keys = asked.keys;
-    sweep.curves = asked.curves;
-    sweep.time_limit = asked.time_limit;
-    sweep.seconds = !asked.no_seconds;
+    if (std::ranges::find(sweep.keys, "") != sweep.keys.end())
+        fail(ErrorKind::usage, "--keys: '{}' has an empty name", join(sweep.keys, ","));
     return sweep;
 }
 
 SummaryOptions summary_options(const StudyRequest& asked, std::uint64_t seed) {
-    SummaryOptions options{.seed = seed};
-    options.paired = asked.paired;
-    options.confidence = asked.confidence.value_or(options.confidence);
-    options.resamples = asked.bootstrap.value_or(options.resamples);
+    SummaryOptions options = asked;
+    options.seed = seed;
     return options;
 }
 

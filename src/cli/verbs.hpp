@@ -28,10 +28,6 @@ std::string complete(std::vector<std::string> words);
 /// Text of --help for the program, a verb, or a unit of a verb; made from the records.
 std::string help_text(const Arguments& arguments);
 
-/// Points of a generator, or the image of a warp, drawn with characters; empty if the unit
-/// has no such picture.
-std::string picture_in_letters(Verb verb, const UnitInfo& unit);
-
 /// Versions of stipple and the libraries it is linked with.
 std::string version_text();
 

@@ -12,7 +12,6 @@
 #include "core/json.hpp"
 #include "core/spec.hpp"
 #include "io/provenance.hpp"
-#include "pipeline/catalog.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/generated.hpp"
 #include "pipeline/pipeline.hpp"
@@ -21,6 +20,7 @@
 #include "plot/report_charts.hpp"
 #include "python/conversion.hpp"
 #include "python/run.hpp"
+#include "report/catalog.hpp"
 #include "report/document.hpp"
 #include "stipple/stipple.hpp"
 

@@ -12,7 +12,7 @@
 #include "cli/terminal.hpp"
 #include "core/text.hpp"
 #include "math/fourier/fft.hpp"
-#include "pipeline/catalog.hpp"
+#include "report/catalog.hpp"
 #include "support/program.hpp"
 
 namespace stipple::testing::help_test {

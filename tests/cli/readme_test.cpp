@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "pipeline/catalog.hpp"
 #include "places.hpp"
+#include "report/catalog.hpp"
 #include "support/program.hpp"
 
 namespace stipple::testing::readme_test {

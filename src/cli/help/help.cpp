@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -14,6 +15,9 @@
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "pipeline/generated.hpp"
+#include "pipeline/units.hpp"
+#include "plot/text_picture.hpp"
 
 namespace stipple::cli {
 namespace {
@@ -208,6 +212,36 @@ HelpPage page_of_verb(const VerbInfo& info, HelpPage::Style style) {
     page.lines(examples);
     page.see_also("stipple-" + info.name);
     return page;
+}
+
+/// Points of a generator with default options, or their image under a warp; nullopt if an option
+/// without a default is needed.
+std::optional<PointSet> sample_of(const char* generator, std::uint64_t count, std::size_t dimension,
+                                  std::vector<Spec> warps) {
+    const Generator& made_by = find_generator(generator);
+    try {
+        return GeneratedSets({.generator = &made_by,
+                              .options = quick_options(made_by),
+                              .request = {.count = count, .dimension = dimension},
+                              .warps = std::move(warps)},
+                             {})
+            .made(0, {});
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
+/// Points of a generator, or the image of a warp, drawn with characters; empty if the unit
+/// has no such picture.
+std::string picture_in_letters(Verb verb, const UnitInfo& unit) {
+    std::optional<PointSet> points;
+    if (verb == Verb::generate) points = sample_of(unit.name.c_str(), 256, 2, {});
+    if (verb == Verb::warp && scramble_named(unit.name) == nullptr)
+        for (std::size_t d = 1; d <= 3 && !points; ++d)
+            points = sample_of("jittered", d == 3 ? 1000 : 900, d, {parse_spec(unit.name)});
+    if (!points) return {};
+    plot::PointsPicture picture{.sets = {&*points}, .names = {unit.name}};
+    return plot::points_as_text(picture, {.columns = 48, .rows = 24});
 }
 
 HelpPage page_of_unit(const VerbInfo& info, const UnitInfo& unit) {

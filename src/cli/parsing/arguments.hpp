@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,7 +13,7 @@
 
 #include "cli/help/guide.hpp"
 #include "core/options.hpp"
-#include "pipeline/catalog.hpp"
+#include "report/catalog.hpp"
 
 namespace stipple::cli {
 
@@ -35,9 +36,13 @@ constexpr Verb operator|(Verb a, Verb b) {
     return static_cast<Verb>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
 }
 
+struct Arguments;
+struct Request;
+
 struct VerbInfo : VerbPage {
     Verb verb;
     std::string name;
+    std::unique_ptr<Request> (*fill)(const Arguments&);  ///< for request_of()
 };
 
 const std::vector<VerbInfo>& verbs();
@@ -47,8 +52,6 @@ const VerbInfo* find_verb(std::string_view name);
 
 const VerbInfo& info_of(Verb verb);
 
-struct Request;
-
 /// An option that verbs accept for every unit.
 struct CommonOption {
     std::string names;     ///< such as "-n,--count", with the long name last
@@ -57,7 +60,7 @@ struct CommonOption {
     Option option;         ///< long name, type, range and help
     Verb verbs;            ///< verbs that accept it
     /// Stores a text in the request of one of these verbs. @throws Error(usage)
-    std::function<void(Request&, const Option&, const std::string& text)> store;
+    std::function<void(Request&, const CommonOption&, const std::string& text)> store;
     bool repeatable = false;
 };
 

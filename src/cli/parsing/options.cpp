@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <type_traits>
 
 #include "cli/parsing/requests.hpp"
@@ -41,23 +42,25 @@ std::uint64_t byte_count(const Option& option, const std::string& text) {
 
 // Each take() stores a text in a field of its type.
 
-void take(std::string& field, const Option&, const std::string& text) { field = text; }
+void take(std::string& field, const CommonOption&, const std::string& text) { field = text; }
 
-/// Flags, choices and whole numbers. Of a choice, the field gets the index.
+/// Flags, choices and whole numbers. Of a choice, the field gets the index; --no-X stores false.
 template <class Field>
 requires std::is_enum_v<Field> || std::is_integral_v<Field>
-void take(Field& field, const Option& option, const std::string& text) {
+void take(Field& field, const CommonOption& common, const std::string& text) {
+    const Option& option = common.option;
     if (option.type == "flag")
-        field = static_cast<Field>(true);
+        field = static_cast<Field>(!option.name.starts_with("no-"));
     else if (option.type == "choice")
         field =
             static_cast<Field>(std::ranges::find(option.choices, text) - option.choices.begin());
     else
-        field = static_cast<Field>(option.type == "size" ? byte_count(option, text)
-                                                         : whole_number(option, text));
+        field = static_cast<Field>(common.value == "SIZE" ? byte_count(option, text)
+                                                          : whole_number(option, text));
 }
 
-void take(double& field, const Option& option, const std::string& text) {
+void take(double& field, const CommonOption& common, const std::string& text) {
+    const Option& option = common.option;
     const auto value = parse_number(text);
     if (!value || !(*value > option.low) || !(*value < option.high))
         fail(ErrorKind::usage, "--{}: '{}' is not a number above {} and below {}", option.name,
@@ -65,53 +68,51 @@ void take(double& field, const Option& option, const std::string& text) {
     field = *value;
 }
 
-void take(Seed& field, const Option& option, const std::string& text) {
+void take(Seed& field, const CommonOption& common, const std::string& text) {
     field.random = text == "random";
     if (field.random) return;
     const auto seed = parse_unsigned(text);
     if (!seed)
         fail(ErrorKind::usage, "--{}: '{}' is not a whole number in [0, 2^64) or 'random'",
-             option.name, text);
+             common.option.name, text);
     field.value = *seed;
 }
 
-void take(Shard& field, const Option& option, const std::string& text) {
+void take(Shard& field, const CommonOption& common, const std::string& text) {
     const auto parts = split(text, '/');
     const auto index = parts.size() == 2 ? parse_unsigned(parts[0]) : std::nullopt;
     const auto of = parts.size() == 2 ? parse_unsigned(parts[1]) : std::nullopt;
     if (!index || !of || *index >= *of)
-        fail(ErrorKind::usage, "--{}: '{}' is not I/K with 0 <= I < K", option.name, text);
+        fail(ErrorKind::usage, "--{}: '{}' is not I/K with 0 <= I < K", common.option.name, text);
     field = {*index, *of};
 }
 
-void take(const Format*& field, const Option&, const std::string& text) {
+void take(const Format*& field, const CommonOption&, const std::string& text) {
     field = &io::format_named(text);
 }
 
-void take(Names& field, const Option&, const std::string& text) {
-    for (const auto name : split(text, ',')) field.emplace_back(trim(name));
+void take(std::vector<std::uint64_t>& field, const CommonOption& common, const std::string& text) {
+    const auto high = static_cast<std::uint64_t>(common.option.high);
+    field = parse_counts(text, "--" + common.option.name, 1, high);
 }
 
-void take(NumberList& field, const Option& option, const std::string& text) {
-    const auto high = static_cast<std::uint64_t>(option.high);
-    field = {parse_counts(text, "--" + option.name, 1, high)};
+/// Specs, names between commas, or texts of an option that is repeated.
+void take(std::vector<std::string>& field, const CommonOption& common, const std::string& text) {
+    if (common.value == "SPECS")
+        std::ranges::move(split_specs(text, "--" + common.option.name), std::back_inserter(field));
+    else if (common.repeatable)
+        field.push_back(text);
+    else
+        for (const auto name : split(text, ',')) field.emplace_back(trim(name));
 }
 
-void take(Specs& field, const Option& option, const std::string& text) {
-    for (auto& spec : split_specs(text, "--" + option.name)) field.push_back(std::move(spec));
-}
-
-void take(std::vector<std::string>& field, const Option&, const std::string& text) {
-    field.push_back(text);
-}
-
-void take(std::vector<Spec>& field, const Option&, const std::string& text) {
+void take(std::vector<Spec>& field, const CommonOption&, const std::string& text) {
     field.push_back(parse_spec(text));
 }
 
 template <class Field>
-void take(std::optional<Field>& field, const Option& option, const std::string& text) {
-    take(field.emplace(), option, text);
+void take(std::optional<Field>& field, const CommonOption& common, const std::string& text) {
+    take(field.emplace(), common, text);
 }
 
 // ---------------------------------------------------------------- the table
@@ -124,11 +125,12 @@ struct Row : CommonOption {
     Row(std::string_view all_names, std::string_view placeholder, const char* shown_default,
         const char* help, Verb of_verbs, Field VerbRequest::*field, double low = 0, double high = 0)
         : Row(all_names, placeholder, shown_default, help, of_verbs, nullptr, low, high) {
-        store = [field](Request& request, const Option& own, const std::string& text) {
+        store = [field](Request& request, const CommonOption& own, const std::string& text) {
             take(dynamic_cast<VerbRequest&>(request).*field, own, text);
         };
-        repeatable = std::is_same_v<Field, std::vector<std::string>> ||
-                     std::is_same_v<Field, std::vector<Spec>> || std::is_same_v<Field, Specs>;
+        const bool list = value.find(',') != value.npos && value.find('[') == value.npos;
+        repeatable = std::is_same_v<Field, std::vector<Spec>> ||
+                     (std::is_same_v<Field, std::vector<std::string>> && !list);
     }
 
     /// An option that the parser replaces by another one.
@@ -149,9 +151,8 @@ Row::Row(std::string_view all_names, std::string_view placeholder, const char* s
                               .high = high,
                               .help = help},
                    .verbs = of_verbs,
-                   .store = [](Request&, const Option&, const std::string&) {}} {
+                   .store = [](Request&, const CommonOption&, const std::string&) {}} {
     if (value.empty()) option.type = "flag";
-    if (value == "SIZE") option.type = "size";
     if (value == "FILE" || value == "FOLDER") option.type = "file";
     if (value.find('|') == std::string::npos) return;
     option.type = "choice";
@@ -172,9 +173,9 @@ constexpr double most_work = 0x1p60;
 
 const std::vector<Row> rows = {
     {"--generators", "SPECS", "", "generators to compare: sobol:scramble=owen,halton", study,
-     &StudyRequest::generators},
+     &SweepRequest::generators},
     {"--analyze", "SPECS", "", "analyzers to run: star-discrepancy,integration:integrand=...",
-     study, &StudyRequest::analyze},
+     study, &SweepRequest::measures},
     {"--config", "FILE", "",
      "a study as JSON, as data/study.schema.json says; options on the command line override it",
      study, &StudyRequest::config},
@@ -183,13 +184,13 @@ const std::vector<Row> rows = {
      "--start and --warp, as in 'stipple generate'",
      analyze | plot | report, &Sources::generate},
     {"-n,--count", "COUNTS", "1024", "points in a set: 16,64,256 or 2^4..2^16 or 16..65536*2",
-     study, &StudyRequest::counts, 1, most_points},
+     study, &SweepRequest::counts, 1, most_points},
     {"-n,--count", "N", "1024", "points in a set; 1e6, 2^20 and 64k (= 65536) are accepted",
      generate, &Sources::count, 1, most_points},
     {"-n,--count", "N", "1024", "points of a set of --generate", analyze | plot | report,
      &Sources::count, 1, most_points},
     {"-d,--dimension", "DIMENSIONS", "2", "one or several, written as for -n", study,
-     &StudyRequest::dimensions, 1, most_dimensions},
+     &SweepRequest::dimensions, 1, most_dimensions},
     {"-d,--dimension", "D", "2", "dimension", generate, &Sources::dimension, 1, most_dimensions},
     {"-s,--seed", "S", "1", "the first 64-bit seed; 'random' draws one and reports it", study,
      &Request::seed},
@@ -212,13 +213,13 @@ const std::vector<Row> rows = {
      report, &Sources::sets, 1, 1000},
     {"-m,--sets,--seeds", "R", "1",
      "sets of each generator, dimension and count: seeds S, S + 1, ...", study,
-     &StudyRequest::seeds, 1, most_points},
+     &SweepRequest::seeds, 1, most_points},
     {"-w,--warp", "NAME[:OPT=V,...]", "", "warp or scramble of --generate", analyze | plot | report,
      &Sources::warps},
     {"-w,--warp", "NAME[:OPT=V,...]", "",
      "warp or scramble the points; NAME@I,J takes two coordinates", generate, &Sources::warps},
     {"-w,--warp", "NAME[:OPT=V,...]", "", "warp or scramble before measuring, in order", study,
-     &StudyRequest::warp_specs},
+     &SweepRequest::warps},
     {"--parameters", "FILE", "",
      "file of named parameters, to which the points are mapped after all warps (see 'stipple help "
      "parameters')",
@@ -319,13 +320,13 @@ const std::vector<Row> rows = {
     {"--keys", "KEY,...", "",
      "results to keep, by name or by a dotted part of it: value, radial.power, mean[0]; "
      "default: all numbers",
-     study, &StudyRequest::keys},
+     study, &SweepRequest::keys},
     {"--summary", "", "",
      "means with standard errors, t and bootstrap intervals, medians, root mean squares, and "
      "pairwise comparisons of generators with Holm-corrected p-values",
      study, &StudyRequest::summary},
     {"--curves", "", "", "also keep lists, a row for each number: radial.power[3]", study,
-     &StudyRequest::curves},
+     &SweepRequest::curves},
     {"--resume", "", "",
      "continue the study in the output file, also with more seeds, counts, generators, ...; start "
      "it if there is none",
@@ -382,17 +383,17 @@ const std::vector<Row> rows = {
      &PlotRequest::log_y},
     {"--pairs", "welch|paired", "welch",
      "compare by Welch's t test, or by paired differences of sets with one seed", study,
-     &StudyRequest::paired},
+     &SummaryOptions::paired},
     {"--confidence", "C", "0.95", "confidence level of the intervals", study,
-     &StudyRequest::confidence, 0, 1},
-    {"--bootstrap", "B", "2000", "bootstrap resamples", study, &StudyRequest::bootstrap, 1,
+     &SummaryOptions::confidence, 0, 1},
+    {"--bootstrap", "B", "2000", "bootstrap resamples", study, &SummaryOptions::resamples, 1,
      10'000'000},
     {"--time-limit", "SECONDS", "",
      "time limit for making a set, and for each analyzer of it; a measurement that takes longer "
      "fails",
-     study, &StudyRequest::time_limit, 0, 1e9},
+     study, &SweepRequest::time_limit, 0, 1e9},
     {"--no-seconds", "", "", "omit the timing columns, so that every run gives the same bytes",
-     study, &StudyRequest::no_seconds},
+     study, &SweepRequest::seconds},
     {"--yes", "", "", "start even with more than 10 million rows", study, &StudyRequest::yes},
     {"--max-work", "N", "1e9",
      "comparisons of each search for a worst box (a few seconds); a search that stops there "
@@ -421,7 +422,7 @@ const std::vector<Row> rows = {
     {"--precision", "P", "",
      "digits after the point, truncated; default: the shortest text that reads back exactly",
      writers, &Writing::precision, 0, 1000},
-    {"--no-header", "", "", "omit the header line of csv", writers, &Writing::no_header},
+    {"--no-header", "", "", "omit the header line of csv", writers, &Writing::header},
     {"--threads", "T", "0", "0 = all cores; never changes a result", workers, &Request::threads, 0,
      4096},
     {"--max-memory", "SIZE", "80 % of the machine's",
@@ -488,7 +489,7 @@ std::unique_ptr<Request> filled(const Arguments& arguments) {
     for (const auto& [name, text] : arguments.common) {
         const CommonOption& common = *find_common("--" + name, *arguments.verb);
         if (common.option.type == "choice") static_cast<void>(common.option.parse(text));
-        common.store(*request, common.option, text);
+        common.store(*request, common, text);
     }
     check_rules(arguments);
     request->settle();
@@ -498,40 +499,10 @@ std::unique_ptr<Request> filled(const Arguments& arguments) {
 }  // namespace
 
 std::unique_ptr<Request> request_of(const Arguments& arguments) {
-    switch (*arguments.verb) {
-        case Verb::generate:
-            return filled<GenerateRequest>(arguments);
-        case Verb::warp:
-            return filled<WarpRequest>(arguments);
-        case Verb::analyze:
-            return filled<AnalyzeRequest>(arguments);
-        case Verb::convert:
-            return filled<ConvertRequest>(arguments);
-        case Verb::plot:
-            return filled<PlotRequest>(arguments);
-        case Verb::study:
-            return filled<StudyRequest>(arguments);
-        case Verb::report:
-            return filled<ReportRequest>(arguments);
-        case Verb::reproduce:
-            return filled<ReproduceRequest>(arguments);
-        case Verb::list:
-            return filled<ListRequest>(arguments);
-        case Verb::help:
-            return filled<HelpRequest>(arguments);
-        case Verb::completions:
-            break;
-    }
-    return filled<CompletionsRequest>(arguments);
+    return info_of(*arguments.verb).fill(arguments);
 }
 
 void WarpRequest::settle() { densities = !density_at; }
-
-void ConvertRequest::settle() { densities = true; }
-
-// Plots and reports skip rows with gaps.
-void PlotRequest::settle() { gaps = true; }
-void ReportRequest::settle() { gaps = true; }
 
 void AnalyzeRequest::settle() {
     for (const std::string& text : specs) {
@@ -568,18 +539,20 @@ Values settings_of(const Schema& schema, const Arguments& arguments) {
 const std::vector<VerbInfo>& verbs() {
     static const auto table = [] {
         std::vector<VerbInfo> all;
-        for (const auto& [verb, name] : {std::pair{Verb::generate, "generate"},
-                                         {Verb::warp, "warp"},
-                                         {Verb::analyze, "analyze"},
-                                         {Verb::convert, "convert"},
-                                         {Verb::plot, "plot"},
-                                         {Verb::study, "study"},
-                                         {Verb::report, "report"},
-                                         {Verb::list, "list"},
-                                         {Verb::reproduce, "reproduce"},
-                                         {Verb::help, "help"},
-                                         {Verb::completions, "completions"}})
-            all.push_back({verb_page(name), verb, name});
+        const auto add = [&all](Verb verb, const char* name, const auto& fill) {
+            all.push_back({verb_page(name), verb, name, fill});
+        };
+        add(Verb::generate, "generate", filled<GenerateRequest>);
+        add(Verb::warp, "warp", filled<WarpRequest>);
+        add(Verb::analyze, "analyze", filled<AnalyzeRequest>);
+        add(Verb::convert, "convert", filled<ConvertRequest>);
+        add(Verb::plot, "plot", filled<PlotRequest>);
+        add(Verb::study, "study", filled<StudyRequest>);
+        add(Verb::report, "report", filled<ReportRequest>);
+        add(Verb::list, "list", filled<ListRequest>);
+        add(Verb::reproduce, "reproduce", filled<ReproduceRequest>);
+        add(Verb::help, "help", filled<HelpRequest>);
+        add(Verb::completions, "completions", filled<CompletionsRequest>);
         return all;
     }();
     return table;

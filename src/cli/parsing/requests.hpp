@@ -18,15 +18,10 @@
 #include "io/format.hpp"
 #include "pipeline/generated.hpp"
 #include "report/table_line.hpp"
+#include "study/study_summary.hpp"
+#include "study/sweep.hpp"
 
 namespace stipple::cli {
-
-/// Words between commas.
-struct Names : std::vector<std::string> {};
-/// Specs of units; a text may hold several, between commas.
-struct Specs : std::vector<std::string> {};
-/// Numbers in the form of parse_counts().
-struct NumberList : std::vector<std::uint64_t> {};
 
 /// A given seed, or one to be drawn.
 struct Seed {
@@ -68,14 +63,14 @@ struct Sources : Request {
     std::optional<std::string> domain = {};
     bool rescale = false;
     bool concat = false;
-    Names columns = {};
+    std::vector<std::string> columns = {};
     std::string from = {};              ///< name of a format; empty: from the file
     std::optional<bool> dtype_in = {};  ///< whether numbers are float32
     std::optional<bool> dtype = {};
 
     // From the verb and its units.
     bool densities = false;  ///< reads the column pdf or weight
-    bool gaps = false;       ///< reads rows with missing numbers
+    bool gaps = false;       ///< reads rows with missing numbers, to be left out
     bool tables = false;     ///< reads rows of tables, not points
 };
 
@@ -85,7 +80,7 @@ struct Writing : Sources {
     std::optional<bool> dtype_out = {};
     std::optional<int> precision = {};
     bool meta = false;
-    bool no_header = false;
+    bool header = true;
     bool with_pdf = false;
     bool with_weight = false;
 };
@@ -106,10 +101,11 @@ struct WarpRequest : Writing {
 };
 
 struct ConvertRequest : Writing {
+    ConvertRequest() { densities = true; }
+
     std::optional<std::string> vector_output = {};
     std::optional<std::string> vector_format = {};
 
-    void settle() override;
     int perform(Session& session) const override;
 };
 
@@ -133,54 +129,43 @@ struct AnalyzeRequest : Sources {
 enum class Medium { svg, pdf, png, text };
 
 struct PlotRequest : Sources {
+    PlotRequest() { gaps = true; }
+
     std::optional<Medium> format = {};
     std::string chart = {};
     std::optional<std::string> key = {};
     std::optional<std::uint64_t> set = {};
     bool overlay = false;
-    Names draw = {};
+    std::vector<std::string> draw = {};
     std::optional<std::string> title = {};
-    Names labels = {};
-    Names axes = {};
+    std::vector<std::string> labels = {};
+    std::vector<std::string> axes = {};
     bool dark = false;
     std::optional<std::uint64_t> width = {};
     std::optional<std::uint64_t> height = {};
     std::optional<bool> log_x = {};
     std::optional<bool> log_y = {};
 
-    void settle() override;
     int perform(Session& session) const override;
 };
 
 struct ReportRequest : Sources {
+    ReportRequest() { gaps = true; }
+
     std::optional<bool> json = {};
     std::vector<std::string> checks = {};
     std::vector<std::string> fail_on = {};
     std::optional<std::uint64_t> max_work = {};
 
-    void settle() override;
     int perform(Session& session) const override;
 };
 
-struct StudyRequest : Request {
-    Specs generators = {};
-    Specs analyze = {};
+struct StudyRequest : Request, SweepRequest, SummaryOptions {
     std::optional<std::string> config = {};
-    NumberList counts = {};
-    NumberList dimensions = {};
-    std::uint64_t seeds = 1;
-    std::vector<std::string> warp_specs = {};
     std::optional<TableStyle> format = {};
-    Names keys = {};
     bool summary = false;
-    bool curves = false;
     bool resume = false;
     bool overwrite = false;
-    bool paired = false;
-    std::optional<double> confidence = {};
-    std::optional<std::uint64_t> bootstrap = {};
-    std::optional<double> time_limit = {};
-    bool no_seconds = false;
     bool yes = false;
 
     int perform(Session& session) const override;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/catalog.hpp"
+#include "report/catalog.hpp"
 
 #include <fmt/format.h>
 
