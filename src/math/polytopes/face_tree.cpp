@@ -47,7 +47,7 @@ STIPPLE_WIDE [[gnu::flatten]] void roots(double* x, double m, std::size_t rows) 
 // are below 2^-52 everywhere (M. Rosenblatt, Annals of Mathematical Statistics 23 (1952) 470-472,
 // doi:10.1214/aoms/1177729394).
 
-/// Splits the next weight off each row's rest, and stores it in place of xi: about 6 ns on one core.
+/// Splits the next weight off each row's rest, and stores it in place of xi; 6 ns on one core.
 void break_off(double* xi, double* rest, std::size_t m, std::size_t rows) {
     if (m == 2) square_roots(xi, rows);
     if (m > 2) roots(xi, static_cast<double>(m), rows);
