@@ -241,9 +241,14 @@ Arguments parse_arguments(int argc, const char* const* argv) {
             spec = parse_spec(arguments.specs.empty() ? *named : arguments.specs.front());
             unit = find_unit(*kind, spec.name);
         }
-        if (arguments.specs.empty()) own = own_options(verb, *unit);
-        arguments.unit = unit->name;
-        words.erase(words.begin() + (named - words.data()));
+        const auto word = words.begin() + (named - words.data());
+        if (unit == nullptr) {
+            *word = spec.name;  // for the message
+        } else {
+            if (arguments.specs.empty()) own = own_options(verb, *unit);
+            arguments.unit = unit->name;
+            words.erase(word);
+        }
     }
     const bool takes_inputs = kind == nullptr || (unit != nullptr && verb != Verb::generate);
     const auto rest = take_words(std::move(words), own, takes_inputs, arguments);
@@ -256,7 +261,8 @@ Arguments parse_arguments(int argc, const char* const* argv) {
         if (!arguments.specs.empty()) refuse_loose_options(rest, arguments, *kind);
         check_rest(rest, *info, own, kind != nullptr && unit == nullptr);
     }
-    if (!spec.name.empty() && arguments.specs.empty()) take_spec(spec, *unit, arguments);
+    if (unit != nullptr && !spec.name.empty() && arguments.specs.empty())
+        take_spec(spec, *unit, arguments);
     settle_format(arguments);
     return arguments;
 }
