@@ -8,12 +8,23 @@
 #include "core/text.hpp"
 
 namespace stipple {
+namespace {
+
+/// Whether a part of a key stands for any name.
+bool is_free(std::string_view part) {
+    return std::ranges::all_of(part, [](char c) { return c >= 'A' && c <= 'Z'; });
+}
+
+}  // namespace
+
+std::size_t free_parts(const ResultKey& result) {
+    return static_cast<std::size_t>(std::ranges::count_if(split(result.key, '.'), is_free));
+}
 
 const ResultKey* find_result(const Analyzer& analyzer, std::string_view key) {
     const auto names = split(key, '.');
     const auto fits = [](std::string_view part, std::string_view name) {
-        const bool any = std::ranges::all_of(part, [](char c) { return c >= 'A' && c <= 'Z'; });
-        return any || part == name;
+        return is_free(part) || part == name;
     };
     const auto it = std::ranges::find_if(analyzer.results, [&](const ResultKey& result) {
         return std::ranges::equal(split(result.key, '.'), names, fits);

@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/options.hpp"
@@ -31,13 +32,36 @@ struct AnalyzerTraits {
     bool table = false;      ///< accepts rows of any numbers; missing ones are NaN
 };
 
-/// One key of the results, for help and `stipple list`.
+/// Which of two values is the better one.
+enum class Better { neither, lower, higher };
+
+constexpr const char* word_of(Better better) {
+    return better == Better::lower ? "lower" : better == Better::higher ? "higher" : "neither";
+}
+
+/// One key of the results.
 struct ResultKey {
     std::string key;  ///< dotted; a part in capitals stands for any name
     std::string help;
     bool always = true;           ///< false: only with some options
     std::string_view words = {};  ///< possible values, separated by |; empty: numbers, or any text
+    Better better = Better::neither;
+    bool any_count = false;  ///< comparable between sets of different sizes
+    /// Sentences for these words on a report page; {}: the numbers behind the word.
+    std::vector<std::pair<std::string_view, std::string_view>> sentences = {};
 };
+
+/// A result of which the lower value is better.
+inline ResultKey lower(ResultKey result) {
+    result.better = Better::lower;
+    return result;
+}
+
+/// A result of which the higher value is better.
+inline ResultKey higher(ResultKey result) {
+    result.better = Better::higher;
+    return result;
+}
 
 inline constexpr std::string_view true_or_false = "true|false";
 
@@ -102,6 +126,37 @@ constexpr std::size_t arrival_batch(std::size_t dimension) {
     return dimension < numbers ? numbers / dimension : 1;
 }
 
+/// A list of the results that is drawn as a curve.
+struct CurveKey {
+    std::string_view key;
+    std::string_view over;  ///< key of the list of its abscissas
+    /// Values for independent points: a number, or the key of a list. Empty: unknown.
+    std::string_view reference = {};
+    std::string_view title = {};       ///< name on its axis; empty: the key in words
+    std::string_view over_title = {};  ///< likewise of the abscissas
+    bool log = false;                  ///< logarithmic axes
+    std::string_view caption = {};     ///< on a report page; empty: not shown there
+};
+
+/// Parts of a report page, in its order.
+enum class PagePart { discrepancy, means, gaps, distances, spectrum, pairs, integration, tests };
+
+/// One measure of a report page: the analyzer with these options.
+struct PageMeasure {
+    std::string_view title;
+    /// Keys of results in the comparison of sets, with their names there.
+    std::vector<std::pair<std::string_view, std::string_view>> compared = {};
+    /// Options with their values; the page chooses an empty value (max-work, prefixes).
+    std::vector<std::pair<std::string_view, std::string_view>> options = {};
+    std::string_view name = {};  ///< first part of its keys; empty: the analyzer's name
+};
+
+/// How long a comparison of all pairs takes.
+struct AllPairs {
+    std::size_t above = 0;  ///< all pairs are compared in more dimensions than this
+    double steps = 0;       ///< values of n^2 d that take as long as a comparison in a search
+};
+
 struct Analyzer {
     std::string name;
     std::string summary;
@@ -112,6 +167,13 @@ struct Analyzer {
     AnalyzerTraits traits;
     Schema options;
     std::vector<ResultKey> results;
+    std::vector<CurveKey> curves = {};
+    PagePart part = {};
+    std::vector<PageMeasure> page = {};
+    AllPairs pairs = {};
+    /// Values of `stipple plot --chart` that show results with default options, each with the title
+    /// of the grid in the plane; empty: the curve.
+    std::vector<std::pair<std::string_view, std::string_view>> charts = {};
     std::string_view strengths = {};  ///< option that names the column of weights, if there is one
 
     /// Analyzes one set, whose dimension and domain have been checked against the traits. Empty if
@@ -144,6 +206,9 @@ struct Analyzer {
 
 /// Grain of one batch of points, for Sharing.
 std::uint64_t batch_grain(const Arrival& arrival, const Values&);
+
+/// Number of parts of a key that stand for any name.
+std::size_t free_parts(const ResultKey& result);
 
 /// Record of the result with a dotted key; nullptr if there is none.
 const ResultKey* find_result(const Analyzer& analyzer, std::string_view key);

@@ -376,7 +376,8 @@ void Analysis::finish() {
 
 void Analysis::save_grid(const Report& results, std::size_t number, bool several) {
     const auto* grid = std::get_if<Grid>(results.find("grid"));
-    for (const std::string name : {"grid", "image"}) {
+    for (const bool image : {false, true}) {
+        const char* const name = image ? "image" : "grid";
         auto path = text_of(name);
         if (!path) continue;
         if (grid == nullptr)
@@ -385,8 +386,8 @@ void Analysis::save_grid(const Report& results, std::size_t number, bool several
             fail(ErrorKind::usage, "--{}: several sets need a name with {{set}}, or --average",
                  name);
         replace_all(*path, "{set}", std::to_string(number));
-        save_beside(*path, name == "grid" ? npy_bytes(*grid)
-                                          : png_bytes(*grid, picture_of(results, asked_)));
+        save_beside(*path,
+                    image ? png_bytes(*grid, picture_of(results, asked_)) : npy_bytes(*grid));
     }
 }
 

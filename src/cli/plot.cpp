@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "analyzers/distances/empty_ball.hpp"
 #include "cli/inputs.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
@@ -148,6 +149,9 @@ std::string number_of(const Loaded& set) {
     return set.number ? fmt::format(" (set {})", *set.number) : "";
 }
 
+/// Key of the side of a cell, if a grid shows distances.
+constexpr const char* pixel_key = "pixel";
+
 /// One `plot` call: the sets or reports read, and their picture.
 class Plot {
   public:
@@ -159,6 +163,12 @@ class Plot {
           chart_(request.chart),
           labels_(request.labels),
           axes_(request.axes) {
+        for (const Analyzer& analyzer : analyzers::all())
+            for (const auto& [name, title] : analyzer.charts)
+                if (name == chart_) {
+                    charted_ = &analyzer;
+                    grid_title_ = title;
+                }
         take_style();
     }
 
@@ -318,10 +328,7 @@ class Plot {
 
     void rename_columns(Loaded& set) const {
         if (axes_.empty()) return;
-        const bool table = chart_ == "spectrum" || chart_ == "differential";
-        const bool curves =
-            chart_ == "radial" || chart_ == "pair-correlation" || chart_ == "distances";
-        if (table || curves) return;
+        if (charted_ != nullptr || chart_ == "distances") return;
         Provenance& meta = set.points.provenance;
         const auto before = coordinate_names(set.points.dimension(), meta);
         if (axes_.size() != before.size())
@@ -397,19 +404,18 @@ class Plot {
 
     std::string picture_of_points() {
         if (request_.key) fail(ErrorKind::usage, "--key: is for reports; these are points");
-        if (chart_ == "radial" || chart_ == "pair-correlation") {
-            plot::Chart chart =
-                plot::chart_of(analyzed(chart_ == "radial" ? "periodogram" : "pair-correlation"));
+        if (charted_ != nullptr && grid_title_.empty()) {
+            plot::Chart chart = plot::chart_of(analyzed());
             rename_axes(chart);
             return drawn(chart);
         }
-        const bool table = chart_ == "spectrum" || chart_ == "differential";
-        if (table || chart_.empty())
+        if (charted_ != nullptr || chart_.empty())
             if (auto found = saved_table()) {
-                if (table) found->differences = chart_ == "differential";
+                if (charted_ != nullptr)
+                    found->differences = find_result(*charted_, pixel_key) != nullptr;
                 return saved(*found);
             }
-        if (table) return spectrum();
+        if (charted_ != nullptr) return spectrum();
         if (chart_ == "local-discrepancy") return local_discrepancies();
         const bool frames = has_frames();
         if (!frames) require_one_dimension();
@@ -436,13 +442,12 @@ class Plot {
             if (word == "cells") {
                 picture.cells = true;
             } else if (word == "gap") {
-                const Analyzer& analyzer = find_analyzer("coverage");
-                const Report gap = stipple::analyze(analyzer, set.points,
-                                                    analyzer.options.defaults(), session_.run());
-                const auto& centre = gap.curve("center");
-                picture.circles.push_back({.centre = {centre[0], centre[1]},
-                                           .radius = gap.number("radius"),
-                                           .torus = gap.text("metric") == "torus"});
+                const auto distances = analyzers::distances_in_box(set.points, "", "--draw gap");
+                const auto gap =
+                    analyzers::largest_empty_ball(set.points, distances, {}, session_.run());
+                picture.circles.push_back({.centre = {gap.center[0], gap.center[1]},
+                                           .radius = gap.radius,
+                                           .torus = distances.torus});
             } else {
                 fail(ErrorKind::usage, "--draw: '{}' is not one of cells, gap", word);
             }
@@ -607,12 +612,11 @@ class Plot {
     }
 
     std::string spectrum() {
-        const bool differences = chart_ == "differential";
-        refuse_scales(differences ? "differences" : "a spectrum");
+        refuse_scales("a table");
         const std::vector<Measurement> found = analyzed_tables();
         if (found.size() > 1) return sheet_of_tables(found);
-        const std::string what = differences ? "Pair differences" : "Power spectrum";
-        const std::string title = request_.title.value_or(what + " of " + sets_[0].title);
+        const std::string title =
+            request_.title.value_or(fmt::format("{} of {}", grid_title_, sets_[0].title));
         return drawn_table(grid_of(found[0]), title, subtitle_of(sets_[0]) + number_of(sets_[0]),
                            names_of(found[0]));
     }
@@ -622,7 +626,8 @@ class Plot {
     }
 
     [[nodiscard]] plot::TableNames names_of(const Measurement& m) const {
-        return chart_ == "differential" ? names_of(m.results.number("pixel")) : renamed({});
+        const auto pixel = number_at(m.results, pixel_key);
+        return pixel ? names_of(pixel) : renamed({});
     }
 
     /// Draws each table in a frame, with one bar for all shades at the end of each row.
@@ -655,7 +660,7 @@ class Plot {
 
     /// Measurements with a table, one for each input.
     std::vector<Measurement> analyzed_tables() {
-        auto found = analyzed(chart_ == "differential" ? "differential" : "periodogram");
+        auto found = analyzed();
         if (found.size() > most_frames) {
             session_.warn(
                 fmt::format("the first {} of {} inputs are drawn", most_frames, found.size()));
@@ -716,9 +721,9 @@ class Plot {
         return drawn(chart);
     }
 
-    /// Measurements by the analyzer with default options: one for each input, the mean of its sets.
-    std::vector<Measurement> analyzed(const char* name) {
-        const Analyzer& analyzer = find_analyzer(name);
+    /// Measurements with default options: one for each input, the mean of its sets.
+    std::vector<Measurement> analyzed() {
+        const Analyzer& analyzer = *charted_;
         const Values options = analyzer.options.defaults();
         std::vector<Measurement> found;
         const std::vector<std::size_t> firsts = firsts_of_inputs();
@@ -843,6 +848,8 @@ class Plot {
     std::string path_;
     Medium medium_;
     const std::string& chart_;
+    const Analyzer* charted_ = nullptr;  ///< whose results --chart shows
+    std::string grid_title_;             ///< empty: they are a curve
     const std::vector<std::string>& labels_;
     const std::vector<std::string>& axes_;
     plot::PictureStyle style_;

@@ -41,9 +41,8 @@ std::string file_name(const std::string& path) { return path.substr(path.rfind('
 /// Possible keys of a measure's results.
 std::vector<std::string> keys_of(const std::string& measure, const Analyzer& analyzer) {
     std::vector<std::string> keys;
-    const auto any_name = [](char c) { return c >= 'A' && c <= 'Z'; };
     for (const ResultKey& result : analyzer.results)
-        if (std::ranges::none_of(result.key, any_name)) keys.push_back(measure + "." + result.key);
+        if (free_parts(result) == 0) keys.push_back(measure + "." + result.key);
     for (const page::Key& known : page::compared_keys())
         if (std::string_view(known.key).starts_with(measure + ".") &&
             std::ranges::find(keys, known.key) == keys.end())
@@ -56,17 +55,20 @@ std::vector<std::string> keys_of(const std::string& measure, const Analyzer& ana
 Check condition_of(const std::string& text, const std::string& option) {
     Check check = parse_check(text, option);
     const std::string measure = check.key.substr(0, check.key.find_first_of(".["));
-    const Analyzer* analyzer = page::analyzer_of(measure);
-    if (analyzer == nullptr)
-        fail_with_hint(ErrorKind::usage, suggest(measure, page::measure_names()),
+    const page::Planned* plan = page::planned(measure);
+    if (plan == nullptr) {
+        std::vector<std::string> names;
+        for (const auto& known : page::planned_measures()) names.emplace_back(known.name);
+        fail_with_hint(ErrorKind::usage, suggest(measure, names),
                        "{}: '{}' does not begin with the name of a measure", option, check.key);
+    }
     const bool alone = check.key == measure;
     if (alone) check.key += ".value";
     const std::string path = check.key.substr(0, check.key.find('['));
     const ResultKey* result =
-        path == measure ? nullptr : find_result(*analyzer, path.substr(measure.size() + 1));
+        path == measure ? nullptr : find_result(*plan->analyzer, path.substr(measure.size() + 1));
     if (result == nullptr) {
-        const auto keys = keys_of(measure, *analyzer);
+        const auto keys = keys_of(measure, *plan->analyzer);
         fail_with_hint(ErrorKind::usage,
                        alone ? "its keys are " + join(keys, ", ") : suggest(check.key, keys),
                        "{}: there is no '{}'", option, check.key);

@@ -4,50 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "plot/drawing/ticks.hpp"
 #include "report/document.hpp"
+#include "study/study_summary.hpp"
 
 namespace stipple::page {
 
 using plot::rounded;
 
 namespace {
-
-constexpr std::array keys = {
-    Key{"star-discrepancy.value", "Star discrepancy", "Discrepancy"},
-    Key{"extreme-discrepancy.value", "Extreme discrepancy", "Discrepancy"},
-    Key{"periodic-discrepancy.value", "Periodic discrepancy", "Discrepancy"},
-    Key{"l2-discrepancy.star.value", "L2 star", "L2 discrepancy"},
-    Key{"l2-discrepancy.extreme.value", "L2 extreme", "L2 discrepancy"},
-    Key{"l2-discrepancy.periodic.value", "L2 periodic", "L2 discrepancy"},
-    Key{"l2-discrepancy.centered.value", "L2 centered", "L2 discrepancy"},
-    Key{"l2-discrepancy.wraparound.value", "L2 wraparound", "L2 discrepancy"},
-    Key{"l2-discrepancy.mixture.value", "L2 mixture", "L2 discrepancy"},
-    Key{"l2-discrepancy.modified.value", "L2 modified", "L2 discrepancy"},
-    Key{"l2-discrepancy.diaphony.value", "Diaphony", "L2 discrepancy"},
-    Key{"dispersion.value", "Dispersion: largest empty box", "Gaps"},
-    Key{"t-value.t", "t-value in base 2", "Gaps", Better::lower, false},
-    Key{"nearest-neighbor.minimum", "Smallest distance", "Distances", Better::higher, false},
-    Key{"nearest-neighbor.mean", "Mean nearest distance", "Distances", Better::higher, false},
-    Key{"nearest-neighbor.relative_radius", "Relative radius", "Distances", Better::higher, true},
-    Key{"nearest-neighbor.duplicates", "Duplicates", "Distances", Better::lower, true},
-    Key{"periodogram.effective_nyquist", "Effective Nyquist frequency", "Spectrum", Better::higher,
-        false},
-    Key{"periodogram.relative_nyquist", "Relative Nyquist frequency", "Spectrum", Better::higher,
-        true},
-    Key{"periodogram.oscillation", "Oscillation", "Spectrum", Better::lower, true},
-    Key{"integration.genz-gaussian.error", "Error of a smooth integrand", "Integration",
-        Better::lower, false, true},
-    Key{"integration.genz-continuous.error", "Error of an integrand with a kink", "Integration",
-        Better::lower, false, true},
-    Key{"integration.genz-discontinuous.error", "Error of an integrand with a jump", "Integration",
-        Better::lower, false, true},
-    Key{"chi-square.p_value", "χ² p‑value", "Uniformity", Better::neither, true},
-    Key{"kolmogorov-smirnov.combined_p_value", "Kolmogorov–Smirnov p‑value", "Uniformity",
-        Better::neither, true}};
 
 constexpr double least_probability = 1e-16;  ///< smaller p-values are shown as "<"
 
@@ -62,36 +29,17 @@ std::string probability(double p) {
     return p < least_probability ? "p < 1e-16" : fmt::format("p = {}", rounded(p, 2));
 }
 
-std::string chi_square_words(const Report& found) {
-    const std::string& verdict = found.text("verdict");
-    const std::string numbers = fmt::format(
-        "χ² = {} with {} degrees of freedom, {}", rounded(found.number("statistic")),
-        rounded(found.number("degrees_of_freedom"), 12), probability(found.number("p_value")));
-    if (verdict == "uniform")
-        return fmt::format("The numbers of points in the cells are as expected by chance ({}).",
-                           numbers);
-    if (verdict == "stratified")
-        return fmt::format(
-            "The cells are filled more evenly than by independent points ({}): good for "
-            "low-discrepancy and stratified sets.",
-            numbers);
-    return fmt::format("The points do not follow their domain's density ({}).", numbers);
-}
-
-std::string kolmogorov_words(const Report& found) {
-    const std::string& verdict = found.text("verdict");
+/// Statistic of a test: one number, or one for each axis.
+std::string numbers_of_test(const Report& found) {
+    if (const auto statistic = number_at(found, "statistic"))
+        return fmt::format("χ² = {} with {} degrees of freedom, {}", rounded(*statistic),
+                           rounded(found.number("degrees_of_freedom"), 12),
+                           probability(found.number("p_value")));
     const auto& statistic = found.curve("statistic");
     const auto worst = std::ranges::max_element(statistic);
-    const std::string numbers =
-        fmt::format("largest distance {}, on axis {}; {} over all axes", rounded(*worst),
-                    worst - statistic.begin() + 1, probability(found.number("combined_p_value")));
-    if (verdict == "uniform")
-        return fmt::format("Each axis by itself looks like independent uniform numbers ({}).",
-                           numbers);
-    if (verdict == "stratified")
-        return fmt::format("At least one axis is covered more evenly than by chance ({}).",
-                           numbers);
-    return fmt::format("At least one axis has a wrong density ({}).", numbers);
+    return fmt::format("largest distance {}, on axis {}; {} over all axes", rounded(*worst),
+                       worst - statistic.begin() + 1,
+                       probability(found.number("combined_p_value")));
 }
 
 bool same_domain(std::span<const Set> sets) {
@@ -132,7 +80,40 @@ std::vector<std::string> notes_on(std::span<const Set> sets) {
     return notes;
 }
 
-std::span<const Key> compared_keys() { return keys; }
+std::span<const Planned> planned_measures() {
+    static const std::vector<Planned> all = [] {
+        std::vector<Planned> found;
+        for (const Analyzer& analyzer : analyzers::all())
+            for (const PageMeasure& measure : analyzer.page)
+                found.push_back(
+                    {measure.name.empty() ? analyzer.name : measure.name, &analyzer, &measure});
+        std::ranges::stable_sort(found, {}, [](const Planned& one) { return one.analyzer->part; });
+        return found;
+    }();
+    return all;
+}
+
+const Planned* planned(std::string_view measure) {
+    const auto at = std::ranges::find(planned_measures(), measure, &Planned::name);
+    return at == planned_measures().end() ? nullptr : &*at;
+}
+
+std::span<const Key> compared_keys() {
+    static constexpr std::string_view groups[] = {"Discrepancy", "L2 discrepancy", "Gaps",
+                                                  "Distances",   "Spectrum",       "Correlation",
+                                                  "Integration", "Uniformity"};
+    static const std::vector<Key> keys = [] {
+        std::vector<Key> found;
+        for (const auto& [name, analyzer, measure] : planned_measures())
+            for (const auto& [key, label] : measure->compared)
+                if (const ResultKey& result = *find_result(*analyzer, key); result.words.empty())
+                    found.push_back({fmt::format("{}.{}", name, key), label,
+                                     groups[static_cast<std::size_t>(analyzer->part)],
+                                     result.better, result.any_count});
+        return found;
+    }();
+    return keys;
+}
 
 namespace {
 
@@ -180,9 +161,10 @@ std::optional<Known> known_under(const Set& set, const Key& key) {
     const auto dot = whole.find('.');
     if (dot == std::string_view::npos) return std::nullopt;
     const std::string_view measure = whole.substr(0, dot);
+    const bool magnitude = is_error_key(whole);
     std::vector<Known> all;
     const auto take = [&](const Report* found) {
-        const auto known = known_in(found, whole.substr(dot + 1), key.magnitude);
+        const auto known = known_in(found, whole.substr(dot + 1), magnitude);
         if (known) all.push_back(*known);
         return known.has_value();
     };
@@ -190,7 +172,7 @@ std::optional<Known> known_under(const Set& set, const Key& key) {
     if (set.replications.empty() || key.better == Better::neither) return all[0];
     for (const Report& results : set.replications)
         if (!take(std::get_if<Report>(results.find(measure)))) return std::nullopt;
-    return mean_of(all, key.magnitude);
+    return mean_of(all, magnitude);
 }
 
 std::vector<bool> best_of(std::span<const std::optional<Known>> values, Better better) {
@@ -212,7 +194,7 @@ std::vector<Row> compare_sets(std::span<const Set> sets) {
     const bool one_count = same_count(sets);
     const bool one_domain = same_domain(sets);
     std::vector<Row> rows;
-    for (const Key& key : keys) {
+    for (const Key& key : compared_keys()) {
         Row row{.key = key};
         for (const Set& set : sets) row.values.push_back(known_under(set, key));
         if (std::ranges::none_of(row.values, [](const auto& v) { return v.has_value(); })) continue;
@@ -223,10 +205,19 @@ std::vector<Row> compare_sets(std::span<const Set> sets) {
     return rows;
 }
 
+std::string verdict_of(const Report& results) {
+    const auto* word = std::get_if<std::string>(results.find("verdict"));
+    return word == nullptr ? "" : *word;
+}
+
 std::string verdict_in_words(const Measure& measure) {
-    if (!measure.results) return {};
-    if (measure.name == "chi-square") return chi_square_words(*measure.results);
-    if (measure.name == "kolmogorov-smirnov") return kolmogorov_words(*measure.results);
+    const Planned* plan = planned(measure.name);
+    if (plan == nullptr || !measure.results) return {};
+    const ResultKey* result = find_result(*plan->analyzer, "verdict");
+    if (result == nullptr) return {};
+    for (const auto& [word, sentence] : result->sentences)
+        if (word == verdict_of(*measure.results))
+            return fmt::format(fmt::runtime(sentence), numbers_of_test(*measure.results));
     return {};
 }
 

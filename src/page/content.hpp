@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "analyzers/analyzer.hpp"
 #include "core/point_set.hpp"
 #include "stipple/report.hpp"
 
@@ -67,21 +68,34 @@ bool same_count(std::span<const Set> sets);
 /// Sentences on why the sets are not directly comparable: different n or domains.
 std::vector<std::string> notes_on(std::span<const Set> sets);
 
-/// Which of two numbers is the better one.
-enum class Better { lower, higher, neither };
+/// A measure with its analyzer.
+struct Planned {
+    std::string_view name;
+    const Analyzer* analyzer;
+    const PageMeasure* measure;
+};
 
-/// A number in the comparison; `key` is MEASURE.RESULT.
+/// All measures, in the order of the page.
+std::span<const Planned> planned_measures();
+
+/// The measure with this name; nullptr if there is none.
+const Planned* planned(std::string_view measure);
+
+/// A number in the comparison; `key` is MEASURE.RESULT. Errors are compared by magnitude: over
+/// several sets, by the root mean square.
 struct Key {
-    const char* key;
-    const char* label;
-    const char* group;
+    std::string key;
+    std::string_view label;
+    std::string_view group;
     Better better = Better::lower;
     bool any_count = false;  ///< comparable between sets of different n
-    bool magnitude = false;  ///< ignores the sign; over several sets, the root mean square
 };
 
 /// All compared numbers, in the order of the table.
 std::span<const Key> compared_keys();
+
+/// Word that a test found, such as "uniform"; empty if there is none.
+std::string verdict_of(const Report& results);
 
 /// Knowledge of a number: exact, bounds, or a mean with its error.
 struct Known {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/json.hpp"
@@ -142,21 +143,19 @@ std::string numbers_of(std::span<const Set> sets, const Chart& chart, const Area
 
 /// Chart of a measure of the given sets, omitting sets without the curve; only its first panel.
 std::string chart_figure(std::span<const Set> sets, std::span<const std::size_t> which,
-                         const char* measure, const char* curve, const std::string& what,
-                         const std::string& caption) {
+                         const Planned& plan, const CurveKey& curve) {
     std::vector<Measurement> found;
     std::vector<std::size_t> numbers;
     std::vector<std::string> without;
     bool several = false;
     for (const std::size_t i : which) {
-        const Report* results = sets[i].results(measure);
-        if (results == nullptr || results->find(curve) == nullptr) {
+        const Report* results = sets[i].results(plan.name);
+        if (results == nullptr || results->find(curve.key) == nullptr) {
             without.push_back(sets[i].name);
             continue;
         }
         several = several || !sets[i].replications.empty();
-        const auto& of = *std::ranges::find(sets[i].measures, measure, &Measure::name);
-        found.push_back({.analyzer = of.analyzer,
+        found.push_back({.analyzer = plan.analyzer->name,
                          .source = sets[i].name,
                          .count = sets[i].count,
                          .dimension = sets[i].dimension,
@@ -177,12 +176,14 @@ std::string chart_figure(std::span<const Set> sets, std::span<const std::size_t>
     };
     const std::string of =
         found.size() == 1 ? found[0].source : fmt::format("{} sets", found.size());
+    const std::string what =
+        curve.title.empty() ? plot::words_of(plan.analyzer->name) : std::string(curve.title);
     const std::string svg = themed(drawn, fmt::format("{} of {}", what, of));
     return figure("chart",
                   fmt::format("{}<output class=\"tip\" hidden></output>\n<script "
                               "type=\"application/json\">{}</script>\n",
                               svg, numbers_of(sets, chart, frames.front())),
-                  caption + (panel.log_y ? "; logarithmic" : "") +
+                  std::string(curve.caption) + (panel.log_y ? "; logarithmic" : "") +
                       (several ? "; for the first seed" : "") +
                       (without.empty() ? "" : "; without " + html_text(join(without, ", "))) + ".");
 }
@@ -192,31 +193,35 @@ std::string chart_figure(std::span<const Set> sets, std::span<const std::size_t>
 const Theme& theme_of(bool dark) { return dark ? dark_page : light_page; }
 
 std::vector<MarkedBox> worst_boxes(const Set& set) {
+    static const std::map<std::string, const char*> titles = {
+        {"star", "worst box from the origin"},
+        {"extreme", "worst box of all"},
+        {"periodic", "worst box on the torus"}};
     std::vector<MarkedBox> boxes;
-    const auto add = [&](const char* measure, const char* kind, const char* title) {
-        const Report* found = set.results(measure);
-        if (found == nullptr || found->find("worst_box.corner") == nullptr) return;
-        MarkedBox box{.kind = kind, .high = found->curve("worst_box.corner")};
-        box.low.assign(box.high.size(), 0);
-        if (found->find("worst_box.lower_corner") != nullptr)
-            box.low = found->curve("worst_box.lower_corner");
-        if (const auto* closed = std::get_if<bool>(found->find("worst_box.closed")))
-            box.closed = *closed;
-        const double share = found->number("worst_box.points") / static_cast<double>(set.count);
-        box.label = fmt::format("{}: {} of the points in {} of the volume", title,
-                                rounded(share, 4), rounded(found->number("worst_box.volume"), 4));
-        boxes.push_back(std::move(box));
-    };
-    add("star-discrepancy", "star", "worst box from the origin");
-    add("extreme-discrepancy", "extreme", "worst box of all");
-    add("periodic-discrepancy", "periodic", "worst box on the torus");
-    const Report* found = set.results("dispersion");
-    if (found != nullptr && found->find("box.lower_corner") != nullptr)
-        boxes.push_back({.kind = "empty",
-                         .label = fmt::format("largest empty box: volume {}",
-                                              rounded(found->number("lower"), 4)),
-                         .low = found->curve("box.lower_corner"),
-                         .high = found->curve("box.upper_corner")});
+    for (const Measure& measure : set.measures) {
+        const Report found = measure.results.value_or(Report());
+        const std::string kind = option_of(measure.options, "kind");
+        if (const auto corner = list_at(found, "worst_box.corner")) {
+            // Measuring prefixes repeats the search in the whole set.
+            if (std::ranges::find(boxes, kind, &MarkedBox::kind) != boxes.end()) continue;
+            MarkedBox box{.kind = kind, .high = *corner};
+            box.low = list_at(found, "worst_box.lower_corner")
+                          .value_or(std::vector<double>(box.high.size(), 0));
+            if (const auto* closed = std::get_if<bool>(found.find("worst_box.closed")))
+                box.closed = *closed;
+            const double share = found.number("worst_box.points") / static_cast<double>(set.count);
+            box.label =
+                fmt::format("{}: {} of the points in {} of the volume", titles.at(kind),
+                            rounded(share, 4), rounded(found.number("worst_box.volume"), 4));
+            boxes.push_back(std::move(box));
+        } else if (found.find("box.lower_corner") != nullptr) {
+            boxes.push_back({.kind = "empty",
+                             .label = fmt::format("largest empty box: volume {}",
+                                                  rounded(found.number("lower"), 4)),
+                             .low = found.curve("box.lower_corner"),
+                             .high = found.curve("box.upper_corner")});
+        }
+    }
     return boxes;
 }
 
@@ -258,10 +263,12 @@ Grid in_blocks(const Grid& grid, std::size_t most) {
 
 std::string spectrum_figure(const Set& set) {
     constexpr std::size_t most_pixels = 255;
-    const Report* found = set.results("periodogram");
-    if (found == nullptr || set.dimension != 2) return {};
-    const auto* grid = std::get_if<Grid>(found->find("grid"));
-    if (grid == nullptr || grid->rows != grid->columns || grid->rows % 2 == 0) return {};
+    const Grid* grid = nullptr;
+    for (const Measure& measure : set.measures)
+        if (measure.results && grid == nullptr)
+            grid = std::get_if<Grid>(measure.results->find("grid"));
+    if (grid == nullptr || set.dimension != 2 || grid->rows != grid->columns || grid->rows % 2 == 0)
+        return {};
     Grid centred = *grid;
     centred.values[centred.values.size() / 2] = 0;  // frequency zero would dominate its block
     const Grid small = in_blocks(centred, most_pixels);
@@ -282,12 +289,15 @@ std::string spectrum_figure(const Set& set) {
 }
 
 std::string curve_figures(std::span<const Set> sets, std::span<const std::size_t> which) {
-    return chart_figure(sets, which, "periodogram", "radial.power", "radial power",
-                        "Radial power over frequency; white noise has 1") +
-           chart_figure(sets, which, "pair-correlation", "density", "pair correlation",
-                        "Pair correlation over distance; independent points have 1") +
-           chart_figure(sets, which, "convergence", "prefixes.value", "star discrepancy",
-                        "Star discrepancy of the first n points, over n");
+    std::vector<std::pair<const Planned*, const CurveKey*>> all;
+    for (const Planned& plan : planned_measures())
+        for (const CurveKey& curve : plan.analyzer->curves)
+            if (!curve.caption.empty()) all.emplace_back(&plan, &curve);
+    // Logarithmic axes, those of numbers of points, come last.
+    std::ranges::stable_sort(all, {}, [](const auto& one) { return one.second->log; });
+    std::string out;
+    for (const auto& [plan, curve] : all) out += chart_figure(sets, which, *plan, *curve);
+    return out;
 }
 
 }  // namespace stipple::page

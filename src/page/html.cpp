@@ -113,14 +113,14 @@ std::string cell_of(const Row& row, std::size_t set) {
                             script_number(known->most())));
 }
 
-std::string verdict_row(std::span<const Set> sets, const char* measure, const std::string& label) {
+std::string verdict_row(std::span<const Set> sets, std::string_view measure,
+                        const std::string& label) {
     std::string cells;
     bool any = false;
     for (std::size_t i = 0; i < sets.size(); ++i) {
         const Report* found = sets[i].results(measure);
         any = any || found != nullptr;
-        cells +=
-            found == nullptr ? cell(i, "–", " none") : cell(i, html_text(found->text("verdict")));
+        cells += found == nullptr ? cell(i, "–", " none") : cell(i, html_text(verdict_of(*found)));
     }
     if (!any) return {};
     return fmt::format("<tr><th scope=\"row\">{}</th>{}</tr>\n", label, cells);
@@ -135,7 +135,7 @@ std::string arrow_of(Better better) {
 /// Attributes from which the page's script marks the best of a row.
 std::string rule_of(const Key& key) {
     if (key.better == Better::neither) return {};
-    return fmt::format(" data-better=\"{}\"{}", key.better == Better::lower ? "lower" : "higher",
+    return fmt::format(" data-better=\"{}\"{}", word_of(key.better),
                        key.any_count ? " data-any-count" : "");
 }
 
@@ -176,15 +176,16 @@ std::string comparison_of(std::span<const Set> sets) {
         const auto dot = key.find('.');
         out += fmt::format("<tr data-key=\"{}\"{}><th scope=\"row\"{}>{}{}</th>", key,
                            rule_of(row.key),
-                           explained(analyzer_of(key.substr(0, dot))->name, key.substr(dot + 1),
-                                     sets[0].dimension),
+                           explained(planned(key.substr(0, dot))->analyzer->name,
+                                     key.substr(dot + 1), sets[0].dimension),
                            html_text(row.key.label) + (key.ends_with("p_value") ? of_first : ""),
                            arrow_of(row.key.better));
         for (std::size_t i = 0; i < sets.size(); ++i) out += cell_of(row, i);
         out += "</tr>\n";
     }
-    out += verdict_row(sets, "chi-square", "χ² verdict" + of_first) +
-           verdict_row(sets, "kolmogorov-smirnov", "Kolmogorov–Smirnov verdict" + of_first);
+    for (const auto& [name, analyzer, measure] : planned_measures())
+        for (const auto& [key, label] : measure->compared)
+            if (key == "verdict") out += verdict_row(sets, name, std::string(label) + of_first);
     out += "</tbody></table></div>\n";
     if (sets.size() > 1)
         out +=
@@ -234,7 +235,7 @@ std::string verdicts_of(const Set& set) {
         const std::string words = verdict_in_words(measure);
         if (words.empty()) continue;
         out += fmt::format("<p><span class=\"verdict\">{}</span> {}: {}</p>\n",
-                           html_text(measure.results->text("verdict")), html_text(measure.title),
+                           html_text(verdict_of(*measure.results)), html_text(measure.title),
                            html_text(words));
     }
     if (out.empty()) return {};

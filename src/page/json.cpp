@@ -40,10 +40,6 @@ Json json_of(const Set& set) {
     return object;
 }
 
-const char* word_of(Better better) {
-    return better == Better::lower ? "lower" : better == Better::higher ? "higher" : "neither";
-}
-
 Json json_of(const Row& row) {
     Json object = {{"key", row.key.key},
                    {"label", row.key.label},

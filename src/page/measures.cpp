@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "core/bytes/fingerprint.hpp"
@@ -18,57 +17,27 @@
 namespace stipple::page {
 namespace {
 
-struct Planned {
-    const char* name;
-    const char* title;
-    const char* analyzer;
-    const char* kind = "";  ///< option kind of star-discrepancy
-    bool searches = false;  ///< takes a work limit
-    bool prefixes = false;  ///< measures prefixes of the set
-    const char* integrands = "";
-    bool distances = false;  ///< uses distances between points
-};
-
-constexpr std::array plans = {
-    Planned{"star-discrepancy", "Star discrepancy", "star-discrepancy", "", true},
-    Planned{"convergence", "Star discrepancy of prefixes", "star-discrepancy", "", true, true},
-    Planned{"extreme-discrepancy", "Extreme discrepancy", "star-discrepancy", "extreme", true},
-    Planned{"periodic-discrepancy", "Periodic discrepancy", "star-discrepancy", "periodic", true},
-    Planned{"l2-discrepancy", "L2 discrepancies", "l2-discrepancy"},
-    Planned{"dispersion", "Dispersion", "dispersion", "", true},
-    Planned{"t-value", "t-value", "t-value"},
-    Planned{"nearest-neighbor", "Nearest neighbours", "nearest-neighbor", "", false, false, "",
-            true},
-    Planned{"periodogram", "Power spectrum", "periodogram"},
-    Planned{"pair-correlation", "Pair correlation", "pair-correlation", "", false, false, "", true},
-    Planned{"integration", "Integration", "integration", "", false, false,
-            "genz-gaussian,genz-continuous,genz-discontinuous"},
-    Planned{"chi-square", "χ² test", "chi-square"},
-    Planned{"kolmogorov-smirnov", "Kolmogorov–Smirnov test", "kolmogorov-smirnov"}};
-
-/// Limits sums over all pairs, which take n² d steps except in the plane, where faster methods
-/// exist; likewise neighbour searches in dimensions where trees do not help. One comparison of the
-/// limit counts for several steps.
+/// Limits comparisons of all pairs, except in dimensions where faster methods exist.
 /// @throws Error(limit)
 void need_few_pairs(const Planned& plan, const PointSet& points, std::int64_t work) {
-    const std::string_view analyzer = plan.analyzer;
-    const std::size_t d = points.dimension();
-    const bool sums = analyzer == "l2-discrepancy" && d > 2;
-    if (!sums && (analyzer != "nearest-neighbor" || d <= 8)) return;
+    const auto& [above, steps] = plan.analyzer->pairs;
     const auto n = static_cast<double>(points.count());
-    const double steps = n * n * static_cast<double>(d);
-    if (steps <= (sums ? 20 : 5) * static_cast<double>(work)) return;
+    const auto d = static_cast<double>(points.dimension());
+    if (above == 0 || points.dimension() <= above || n * n * d <= steps * static_cast<double>(work))
+        return;
     fail(ErrorKind::limit,
          "it would compare all pairs of {} points in {} dimensions, which takes long; use a larger "
          "--max-work, or 'stipple analyze {}'",
-         points.count(), points.dimension(), plan.analyzer);
+         points.count(), points.dimension(), plan.analyzer->name);
 }
 
-/// Work limit of a search for a worst box, in comparisons. For many points the search for extreme
-/// and periodic boxes ends with its initial bounds anyway, so it gets less.
+/// Work limit of a search for a worst box, in comparisons. For many points the searches with other
+/// options than the defaults end with their initial bounds anyway, so they get less.
 std::int64_t work_for(const Planned& plan, std::size_t count, std::int64_t work) {
     constexpr std::size_t many = 50'000;
-    return *plan.kind != '\0' && count > many ? std::max<std::int64_t>(1, work / 8) : work;
+    const bool usual = std::ranges::all_of(
+        plan.measure->options, [](const auto& option) { return option.second.empty(); });
+    return !usual && count > many ? std::max<std::int64_t>(1, work / 8) : work;
 }
 
 /// 16, 32, 64, ..., count.
@@ -92,18 +61,18 @@ void need_prefixes(const PointSet& points) {
 
 Measure described(const Planned& plan, const PointSet& points, const Input& input,
                   std::int64_t work, Values& values) {
-    const Analyzer& analyzer = find_analyzer(plan.analyzer);
-    Measure measure{.name = plan.name, .title = plan.title, .analyzer = plan.analyzer};
-    measure.command = fmt::format("stipple analyze {} {}", plan.analyzer, input.words);
-    const auto set = [&](const char* option, const std::string& text) {
-        analyzer.options.set(values, option, text);
+    const auto& [name, analyzer, from] = plan;
+    Measure measure{
+        .name = std::string(name), .title = std::string(from->title), .analyzer = analyzer->name};
+    measure.command = fmt::format("stipple analyze {} {}", analyzer->name, input.words);
+    for (const auto& [option, value] : from->options) {
+        const std::string text = !value.empty()         ? std::string(value)
+                                 : option == "prefixes" ? prefixes_of(points.count())
+                                                        : std::to_string(work);
+        analyzer->options.set(values, option, text);
         measure.command += fmt::format(" --{} {}", option, text);
-    };
-    if (*plan.kind != '\0') set("kind", plan.kind);
-    if (plan.searches) set("max-work", std::to_string(work));
-    if (plan.prefixes) set("prefixes", prefixes_of(points.count()));
-    if (*plan.integrands != '\0') set("integrand", plan.integrands);
-    measure.options = typed_settings(values, analyzer.options);
+    }
+    measure.options = typed_settings(values, analyzer->options);
     return measure;
 }
 
@@ -127,7 +96,7 @@ Cubed cubed(const PointSet& points, const Input& input) {
 
 Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube, const Input& input,
                  std::int64_t work, const RunContext& run) {
-    const Analyzer& analyzer = find_analyzer(plan.analyzer);
+    const Analyzer& analyzer = *plan.analyzer;
     Values values = analyzer.options.defaults();
     Measure measure = described(plan, points, input, work_for(plan, points.count(), work), values);
     const PointSet* shown = &points;
@@ -138,7 +107,8 @@ Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube,
     measure.command += input.remark;
     if (input.words.empty()) measure.command.clear();
     const std::string domain = shown->domain->spec();
-    if (plan.distances && points.dimension() > 1 && is_experiment(domain)) {
+    const bool distances = values.try_find("metric") != nullptr;  // between points
+    if (distances && points.dimension() > 1 && is_experiment(domain)) {
         measure.left_out =
             "its distances would mix the units of the parameters; 'stipple warp parameters "
             "--inverse' maps the points to the unit cube, which has no units";
@@ -151,7 +121,8 @@ Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube,
     }
     try {
         need_few_pairs(plan, points, work);
-        if (plan.prefixes) need_prefixes(points);
+        const auto* prefixes = values.try_find("prefixes");
+        if (prefixes != nullptr && prefixes->given) need_prefixes(points);
         measure.results = analyze(analyzer, *shown, values, run);
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::cancelled || e.kind() == ErrorKind::io) throw;
@@ -167,6 +138,7 @@ std::vector<Measure> measure_set(const PointSet& points, const Input& input, std
     RunContext mute = run;
     mute.warn = {};  // the page shows bounds itself
     const Cubed cube = cubed(points, input);
+    const auto plans = planned_measures();
     std::vector<Measure> all;
     for (std::size_t i = 0; i < plans.size(); ++i) {
         all.push_back(
@@ -193,18 +165,6 @@ Set finished_set(Set set, const PointSet& points, const Input& input, std::int64
                 return std::holds_alternative<Grid>(entry.value);
             });
     return set;
-}
-
-std::vector<std::string> measure_names() {
-    std::vector<std::string> names;
-    for (const Planned& plan : plans) names.emplace_back(plan.name);
-    return names;
-}
-
-const Analyzer* analyzer_of(std::string_view measure) {
-    for (const Planned& plan : plans)
-        if (plan.name == measure) return &find_analyzer(plan.analyzer);
-    return nullptr;
 }
 
 }  // namespace stipple::page

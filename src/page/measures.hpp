@@ -40,10 +40,4 @@ std::vector<Measure> measure_set(const PointSet& points, const Input& input, std
 Set finished_set(Set set, const PointSet& points, const Input& input, std::int64_t work,
                  std::size_t number, bool with_pictures, const RunContext& run);
 
-/// Names of all measures, the first parts of their keys.
-std::vector<std::string> measure_names();
-
-/// The analyzer of a measure; nullptr if there is no such measure.
-const Analyzer* analyzer_of(std::string_view measure);
-
 }  // namespace stipple::page

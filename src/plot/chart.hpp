@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "plot/drawing/drawing.hpp"
@@ -134,6 +135,9 @@ SquareDrawing square_drawing(TitledDrawing titled, const std::vector<LegendEntry
 inline Area bar_beside(const Area& frame) {
     return {frame.right() + 14, frame.top, 14, frame.height};
 }
+
+/// Last part of a dotted key: "power" for "radial.power".
+inline std::string_view last_part(std::string_view key) { return key.substr(key.rfind('.') + 1); }
 
 /// A result's name on an axis: "radial power" for "radial.power".
 std::string words_of(std::string name);

@@ -12,6 +12,7 @@
 #include <numeric>
 #include <set>
 
+#include "analyzers/analyzer.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "plot/drawing/ticks.hpp"
@@ -62,37 +63,40 @@ Curve plus(const Curve& a, const Curve& b, double sign) {
     return sum;
 }
 
+/// Key of another list in the group of a curve: "radial.cells" for "radial.power".
+std::string beside(const CurveKey& curve, std::string_view name) {
+    return std::string(curve.key.substr(0, curve.key.rfind('.') + 1)).append(name);
+}
+
 /// Sets the band of a series: its standard error, or the bounds from the report.
-void add_band(Series& series, const Measurement& m, const std::string& group,
-              const std::string& key) {
+void add_band(Series& series, const Measurement& m, const CurveKey& curve) {
     if (m.standard_error) {
-        const auto error = list_at(*m.standard_error, group + key);
+        const auto error = list_at(*m.standard_error, curve.key);
         if (error && error->size() == series.y.size()) {
             series.low = plus(series.y, *error, -1);
             series.high = plus(series.y, *error, 1);
             return;
         }
     }
-    if (key != "value") return;
-    const auto low = list_at(m.results, group + "lower");
-    const auto high = list_at(m.results, group + "upper");
+    if (last_part(curve.key) != "value") return;
+    const auto low = list_at(m.results, beside(curve, "lower"));
+    const auto high = list_at(m.results, beside(curve, "upper"));
     if (!low || !high || low == high || low->size() != series.y.size()) return;
     series.low = *low;
     series.high = *high;
 }
 
 /// One curve per measurement that has it.
-std::vector<Series> series_of(Measurements ms, const std::string& group, const std::string& x,
-                              const std::string& y) {
+std::vector<Series> series_of(Measurements ms, const CurveKey& curve) {
     const auto names = names_of_inputs(ms);
     std::vector<Series> found;
     for (std::size_t i = 0; i < ms.size(); ++i) {
-        const auto xs = list_at(ms[i].results, group + x);
-        const auto ys = list_at(ms[i].results, group + y);
+        const auto xs = list_at(ms[i].results, curve.over);
+        const auto ys = list_at(ms[i].results, curve.key);
         if (!xs || !ys || xs->empty() || xs->size() != ys->size()) continue;
         Series series{.name = names[i], .x = *xs, .y = *ys};
         series.measurement = i;
-        add_band(series, ms[i], group, y);
+        add_band(series, ms[i], curve);
         found.push_back(std::move(series));
     }
     return found;
@@ -129,13 +133,13 @@ std::pair<double, double> range_of(const std::vector<Series>& all) {
 }
 
 /// The band of white noise, if it is the same for all measurements.
-std::vector<Series> noise_band(Measurements ms) {
-    const auto cells = list_at(ms[0].results, "radial.cells");
-    const bool same = alike(ms, &Measurement::sets) && alike(ms, [](const Measurement& m) {
-                          return list_at(m.results, "radial.cells");
-                      });
+std::vector<Series> noise_band(Measurements ms, const CurveKey& curve) {
+    const std::string key = beside(curve, "cells");
+    const auto cells = list_at(ms[0].results, key);
+    const bool same = alike(ms, &Measurement::sets) &&
+                      alike(ms, [&](const Measurement& m) { return list_at(m.results, key); });
     if (!same || !cells) return {};
-    Series band{.name = "white noise, 95 %", .x = *list_at(ms[0].results, "radial.frequency")};
+    Series band{.name = "white noise, 95 %", .x = *list_at(ms[0].results, curve.over)};
     for (const double ring : *cells) {
         const auto [low, high] = white_noise_band(ring, static_cast<double>(ms[0].sets));
         band.low.push_back(low);
@@ -187,98 +191,75 @@ std::string summary_of_spectrum(Measurements ms) {
     return text;
 }
 
-/// Value of an analyzer's option; empty if the report does not have it.
-std::string option_of(const Measurement& m, std::string_view name) {
-    const auto at = std::ranges::find(m.options, name, &std::pair<std::string, std::string>::first);
-    return at == m.options.end() ? "" : at->second;
-}
-
 /// Parameters of a spectrum, and its key numbers.
 std::string notes_of_spectrum(Measurements ms) {
     std::string notes = summary_of_spectrum(ms);
-    if (const std::string window = option_of(ms[0], "window"); !window.empty() && window != "none")
+    if (const std::string window = option_of(ms[0].options, "window");
+        !window.empty() && window != "none")
         notes = noted(notes, "window " + window);
-    if (const std::string weights = option_of(ms[0], "weights"); !weights.empty())
+    if (const std::string weights = option_of(ms[0].options, "weights"); !weights.empty())
         notes = noted(notes, "weights " + weights);
     return notes;
 }
 
 // ---------------------------------------------------------------- curves of any analyzer
 
+/// The analyzer of a report; nullptr if there is none of this name.
+const Analyzer* analyzer_of(const Measurement& m) {
+    const auto& all = analyzers::all();
+    const auto at = std::ranges::find(all, m.analyzer, &Analyzer::name);
+    return at == all.end() ? nullptr : &*at;
+}
+
 bool rises(const Curve& curve) {
     return std::ranges::adjacent_find(curve, [](double a, double b) { return !(a < b); }) ==
            curve.end();
 }
 
-/// Whether a list with this name is an x axis for others.
-bool names_abscissa(const std::string& name) {
-    static const std::set<std::string> known = {"count", "distance", "frequency", "lag",
-                                                "n",     "radius",   "neighbors", "window"};
-    return known.contains(name);
-}
-
-/// Whether a list with this name describes the certainty of others, and is not a curve itself.
-bool names_weight(const std::string& name) {
-    return name == "cells" || name == "pairs" || name == "deviation" || name == "exact";
-}
-
-struct CurveGroup {
-    std::string prefix;  ///< "prefixes."
-    std::string x = {};
-    std::vector<std::string> ys = {};
-};
-
-/// Lists of one group that are as long as its first ascending list.
-std::optional<CurveGroup> curves_in(const Report& group, const std::string& prefix) {
-    constexpr std::size_t plainly_curves = 16;
-    CurveGroup found{.prefix = prefix};
-    std::size_t size = 0;
-    for (const auto& entry : group.entries()) {
-        const auto curve = list_at(group, entry.name);
-        if (!curve) continue;
-        const bool first = found.x.empty();
-        if (first && curve->size() > 1 && rises(*curve) &&
-            (names_abscissa(entry.name) || curve->size() >= plainly_curves)) {
-            found.x = entry.name;
-            size = curve->size();
-        } else if (!first && curve->size() == size) {
-            found.ys.push_back(entry.name);
-        }
-    }
-    return found.ys.empty() ? std::nullopt : std::optional(found);
-}
-
-/// The curves of the report and of its groups.
-std::vector<CurveGroup> groups_of(const Report& report, const std::string& prefix = {}) {
-    std::vector<CurveGroup> found;
-    if (auto group = curves_in(report, prefix)) found.push_back(*std::move(group));
-    for (const auto& entry : report.entries())
-        if (const auto* inner = std::get_if<Report>(&entry.value))
-            std::ranges::move(groups_of(*inner, prefix + entry.name + "."),
-                              std::back_inserter(found));
+/// Curves of the analyzer's record that the report has. If `key` names another list over the same
+/// abscissas, that list is added.
+std::vector<CurveKey> curves_in(const Measurement& m, std::string_view key = {}) {
+    std::vector<CurveKey> found;
+    const Analyzer* analyzer = analyzer_of(m);
+    if (analyzer == nullptr) return found;
+    const auto add = [&](const CurveKey& curve) {
+        const auto x = list_at(m.results, curve.over);
+        const auto y = list_at(m.results, curve.key);
+        if (x && y && x->size() == y->size() && x->size() > 1 && rises(*x) &&
+            std::ranges::find(found, curve.key, &CurveKey::key) == found.end())
+            found.push_back(curve);
+    };
+    for (const CurveKey& curve : analyzer->curves) add(curve);
+    for (const CurveKey& curve : analyzer->curves)
+        if (key != curve.over && key == beside(curve, last_part(key)))
+            add({.key = key, .over = curve.over, .over_title = curve.over_title, .log = curve.log});
     return found;
 }
 
-bool has(const CurveGroup& group, const char* y) {
-    return std::ranges::find(group.ys, y) != group.ys.end();
+/// Whether the report has another list of the same length beside a curve.
+bool has(const Report& results, const CurveKey& curve, std::string_view name) {
+    const auto other = list_at(results, beside(curve, name));
+    return other && other->size() == list_at(results, curve.over)->size();
 }
 
-/// Whether a list belongs to another curve: bounds, or the reference for a variance.
-bool accompanies(const CurveGroup& group, const std::string& y) {
-    if (names_weight(y)) return true;
-    if (y == "lower" || y == "upper") return has(group, "value");
-    return y == "mean" && has(group, "variance");
+/// Whether a curve is a bound of another one.
+bool is_bound(const CurveKey& curve, const Report& results) {
+    const auto name = last_part(curve.key);
+    return (name == "lower" || name == "upper") && has(results, curve, "value");
 }
 
 /// Values of independent points, if they are the same for all measurements.
-std::vector<Guide> references(Measurements ms, const CurveGroup& group, const std::string& y) {
-    if (y == "density" || y == "power" || y == "dispersion")
-        return {{.name = "independent points", .y = {1}}};
-    if (y == "anisotropy_db") return noise_anisotropy(ms);
-    if (y != "variance" || !has(group, "mean")) return {};
-    const auto x = list_at(ms[0].results, group.prefix + group.x);
-    const auto mean = list_at(ms[0].results, group.prefix + "mean");
-    return {{.name = "independent points: the mean", .x = *x, .y = *mean, .reached = true}};
+std::vector<Guide> references(Measurements ms, const CurveKey& curve) {
+    if (last_part(curve.key) == "anisotropy_db") return noise_anisotropy(ms);
+    if (curve.reference.empty()) return {};
+    if (const auto number = parse_number(curve.reference))
+        return {{.name = "independent points", .y = {*number}}};
+    const auto values = list_at(ms[0].results, curve.reference);
+    if (!values) return {};
+    return {{.name = fmt::format("independent points: the {}", curve.reference),
+             .x = *list_at(ms[0].results, curve.over),
+             .y = *values,
+             .reached = true}};
 }
 
 /// Turns frequencies of small integers into bars centred on them.
@@ -301,20 +282,16 @@ void make_bars(ChartPanel& panel) {
 }
 
 /// "radius", with its unit if that is not the points' unit.
-std::string abscissa_of(const Measurement& m, const std::string& x) {
-    if (x == "count" || x == "n") return "points n";
-    if (x == "frequency" && option_of(m, "normalize-frequency") == "true")
-        return "frequency / n^(1/d)";
-    const bool by_mean = (m.analyzer == "hyperuniformity" && x == "radius") ||
-                         (m.analyzer == "differential" && x == "distance") ||
-                         (x == "distance" && option_of(m, "normalize-distance") == "true");
-    return words_of(x) + (by_mean ? " / mean distance" : "");
+std::string abscissa_of(const Measurement& m, const CurveKey& curve) {
+    if (!curve.over_title.empty()) return std::string(curve.over_title);
+    const std::string x(last_part(curve.over));
+    if (option_of(m.options, "normalize-" + x) != "true") return words_of(x);
+    return x + (x == "frequency" ? " / n^(1/d)" : " / mean distance");
 }
 
 /// Sets up the panel of radial power, with the band of white noise.
-void make_power(ChartPanel& panel, Measurements ms) {
-    panel.y_name = "radial power";
-    panel.bands = noise_band(ms);
+void make_power(ChartPanel& panel, Measurements ms, const CurveKey& curve) {
+    panel.bands = noise_band(ms, curve);
     panel.guides = {{.y = {1}}};
     panel.reach_y = 1.4;
     panel.least_y = log_floor;
@@ -326,14 +303,14 @@ void make_power(ChartPanel& panel, Measurements ms) {
 
 /// Sets up the panel of pair correlation; for a single measurement with a band of two standard
 /// deviations of a mean of independent sets.
-void make_pair_correlation(ChartPanel& panel, Measurements ms) {
+void make_pair_correlation(ChartPanel& panel, Measurements ms, const CurveKey& curve) {
     panel.y_name = "pair correlation g";
     panel.guides = {{.name = ms.size() > 1 ? "uniform points" : "", .y = {1}}};
     panel.reach_y = 1.4;
     if (ms.size() > 1) return;
     const double width = 2 / std::sqrt(static_cast<double>(ms[0].sets));
-    Series band{.name = "uniform points, ± 2 deviations", .x = *list_at(ms[0].results, "distance")};
-    const auto deviation = list_at(ms[0].results, "deviation");
+    Series band{.name = "uniform points, ± 2 deviations", .x = *list_at(ms[0].results, curve.over)};
+    const auto deviation = list_at(ms[0].results, beside(curve, "deviation"));
     for (const double s : *deviation) {
         band.low.push_back(std::max(0.0, 1 - width * s));
         band.high.push_back(1 + width * s);
@@ -341,42 +318,46 @@ void make_pair_correlation(ChartPanel& panel, Measurements ms) {
     panel.bands.push_back(std::move(band));
 }
 
-ChartPanel curve_panel(Measurements ms, const CurveGroup& group, const std::string& y) {
-    ChartPanel panel{.x_name = abscissa_of(ms[0], group.x),
-                     .y_name = y == "value" ? words_of(ms[0].analyzer) : words_of(y),
-                     .series = series_of(ms, group.prefix, group.x, y),
-                     .guides = references(ms, group, y)};
+ChartPanel curve_panel(Measurements ms, const CurveKey& curve) {
+    const std::string y(last_part(curve.key));
+    const Report& results = ms[0].results;
+    ChartPanel panel{.x_name = abscissa_of(ms[0], curve),
+                     .y_name = !curve.title.empty() ? std::string(curve.title)
+                               : y == "value"       ? words_of(ms[0].analyzer)
+                                                    : words_of(y),
+                     .series = series_of(ms, curve),
+                     .guides = references(ms, curve)};
     if (y == "anisotropy_db") {
-        panel.y_name = "anisotropy (dB)";
         make_gaps(panel.series);
         if (!std::isfinite(range_of(panel.series).second)) panel.series.clear();
     }
-    panel.from_zero = y == "density" || y == "power" || y == "dispersion";
+    panel.from_zero = parse_number(curve.reference).has_value();
     if (panel.from_zero) panel.reach_y = 1.2;
-    const bool power = group.prefix == "radial." && has(group, "power") && has(group, "cells");
-    if (power && y == "power") make_power(panel, ms);
-    const bool pairs = group.prefix.empty() && y == "density" && has(group, "deviation");
-    if (pairs) make_pair_correlation(panel, ms);
+    const bool power = curve.key.starts_with("radial.") && has(results, curve, "power") &&
+                       has(results, curve, "cells");
+    if (power && y == "power") make_power(panel, ms, curve);
+    const bool pairs = y == "density" && has(results, curve, "deviation");
+    if (pairs) make_pair_correlation(panel, ms, curve);
     if (power || pairs) return panel;
-    const bool counts = group.x == "count" || group.x == "n";
-    panel.log_x = counts || y == "variance" || y == "dispersion";
+    panel.log_x = curve.log;
     // A range of more than a decade is only legible on a logarithmic axis.
     const auto [low, high] = range_of(panel.series);
-    const bool steep = counts || y == "variance" || high > 10 * low;
-    panel.log_y = panel.log_x && steep && low > 0;
+    panel.log_y = panel.log_x && (!panel.from_zero || high > 10 * low) && low > 0;
     for (Series& series : panel.series) series.marks = series.x.size() <= 40;
-    if (counts && panel.log_y && !panel.series.empty())
+    const bool whole = std::holds_alternative<Report::Integers>(*results.find(curve.over));
+    if (whole && panel.log_y && !panel.series.empty())
         panel.guides = falling_guides(panel.series[0]);
-    if (group.x == "neighbors" && !panel.series.empty()) make_bars(panel);
+    if (whole && !curve.log && !panel.series.empty()) make_bars(panel);
     return panel;
 }
 
-bool wanted(Measurements ms, const CurveGroup& group, const std::string& y,
-            const std::string& key) {
+bool wanted(Measurements ms, const CurveKey& curve, const std::string& key) {
     // In one dimension a ring is two opposite frequencies, which have the same power.
     const bool line = std::ranges::all_of(ms, [](const auto& m) { return m.dimension == 1; });
-    if (key.empty()) return !accompanies(group, y) && !(line && y == "anisotropy_db");
-    return key == group.prefix + y || key + "." == group.prefix;
+    if (key.empty())
+        return !is_bound(curve, ms[0].results) &&
+               !(line && last_part(curve.key) == "anisotropy_db");
+    return key == curve.key || key + "." == beside(curve, "");
 }
 
 std::optional<Chart> curves_chart(Measurements ms, const std::string& key) {
@@ -384,16 +365,12 @@ std::optional<Chart> curves_chart(Measurements ms, const std::string& key) {
     const bool spectrum = list_at(ms[0].results, "radial.power").has_value();
     Chart chart = titled(spectrum ? "Power spectrum" : capitalised(words_of(ms[0].analyzer)), ms);
     if (spectrum) chart.subtitle = noted(chart.subtitle, notes_of_spectrum(ms));
-    std::string x;
-    for (const CurveGroup& group : groups_of(ms[0].results))
-        for (const std::string& y : group.ys) {
-            const bool fits = x.empty() || x == group.prefix + group.x;
-            if (!wanted(ms, group, y, key) || !fits || chart.panels.size() == most_panels) continue;
-            ChartPanel panel = curve_panel(ms, group, y);
-            if (panel.series.empty() && panel.bars.empty()) continue;
-            x = group.prefix + group.x;
-            chart.panels.push_back(std::move(panel));
-        }
+    for (const CurveKey& curve : curves_in(ms[0], key)) {
+        if (!wanted(ms, curve, key) || chart.panels.size() == most_panels) continue;
+        ChartPanel panel = curve_panel(ms, curve);
+        if (panel.series.empty() && panel.bars.empty()) continue;
+        chart.panels.push_back(std::move(panel));
+    }
     if (chart.panels.empty()) return std::nullopt;
     // Stacked panels share one x axis.
     for (ChartPanel& panel : chart.panels) panel.log_x = chart.panels.back().log_x;
@@ -596,9 +573,8 @@ Chart number_histogram(Measurements ms, const std::string& key) {
 /// Keys that can be drawn.
 std::vector<std::string> drawable(Measurements ms) {
     std::vector<std::string> keys;
-    for (const CurveGroup& group : groups_of(ms[0].results))
-        for (const std::string& y : group.ys)
-            if (!accompanies(group, y)) keys.push_back(group.prefix + y);
+    for (const CurveKey& curve : curves_in(ms[0]))
+        if (!is_bound(curve, ms[0].results)) keys.emplace_back(curve.key);
     if (ms.size() == 1) return keys;
     for (const std::string& key : ms[0].results.keys())
         if (number_at(ms[0].results, key)) keys.push_back(key);
@@ -618,6 +594,12 @@ std::vector<std::string> drawable(Measurements ms) {
 
 }  // namespace
 
+std::string option_of(const std::vector<std::pair<std::string, std::string>>& options,
+                      std::string_view name) {
+    const auto at = std::ranges::find(options, name, &std::pair<std::string, std::string>::first);
+    return at == options.end() ? "" : at->second;
+}
+
 std::pair<double, double> white_noise_band(double cells, double sets) {
     const double spread = 2 / (9 * std::max(1.0, cells * sets));
     const auto point = [spread](double z) {
@@ -634,7 +616,12 @@ Chart chart_of(Measurements ms, const std::string& key) {
                  "reports of different analyzers, {} and {}, cannot be drawn in one picture",
                  ms[0].analyzer, m.analyzer);
     if (auto chart = curves_chart(ms, key)) return *std::move(chart);
-    if (ms.size() == 1 && ms[0].analyzer == "sensitivity") return indices_chart(ms, key);
+    const Analyzer* analyzer = analyzer_of(ms[0]);
+    const bool indices =
+        analyzer != nullptr && std::ranges::any_of(analyzer->results, [](const ResultKey& result) {
+            return free_parts(result) == 2;
+        });
+    if (ms.size() == 1 && indices) return indices_chart(ms, key);
     if (ms.size() == 1) refuse(ms, key);
     const std::string number = key.empty() ? main_number(ms[0].results) : key;
     const auto has_number = [&](const Measurement& m) {

@@ -2,13 +2,12 @@
 //
 // Charts of analyzers' reports: one curve per measurement, with a common legend.
 //
-//     periodogram        radial power with the band of white noise, and anisotropy
-//     pair-correlation   density over distance
-//     sensitivity        bars of the indices of inputs and of pairs, with their intervals
-//     others             each list over the ascending one before it (prefixes: logarithmic).
-//                        Several reports without lists: one number over the number of points,
-//                        a curve for each family of files whose names differ only in digits,
-//                        means for sets of equal size; if all have one size, a histogram
+//     curves of the analyzer's record   over their abscissas: radial power with the band of white
+//                                       noise, numbers over counts on logarithmic axes
+//     results by two names              bars with their intervals: indices of inputs and of pairs
+//     several reports without curves    one number over the number of points, a curve for each
+//                                       family of files whose names differ only in digits, means
+//                                       for sets of equal size; if all have one size, a histogram
 //
 // Bands around a curve are standard errors of a mean, or lower and upper bounds.
 //
@@ -28,6 +27,10 @@ namespace stipple::plot {
 /// @throws Error(input) for reports of different analyzers, or if nothing can be drawn: names the
 /// possible keys; Error(usage) for an unknown key
 Chart chart_of(std::span<const Measurement> measurements, const std::string& key = {});
+
+/// Value of an analyzer's option; empty if it has none.
+std::string option_of(const std::vector<std::pair<std::string, std::string>>& options,
+                      std::string_view name);
 
 /// 2.5 % and 97.5 % quantiles of a ring's mean power, for white noise. @param cells frequencies in
 /// the ring @param sets number of sets averaged

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "analyzers/analyzer.hpp"
 #include "core/error.hpp"
 #include "plot/report_charts.hpp"
 #include "report/grid_files.hpp"
@@ -130,7 +131,10 @@ Chart power_chart(const Grid& power, const std::string& title) {
     radial.add("power",
                Report::Curve(power.values.end() - std::ssize(frequencies), power.values.end()));
     radial.add("cells", Report::Integers(last, 2));  // f and -f
-    Measurement found{.analyzer = "periodogram", .source = "-", .dimension = 1, .domain = {}};
+    const auto by_frequency = std::ranges::find_if(analyzers::all(), [](const Analyzer& analyzer) {
+        return !analyzer.curves.empty() && analyzer.curves[0].key == "radial.power";
+    });
+    Measurement found{.analyzer = by_frequency->name, .source = "-", .dimension = 1, .domain = {}};
     found.results.add("radial", std::move(radial));
     Chart chart = chart_of({&found, 1});
     chart.title = title;

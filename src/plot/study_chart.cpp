@@ -26,8 +26,6 @@ struct Topic {
 
 Topic topic_of(const MeanRow& row) { return {row.measure, row.key, row.dimension}; }
 
-std::string_view last_part(std::string_view key) { return key.substr(key.rfind('.') + 1); }
-
 /// Whether a result is an error, whose distance from 0 matters.
 bool is_error(const Topic& topic, std::span<const MeanRow> means) {
     if (is_error_key(topic.key)) return true;

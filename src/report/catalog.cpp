@@ -8,7 +8,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "analyzers/analyzer.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "generators/generator.hpp"
@@ -96,7 +95,7 @@ UnitInfo info(const Analyzer& unit) {
                    t.unit_cube ? "takes points of the closed unit cube"
                    : t.boxed   ? "takes points of the unit cube or a box"
                                : "takes any domain"};
-    for (const ResultKey& result : unit.results) out.results.emplace_back(result.key, result.help);
+    out.results = unit.results;
     return out;
 }
 
@@ -145,8 +144,11 @@ Json unit_json(const UnitInfo& unit, std::string_view kind) {
     for (const Option& option : unit.options) out["options"].push_back(option_json(option));
     if (kind == "analyzers") {
         out["results"] = Json::array();
-        for (const auto& [key, help] : unit.results)
-            out["results"].push_back({{"key", key}, {"help", help}});
+        for (const ResultKey& result : unit.results) {
+            out["results"].push_back({{"key", result.key}, {"help", result.help}});
+            if (result.better != Better::neither)
+                out["results"].back()["better"] = word_of(result.better);
+        }
     }
     return out;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "analyzers/analyzer.hpp"
 #include "core/json.hpp"
 #include "core/options.hpp"
 
@@ -25,8 +26,7 @@ struct UnitInfo {
     std::shared_ptr<const Json> traits = {};
     std::vector<std::string> remarks = {};  ///< the traits in words
     std::vector<Option> options = {};
-    /// Keys with help, for analyzers.
-    std::vector<std::pair<std::string, std::string>> results = {};
+    std::vector<ResultKey> results = {};  ///< for analyzers
 };
 
 struct Kind {

@@ -153,6 +153,8 @@ void add(Report& report, const std::string& name, const Json& value) {
         report.add(name, value.get<std::string>());
     else if (value.is_object())
         report.add(name, report_of(value));
+    else if (!value.empty() && std::ranges::all_of(value, &Json::is_number_integer))
+        report.add(name, value.get<Report::Integers>());
     else if (std::ranges::all_of(value, is_number)) {
         Report::Curve curve;
         for (const Json& item : value) curve.push_back(number_of(item));

@@ -98,6 +98,16 @@ TEST_P(EveryAnalyzer, ExplainsEachWordOfItsResults) {
                 << result.key << ": " << word;
 }
 
+TEST_P(EveryAnalyzer, DrawsAndComparesResultsOfItsRecord) {
+    for (const CurveKey& curve : unit.curves) {
+        EXPECT_NE(find_result(unit, curve.key), nullptr) << curve.key;
+        EXPECT_NE(find_result(unit, curve.over), nullptr) << curve.over;
+    }
+    for (const PageMeasure& measure : unit.page)
+        for (const auto& [key, label] : measure.compared)
+            EXPECT_NE(find_result(unit, key), nullptr) << key;
+}
+
 TEST_P(EveryAnalyzer, RefusesAnEmptySetAndWrongDimensions) {
     const Values options = unit.options.defaults();
     EXPECT_TRUE(error_of([&] {

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/format.hpp"
 #include "pipeline/units.hpp"
 #include "places.hpp"
 #include "support/contract.hpp"
@@ -22,12 +23,14 @@
 namespace stipple::testing::layering_test {
 namespace {
 
-/// Names of all units except formats, whose extensions are used everywhere.
-std::set<std::string> names_of_units() {
+/// Names of all units; of formats only if asked, since their extensions are used by readers.
+std::set<std::string> names_of_units(bool with_formats) {
     std::set<std::string> all;
     for (const auto& names : {names_of(generators::all()), names_of(scrambles::all()),
                               names_of(warps::all()), names_of(analyzers::all())})
         all.insert(names.begin(), names.end());
+    const auto formats = names_of(io::all());
+    if (with_formats) all.insert(formats.begin(), formats.end());
     return all;
 }
 
@@ -135,28 +138,29 @@ const std::set<std::string> ordinary = {
     "sensitivity", "simplex",     "student-t", "triangular",    "truncated",   "uniform",
     "weibull"};
 
+/// Likewise in the folders after the units, which take from records whatever depends on a unit.
+const std::set<std::string> ordinary_after_units = {
+    "bin",      "csv",        "json",   "jsonl", "svg",  // values of --format
+    "grid",     "image",      "pixel",  "power",         // keys of results and their files
+    "integers", "parameters",                            // keys of parameter files
+    "jittered", "random",     "uniform"};  // picture of a warp's strata, --seed random, a density
+
 /// Files that name units of other files, with these units.
 const std::map<std::string, std::set<std::string>> exceptions = {
-    // The page shows a selection of measures, each in its own form.
-    {"page/content.cpp", {"chi-square", "kolmogorov-smirnov"}},
-    {"page/figures.cpp", {"pair-correlation", "periodogram", "star-discrepancy"}},
-    {"page/html.cpp", {"chi-square", "kolmogorov-smirnov"}},
-    {"page/measures.cpp",
-     {"chi-square", "integration", "kolmogorov-smirnov", "l2-discrepancy", "nearest-neighbor",
-      "pair-correlation", "periodogram", "star-discrepancy", "t-value"}},
-    // Charts of reports depend on the analyzer that wrote them.
-    {"plot/report_charts.cpp", {"differential", "hyperuniformity", "sensitivity"}},
-    {"plot/spectral_table.cpp", {"periodogram"}},
-    {"cli/plot.cpp", {"coverage", "differential", "pair-correlation", "periodogram"}},
+    // The default format is not repeated in commands; raw files have no head.
+    {"cli/points.cpp", {"csv"}},
+    {"cli/reproduce.cpp", {"bin"}},
     // Designs are compared with the usual choice.
     {"experiments/quality/design.cpp", {"latin-hypercube"}},
-    // "grid" is also an entry of a report.
-    {"cli/analysis.cpp", {"grid"}},
 };
 
 /// Names of units in a file's strings, except the file's own unit.
 std::set<std::string> units_named_in(const std::filesystem::path& file) {
-    static const std::set<std::string> names = names_of_units();
+    const std::string folder = folders_of(std::filesystem::relative(file, src)).first;
+    const bool after_units = place_of(folder) > place_of("analyzers");
+    static const std::set<std::string> both[] = {names_of_units(false), names_of_units(true)};
+    const std::set<std::string>& names = both[after_units ? 1 : 0];
+    const std::set<std::string>& words = after_units ? ordinary_after_units : ordinary;
     static const std::regex string(R"re((name|generator|warp|analyzer)?(?: [!=]= )?"([^"]*)")re");
     std::string own = file.stem();
     std::ranges::replace(own, '_', '-');
@@ -166,7 +170,7 @@ std::set<std::string> units_named_in(const std::filesystem::path& file) {
         text.erase(std::min(text.find("//"), text.size()));
         for (std::sregex_iterator at(text.begin(), text.end(), string), end; at != end; ++at)
             if (const std::string word = (*at)[2]; names.contains(word) && word != own)
-                if ((*at)[1].matched || !ordinary.contains(word)) found.insert(word);
+                if ((*at)[1].matched || !words.contains(word)) found.insert(word);
     }
     return found;
 }

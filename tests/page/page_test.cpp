@@ -131,7 +131,7 @@ TEST(Comparison, MeansHaveErrors) {
     const auto mean = *known_under(set_of({1, 2, 6}), {"m.value", "", ""});
     EXPECT_DOUBLE_EQ(mean.value, 3);
     EXPECT_DOUBLE_EQ(mean.error, std::sqrt(7.0 / 3));  // variance (4 + 1 + 9) / 2
-    const auto root = *known_under(set_of({3, 4}), {"m.error", "", "", Better::lower, false, true});
+    const auto root = *known_under(set_of({3, 4}), {"m.error", "", ""});
     EXPECT_DOUBLE_EQ(root.value, std::sqrt(12.5));
     EXPECT_DOUBLE_EQ(root.error, 3.5 / (2 * std::sqrt(12.5)));
     EXPECT_EQ(known_under(set_of({0.1, 0.1, 0.1}), {"m.value", "", ""})->error, 0);

@@ -232,8 +232,8 @@ TEST(ReportCharts, PairCorrelationHasWhatUniformPointsHave) {
     EXPECT_THAT(panel.bands.at(0).high, ElementsAre(1.6, 1.1));
 }
 
-// Lists of any analyzer are drawn over the ascending list before them.
-TEST(ReportCharts, AnyListsAreCurves) {
+// Curves of an analyzer's record are drawn; other lists over the same abscissas if they are named.
+TEST(ReportCharts, CurvesOfTheRecordAreDrawn) {
     Report results;
     results.add("exponent", 1.5);
     results.add("radius", Report::Curve{1, 2, 4});
@@ -248,6 +248,7 @@ TEST(ReportCharts, AnyListsAreCurves) {
     chart = chart_of(ms, "dispersion");
     ASSERT_EQ(chart.panels.size(), 1U);
     EXPECT_THAT(chart.panels[0].series.at(0).y, ElementsAre(0.7, 0.5, 0.3));
+    EXPECT_THAT(chart_of(ms, "mean").panels.at(0).series.at(0).y, ElementsAre(3, 12, 50));
     EXPECT_THAT(refusal(ms, "nothing"), HasSubstr("variance, dispersion"));
 
     Report valence;
@@ -360,11 +361,8 @@ TEST(ReportCharts, TellsMeanDistancesOnTheAxis) {
     Report results;
     results.add("radius", Report::Curve{1, 2, 3});
     results.add("variance", Report::Curve{1, 2, 3});
-    const auto x_name = [&](const char* analyzer) {
-        return chart_of(std::vector{measurement(analyzer, results, "a.csv")}).panels.at(0).x_name;
-    };
-    EXPECT_EQ(x_name("hyperuniformity"), "radius / mean distance");
-    EXPECT_EQ(x_name("another"), "radius");
+    const auto chart = chart_of(std::vector{measurement("hyperuniformity", results, "a.csv")});
+    EXPECT_EQ(chart.panels.at(0).x_name, "radius / mean distance");
 }
 
 TEST(ReportCharts, NumbersOfOneSizeAreAHistogramThatCountsThem) {

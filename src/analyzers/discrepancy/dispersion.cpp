@@ -93,9 +93,9 @@ Analyzer unit() {
         .traits = {.max_dimension = 1000},
         .options =
             Schema(torus, limit::method, limit::time_limit, limit::tolerance, limit::max_work),
-        .results = {{"value",
-                     "volume of the largest empty box; present only if exact, or if the bounds are "
-                     "within --tolerance"},
+        .results = {lower({"value",
+                           "volume of the largest empty box; present only if exact, or if the "
+                           "bounds are within --tolerance"}),
                     {"lower", "volume of an empty box that was found, a lower bound"},
                     {"upper", "upper bound of the volume of all empty boxes"},
                     {"exact", "whether the two bounds are equal", true, true_or_false},
@@ -105,6 +105,8 @@ Analyzer unit() {
                     {"box.upper_corner",
                      "its upper corner; the box wraps around on axes where this is not above the "
                      "lower corner"}},
+        .part = PagePart::gaps,
+        .page = {{"Dispersion", {{"value", "Dispersion: largest empty box"}}, {{"max-work", ""}}}},
         .analyze = analyze,
         .cost = [](double n, double d) { return d <= 2 ? 3e-6 * n : 1e-8 * std::pow(n, d - 1); },
         .refine = refine};

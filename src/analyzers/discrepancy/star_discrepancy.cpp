@@ -192,8 +192,9 @@ void refine(Report& mean, std::size_t sets, const Values&) {
 
 std::vector<ResultKey> results() {
     std::vector<ResultKey> keys = {
-        {"value",
-         "the star discrepancy; present only if exact, or if the bounds are within --tolerance"},
+        lower({"value",
+               "the star discrepancy; present only if exact, or if the bounds are within "
+               "--tolerance"}),
         {"lower", "lower bound of the star discrepancy"},
         {"upper", "upper bound of the star discrepancy"},
         {"exact", "whether the two bounds are equal", true, true_or_false},
@@ -249,6 +250,24 @@ Analyzer unit() {
             .options = Schema(kind, boxes, limit::method, limit::time_limit, limit::tolerance,
                               limit::max_work, star::prefixes, star::every, star::projections),
             .results = results(),
+            .curves = {{"prefixes.value", "prefixes.count", "", "", "points n", true,
+                        "Star discrepancy of the first n points, over n"},
+                       {"prefixes.lower", "prefixes.count", "", "", "points n", true},
+                       {"prefixes.upper", "prefixes.count", "", "", "points n", true}},
+            .part = PagePart::discrepancy,
+            .page = {{"Star discrepancy", {{"value", "Star discrepancy"}}, {{"max-work", ""}}},
+                     {"Star discrepancy of prefixes",
+                      {},
+                      {{"max-work", ""}, {"prefixes", ""}},
+                      "convergence"},
+                     {"Extreme discrepancy",
+                      {{"value", "Extreme discrepancy"}},
+                      {{"kind", "extreme"}, {"max-work", ""}},
+                      "extreme-discrepancy"},
+                     {"Periodic discrepancy",
+                      {{"value", "Periodic discrepancy"}},
+                      {{"kind", "periodic"}, {"max-work", ""}},
+                      "periodic-discrepancy"}},
             .analyze = analyze,
             .cost =
                 [](double n, double d) {  // exact searches of Halton's, Sobol's and random points

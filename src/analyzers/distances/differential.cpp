@@ -275,6 +275,10 @@ Analyzer unit() {
                         {"radial.cells", "pixels in the ring"},
                         {"mean_distance", "sqrt(V / n), in units of the points"},
                         {"metric", "torus or euclidean", true, "torus|euclidean"}},
+            .curves = {{"radial.density", "radial.distance", "1", "", "distance / mean distance"},
+                       {"radial.anisotropy_db", "radial.distance", "", "anisotropy (dB)",
+                        "distance / mean distance"}},
+            .charts = {{"differential", "Pair differences"}},
             .analyze = analyze,
             .refine = refine,
             .combine = combine};

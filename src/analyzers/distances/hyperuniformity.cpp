@@ -426,9 +426,10 @@ Analyzer unit() {
         .related = {"number-variance"},
         .traits = {.max_dimension = 3, .unit_cube = false, .boxed = true},
         .options = Schema(max_radius, min_radius, radius_count, window_count, metric),
-        .results = {{"exponent",
-                     "slope of log variance against log radius (on the torus, of variance / (1 - "
-                     "window volume / V)): d for independent points, d - 1 for the most even ones"},
+        .results = {lower({"exponent",
+                           "slope of log variance against log radius (on the torus, of variance / "
+                           "(1 - window volume / V)): d for independent points, d - 1 for the most "
+                           "even ones"}),
                     {"exponent_standard_error",
                      "standard error of the fit; too small, because radii share pairs"},
                     {"fit_from", "smallest radius of the fit, in mean distances"},
@@ -447,6 +448,9 @@ Analyzer unit() {
                      "random windows",
                      true, "pairs|windows"},
                     {"metric", "torus or euclidean", true, "torus|euclidean"}},
+        .curves = {{"variance", "radius", "mean", "", "radius / mean distance", true},
+                   {"variance_error", "radius", "", "", "radius / mean distance"},
+                   {"dispersion", "radius", "1", "", "radius / mean distance", true}},
         .analyze = analyze,
         .refine = refine,
         .combine = combine};

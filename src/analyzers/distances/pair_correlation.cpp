@@ -287,6 +287,11 @@ Analyzer unit() {
              {"mean_distance", "(V / n)^(1/d), in units of the points"},
              {"kernel", "histogram or epanechnikov", true, "histogram|epanechnikov"},
              {"metric", "torus or euclidean", true, "torus|euclidean"}},
+        .curves = {{"density", "distance", "1", "", "", false,
+                    "Pair correlation over distance; independent points have 1"}},
+        .part = PagePart::pairs,
+        .page = {{"Pair correlation"}},
+        .charts = {{"pair-correlation", ""}},
         .analyze = analyze,
         .combine = combine};
 }

@@ -92,11 +92,11 @@ Analyzer unit() {
             .results =
                 {{"mean", "mean length of an edge"},
                  {"standard_deviation", "standard deviation of the edges' lengths, over all n - 1"},
-                 {"normalized_mean",
-                  "mean divided by (V n^(d-1))^(1/d) / (n - 1); about 0.647 for independent points "
-                  "of the plane, 1.075 for hexagons"},
-                 {"normalized_deviation", "standard_deviation divided by the same factor"},
-                 {"minimum", "shortest edge: the smallest distance between two points"},
+                 higher({"normalized_mean",
+                         "mean divided by (V n^(d-1))^(1/d) / (n - 1); about 0.647 for "
+                         "independent points of the plane, 1.075 for hexagons"}),
+                 lower({"normalized_deviation", "standard_deviation divided by the same factor"}),
+                 higher({"minimum", "shortest edge: the smallest distance between two points"}),
                  {"maximum", "longest edge: disks of half this radius form one connected region"},
                  {"length", "total length of all edges"},
                  {"edges", "number of edges, n - 1"},

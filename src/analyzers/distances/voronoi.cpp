@@ -248,7 +248,7 @@ Analyzer unit() {
              {"duplicates", "points at the place of an earlier point"},
              {"inner_cells", "cells that touch no side of the box; all cells on the torus"},
              {"area.mean", "V / m"},
-             {"area.variation", "coefficient of variation: standard deviation / mean"},
+             lower({"area.variation", "coefficient of variation: standard deviation / mean"}),
              {"area.capacity_error", "its square, as in the literature on blue noise"},
              {"area.smallest", "smallest area / mean"},
              {"area.largest", "largest area / mean"},
@@ -256,7 +256,7 @@ Analyzer unit() {
               "mean number of neighbours of an inner cell; 6 on the torus, unless four cells meet "
               "in a corner"},
              {"valence.standard_deviation", "standard deviation of the number of neighbours"},
-             {"valence.six", "fraction of the inner cells with six neighbours"},
+             higher({"valence.six", "fraction of the inner cells with six neighbours"}),
              {"valence.neighbors", "numbers of neighbours: 3, 4, ..., 16; the last includes more"},
              {"valence.share", "fraction of the inner cells with that many neighbours"},
              {"bond_order.local", "mean |psi_6| of the inner cells, as in papers on sampling"},
@@ -265,14 +265,16 @@ Analyzer unit() {
               "physics"},
              {"bond_order.bonds", "the same, with all bonds weighted equally"},
              {"lloyd_energy", "mean squared distance from a place to the nearest point"},
-             {"normalized_second_moment", "m E / (2 V): 0.080188 for hexagons, 0.159 at random"},
-             {"centroid_offset.mean",
-              "mean distance from a point to the centroid of its cell, in mean distances sqrt(V / "
-              "m)"},
+             lower({"normalized_second_moment",
+                    "m E / (2 V): 0.080188 for hexagons, 0.159 at random"}),
+             lower({"centroid_offset.mean",
+                    "mean distance from a point to the centroid of its cell, in mean distances "
+                    "sqrt(V / m)"}),
              {"centroid_offset.root_mean_square", "root mean square of these distances"},
              {"centroid_offset.maximum", "largest of these distances"},
              {"mean_distance", "sqrt(V / m), in units of the points"},
              {"metric", "torus or euclidean", true, "torus|euclidean"}},
+        .curves = {{"valence.share", "valence.neighbors"}},
         .analyze = analyze};
 }
 

@@ -557,7 +557,7 @@ std::vector<ResultKey> results() {
          "mean of f / p, where p is the density of the points: from a column pdf or weight (1 / "
          "pdf), or of a biased warp in the provenance; otherwise that of the domain"},
         {"INTEGRAND.exact", "exact integral; for an expression, the value of --exact"},
-        {"INTEGRAND.error", "estimate - exact"},
+        lower({"INTEGRAND.error", "estimate - exact"}),
         {"INTEGRAND.exact_error", "bound on the error of exact, if computed by quadrature", false},
         {"density",
          "origin of the density, if it is not the domain's: pdf or weight: that column; warps: the "
@@ -602,6 +602,12 @@ Analyzer unit() {
             .traits = {.max_dimension = 10'000, .unit_cube = false, .densities = true},
             .options = Schema(integrand, expression, exact, compare),
             .results = results(),
+            .part = PagePart::integration,
+            .page = {{"Integration",
+                      {{"genz-gaussian.error", "Error of a smooth integrand"},
+                       {"genz-continuous.error", "Error of an integrand with a kink"},
+                       {"genz-discontinuous.error", "Error of an integrand with a jump"}},
+                      {{"integrand", "genz-gaussian,genz-continuous,genz-discontinuous"}}}},
             .analyze = analyze,
             .combine = combine};
 }

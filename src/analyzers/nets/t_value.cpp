@@ -278,7 +278,7 @@ Analyzer unit() {
         .related = {"t-parameter", "net-quality", "t-m-s"},
         .traits = {.max_dimension = 10'000},
         .options = Schema(base, projections),
-        .results = {{"t", "smallest t for which the points are a (t,m,d)-net in base b"},
+        .results = {lower({"t", "smallest t for which the points are a (t,m,d)-net in base b"}),
                     {"m", "exponent m of the number of points, b^m"},
                     {"base", "the base b"},
                     {"method", "rank, if the points are a digital net; otherwise counting", true,
@@ -291,6 +291,8 @@ Analyzer unit() {
                      "smallest number of coordinates of a projection whose t equals that of all "
                      "coordinates"},
                     {"projections.worst", "coordinates, from 1, of all such projections"}},
+        .part = PagePart::gaps,
+        .page = {{"t-value", {{"t", "t-value in base 2"}}}},
         .analyze = analyze};
 }
 

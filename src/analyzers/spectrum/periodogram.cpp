@@ -509,16 +509,21 @@ std::vector<ResultKey> results() {
             {"radial.cells", "number of frequency vectors in the ring"},
             {"expected_anisotropy_db",
              "anisotropy of white noise: 0 minus 10 log10 of the number of averaged sets"},
-            {"effective_nyquist",
-             "half the largest radius R, at most F, for which the mean power over |f| < R is at "
-             "most 0.1; for averaged sets, that of their mean power, without a standard error"},
-            {"relative_nyquist",
-             "effective_nyquist / regular_nyquist, as in published tables; the program psa "
-             "computes a different one from its pair correlation"},
-            {"oscillation",
-             "10 x root mean square of radial power - 1, weighted by cells, over 5 n^(1/d) "
-             "frequencies from where it first reaches 0.98, or up to F; for averaged sets, that of "
-             "their mean power, without a standard error, as for the next two"},
+            higher({"effective_nyquist",
+                    "half the largest radius R, at most F, for which the mean power over |f| < R "
+                    "is at most 0.1; for averaged sets, that of their mean power, without a "
+                    "standard error"}),
+            {.key = "relative_nyquist",
+             .help = "effective_nyquist / regular_nyquist, as in published tables; the program psa "
+                     "computes a different one from its pair correlation",
+             .better = Better::higher,
+             .any_count = true},
+            {.key = "oscillation",
+             .help = "10 x root mean square of radial power - 1, weighted by cells, over 5 n^(1/d) "
+                     "frequencies from where it first reaches 0.98, or up to F; for averaged sets, "
+                     "that of their mean power, without a standard error, as for the next two",
+             .better = Better::lower,
+             .any_count = true},
             {"oscillation_complete",
              "whether F is large enough for all these frequencies; only then the oscillation is "
              "comparable with published ones",
@@ -526,9 +531,10 @@ std::vector<ResultKey> results() {
             {"total_variation",
              "half the mean of |radial power - 1| over the rings, weighted by their cells: 0 for "
              "white noise; depends on F"},
-            {"low_frequency_exponent",
-             "a in power ~ frequency^a near 0: slope of log radial power against log frequency, "
-             "weighted by cells, over the lowest n^(1/d) / 4 rings, at least 4, that have power"},
+            higher({"low_frequency_exponent",
+                    "a in power ~ frequency^a near 0: slope of log radial power against log "
+                    "frequency, weighted by cells, over the lowest n^(1/d) / 4 rings, at least 4, "
+                    "that have power"}),
             {"method", "nufft or direct", true, "nufft|direct"},
             {"window", "none or hann", true, "none|hann"},
             {"boundary", "torus, or faded out by the window", true, "torus|faded out"}};
@@ -548,6 +554,15 @@ Analyzer unit() {
         .options = Schema(max_frequency, method, tolerance, normalize, window, weights, grid_file,
                           image_file, image_scale, image_bits, slice, wisdom),
         .results = results(),
+        .curves = {{"radial.power", "radial.frequency", "1", "radial power", "", false,
+                    "Radial power over frequency; white noise has 1"},
+                   {"radial.anisotropy_db", "radial.frequency", "", "anisotropy (dB)"}},
+        .part = PagePart::spectrum,
+        .page = {{"Power spectrum",
+                  {{"effective_nyquist", "Effective Nyquist frequency"},
+                   {"relative_nyquist", "Relative Nyquist frequency"},
+                   {"oscillation", "Oscillation"}}}},
+        .charts = {{"spectrum", "Power spectrum"}, {"radial", ""}},
         .strengths = weights.name,
         .accumulate =
             [](const Arrival& arrival, const Values& options, const RunContext& run) {

@@ -457,9 +457,15 @@ std::vector<ResultKey> results() {
          "method for p_lower: exact: sum over all counts with so small a statistic, if these can "
          "be enumerated; corrected: the chi-square distribution, corrected for integer counts",
          true, "exact|corrected"},
-        {"verdict",
-         "uniform; non-uniform: counts vary too much; stratified: counts vary too little", true,
-         uniformity_verdicts},
+        {.key = "verdict",
+         .help = "uniform; non-uniform: counts vary too much; stratified: counts vary too little",
+         .words = uniformity_verdicts,
+         .sentences = {{"uniform",
+                        "The numbers of points in the cells are as expected by chance ({})."},
+                       {"stratified",
+                        "The cells are filled more evenly than by independent points ({}): good "
+                        "for low-discrepancy and stratified sets."},
+                       {"non-uniform", "The points do not follow their domain's density ({})."}}},
         {"cells", "number of cells"},
         {"pooled_cells",
          "number of cells merged with others, so that each group expects at least 5 points"},
@@ -496,6 +502,8 @@ Analyzer unit() {
             .traits = {.unit_cube = false},
             .options = Schema(cells, shifted, combination, level_option, expect_uniformity_option),
             .results = results(),
+            .part = PagePart::tests,
+            .page = {{"χ² test", {{"p_value", "χ² p‑value"}, {"verdict", "χ² verdict"}}}},
             .accumulate =
                 [](const Arrival& arrival, const Values& options, const RunContext& run) {
                     return std::make_unique<Counter>(arrival, options, run);

@@ -253,10 +253,20 @@ Analyzer unit() {
                   "most 1"},
                  {"combined_p_upper", "1 - (1 - p)^axes of the smallest p_upper (Sidak)"},
                  {"combined_p_lower", "1 - (1 - p)^axes of the smallest p_lower (Sidak)"},
-                 {"verdict",
-                  "uniform; non-uniform: an axis has a wrong density; stratified: an axis is more "
-                  "even than random",
-                  true, uniformity_verdicts}},
+                 {.key = "verdict",
+                  .help = "uniform; non-uniform: an axis has a wrong density; stratified: an axis "
+                          "is more even than random",
+                  .words = uniformity_verdicts,
+                  .sentences = {{"uniform",
+                                 "Each axis by itself looks like independent uniform numbers "
+                                 "({})."},
+                                {"stratified",
+                                 "At least one axis is covered more evenly than by chance ({})."},
+                                {"non-uniform", "At least one axis has a wrong density ({})."}}}},
+            .part = PagePart::tests,
+            .page = {{"Kolmogorov–Smirnov test",
+                      {{"combined_p_value", "Kolmogorov–Smirnov p‑value"},
+                       {"verdict", "Kolmogorov–Smirnov verdict"}}}},
             .accumulate =
                 [](const Arrival& arrival, const Values& options, const RunContext& run) {
                     return std::make_unique<Collector>(arrival, options, run);

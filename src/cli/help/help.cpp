@@ -142,7 +142,7 @@ void add_options_of(HelpPage& page, Verb verb, const UnitInfo& unit) {
 }
 
 void add_results(HelpPage& page, const UnitInfo& unit) {
-    for (const auto& [key, help] : unit.results) page.entry(key, help);
+    for (const ResultKey& result : unit.results) page.entry(result.key, result.help);
 }
 
 /// Facts about a unit, without its options, as sentences.
