@@ -14,6 +14,7 @@
 
 #include "analyzers/analyzer.hpp"
 #include "cli/parsing/requests.hpp"
+#include "cli/session.hpp"
 #include "io/output.hpp"
 #include "pipeline/pipeline.hpp"
 #include "report/average.hpp"

@@ -11,6 +11,7 @@
 #include "cli/analysis.hpp"
 #include "cli/inputs.hpp"
 #include "cli/launched.hpp"
+#include "cli/session.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"

@@ -8,6 +8,7 @@
 
 #include "cli/launched.hpp"
 #include "cli/parsing/requests.hpp"
+#include "cli/session.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"

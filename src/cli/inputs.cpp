@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "cli/session.hpp"
 #include "core/text.hpp"
 #include "io/columns.hpp"
 #include "io/files.hpp"

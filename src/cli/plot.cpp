@@ -14,6 +14,7 @@
 
 #include "analyzers/distances/empty_ball.hpp"
 #include "cli/inputs.hpp"
+#include "cli/session.hpp"
 #include "cli/terminal.hpp"
 #include "cli/verbs.hpp"
 #include "core/bytes/npy_header.hpp"

@@ -9,6 +9,7 @@
 
 #include "cli/inputs.hpp"
 #include "cli/launched.hpp"
+#include "cli/session.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/spec.hpp"

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "cli/inputs.hpp"
+#include "cli/session.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"

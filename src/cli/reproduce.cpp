@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 
+#include "cli/session.hpp"
 #include "cli/verbs.hpp"
 #include "core/bytes/file_bytes.hpp"
 #include "core/bytes/fingerprint.hpp"

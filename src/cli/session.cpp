@@ -96,10 +96,11 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-ProgressBar::ProgressBar(Mode mode)
-    : wanted_(mode == Mode::always || (mode == Mode::automatic && isatty(STDERR_FILENO) == 1)),
-      patience_(mode == Mode::always ? std::chrono::milliseconds(0)
-                                     : std::chrono::milliseconds(500)) {}
+ProgressBar::ProgressBar(ProgressMode mode)
+    : wanted_(mode == ProgressMode::always ||
+              (mode == ProgressMode::automatic && isatty(STDERR_FILENO) == 1)),
+      patience_(mode == ProgressMode::always ? std::chrono::milliseconds(0)
+                                             : std::chrono::milliseconds(500)) {}
 
 void ProgressBar::show(double fraction) {
     if (!wanted_) return;
@@ -128,7 +129,7 @@ void ProgressBar::clear() {
 }
 
 Session::Session(const Request& request)
-    : quiet_(request.quiet), bar_(request.quiet ? ProgressBar::Mode::never : request.progress) {
+    : quiet_(request.quiet), bar_(request.quiet ? ProgressMode::never : request.progress) {
     run_.threads = request.threads;
     run_.max_memory = request.max_memory ? *request.max_memory
                                          : static_cast<std::uint64_t>(0.8 * memory_of_machine());

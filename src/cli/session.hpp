@@ -17,9 +17,7 @@ namespace stipple::cli {
 /// there is one.
 class ProgressBar {
   public:
-    enum class Mode { automatic, always, never };
-
-    explicit ProgressBar(Mode mode);
+    explicit ProgressBar(ProgressMode mode);
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
     ~ProgressBar() { clear(); }

@@ -239,8 +239,9 @@ TEST(Generate, AnInfiniteDensityIsHintedAtWhereThatHelps) {
     EXPECT_EQ(box.run({"warp", naive[0], naive[1]}, "0,0\n").err,
               "stipple: --with-pdf: the value at the point (0, 0) is infinite\n");
     EXPECT_TRUE(box.run({"generate", "halton", "-n", "3", "-d", "2", "-w", naive[0], naive[1]})
-                    .err.ends_with("(0, 0); --start 1 leaves out a sequence's first point, where "
-                                   "coordinates are 0\n"));
+                    .err.ends_with(
+                        "(0, 0) is infinite; --start 1 leaves out a sequence's first point, where "
+                        "coordinates are 0\n"));
 }
 
 TEST(Generate, RejectionSaysHowManyPointsItKept) {

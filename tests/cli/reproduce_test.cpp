@@ -146,14 +146,14 @@ TEST(Reproduce, NamesTheFirstDifference) {
     good(box.shell("stipple generate halton -n 10 --meta -o c.csv && sed -i '$d' c.csv"));
     EXPECT_THAT(difference(box, "c.csv"), HasSubstr("it has 9 points; made again it has 10"));
     good(box.shell("stipple generate halton -n 10 --meta -o d.csv && echo 0.5,0.5 >> d.csv"));
-    EXPECT_THAT(difference(box, "d.csv"), HasSubstr("more than 10 points"));
+    EXPECT_THAT(difference(box, "d.csv"), HasSubstr("more than the 10 points"));
     // The count in a file's header is not used for the comparison.
     good(box.shell("stipple generate halton -n 10 -o f.jsonl && sed -i '$d' f.jsonl"));
     EXPECT_THAT(difference(box, "f.jsonl"), HasSubstr("it has 9 points; made again it has 10"));
     good(
         box.shell("stipple generate halton -n 10 -o g.jsonl && echo '[0.5,0.5]' >> g.jsonl && "
                   "stipple generate halton -n 3 -o h.json && sed -i '3d' h.json"));
-    EXPECT_THAT(difference(box, "g.jsonl"), HasSubstr("more than 10 points"));
+    EXPECT_THAT(difference(box, "g.jsonl"), HasSubstr("more than the 10 points"));
     EXPECT_THAT(difference(box, "h.json"), HasSubstr("point 1, x: the file has 0.25"));
     for (const std::string file : {"k.csv", "k.txt", "k.json", "k.jsonl"}) {
         good(box.shell("stipple generate random -n 2 -w disk --with-pdf --with-weight --meta -o " +

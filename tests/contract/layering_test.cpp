@@ -157,7 +157,7 @@ const std::map<std::string, std::set<std::string>> exceptions = {
 /// Names of units in a file's strings, except the file's own unit.
 std::set<std::string> units_named_in(const std::filesystem::path& file) {
     const std::string folder = folders_of(std::filesystem::relative(file, src)).first;
-    const bool after_units = place_of(folder) > place_of("analyzers");
+    const bool after_units = place_of(folder) > place_of("experiments");
     static const std::set<std::string> both[] = {names_of_units(false), names_of_units(true)};
     const std::set<std::string>& names = both[after_units ? 1 : 0];
     const std::set<std::string>& words = after_units ? ordinary_after_units : ordinary;

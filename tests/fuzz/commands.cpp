@@ -2,6 +2,7 @@
 //
 // Whole commands, composed from the registry's verbs, units and options; they read only the file of
 // the input, and write nothing.
+#include "cli/session.hpp"
 #include "cli/verbs.hpp"
 #include "fuzz.hpp"
 

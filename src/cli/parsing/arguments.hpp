@@ -38,6 +38,10 @@ constexpr Verb operator|(Verb a, Verb b) {
 
 struct Arguments;
 struct Request;
+class Session;
+
+/// When progress is shown on stderr: on terminals, or as the option says.
+enum class ProgressMode { automatic, always, never };
 
 struct VerbInfo : VerbPage {
     Verb verb;

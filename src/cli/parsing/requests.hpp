@@ -13,7 +13,6 @@
 
 #include "analyzers/analyzer.hpp"
 #include "cli/parsing/arguments.hpp"
-#include "cli/session.hpp"
 #include "core/spec.hpp"
 #include "io/format.hpp"
 #include "pipeline/generated.hpp"
@@ -47,7 +46,7 @@ struct Request : Arguments {
     unsigned threads = 0;
     std::optional<std::uint64_t> max_memory = {};  ///< bytes
     bool quiet = false;
-    ProgressBar::Mode progress = ProgressBar::Mode::automatic;
+    ProgressMode progress = ProgressMode::automatic;
 };
 
 /// Points from files or from --generate.
