@@ -39,13 +39,14 @@ void require(bool holds, const std::string& what);
 /// Writes the bytes to a file; always the same path.
 const std::string& as_file(std::string_view bytes);
 
-/// Whether the work succeeded; false if it threw an Error.
+/// Whether the work succeeded; false if it threw an Error. That of the deadline is passed on.
 template <class Work>
 bool accepted(const Work& work) {
     try {
         work();
         return true;
-    } catch (const Error&) {
+    } catch (const Error& e) {
+        if (e.kind() == ErrorKind::cancelled) throw;  // by the deadline: nothing to compare with
         return false;
     }
 }
