@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the sources of the command line share.
+// Functions that several verbs call.
 #pragma once
 
 #include <initializer_list>

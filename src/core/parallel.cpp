@@ -23,6 +23,11 @@ RunContext silent(RunContext run) {
     return run;
 }
 
+RunContext unwarned(RunContext run) {
+    run.warn = {};
+    return run;
+}
+
 RunContext unstopped(RunContext run) {
     run.stop = {};
     return run;

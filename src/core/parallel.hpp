@@ -33,6 +33,9 @@ void for_each_block(const RunContext& run, std::uint64_t count, std::uint64_t si
 /// A copy of the context without progress reports.
 RunContext silent(RunContext run);
 
+/// A copy of the context without notes to the user.
+RunContext unwarned(RunContext run);
+
 /// A copy of the context that ignores requests to stop.
 RunContext unstopped(RunContext run);
 

@@ -199,7 +199,8 @@ std::vector<MarkedBox> worst_boxes(const Set& set) {
         {"periodic", "worst box on the torus"}};
     std::vector<MarkedBox> boxes;
     for (const Measure& measure : set.measures) {
-        const Report found = measure.results.value_or(Report());
+        if (!measure.results) continue;
+        const Report& found = *measure.results;
         const std::string kind = option_of(measure.options, "kind");
         if (const auto corner = list_at(found, "worst_box.corner")) {
             // Measuring prefixes repeats the search in the whole set.

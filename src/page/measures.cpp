@@ -8,6 +8,7 @@
 
 #include "core/bytes/fingerprint.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "core/spec.hpp"
 #include "page/experiment.hpp"
 #include "page/figures.hpp"
@@ -135,8 +136,7 @@ Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube,
 
 std::vector<Measure> measure_set(const PointSet& points, const Input& input, std::int64_t work,
                                  const RunContext& run) {
-    RunContext mute = run;
-    mute.warn = {};  // the page shows bounds itself
+    const RunContext mute = unwarned(run);  // the page shows bounds itself
     const Cubed cube = cubed(points, input);
     const auto plans = planned_measures();
     std::vector<Measure> all;

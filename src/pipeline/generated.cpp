@@ -454,9 +454,9 @@ GeneratedSets::Images GeneratedSets::images_of_more(std::uint64_t set, const Poi
         request.count = count = static_cast<std::uint64_t>(next);
         request.seed = plan_.seed + set;
         const Plan plan = plan_for(generator_, request, asked_.options);
-        RunContext again = run;
-        again.warn = {};  // the first set has already caused all warnings
-        kept = chain->mapped(raw_points(set, plan, again).flat(), false, request.start, quiet);
+        // The first set has already caused all warnings.
+        kept =
+            chain->mapped(raw_points(set, plan, unwarned(run)).flat(), false, request.start, quiet);
     }
     if (best.rows.empty())
         fail(ErrorKind::input, "the constraints hold for {} of {} points",

@@ -7,18 +7,13 @@
 
 #include "core/error.hpp"
 #include "core/machine/int128.hpp"
+#include "core/parallel.hpp"
 #include "generators/density_options.hpp"
 #include "io/carried_meta.hpp"
 #include "media/png_picture.hpp"
 
 namespace stipple {
 namespace {
-
-/// A copy of the context without warnings: only the first shard gives them.
-RunContext untold(RunContext run) {
-    run.warn = {};
-    return run;
-}
 
 /// A job, with everything that is the same for all its sets.
 class Producer {
@@ -28,7 +23,8 @@ class Producer {
           generator_(*job.generator),
           target_(target),
           run_(run),
-          sets_(job, job.shard.index == 0 ? run : untold(run)) {
+          // Only the first shard gives warnings.
+          sets_(job, job.shard.index == 0 ? run : unwarned(run)) {
         if (job_.shard.of > 1 && job_.sets > 1)
             fail(ErrorKind::usage,
                  "--shard divides one set; use --seed to choose which, instead of --sets");

@@ -100,7 +100,7 @@ SetStream stream_of(std::size_t sets, std::function<PointSet(std::size_t set)> m
         PointSet points;
         std::size_t set = 0;
     };
-    const auto current = std::make_shared<Current>(make(0));
+    const auto current = std::make_shared<Current>(Current{make(0), 0});
     const auto at = [current, make = std::move(make)](std::size_t set) -> const PointSet& {
         if (set != current->set) *current = {make(set), set};
         return current->points;

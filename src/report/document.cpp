@@ -130,7 +130,7 @@ std::string results_of(const Measurement& m, const TextStyle& style = {}) {
 
 // ---------------------------------------------------------------- parsing
 
-constexpr const char* wanted = "expected the JSON of 'stipple analyze'";
+constexpr const char* expected_json = "expected the JSON of 'stipple analyze'";
 
 /// A number or null.
 bool is_number(const Json& value) { return value.is_number() || value.is_null(); }
@@ -184,7 +184,7 @@ Measurement measurement_of(const Json& object, const std::string& source) {
         return it != object.end() && it->is_object() ? *it : Json::object();
     };
     if (!object.is_object() || value_or<std::string>(object, "format", {}) != "stipple.report")
-        fail(ErrorKind::input, "{}: an entry is not a report; {}", source, wanted);
+        fail(ErrorKind::input, "{}: an entry is not a report; {}", source, expected_json);
     const auto version = value_or<std::uint64_t>(object, "version", 0);
     if (version != 1)
         fail(ErrorKind::input, "{}: a report of version {}; expected version 1", source, version);
@@ -294,12 +294,12 @@ std::vector<Measurement> read_reports(std::string_view bytes, const std::string&
             text = parse_json(piece);
         } catch (const JsonError& e) {
             fail(ErrorKind::input, "{}: incomplete or invalid JSON at byte {} of a report: {}; {}",
-                 source, e.at + 1, e.what(), wanted);
+                 source, e.at + 1, e.what(), expected_json);
         }
         if (!text.is_array()) text = Json::array({std::move(text)});
         for (const Json& object : text) found.push_back(measurement_of(object, source));
     }
-    if (found.empty()) fail(ErrorKind::input, "{}: contains no report; {}", source, wanted);
+    if (found.empty()) fail(ErrorKind::input, "{}: contains no report; {}", source, expected_json);
     return found;
 }
 

@@ -176,8 +176,8 @@ std::vector<StudySummary::Pair> StudySummary::pairs_of(const std::vector<std::si
 std::string StudySummary::comparisons(TableStyle style, const SummaryOptions& options,
                                       const RunContext& run) const {
     const auto cells_of_pair = [&](const Pair& pair) {
-        const auto& [a, b, sets_a, sets_b, test, p_holm] = pair;
-        const StudyRow& row = a->row;
+        const StudyRow& row = pair.a->row;
+        const MeanTest& test = pair.test;
         const auto text = [](const char* word) { return std::string(word); };
         return columns::cells_of([&](const auto& visit) {
             visit("table", text("comparison"));
@@ -187,17 +187,17 @@ std::string StudySummary::comparisons(TableStyle style, const SummaryOptions& op
             visit("measure", row.measure);
             visit("key", row.key);
             visit("generator_a", row.generator);
-            visit("generator_b", b->row.generator);
+            visit("generator_b", pair.b->row.generator);
             visit("method", text(options.paired ? "paired" : "welch"));
             visit("compared", text(is_error_key(row.key) ? "absolute value" : "value"));
-            visit("sets_a", std::uint64_t{sets_a});
-            visit("sets_b", std::uint64_t{sets_b});
+            visit("sets_a", std::uint64_t{pair.sets_a});
+            visit("sets_b", std::uint64_t{pair.sets_b});
             visit("difference", test.difference);
             visit("standard_error", test.standard_error);
             visit("t", test.t);
             visit("degrees_of_freedom", test.degrees);
             visit("p_value", test.p_value);
-            visit("p_holm", p_holm);
+            visit("p_holm", pair.p_holm);
             visit("study", row.study);
         });
     };

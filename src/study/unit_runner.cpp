@@ -11,6 +11,7 @@
 #include <new>
 #include <thread>
 
+#include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/generated.hpp"
@@ -94,18 +95,12 @@ PointSet some_points(std::size_t dimension, std::size_t count = 64) {
     return points;
 }
 
-RunContext without_warnings(RunContext run) {
-    run.progress = {};
-    run.warn = {};
-    return run;
-}
-
 /// Returns the error that a measure throws for such points; nullopt if it accepts them, fails for
 /// another reason, or is not done after `limit` seconds.
 std::optional<Error> refusal(const Chosen<Analyzer>& measure, const PointSet& points,
                              const RunContext& run, std::optional<double> limit = {}) {
     try {
-        over_time(without_warnings(run), limit, [&](const RunContext& limited) {
+        over_time(unwarned(silent(run)), limit, [&](const RunContext& limited) {
             (void)analyze(*measure.unit, points, measure.values, limited);
         });
     } catch (const Error& e) {
@@ -131,7 +126,7 @@ bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunCon
     if (measure.unit->traits.boxed && !spec.starts_with("box")) return false;
     const std::size_t d = chain.dimension_in();
     const PointSet points = some_points(d, chain.needs_whole_set() ? 64 + d : 64);
-    return takes_points(measure, chain.image(points, without_warnings(run)), run) ||
+    return takes_points(measure, chain.image(points, unwarned(silent(run))), run) ||
            !takes_points(measure, points, run);
 }
 
@@ -170,7 +165,7 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
                               .request = request,
                               .sets = 1,
                               .warps = std::move(warps)},
-                             without_warnings(run))
+                             unwarned(silent(run)))
             .made(0, run);
     };
     std::vector<Spec> warps(sweep.later_warps().begin(), sweep.later_warps().end());
@@ -256,7 +251,7 @@ UnitRunner::UnitRunner(const Sweep& sweep, const RunContext& run)
 
 // Makes each set once, and only one set if the seed has no effect.
 WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext& run) const {
-    const RunContext quiet = without_warnings(run);
+    const RunContext quiet = unwarned(silent(run));
     const bool shares_memory = run.max_memory < whole_memory_;
     WorkDone done;
     MadeSet set;
@@ -303,7 +298,7 @@ std::optional<Error> UnitRunner::refusal_of(std::size_t measure, std::size_t dim
     const auto warps = sweep_.later_warps();
     try {
         if (!warps.empty() && takes_image(dimension, measure))
-            points = WarpChain(warps, dimension, {}, run).image(points, without_warnings(run));
+            points = WarpChain(warps, dimension, {}, run).image(points, unwarned(silent(run)));
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::cancelled) throw;
         return std::nullopt;  // its rows report what is wrong

@@ -299,13 +299,10 @@ const std::vector<Row> rows = {
      "local-discrepancy",
      "points",
      "chart of points. points: positions (of three coordinates a view in space, of more each pair "
-     "of the "
-     "first 8); density: counts by cell; pairs: each pair of coordinates; histogram: of each "
-     "coordinate; "
-     "distances: to the nearest neighbour; local-discrepancy: with the worst boxes of the star "
-     "discrepancy; spectrum, radial, pair-correlation, differential: results of analyze with "
-     "default "
-     "options",
+     "of the first 8); density: counts by cell; pairs: each pair of coordinates; histogram: of "
+     "each coordinate; distances: to the nearest neighbour; local-discrepancy: with the worst "
+     "boxes of the star discrepancy; spectrum, radial, pair-correlation, differential: results of "
+     "analyze with default options",
      plot, &PlotRequest::chart},
     {"--key", "KEY", "", "result to draw of a report, such as prefixes.value or minimum", plot,
      &PlotRequest::key},
@@ -469,7 +466,7 @@ void check_rules(const Arguments& arguments) {
     };
     for (const auto& [verbs, options, relation, other, why] : table::rules) {
         const bool needs = relation == table::Rule::need;
-        // What an option needs may be in the configuration of a study.
+        // With --config, the option that another one requires may be in that file.
         if (!includes(verbs, *arguments.verb) || given(other) == needs ||
             (needs && given("config")))
             continue;

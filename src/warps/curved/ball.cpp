@@ -131,7 +131,7 @@ Warp unit() {
             .strata =
                 "xi1 is the fraction of the volume within the radius, xi2 decreases from the north "
                 "to the south pole, xi3 is the longitude; all are used directly",
-            .options = Schema(ball_radius, center),
+            .options = Schema(ball_radius, center_option),
             .mapping = make};
 }
 

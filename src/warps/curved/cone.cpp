@@ -153,7 +153,7 @@ Warp unit() {
             .strata =
                 "xi1 is the fraction of the solid angle, from 0 on the axis to 1 at the rim; xi2 "
                 "is the longitude; both are used directly",
-            .options = Schema(half_angle, axis),
+            .options = Schema(half_angle, axis_option),
             .aliases = {"spherical-cap"},
             .mapping = make};
 }

@@ -163,7 +163,7 @@ Warp unit() {
             .strata =
                 "xi1 is the fraction of the area from the lower to the upper end (with --caps, "
                 "between the centres of the caps); xi2 is the angle; both are used directly",
-            .options = Schema(radius, height, center, axis, caps),
+            .options = Schema(radius, height, center_option, axis_option, caps),
             .mapping = make};
 }
 

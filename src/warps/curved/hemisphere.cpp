@@ -155,8 +155,8 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const std::string how = want.options[method];
     const bool powered = how == "cosine-power";
     const CosineLaw law{powered ? want.options[exponent] : (how == "cosine" ? 1.0 : 0.0)};
-    std::string spec = powered ? want.spec({method.name, exponent.name, axis.name})
-                               : want.spec({method.name, axis.name});
+    std::string spec = powered ? want.spec({method.name, exponent.name, axis_option.name})
+                               : want.spec({method.name, axis_option.name});
     const auto domain = std::make_shared<LobeDomain<CosineLaw>>(law, frame, std::move(spec));
     if (powered) return row_mapping(domain, CosinePower{frame, law.power});
     if (how == "uniform") return row_mapping(domain, Uniform{frame});
@@ -177,7 +177,7 @@ Warp unit() {
         .strata =
             "xi1 is the probability from 0 on the axis to 1 at the horizon; xi2 is the longitude; "
             "with --disk concentric, squares about the centre become rings; all are used directly",
-        .options = Schema(method, exponent, axis, disk_map, orientation),
+        .options = Schema(method, exponent, axis_option, disk_map, orientation),
         .mapping = make};
 }
 

@@ -91,7 +91,7 @@ Warp unit() {
             .strata =
                 "xi1 is the probability of the cone about the axis, 0 on the axis; xi2 turns about "
                 "the axis; both are used directly",
-            .options = Schema(asymmetry, axis),
+            .options = Schema(asymmetry, axis_option),
             .mapping = make};
 }
 

@@ -17,14 +17,15 @@ Vector3 vector_of(const Param<Numbers>& option, const std::vector<double>& numbe
 }
 
 Vector3 center_of(const Values& options, double reach) {
-    const Vector3 at = vector_of(center, options[center]);
+    const Vector3 at = vector_of(center_option, options[center_option]);
     for (const double x : at) refuse_far(x, reach);
     return at;
 }
 
 Frame frame_of(const Values& options) {
-    const Vector3 along = vector_of(axis, options[axis]);
-    if (largest(along) == 0) fail(ErrorKind::usage, "--{}: 0,0,0 has no direction", axis.name);
+    const Vector3 along = vector_of(axis_option, options[axis_option]);
+    if (largest(along) == 0)
+        fail(ErrorKind::usage, "--{}: 0,0,0 has no direction", axis_option.name);
     return frame_about(normalized(along));
 }
 

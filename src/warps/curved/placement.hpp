@@ -15,9 +15,10 @@ namespace stipple::warps {
 
 constexpr auto radius = length_option("radius", 1, "Radius, above 0");
 
-constexpr Param<Numbers> center{{.name = "center", .fallback = "0,0,0", .help = "Centre: x,y,z"}};
+constexpr Param<Numbers> center_option{
+    {.name = "center", .fallback = "0,0,0", .help = "Centre: x,y,z"}};
 
-constexpr Param<Numbers> axis{
+constexpr Param<Numbers> axis_option{
     {.name = "axis", .fallback = "0,0,1", .help = "Axis: x,y,z, of any length above 0"}};
 
 /// The centre of a shape of size `reach`. @throws Error(usage) unless it is three numbers, or if it

@@ -133,7 +133,7 @@ struct ByRejection {
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const Sphere sphere{want.options[radius], center_of(want.options, want.options[radius])};
     const auto domain =
-        std::make_shared<SphereDomain>(sphere, want.spec({radius.name, center.name}));
+        std::make_shared<SphereDomain>(sphere, want.spec({radius.name, center_option.name}));
     const std::string how = want.options[method];
     if (how == "rejection") return row_mapping(domain, ByRejection{sphere, want.options[inner]});
     if (how == "naive-lat-long") return row_mapping(domain, ByLatitude{sphere});
@@ -152,7 +152,7 @@ Warp unit() {
                 "xi1 is the fraction of the area from the north pole z = R to the south pole; xi2 "
                 "is the longitude; both are used directly",
             .traits = {.drops = true, .biased = true},
-            .options = Schema(method, radius, center, inner, orientation),
+            .options = Schema(method, radius, center_option, inner, orientation),
             .mapping = make};
 }
 

@@ -215,7 +215,7 @@ Warp unit() {
             .strata =
                 "xi1 is the fraction of the area around the tube, from its outermost point "
                 "upwards; xi2 turns around the axis; both are used directly",
-            .options = Schema(major_radius, minor_radius, center, axis),
+            .options = Schema(major_radius, minor_radius, center_option, axis_option),
             .aliases = {"torus"},
             .mapping = make};
 }

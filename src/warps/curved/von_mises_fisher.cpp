@@ -122,7 +122,7 @@ Warp unit() {
             .strata =
                 "xi1 is the probability of the cone about the axis, 0 on the axis; xi2 turns about "
                 "the axis; both are used directly",
-            .options = Schema(concentration, axis),
+            .options = Schema(concentration, axis_option),
             .aliases = {"vmf"},
             .mapping = make};
 }
