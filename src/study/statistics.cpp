@@ -2,12 +2,12 @@
 #include "study/statistics.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <numeric>
 
 #include "core/rng.hpp"
+#include "math/functions/distributions.hpp"
+#include "math/functions/incomplete_functions.hpp"
 
 namespace stipple {
 namespace {
@@ -31,9 +31,7 @@ MeanTest tested(double difference, double error, double degrees) {
         return test;
     }
     test.t = difference / error;
-    const boost::math::students_t distribution(degrees);
-    test.p_value = std::min(
-        1.0, 2 * boost::math::cdf(boost::math::complement(distribution, std::abs(test.t))));
+    test.p_value = 2 * student_above(std::min(std::abs(test.t), 1e150), degrees);
     return test;
 }
 
@@ -60,9 +58,8 @@ SampleSummary summarize(std::span<const double> sample) {
 
 Interval t_interval(const SampleSummary& sample, double confidence) {
     if (sample.count < 2 || !std::isfinite(sample.standard_error)) return {not_known, not_known};
-    const boost::math::students_t distribution(static_cast<double>(sample.count - 1));
     const double reach =
-        boost::math::quantile(boost::math::complement(distribution, (1 - confidence) / 2)) *
+        student_quantile((1 - confidence) / 2, static_cast<double>(sample.count - 1)) *
         sample.standard_error;
     return {sample.mean - reach, sample.mean + reach};
 }
@@ -76,11 +73,10 @@ double root_mean_square(std::span<const double> sample) {
 Interval rms_interval(std::span<const double> sample, double confidence) {
     if (sample.size() < 2 || !(summarize(sample).deviation > 0)) return {not_known, not_known};
     const auto r = static_cast<double>(sample.size());
-    const boost::math::chi_squared_distribution distribution(r);
     const double tail = (1 - confidence) / 2;
     const double rms = root_mean_square(sample);
-    return {rms * std::sqrt(r / boost::math::quantile(boost::math::complement(distribution, tail))),
-            rms * std::sqrt(r / boost::math::quantile(distribution, tail))};
+    return {rms * std::sqrt(r / (2 * gamma_upper_quantile(r / 2, tail))),
+            rms * std::sqrt(r / (2 * gamma_quantile(r / 2, tail)))};
 }
 
 Interval bootstrap_interval(std::span<const double> sample, double confidence,

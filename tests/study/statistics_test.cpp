@@ -37,6 +37,13 @@ TEST(Statistics, AgreesWithSciPy) {
     EXPECT_NEAR(t_interval(s, 0.95).high, 5.289150255123345, 1e-13);
 }
 
+// Expected values from SciPy: chi2.ppf(p, 5), p = 0.025 and 0.975, and the root of the mean square.
+TEST(Statistics, IntervalOfARootMeanSquare) {
+    const double rms = root_mean_square(a);
+    EXPECT_NEAR(rms_interval(a, 0.95).low, rms * std::sqrt(5 / 12.832501994030029), 1e-13);
+    EXPECT_NEAR(rms_interval(a, 0.95).high, rms * std::sqrt(5 / 0.8312116134866626), 1e-13);
+}
+
 TEST(Statistics, MedianIsTheMiddleOrBetweenTheTwo) {
     EXPECT_EQ(summarize(a).median, 2.9);
     EXPECT_EQ(summarize(std::vector<double>{4, 1, 3, 2}).median, 2.5);

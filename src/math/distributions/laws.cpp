@@ -26,6 +26,7 @@
 
 #include "core/machine/wide.hpp"
 #include "math/distributions/laws.hpp"
+#include "math/functions/distributions.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/incomplete_functions.hpp"
 #include "math/functions/logarithm.hpp"
@@ -439,9 +440,7 @@ struct StudentT {
     }
     double tail_beyond(double t) const {
         if (t > far_out) return real_power(t / std::sqrt(degrees), -degrees) / slope;
-        const double square = t * t / degrees;
-        return square < 1 ? 0.5 * beta_above(0.5, 0.5 * degrees, square / (1 + square))
-                          : 0.5 * beta_below(0.5 * degrees, 0.5, 1 / (1 + square));
+        return student_above(t, degrees);
     }
 };
 

@@ -27,6 +27,12 @@ double detectable_noncentrality(double freedom, double level) {
         .value;
 }
 
+double student_above(double t, double freedom) {
+    const double square = t * t / freedom;
+    return square < 1 ? 0.5 * beta_above(0.5, 0.5 * freedom, square / (1 + square))
+                      : 0.5 * beta_below(0.5 * freedom, 0.5, 1 / (1 + square));
+}
+
 double student_quantile(double above, double freedom) {
     // P(T > t) = I_x(freedom / 2, 1 / 2) / 2 with x = freedom / (freedom + t^2), for t >= 0.
     const auto [x, rest] = beta_quantile(freedom / 2, 0.5, 2 * std::min(above, 1 - above));

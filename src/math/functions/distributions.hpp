@@ -19,6 +19,9 @@ double chi_square_above(double statistic, double freedom);
 /// with probability 0.9.
 double detectable_noncentrality(double freedom, double level);
 
+/// Probability that Student's t with `freedom` degrees of freedom is above `t`, in [0, 1e150].
+double student_above(double t, double freedom);
+
 /// The value that Student's t with `freedom` degrees of freedom exceeds with probability `above`.
 double student_quantile(double above, double freedom);
 

@@ -29,6 +29,20 @@ TEST(Distributions, StudentInClosedForm) {
     }
 }
 
+// Expected values from mpmath with 40 digits.
+TEST(Distributions, TailsOfStudent) {
+    struct Case {
+        double t, freedom, above;
+    };
+    for (const auto [t, freedom, above] :
+         {Case{0, 3, 0.5}, Case{1e-9, 1, 0.49999999968169011},
+          Case{0.5, 6.648522216017736, 0.31659712314414611}, Case{3, 1, 0.10241638234956673},
+          Case{40, 5, 9.2059810858864772e-8}, Case{1e8, 2.5, 7.1933971908317207e-21},
+          Case{12, 1e6, 1.7858425623825449e-33}, Case{0.7, 3e6, 0.24196367936314236},
+          Case{1e150, 1, 3.1830988618379068e-151}})
+        EXPECT_NEAR(student_above(t, freedom) / above, 1, 1e-11) << t << ' ' << freedom;
+}
+
 // (Z + m)^2 is above q^2 with probability P(Z > q - m) + P(Z < -q - m).
 TEST(Distributions, NoncentralityHasThePower) {
     for (const double level : {0.05, 0.0005}) {
