@@ -5,13 +5,13 @@
 //
 //     m = max(1, c i),    c = --candidates.
 //
-// In up to 3 dimensions only a few of the m candidates are ever made. The box is divided into
-// cells, each with an upper bound of the distance from any place in it to the nearest point. Some
-// cells of the highest bounds are open. First the number of candidates that fall into these is
-// drawn, a binomial number, and those candidates are made. While the best of them does not reach
-// the highest bound of the other cells, that cell is opened too, and gets its binomial number of
-// the remaining candidates. The others cannot win and are never made. Cells are halved, and their
-// bounds recomputed, when their turn comes.
+// In up to 3 dimensions only a few of the m candidates are made. The box is divided into cells,
+// each with an upper bound of the distance from any place in it to the nearest point. Some cells,
+// those with the highest bounds, are open. First the number of candidates in open cells is drawn, a
+// binomial number, and those candidates are made. While the best of them is below the highest bound
+// of a closed cell, that cell is opened too, and gets its binomial number of the remaining
+// candidates. The others cannot win and are never made. A cell is halved, or its bound recomputed,
+// when its turn comes.
 //
 // In more dimensions cells exclude too little, so all candidates are made.
 //
@@ -127,7 +127,7 @@ class LazySearch {
         PointDraws draws(rng_, points_.count());
         best_ = -1;
         all_ = std::max(1.0, std::floor(factor_ * static_cast<double>(points_.count())));
-        // Cells become as small as the peaks of the distance above the best candidate's level.
+        // Cells become as small as the regions whose distances exceed the best candidate's.
         constexpr double fine = 64;
         open_size_ = std::min(0.25, fine * factor_ * nth_root(all_, D + 1) / all_);
         while (!heap_.empty() && all_ * open_share_ < eager) pull();
@@ -167,7 +167,8 @@ class LazySearch {
         std::uint32_t cell;
         std::uint32_t depth;
         std::uint32_t size = 0;             ///< number of `points` in use
-        std::array<Point, D + 1> points{};  ///< nearby, from `low`: most candidates lose here
+        std::array<Point, D + 1> points{};  ///< near the cell, relative to `low`; they reject most
+                                            ///< candidates
     };
 
     /// Updates the bound of the highest cell of the heap; if it is unchanged, halves or opens the
@@ -215,7 +216,7 @@ class LazySearch {
     }
 
     /// Processes the highest cell of the heap. If it is opened, makes its binomial number of the
-    /// `left` remaining candidates; returns their number.
+    /// `left` remaining candidates. Returns the number made.
     std::uint64_t go_on(std::uint64_t left, PointDraws& draws) {
         const double rest = 1 - open_share_;
         if (!pull()) return 0;
@@ -227,7 +228,8 @@ class LazySearch {
         return hits;
     }
 
-    /// Open cell at `place` when all open cells are laid end to end, as fractions of the box.
+    /// Open cell at `place` if all open cells are joined end to end; places are fractions of the
+    /// box.
     [[nodiscard]] const Open& open_cell(double place) const {
         std::uint32_t last = 0;
         for (std::uint32_t depth = 0; depth <= most_halvings; ++depth) {
@@ -292,7 +294,7 @@ class LazySearch {
                 open(half);
     }
 
-    /// Replaces the tiles by about as many as there are points.
+    /// Makes new tiles, about as many as there are points.
     void make_tiles() {
         double longest = 0;
         for (const double side : sides_[0]) longest = std::max(longest, side);
@@ -325,7 +327,8 @@ class LazySearch {
             std::min(cell.bound, std::sqrt(covering_.squared(halves_[cell.depth])) * safety);
     }
 
-    /// Distance from the cell's centre beyond which no point is nearest to a place in the cell.
+    /// Distance from the cell's centre beyond which no point can be the nearest to a place in the
+    /// cell.
     [[nodiscard]] double reach_of(const Cell& cell) const {
         double squared = 0;
         for (const double half : halves_[cell.depth]) squared += half * half;
@@ -370,7 +373,7 @@ class LazySearch {
         return way;
     }
 
-    /// Splits a cell; one half keeps its number.
+    /// Splits a cell into halves; the first keeps its number. Returns both numbers.
     std::array<std::uint32_t, 2> halves(std::uint32_t id) {
         const auto other = static_cast<std::uint32_t>(cells_.size());
         cells_.push_back(cells_[id]);
@@ -412,8 +415,8 @@ class LazySearch {
         winner_ = p;
     }
 
-    /// Distance from p to its nearest point, which is at most `bound`; 0 if that is nearer than the
-    /// best distance so far.
+    /// Distance from p to its nearest point, which is known to be at most `bound`; 0 if it is below
+    /// the best distance so far.
     [[nodiscard]] double distance_of(const Point& p, double bound) const {
         if (best_ > 0 && points_.any_nearer(p.data(), best_)) return 0;
         const double guess = bound < infinity ? bound : space_.largest_distance();
@@ -431,11 +434,12 @@ class LazySearch {
     std::priority_queue<Waiting> heap_;
     std::array<std::vector<Open>, most_halvings + 1> open_;  ///< open cells
     bool crowded_ = false;                                   ///< more cells are open than necessary
-    double open_share_ = 0;                                  ///< open fraction of the box; exact
-    std::uint32_t newest_ = 0;                               ///< cell opened last
-    GridFrame<D> tiles_;                                     ///< frame of tile_cells_
-    std::vector<std::vector<std::uint32_t>> tile_cells_;     ///< cells by tile; some closed since
-    std::vector<std::uint32_t> missed_;                      ///< cells in which candidates lost
+    double open_share_ = 0;     ///< fraction of the box in open cells; exact
+    std::uint32_t newest_ = 0;  ///< cell opened last
+    GridFrame<D> tiles_;        ///< frame of tile_cells_
+    std::vector<std::vector<std::uint32_t>> tile_cells_;  ///< open cells by tile; some have been
+                                                          ///< closed since
+    std::vector<std::uint32_t> missed_;                   ///< cells in which candidates lost
     CoveringBound<D> covering_;
     double open_size_ = 1;  ///< cells with more expected candidates are halved, not opened
     double all_ = 1;        ///< number of candidates for the current point
@@ -447,7 +451,8 @@ class LazySearch {
 /// ten in c. Measured for 3000 to 300 000 points.
 constexpr std::array<double, 3> cell_bytes{700, 1500, 5800};
 
-/// In more dimensions cells take longer than all candidates, for fewer than 10^4.5 points.
+/// Largest dimension with cells. Beyond, making all candidates is faster for fewer than 10^4.5
+/// points.
 constexpr std::size_t most_lazy = cell_bytes.size();
 
 template <std::size_t D>
@@ -473,7 +478,7 @@ std::vector<double> lazily(const BoxSpace& space, const Plan& plan, double facto
 constexpr std::size_t together = 32;  ///< points tested at once
 constexpr double out_of_reach = 1e300;
 
-/// Least squared distance from p to the points; `enough` as soon as a point is as near as that.
+/// Least squared distance from p to the points. Returns `enough` once a point is as near as that.
 /// @param along coordinates of the points, padded to a multiple of `together`
 STIPPLE_WIDE double least_squared(std::span<const std::vector<double>> along,
                                   std::span<const double> turns, const double* p, double enough) {
@@ -520,14 +525,14 @@ std::vector<double> farthest(const BoxSpace& space, std::span<const std::vector<
     return winner;
 }
 
-/// Makes all candidates of the first `wanted` points. A candidate is dropped as soon as a point is
-/// as near to it as the nearest point is to the best one.
+/// Makes all candidates of the first `wanted` points. A candidate is dropped once a point is as
+/// near to it as the best candidate's nearest point.
 std::vector<double> all_candidates(const BoxSpace& space, std::uint64_t seed, double factor,
                                    std::uint64_t wanted, const RunContext& run) {
     const std::size_t d = space.box.dimension();
     run.need_memory(static_cast<double>(wanted) * 2 * sizeof(double) * static_cast<double>(d),
                     fmt::format("{} points", wanted));
-    std::vector<double> turns;  // sides of the torus, or infinite if bounded
+    std::vector<double> turns;  // period along each axis; infinite if bounded
     for (std::size_t k = 0; k < d; ++k)
         turns.push_back(space.torus ? space.box.extent(k)
                                     : std::numeric_limits<double>::infinity());

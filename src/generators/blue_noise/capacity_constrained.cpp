@@ -6,11 +6,11 @@
 //     minimise over x  sum over i of integral of |y - x_i|^2 rho(y) dy over cell i,
 //     with weights w such that  integral of rho over cell i = total / n  for all i.
 //
-// Alternately, the weights are found for the present points (relaxation/equal_cells.hpp) and the
-// points move to the centroids of their cells; both lower the cost. Undisturbed, points form
-// crystals of hexagons. So every tenth iteration, except the last nine, shakes hexagons beside
-// hexagons by up to half a spacing. A point is one of them if the bond order of its k neighbours at
-// angles theta_j is high,
+// The weights are found for the present points (relaxation/equal_cells.hpp), then the points move
+// to the centroids of their cells, in turn; both lower the cost. Undisturbed, points form hexagonal
+// crystals. So every tenth iteration, except the last nine, moves points in hexagonal regions at
+// random by up to half a spacing. A point is in such a region if the bond order of its k neighbours
+// at angles theta_j is high,
 //
 //     | sum_j exp(6 i theta_j) | / k  >  3/4    for the point and two of its neighbours or more.
 //
@@ -47,9 +47,9 @@ constexpr auto iterations = planar::iterations_option(60, "Number of moves of ev
 constexpr Param<bool> crystals{.name = "crystals",
                                .help = "Keep regular hexagons that form instead of shaking them"};
 
-constexpr double rough = 1e-2;   // sufficient while points still move
-constexpr std::size_t few = 20;  // Newton steps then; mostly one or two suffice
-constexpr double fine = 1e-8;    // reached by Newton's last step anyway
+constexpr double rough = 1e-2;   // tolerance of the masses while points still move
+constexpr std::size_t few = 20;  // limit of Newton steps then; one or two usually suffice
+constexpr double fine = 1e-8;    // tolerance at the end; Newton's last step reaches it anyway
 constexpr double promised = 1e-6;
 constexpr std::uint64_t rest = 10;  // iterations between shakes
 
@@ -64,7 +64,8 @@ Vec2 sixfold(const Vec2& d) {
     return times(times(square, square), square);
 }
 
-/// Marks points with nearly hexagonal neighbours, two of which are such points, too.
+/// Marks points with nearly hexagonal neighbours, if at least two of these have such neighbours,
+/// too.
 std::vector<bool> hexagons(const EqualCells& cells) {
     struct Order {
         Vec2 sum;

@@ -84,7 +84,7 @@ class EvenDarts {
     EvenDarts(const BoxSpace& space, std::uint64_t seed)
         : space_(space), draw_(Rng(seed)), points_(space.box, space.torus) {}
 
-    /// Adds a dart if it is far enough from the others.
+    /// Adds a dart if it is far enough from the others; returns whether it was added.
     bool add(double r) {
         std::array<double, D> p;
         draw_.point(space_.box, p.data());
@@ -102,7 +102,8 @@ class EvenDarts {
     GrowingPoints<D> points_;
 };
 
-/// Darts distributed by a density; r is the radius at its maximum. Two keep the smaller radius.
+/// Darts distributed by a density; r is the radius at its maximum. Two points keep the smaller of
+/// their radii.
 class DenseDarts {
   public:
     DenseDarts(const BoxSpace& space, const DensityMap& map, std::uint64_t seed)
@@ -161,7 +162,7 @@ void check_size(double points, double memory, const RunContext& run) {
 }
 
 /// Throws darts until there are enough points or, without a count, until too many in a row miss.
-/// Returns the points and the radius that they keep; `expected` is about their number.
+/// Returns the points and their radius; `expected` is their approximate number.
 template <class Darts>
 std::pair<std::vector<double>, double> throw_all(Darts darts, const BoxSpace& space,
                                                  const Plan& plan, const Values& options,

@@ -19,13 +19,13 @@ namespace stipple {
 namespace {
 
 constexpr double beta = 0.65;
-constexpr double unit = 0x1p40;  ///< weights are integers in units of its inverse
+constexpr double unit = 0x1p40;  ///< weights are integers, in units of 2^-40
 
 /// Term of a pair in the weights.
 struct Kernel {
     double nearest;  ///< r_min / r_max: distances below 2 r_min count as 2 r_min
 
-    /// @param inverse of the distance from which on the term is 0
+    /// @param inverse 1 over the distance from which on the term is 0
     [[nodiscard]] std::uint64_t operator()(double squared_distance, double inverse) const {
         const double t = 1 - std::max(std::sqrt(squared_distance) * inverse, nearest);
         const double t2 = t * t;
@@ -60,15 +60,15 @@ class LayeredPoints {
     [[nodiscard]] std::size_t count() const { return originals_.size(); }
     [[nodiscard]] std::uint32_t original(std::size_t s) const { return originals_[s]; }
 
-    /// Calls visit(t, squared distance, inverse of the distance from which on the term is 0) for
-    /// all points t with a term, including s.
+    /// Calls visit(t, squared distance, 1 over the distance from which on the term is 0) for all
+    /// points t with a term, including s.
     template <class Visit>
     void visit(std::size_t s, Visit&& visit) const {
         const Layer& layer = layers_[layer_of_[s]];
         this->visit((*layer.points)[s - layer.first], radii_[s], visit);
     }
 
-    /// Removes point s, then calls visit() for the others in the same way.
+    /// Removes point s, then calls visit() for the other points with a term.
     template <class Visit>
     void visit_without(std::size_t s, Visit&& visit) {
         Layer& layer = layers_[layer_of_[s]];
@@ -290,7 +290,7 @@ CrowdExtent crowd_extent(std::span<const double> rows, std::size_t directions,
         volumes.push_back(volume);
     }
     const double points = static_cast<double>(inner) - 1.0 / 3;  // points in a median ball
-    constexpr double inside = 0.4;  // quantile; far from rims, as a rule
+    constexpr double inside = 0.4;  // quantile of the volumes; such balls rarely reach beyond a rim
     return {d, quantile(std::move(volumes), inside) * static_cast<double>(others.size()) / points};
 }
 

@@ -10,10 +10,10 @@
 // 2 r_max, and r_min / r_max stays the same.
 //
 // Each term is rounded down to a multiple of 2^-40, so that sums are exact in any order, and remain
-// exact when terms are subtracted. Of equal weights, that of the lowest index is removed.
+// exact when terms are subtracted. Among equal weights, the point of lowest index is removed.
 //
-// Weights only decrease. Entries of the heap may be outdated: a point on top whose weight has
-// decreased is put back, and one whose weight has not is the heaviest of all.
+// Weights only decrease, so entries of the heap may be outdated. A point on top is put back if its
+// weight has decreased; otherwise it is the heaviest of all.
 //
 // Shape   D dimensions; M < 2^32; r_max > 0.
 // Cost    O(M k) time for k points within 2 r_max; 8 D + 40 bytes a point, 40 more if radii vary.
@@ -35,7 +35,7 @@ namespace stipple {
 /// dimension and measure; from four dimensions on, an upper bound that no packing reaches.
 double packing_radius(double count, std::size_t dimension, double measure);
 
-/// Indices of the removed points in the order of removal: all but `kept` of them.
+/// Indices of the removed points, all but `kept`, in the order of removal.
 /// @param rows points of the space, one after the other
 /// @param shares radius of each point as a multiple of r_max, above 0; empty: 1 for all
 std::vector<std::uint32_t> eliminate(std::span<const double> rows, const BoxSpace& space,
@@ -67,7 +67,7 @@ struct CrowdExtent {
 };
 
 /// @param rows points with `directions` coordinates, up to 6
-/// @param dimension of what they fill, or 0 to estimate it
+/// @param dimension dimension that the points fill; 0: estimate it
 /// @param kept number of points whose distances matter; 0: a sixteenth of all
 CrowdExtent crowd_extent(std::span<const double> rows, std::size_t directions,
                          std::size_t dimension, const RunContext& run, std::uint64_t kept = 0);

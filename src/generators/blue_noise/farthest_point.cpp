@@ -14,10 +14,10 @@
 // possible centres. Centres may be on a wall or in a corner, and as distances are largest there,
 // many are.
 //
-// Once points are spread, the largest circle is mostly the one that the point itself has left, and
+// Once points are spread, the largest circle is mostly the one that the removed point has left, and
 // all points creep to better places together. Then a move overshoots the centre by 0.8 of its
 // length, as in successive over-relaxation, unless that brings the point nearer to others than it
-// was. This reaches a minimum distance of 0.93 (hexagons: 1) in 50 iterations, instead of 400.
+// was. So a minimum distance of 0.93 (hexagons: 1) takes 50 iterations, instead of 400.
 //
 // Shape   d = 2; any rectangle, torus or bounded. No density: we know of no variant for one that we
 //         could check against its paper.
@@ -64,7 +64,7 @@ class Tournament {
         }
     }
 
-    /// Index of the largest number, the first one of equals.
+    /// Index of the largest number; the lowest index among equals.
     [[nodiscard]] std::size_t winner() const {
         std::size_t node = 1;
         while (node < leaves_) node = 2 * node + (best_[2 * node] < best_[node]);
@@ -87,7 +87,7 @@ class FarthestPoint {
             if (i % 1024 == 0) run.check_stop();
             sites_.insert(i, sites_.inside({rows[2 * i], rows[2 * i + 1]}));
         }
-        std::vector<std::size_t> crowded;  // at the same place as another point
+        std::vector<std::size_t> crowded;  // points at the same place as another one
         for (std::size_t i = 0; i < n_; ++i) {
             if (i % 1024 == 0) run.check_stop();
             refresh(i);
@@ -101,7 +101,8 @@ class FarthestPoint {
         }
     }
 
-    /// Moves the point to the largest gap; returns whether that is better than its old place.
+    /// Moves the point to the centre of the largest gap; returns whether that is better than its
+    /// old place.
     bool improve(std::size_t i) {
         const Vec2 was = sites_[i];
         sites_.cut_cell(i, cell_);

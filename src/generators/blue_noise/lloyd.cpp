@@ -5,9 +5,9 @@
 //     x_i  <-  integral of x rho(x)^2 dx / integral of rho(x)^2 dx,    both over the cell of x_i,
 //
 // which lowers the energy  E = sum over i of integral of |x - x_i|^2 rho(x)^2 dx over cell i  until
-// every point is the centroid of its cell. rho is the density that --density asks for, or constant.
-// It is squared because the points of a set of least energy have a density proportional to the root
-// of the integrated one. Without a density the points settle into hexagons with defects between
+// every point is the centroid of its cell. rho is the density of --density, or constant. It is
+// squared because points that minimise E have a density proportional to the root of the density
+// that E integrates.
 // them: few iterations leave them irregular, many make crystals.
 //
 // Shape   d = 2; any rectangle, its opposite sides joined (torus) or walls.

@@ -47,7 +47,7 @@ std::vector<double> jittered_rows(std::uint64_t n, const Rng& rng, const RunCont
     return rows;
 }
 
-/// Maps points of the unit square to the density, and scales them to the rectangle.
+/// Makes points of the unit square follow the density, and scales them to the rectangle.
 void place_all(const Planar& planar, const std::optional<DensityMap>& density,
                std::vector<double>& rows, const RunContext& run) {
     for (std::size_t i = 0; i < rows.size(); i += 2) {

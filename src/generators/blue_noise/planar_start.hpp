@@ -4,8 +4,8 @@
 // initial points and the density.
 //
 // random      uniform points, or points distributed by the density.
-// jittered    one point for each of n strata of equal area (mass), in it or beside it: more even
-//             than random, and without the strata's rows and columns.
+// jittered    one point in or beside each of n strata of equal area (mass): more even than random,
+//             without the strata's rows and columns.
 // --from      points of a file, in the box.
 #pragma once
 
@@ -42,7 +42,7 @@ constexpr Param<std::int64_t> iterations_option(std::int64_t usual, std::string_
             .help = help};
 }
 
-/// For Generator::uses_seed of generators that need random numbers for the initial points only.
+/// Generator::uses_seed of generators that need random numbers only for the initial points.
 inline bool uses_seed(const Values& options) { return !options.given(from); }
 }  // namespace planar
 
@@ -65,7 +65,7 @@ struct PlanarStart {
     [[nodiscard]] std::size_t count() const { return rows.size() / 2; }
 };
 
-/// Initial points that the options ask for.
+/// Makes the initial points, as the options specify.
 /// @param bytes per point, for the memory limit; messages name `who`
 /// @throws Error(limit), and errors of reading the files
 PlanarStart planar_start(const Plan& plan, const Values& options, double bytes,
@@ -86,7 +86,7 @@ std::vector<double> random_places(std::uint64_t n, const Planar& planar,
                                   const RunContext& run);
 
 /// Point set at the sites, moved into the plan's box.
-/// @param order index of each site's point; empty: the site's own
+/// @param order index of each site's point; empty: the site's own index
 PointSet planar_points(const Plan& plan, const Planar& planar, const PeriodicVoronoi& sites,
                        std::span<const std::uint32_t> order = {});
 

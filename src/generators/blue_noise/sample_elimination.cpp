@@ -11,8 +11,9 @@
 // unit ball. The points of a file may fill a part of their box, or be on a surface:
 // --manifold-dimension 2 --measure 12.566 takes d and A from the unit sphere, while distances stay
 // those in space. Without these options, d and A are estimated from the points (crowd_extent() in
-// eliminator.hpp), and a note reports them. Of equal points of a file, all but one are removed
-// before any other point.
+// those in space. Without these options, d and A are estimated from the points (crowd_extent() in
+// eliminator.hpp), and a note reports them. If points of a file are equal, all but one of them are
+// removed before any other point.
 //
 // --density: in the plane, the M points are distributed by it, and a point's r_max is divided by
 // the root of the density at the point, whose mean is 1.
@@ -25,8 +26,8 @@
 // Shape   d = 1, ..., 6; distances are those in the box of --bounds, across its faces (torus) or
 //         bounded. With --from they are bounded unless --torus is given; the box is --bounds, or on
 //         the torus the unit cube, or else the smallest one around the points.
-// Cost    2-D: 15 us a point of the result at the ratio 5, with a density 22; 450 and 650 bytes. A
-//         file is read three times.
+// Cost    2-D: 15 us a point of the result at the ratio 5, with a density 22; 450 and 650 bytes a
+//         point. A file is read three times.
 // Promise exactly N points; always the point of greatest weight is removed, the first of equals.
 // Source  C. Yuksel, Comput. Graph. Forum 34 (2015) 25-32, doi:10.1111/cgf.12538.
 
@@ -133,7 +134,7 @@ Plan plan_for_file(const Request& request, const Values& options) {
         fail(ErrorKind::usage, "--manifold-dimension: {} is above the {} coordinates of a point",
              options[manifold], d);
     Plan plan = plan_in_box(complete, options);
-    if (!request.count) plan.count = 0;  // a fifth of the file's points
+    if (!request.count) plan.count = 0;  // 0: a fifth of the file's points
     return plan;
 }
 

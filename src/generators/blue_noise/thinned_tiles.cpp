@@ -14,7 +14,7 @@
 namespace stipple {
 namespace {
 
-/// A point that may be kept. Scores are not negative, so their bits sort in the same order.
+/// A point that may be kept. Scores are not negative, so their bit patterns sort like the scores.
 struct ScoredPoint {
     std::uint64_t score;
     std::uint64_t tile;
@@ -81,7 +81,7 @@ class TilesInWindow {
                 static_cast<double>(tile / tiling_.columns)};
     }
 
-    /// u of the tile; the factors are 2^64 / p and 2^64 / p^2, p^3 = p + 1.
+    /// u_c of the tile; the factors are 2^64 / p and 2^64 / p^2, p^3 = p + 1.
     [[nodiscard]] double offset(std::uint64_t tile) const {
         return to_unit(shift_ + 0xc13fa9a902a6328f * (tile % tiling_.columns) +
                        0x91e10da5c79e7b1c * (tile / tiling_.columns));
@@ -128,8 +128,8 @@ Histogram histogram_of(const TilesInWindow& candidates, const Window& window,
     return all;
 }
 
-/// Bin of the window with the score of index `wanted` (from 0), and its size `held`; nullopt if
-/// that score is outside the window.
+/// Bin of the window with the score of index `wanted` (from 0); sets `held` to the bin's number of
+/// scores. Returns nullopt if that score is outside the window.
 std::optional<Window> narrowed(const Window& window, const Histogram& found, std::uint64_t wanted,
                                std::uint64_t& held) {
     if (wanted < found.before) return {};
@@ -143,8 +143,8 @@ std::optional<Window> narrowed(const Window& window, const Histogram& found, std
     return {};
 }
 
-/// Window with the score of index `wanted` and at most 2^16 in all, except for ties; nullopt if
-/// there are too few scores.
+/// Window that contains the score of index `wanted` and at most 2^16 scores, more only if they are
+/// equal; nullopt if there are too few scores.
 std::optional<Window> window_of(const TilesInWindow& candidates, std::uint64_t wanted,
                                 const RunContext& run) {
     constexpr std::uint64_t few = 1 << 16;

@@ -3,14 +3,14 @@
 // Tiles of ranked points, thinned to a density by rank. A point of rank r (0, 1, ...) at x in tile
 // c has the score
 //
-//     (r + u_c) / rho(x),    u_c = frac(column / p + row / p^2 + a part of the seed),  p^3 = p + 1,
+//     (r + u_c) / rho(x),    u_c = frac(column / p + row / p^2 + seed's offset),  p^3 = p + 1,
 //
 // and the n points with the lowest scores are kept: about rho(x) s per tile, s the n-th score. As
 // the u_c are spread evenly over the tiles, the number of a tile's points is rounded up in one and
 // down in the next; so large regions get their share even if rho is too low for a point in every
 // tile.
 //
-// Shape   of points with the n-th score, those of lower tile, then of lower rank, are kept.
+// Shape   among points with the n-th score, those of lower tile, then of lower rank, are kept.
 // Cost    3 visits to each candidate, a point with a rank below s times the largest density in its
 //         tile; 2 to 3 ns a visit and core. 16 bytes a tile.
 // Promise no point is kept where the density is 0.

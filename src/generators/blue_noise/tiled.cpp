@@ -19,21 +19,20 @@
 // tiles: the j-th is in tile floor(j K^2 / m).
 //
 // --bounds    K x L tiles in a box that is not a square: just as many as needed, nearly squares.
-//             The tile is made even with the sides that it has in the box, so the set is even
-//             there, and a torus, whatever the proportions. Points stay in [0, 1)^2 until they are
-//             scaled.
+//             The tile is optimised with the proportions that it has in the box, so the set is
+//             even and periodic there. Points stay in [0, 1)^2 until they are scaled.
 // --density   tiles of t = ceil((n + 2 sqrt(n)) top / K^2) points, top the largest density over its
 //             mean. Ranks are thresholds (thinned_tiles.hpp): of all points with a density above 0,
 //             the n with the least (rank + u) / density are kept, 0 <= u < 1 one number per tile.
 //             The few points beyond n top keep the places of largest density from running out of
-//             points; if they still do, as in a picture as fine as the points, there are more
+//             points; if they are too few, as in a picture as fine as the points, there are more
 //             tiles. These points are ordered by tile. A constant density has no effect.
 //
 // Shape   2-D. A sequence: point i is a function of i, n and the seed; memory for the tile only,
 //         and with a density 16 bytes for each repetition of it.
 // Cost    O(t (iterations + t)) once, 1.5 seconds for t = 4096; then 2 ns a point and core. With a
 //         density about 8 ns a point and core, times top.
-// Promise exactly n points. No two are nearer than the nearest of the tile's torus, at its size in
+// Promise exactly n points. No two are nearer than the nearest two of the periodic tile, scaled to
 //         the set; without a density, a tile of 4096 points keeps them at least 0.5 / sqrt(n) apart
 //         (times the root of a box's area).
 // Beware  the set is periodic except where it is thinned: its spectrum has peaks at multiples of K,
@@ -167,7 +166,7 @@ std::unique_ptr<Sequence> repeated(const std::vector<Vec2>& tile, const Tiling& 
     });
 }
 
-/// Tiling of at least `least` tiles, few more, nearly squares in a box with these sides.
+/// Tiling of at least `least` nearly square tiles, and few more, in a box with these sides.
 Tiling tiling_of(std::uint64_t least, Vec2 sides) {
     const double longer = std::max(sides.x, sides.y) / std::min(sides.x, sides.y);
     auto across =

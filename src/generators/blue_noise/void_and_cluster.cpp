@@ -6,7 +6,7 @@
 //     point i = (c_i + 1/2) / (W, H),    c_i the cell of rank i
 //
 // --bounds      distances are those in the box, in which cells need not be squares.
-// --density     the picture as dithered by the ranks: the n cells with the smallest
+// --density     dithers the picture with the ranks: takes the n cells with the smallest
 //               (rank + 1/2) / (mean density of the cell), in that order.
 // --mask-image  the ranks as a dither mask, 16 bits of grey: floor((rank + 1/2) 65536 / (W H)). A
 //               pixel of a picture, its grey in [0, 65536), becomes white if it is above the mask.
@@ -53,7 +53,7 @@ struct Torus {
     std::size_t height;
     [[nodiscard]] std::size_t cells() const { return width * height; }
 
-    /// Width over height of a cell in the box; 1 for a box of equal sides, which has no
+    /// Width over height of a cell in the box; 1 if the box has equal sides, given as no
     /// proportions.
     [[nodiscard]] double stretch(const std::vector<double>& proportions) const {
         if (proportions.empty()) return 1;

@@ -13,9 +13,9 @@
 //
 // over the points (m = 1) and over the leaves of a quadtree that represents the density
 // (m = -mass): rectangles that hold at most half a point. sigma^2 is half the area of the square
-// about x that holds two points: rho smoothed until it varies little over a kernel. Otherwise the
-// force would not be the gradient of an energy, and points would drift. For a constant density this
-// is the force of gaussian_relaxation.
+// about x that holds two points. So rho is smoothed until it varies little over a kernel; otherwise
+// the force would not be the gradient of an energy, and points would drift. For a constant density
+// this is the force of gaussian_relaxation.
 //
 // Shape   2-D; a density of any contrast; the same proportions of sides as in gaussian_relaxation.
 // Cost    a step: about 10 times that of relax_gaussian, more if the contrast is high.
@@ -40,9 +40,9 @@
 namespace stipple {
 namespace {
 
-constexpr double reach = 5;        // exp(-12.5) = 3.7e-6
-constexpr double leaf_mass = 0.5;  // points
-constexpr double window_mass = 2;  // points
+constexpr double reach = 5;        // in standard deviations; exp(-12.5) = 3.7e-6
+constexpr double leaf_mass = 0.5;  // mass in points
+constexpr double window_mass = 2;  // mass in points
 constexpr int deepest = 24;        // level of the quadtree
 
 using PlaneSides = std::array<double, 2>;
@@ -103,7 +103,7 @@ struct NearBodies {
     }
 };
 
-/// Force on a body of sigma^2 = a at (x, y).
+/// Force on a body at (x, y) with sigma^2 = a.
 STIPPLE_WIDE std::array<double, 2> force_at(double x, double y, double a, const NearBodies& near) {
     const double* xs = near.bodies.x.data();
     const double* ys = near.bodies.y.data();
@@ -130,7 +130,7 @@ STIPPLE_WIDE std::array<double, 2> force_at(double x, double y, double a, const 
     return {sum_of_lanes(fx), sum_of_lanes(fy)};
 }
 
-/// Bodies of the torus whose sigma^2 is in one octave, in cells of about sigma.
+/// Bodies of the torus whose sigma^2 is in one octave, sorted into cells about as wide as sigma.
 class Octave {
   public:
     Octave(const PlaneSides& sides, int exponent, const std::vector<Body>& bodies)
@@ -147,7 +147,7 @@ class Octave {
         for (const Body& body : bodies) sorted_.put(next[cell_of(body)]++, body);
     }
 
-    /// Adds all bodies within reach of one of sigma^2 = a at (x, y), including images.
+    /// Adds all bodies within reach of a body at (x, y) with sigma^2 = a, including images.
     void gather(double x, double y, double a, NearBodies& near) const {
         const double far = reach * std::sqrt((a + most_) / 2);
         const auto row_of = [&](double c) { return static_cast<std::int64_t>(c / widths_[1]); };
@@ -242,7 +242,7 @@ class Masses {
         return across * up + across * inside(1, t) + up * inside(s, 1) + inside(s, t);
     }
 
-    /// The same for x and y in [0, 1].
+    /// below() for x and y in [0, 1].
     [[nodiscard]] double inside(double x, double y) const {
         const double u = x * static_cast<double>(width_);
         const double v = y * static_cast<double>(height_);

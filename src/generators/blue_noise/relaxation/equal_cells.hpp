@@ -10,8 +10,9 @@
 //     dm_i / dw_j = -(integral of rho along the edge of i and j) / (2 |x_i - x_j|),
 //
 // whose systems are solved by conjugate gradients. A step is halved until every cell has at least
-// half of the previous minimum mass, and the error of the masses falls by half of the fraction of
-// the step; then the method converges from any weights for which all masses are positive.
+// half of the previous minimum mass, and the part t of the step reduces the error of the masses by
+// the factor 1 - t / 2 or more; then the method converges from any weights for which all masses are
+// positive.
 //
 // Cost    a Newton step: 2 us a cell to cut it, and 50 ns a cell and iteration of the gradients,
 //         about n^(1/2) iterations.

@@ -35,7 +35,7 @@ namespace stipple {
 namespace {
 
 constexpr double kernel_reach = 6;  // exp(-6^2 / 2) = 1.5e-8
-constexpr double cell_side = 1.75;  // approximate; the fastest
+constexpr double cell_side = 1.75;  // approximate; fastest of those measured
 constexpr double nowhere = 1e6;
 
 /// count^(1/dimension) by Newton's method, from above.
@@ -230,7 +230,7 @@ class Kernels {
   private:
     using Offsets = std::array<std::int64_t, relaxation_dimensions>;
 
-    /// The same on a small torus with many images: the kernel of two points, summed over all
+    /// forces_in() on a small torus with many images: the kernel of two points, summed over all
     /// images, is the product of the sums along each axis.
     void forces_by_axes(std::size_t cell, AxisSums& sums, std::span<double> forces) const {
         const std::size_t count = (n_ + sum_lanes - 1) / sum_lanes * sum_lanes;
@@ -339,7 +339,7 @@ void all_forces(Kernels& kernels, std::span<double> forces, const RunContext& ru
     });
 }
 
-/// The run for one step, on one thread if the step is short.
+/// Run for one step, on one thread if the step is short.
 RunContext for_step(const RunContext& run, std::size_t count, std::size_t dimension) {
     constexpr double seconds[] = {1e-7, 5e-7, 1e-5, 1e-4};
     return worth_threads(run, static_cast<double>(count) * seconds[dimension - 1]);

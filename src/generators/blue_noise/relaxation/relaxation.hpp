@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Points that descend the energy of Gaussian kernels, of one width (gaussian_relaxation.cpp) or of
-// widths that follow a density (density_relaxation.cpp). Both give the same bits on every machine
-// and for any number of threads.
+// Points that descend the energy of Gaussian kernels. The kernels have one width
+// (gaussian_relaxation.cpp), or widths that follow a density (density_relaxation.cpp). Both give
+// the same bits on every machine and for any number of threads.
 #pragma once
 
 #include <cstddef>
@@ -31,7 +31,7 @@ class Descent {
     explicit Descent(std::size_t coordinates) : ways_(coordinates) {}
 
     /// Next step of every coordinate. The caller may change it; the following step builds on the
-    /// changed one.
+    /// changed step.
     std::span<double> step(std::span<const double> forces, double length);
 
   private:
