@@ -23,7 +23,7 @@
 //     rows      no first line and no numbers, square matrices as in digits (the files of
 //               MatBuilder).
 //
-// For instance, Pascal's triangle modulo 2, of the first 2^3 = 8 points of Sobol':
+// Example: Pascal's triangle modulo 2, for the first 2^3 = 8 points of Sobol's second coordinate:
 //
 //     # dnet                              # digits
 //     2  # base                           2 1 3 3
@@ -35,8 +35,8 @@
 // Shape   n x d for s >= alpha d matrices of m columns; i < b^m and i < 2^53.
 // Cost    O(n d); base 2: half a nanosecond a coordinate; others: five to ten. Nested scrambling in
 //         other bases takes up to two microseconds if matrices are not triangular.
-// Promise every coordinate is correctly rounded from its first r digits, b^r <= 2^50 or, in base 2,
-//         r = 53; and below 1.
+// Promise every coordinate is below 1, and correctly rounded from its first r digits: b^r <= 2^50,
+//         or r = 53 in base 2.
 // Source  H. Niederreiter, Random Number Generation and Quasi-Monte Carlo Methods, SIAM 1992,
 //         section 4.3, doi:10.1137/1.9781611970081; interlacing: J. Dick, SIAM J. Numer. Anal. 46
 //         (2008) 1519-1553, doi:10.1137/060666639. Layouts: github.com/QMCSoftware/LDData,
@@ -178,7 +178,7 @@ DigitMatrix of_columns(const std::vector<std::uint64_t>& columns, std::uint32_t 
     return matrix;
 }
 
-/// Matrix whose first row, `line`, has been read before.
+/// Reads the remaining rows of a matrix whose first row is `line`.
 DigitMatrix of_rows(TokenFile& file, std::vector<std::uint64_t> line, std::uint32_t base,
                     std::size_t rows) {
     DigitMatrix matrix(rows, line.size());
@@ -245,7 +245,7 @@ MatrixFile of_bare_rows(TokenFile& file, std::uint32_t base) {
     return found;
 }
 
-/// @param base for the layout `rows`
+/// @param base base of the matrices in the layout `rows`
 MatrixFile read_matrices(TokenFile& file, std::string_view wanted, std::uint32_t base) {
     if (file.at_end()) file.refuse_whole("no matrix; expected generating matrices");
     const std::string layout = layout_of(file, wanted);

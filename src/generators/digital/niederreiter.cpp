@@ -6,16 +6,16 @@
 //     sum_r i_r v_(r + u),    j = e Q + u,  0 <= u < e,    i = sum_r i_r b^r,
 //
 // modulo b. e is the degree of p_k, the k-th irreducible polynomial (in base 2: x, 1 + x,
-// 1 + x + x^2, ...), and v = v(k, Q) obeys the linear recurrence of p_k^(Q+1) from e Q zeros and
-// e ones on: the Laurent series of some g / p_k^(Q+1).
+// 1 + x + x^2, ...). v = v(k, Q) begins with e Q zeros and e ones and obeys the linear recurrence of
+// p_k^(Q+1): it is the Laurent series of some g / p_k^(Q+1).
 //
 // Shape   n x d for d <= 1000; indices below 2^52, or the largest power of b up to 2^50.
 // Cost    O(n d), in base 2 at the speed of the cache: see math/digital/binary_net.hpp and
 //         base_net.hpp.
 // Promise coordinates are exact to their first 53 digits (nearest doubles in bases other than 2),
 //         and below 1. Any b^m points from a multiple of b^m on are a (t,m,d)-net in base b,
-//         t = sum_k (deg p_k - 1), as far as there are digits; scrambled, too.
-// Beware  other counts, and a first point left out, cost this evenness; a note reports it.
+//         t = sum_k (deg p_k - 1), as far as there are digits; also if scrambled.
+// Beware  other counts, or leaving out the first point, lose this evenness; a note reports it.
 // Source  P. Bratley, B. L. Fox, H. Niederreiter, ACM Trans. Model. Comput. Simul. 2 (1992)
 //         195-213, doi:10.1145/146382.146385, with the choice of v of section 3.3;
 //         H. Niederreiter, J. Number Theory 30 (1988) 51-70, doi:10.1016/0022-314X(88)90025-X.
@@ -34,7 +34,7 @@ constexpr Param<std::int64_t> base_option{.name = "base",
                                           .high = BaseNet::largest_base,
                                           .help = "Base of the digits, a prime"};
 
-/// Polynomial over the integers modulo a prime: its coefficients, the constant first, 1 last.
+/// Coefficients of a polynomial modulo a prime, from the constant to the leading 1.
 using Polynomial = std::vector<std::uint32_t>;
 
 /// The monic polynomial whose lower coefficients are the digits of `number`.

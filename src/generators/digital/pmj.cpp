@@ -13,9 +13,10 @@
 // another one for every seed, times the digits of i. Then both get nested uniform scrambling, which
 // permutes elementary intervals. The promises depend on minors of the matrix: for every m, the
 // block of rows 1..r and columns m-r+1..m is regular for r = m (strips) and for r = m/2 (squares),
-// or for odd m for both r = (m-1)/2 and (m+1)/2 (opposite quarters). Given the columns before, each
-// of these conditions is that one sum of the new column's entries is 1, and they do not contradict
-// each other. The column is drawn until they hold, at most 8 times on average.
+// or for odd m for both r = (m-1)/2 and (m+1)/2 (opposite quarters). Given the earlier columns,
+// each of these conditions requires that one sum of the new column's entries is 1, and the
+// conditions do not contradict each other. The column is drawn until they hold, at most 8 times on
+// average.
 //
 // Shape   2 dimensions, indices below 2^53.
 // Cost    O(n), no memory beyond 4 kB; drawing the matrix takes a fraction of a millisecond.
@@ -54,7 +55,7 @@ bool is_regular(ColumnMatrix matrix, std::size_t r, std::size_t last) {
     return true;
 }
 
-/// Whether 2^m points satisfy the conditions, given that 2^(m-1) do.
+/// True if the first 2^m points satisfy the conditions, given that the first 2^(m-1) do.
 bool is_good(const ColumnMatrix& matrix, std::size_t m) {
     return is_regular(matrix, m, m - 1) && is_regular(matrix, m / 2, m - 1) &&
            is_regular(matrix, (m + 1) / 2, m - 1);

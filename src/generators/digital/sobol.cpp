@@ -11,9 +11,9 @@
 // Shape   n x d for d <= 3667, or as many as a file has; indices below 2^52.
 // Cost    O(n d), at the speed of the cache: see math/digital/binary_net.hpp.
 // Promise coordinates are exact (scrambled: their first 53 digits are). Any 2^m points from a
-//         multiple of 2^m on are a (t,m,d)-net in base 2, t = sum_k (deg p_k - 1), k > 1;
-//         scrambled, too. Both orders have the same such nets.
-// Beware  other counts, and a first point left out, cost this evenness; a note reports it.
+//         multiple of 2^m on are a (t,m,d)-net in base 2, t = sum_k (deg p_k - 1), k > 1; also if
+//         scrambled. Both orders have the same nets.
+// Beware  other counts, or leaving out the first point, lose this evenness; a note reports it.
 // Source  I. M. Sobol', USSR Comput. Math. Math. Phys. 7(4) (1967) 86-112,
 //         doi:10.1016/0041-5553(67)90144-9. Order: I. A. Antonov, V. M. Saleev, ibid. 19(1) (1979)
 //         252-256, doi:10.1016/0041-5553(79)90085-5. Directions: S. Joe, F. Y. Kuo, SIAM J. Sci.

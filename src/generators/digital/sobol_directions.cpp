@@ -93,8 +93,9 @@ Initializer read_line(TokenFile& file, std::size_t dimension, bool bare) {
     return initial;
 }
 
-/// Reads LatNet Builder's header, whose numbers are on lines with comments: the dimension, perhaps
-/// two of interlacing, perhaps the digits of the number of points. Returns the interlacing factor.
+/// Reads LatNet Builder's header of numbers, each on a line with a comment: the dimension, perhaps
+/// two numbers of interlacing, perhaps the digits of the number of points. Returns the interlacing
+/// factor.
 std::size_t take_header(TokenFile& file) {
     std::size_t alpha = 1;
     while (file.comment_has("#")) {
