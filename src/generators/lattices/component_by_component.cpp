@@ -160,7 +160,7 @@ class Part {
         correlation_.take_kernel();
     }
 
-    /// Adds this part of E(z), up to a constant, to total[z] for z = 0, 1, ...; it is right for z
+    /// Adds this part of E(z), up to a constant, to total[z] for z = 0, 1, ...; correct only for z
     /// prime to n.
     void add(std::span<const double> p, std::vector<double>& total) {
         gather(p);
@@ -175,7 +175,7 @@ class Part {
     }
 
   private:
-    /// Collects the products without their mean, which does not affect the choice.
+    /// Collects the products minus their mean, which does not affect the choice.
     void gather(std::span<const double> p) {
         const std::span<double> line = correlation_.values();
         double sum = 0;
@@ -297,8 +297,8 @@ std::uint64_t korobov_multiplier(std::uint64_t n, std::span<const double> weight
     double least = std::numeric_limits<double>::infinity();
     for (std::uint64_t t = 0; t < tries; ++t) {
         search_tick(run, t, tries);
-        // Multiples of the golden ratio spread over the range; all numbers are tried if there is
-        // time.
+        // Tries all numbers if there is time; otherwise multiples of the golden ratio, which spread
+        // over the range.
         const std::uint64_t turn = t * 0x9E3779B97F4A7C15;
         std::uint64_t a =
             1 + (tries == range ? t : static_cast<std::uint64_t>(Wide{turn} * range >> 64));

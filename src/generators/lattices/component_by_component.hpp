@@ -9,9 +9,9 @@
 //     omega(x) = 2 pi^2 (x^2 - x + 1/6) = 2 pi^2 B_2(x)    for x in [0, 1).
 //
 // Shape    n in [1, 2^24].
-// Beware   weights above 6 / pi^2 make factors negative. With many of those, the products of some
-//          points become the more negative the worse they are spread, and repeating a component
-//          would give the least e^2, as it would for weights that have become very small.
+// Beware  weights above 6 / pi^2 make factors negative. With many of those, some products become
+//          the more negative the worse the points are spread, so that a repeated component would
+//          give the least e^2. The same is true once weights have become very small.
 // Units    with all weights 1, e^2 is the figure of merit P_2 of the lattice.
 // Source   I. H. Sloan, S. Joe, Lattice Methods for Multiple Integration, Oxford 1994 (P_alpha).
 #pragma once
@@ -31,7 +31,7 @@ inline constexpr std::uint64_t largest_searched_lattice = std::uint64_t{1} << 24
 double squared_lattice_error(std::uint64_t n, std::span<const std::uint64_t> vector,
                              std::span<const double> weights);
 
-/// Vector that begins with 1 and grows by the component with the least e^2, the smallest one of
+/// Vector that begins with 1 and grows by the component with the least e^2, the smallest among
 /// equals. Candidates are prime to n, at most n / 2, and among those used least often so far. There
 /// is one component per weight.
 std::vector<std::uint64_t> component_by_component(std::uint64_t n, std::span<const double> weights,

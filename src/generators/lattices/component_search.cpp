@@ -29,7 +29,8 @@ void CyclicCorrelation::take_kernel() {
 
 void CyclicCorrelation::correlate() {
     transform_->forward();
-    for (std::size_t k = 0; k < halves_; ++k) {  // the conjugate, times the kernel's spectrum
+    for (std::size_t k = 0; k < halves_; ++k) {  // product of the conjugate and the kernel's
+                                                 // spectrum
         const double re = spectrum_[2 * k];
         const double im = spectrum_[2 * k + 1];
         const double kernel_re = kernel_[2 * k];

@@ -6,8 +6,8 @@
 //     E(z) = sum_a p_a kernel[a + b],    a and b exponents of the points' number and of z
 //
 // in a product of cyclic groups: a correlation, which Fourier transforms give for all z at once.
-// These round differently on different machines, so they only nominate candidates: all that may be
-// the best but for rounding are compared by plain sums in a fixed order.
+// Transforms round differently on different machines, so they only nominate candidates. All that
+// may be the best, given the rounding errors, are compared by plain sums in a fixed order.
 #pragma once
 
 #include <algorithm>
@@ -64,8 +64,8 @@ class Products {
 
     [[nodiscard]] double mean() const;
 
-    /// Bound of the errors of transforms of p - mean, and of sums of its products with the kernel:
-    /// rounding is relative to their norms.
+    /// Bound on the rounding errors of E with p - mean, by transforms or by sums of products with
+    /// the kernel; rounding is relative to the norms of both.
     [[nodiscard]] double rounding(double kernel_norm) const;
 
   private:
@@ -93,7 +93,7 @@ std::uint64_t best_component(std::uint64_t end, const Nearly& nearly, double mar
     return nominees[static_cast<std::size_t>(first - errors.begin())];
 }
 
-/// Excludes candidates that the vector has more often than others, by an infinite E: equal
+/// Gives an infinite E to candidates that occur more often in the vector than others, because equal
 /// components make equal coordinates.
 inline void leave_out(std::span<const std::uint64_t> vector, std::vector<double>& error) {
     constexpr double never = std::numeric_limits<double>::infinity();

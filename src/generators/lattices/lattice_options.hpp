@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Common options of the lattices: components of a vector, given or from a file, and weights of the
-// coordinates in the search for one, which decay like a power or are given one by one.
+// Common options of the lattices: the vector, given or from a file, and the weights of
+// coordinates in the search for a vector, which decay like a power or are given one by one.
 #pragma once
 
 #include <cstddef>
@@ -45,7 +45,7 @@ inline constexpr Param<Choice> vector_format{
 struct VectorFile {
     std::vector<std::uint64_t> vector;
     std::uint64_t points = 0;    ///< 0: not in the file
-    std::size_t interlaced = 1;  ///< number of components whose digits make a coordinate
+    std::size_t interlaced = 1;  ///< number of components interlaced to a coordinate
     std::uint64_t modulus = 0;   ///< polynomial in base 2; 0: not a polynomial lattice
 };
 
@@ -56,17 +56,17 @@ struct VectorFile {
 /// Source  github.com/QMCSoftware/LDData, README.md
 VectorFile vector_in_file(const Values& options, bool polynomial);
 
-/// File that --vector-output asks for; empty without it.
+/// File named by --vector-output; empty without it.
 std::vector<SideFile> vector_files(const Values& options, const VectorFile& lattice);
 
 /// Rejects --weights together with --decay, and either of them if nothing is searched.
 /// @param searching the rules that search, as named in messages
-/// @param rule the present rule
+/// @param rule the rule in use
 /// @throws Error(usage)
 void check_weights(const Values& options, bool searches, std::string_view searching,
                    std::string_view rule);
 
-/// First components of the vector that an option or a file gives.
+/// First components of the vector from an option or a file.
 /// @param range name of the allowed range in messages
 /// @throws Error(usage) if they are too few, or one is not an integer from `least` to `most`
 std::vector<std::uint64_t> given_components(const Values& options, const VectorFile& file,

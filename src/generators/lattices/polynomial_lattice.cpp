@@ -3,8 +3,8 @@
 // Polynomial lattice in base 2. With polynomials over the field of two elements, the modulus p of
 // degree m and the vector q of degrees below m, coordinate k of point i = sum_j i_j 2^j is
 //
-//     x_k = sum_(r = 1)^m u_r 2^-r    where    u_1 x^-1 + u_2 x^-2 + ... = i(x) q_k(x) / p(x),
-//     i(x) = sum_j i_j x^j,           up to a polynomial:
+//     x_k = sum_(r = 1)^m u_r 2^-r    where, up to a polynomial,
+//     u_1 x^-1 + u_2 x^-2 + ... = i(x) q_k(x) / p(x),    i(x) = sum_j i_j x^j:
 //
 // a digital net, whose matrices have u_(r + j + 1) of q_k / p in row r and column j. Polynomials
 // are written as their values at x = 2; x^3 + x + 1 is 11. The vector is given, or found component

@@ -29,7 +29,8 @@
 namespace stipple {
 namespace {
 
-/// omega(f / modulus) for a polynomial f of degree below m: x is in [2^-t, 2^(1-t)), t = m - deg f.
+/// omega(f / modulus) for a polynomial f of degree below m. The point f / modulus is in [2^-t,
+/// 2^(1-t)), t = m - deg f.
 double omega(std::uint64_t f, int m) {
     return digital_shift_kernel(f == 0 ? 0 : std::ldexp(1, gf2::degree(f) - m));
 }
@@ -91,11 +92,11 @@ class Search {
     }
 
     const RunContext& run_;
-    std::vector<std::uint32_t> units_;      ///< powers of a generator
+    std::vector<std::uint32_t> units_;      ///< powers of a generator of the units
     std::vector<std::uint32_t> exponents_;  ///< exponent of each unit
     CyclicCorrelation correlation_;
     Products products_;           ///< p by exponent
-    std::vector<double> kernel_;  ///< omega by exponent, twice around
+    std::vector<double> kernel_;  ///< omega by exponent, for two periods
     double kernel_norm_ = 0;
 };
 

@@ -35,9 +35,9 @@ double digital_shift_kernel(double x);
 double squared_polynomial_error(std::uint64_t modulus, std::span<const std::uint64_t> vector,
                                 std::span<const double> weights);
 
-/// Vector that begins with 1 and grows by the component with the least e^2; of those that are
-/// equally good up to rounding, by the smallest number. There is one component per weight. The
-/// modulus must be irreducible, of degree 1 to largest_searched_degree.
+/// Vector that begins with 1 and grows by the component with the least e^2; among components that
+/// are equal up to rounding, by the smallest number. There is one component per weight. The modulus
+/// must be irreducible, of degree 1 to largest_searched_degree.
 std::vector<std::uint64_t> polynomial_components(std::uint64_t modulus,
                                                  std::span<const double> weights,
                                                  const RunContext& run);

@@ -7,8 +7,8 @@
 // The vector comes by one of four rules:
 //
 //     cbc        component by component, each minimising the worst-case error in the weighted
-//                Korobov space of smoothness 2 (component_by_component.hpp), no two being the same
-//                as long as there are others, then no three;
+//                Korobov space of smoothness 2 (component_by_component.hpp); no component repeats
+//                until all candidates are used;
 //     korobov    (1, a, a^2, ...) mod n with a given multiplier a, or the best in that space;
 //     fibonacci  (1, F_(k-1)) for n = F_k, the best vector in two dimensions;
 //     vector     given.
@@ -66,7 +66,7 @@ constexpr Param<double> effort{.name = "effort",
 constexpr Param<Numbers> vector{{.name = "vector",
                                  .help = "Generating vector, such as 1,182667,469891; gives the "
                                          "dimension, or has more numbers than --dimension"}};
-/// Numbers of a few points that are updated together, so that no update waits for the one before.
+/// Number of coordinates updated together, so that no update waits for the one before.
 constexpr std::size_t some_numbers = 64;
 
 /// Sets x = residues / n, and advances the residues by the step. All numbers are integers up to
@@ -200,7 +200,7 @@ Sequence::Fill multiples(std::uint64_t n, const std::vector<std::uint64_t>& z) {
     };
 }
 
-/// Notes coordinates that are the same in all points.
+/// Adds a note that names coordinates which are equal to each other in every point.
 void note_repeated(std::span<const std::uint64_t> z, std::uint64_t n, const RunContext& run) {
     std::unordered_map<std::uint64_t, std::size_t> seen;
     std::string first;
