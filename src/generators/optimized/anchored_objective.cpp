@@ -4,7 +4,7 @@
 // points,
 //
 //     open    V - c / n     c points with all coordinates below the corner's
-//     closed  c / n - V     c points with none above it
+//     closed  c / n - V     c points with no coordinate above it
 //
 // where V is the product of the corner's coordinates. Boxes are searched plane by plane along the
 // first axis, with the counts of one plane in memory. With weights w_j >= 0 a box is weighted by
@@ -29,8 +29,8 @@ struct Hit {
     bool open;
 };
 
-/// Rows of counts. For each row, both weighted and with the sign for open or closed: a box's volume
-/// per unit of its last coordinate, and the value of one point.
+/// Rows of counts of points. For each row: the volume of a box per unit of its last coordinate, and
+/// the value of one point, both weighted and with the sign for open or closed boxes.
 struct Plane {
     const float* counts;
     std::size_t stride;
@@ -74,7 +74,7 @@ STIPPLE_WIDE void find_above(const Plane& plane, const float* values, float leas
     }
 }
 
-/// Increments all counts of a row from a point on.
+/// Increments the counts of a row from a point's position on.
 STIPPLE_WIDE void add_one(float* counts, std::size_t size) {
     for (std::size_t k = 0; k < size; ++k) counts[k] += 1;
 }
@@ -123,7 +123,8 @@ class AnchoredObjective final : public Objective {
         std::vector<Hit> hits;
     };
 
-    static constexpr double reach = 7;  ///< boxes with weights below e^-reach are ignored
+    static constexpr double reach = 7;  ///< boxes with weights below e^-reach in the soft maximum
+                                        ///< are ignored
 
     /// Weight of an axis for a box that ends at `place` on it.
     [[nodiscard]] float weight(std::size_t axis, std::size_t place) const {
@@ -185,7 +186,7 @@ class AnchoredObjective final : public Objective {
     }
 
     /// Searches the open or closed boxes that end in plane `a`. Closed boxes use the counts one
-    /// place further.
+    /// position further.
     void look_in(std::size_t a, bool open, float least, Part& part, const RunContext& run) const {
         const float outer = weight(0, a) * (open ? 1 : -1);
         const float width = d_ == 3 ? values_[0][a] : 1;

@@ -7,8 +7,8 @@
 //     closed  c / n - V     c points inside or on a side
 //
 // Each evaluation runs ascents from boxes of the pool, from variants of them and from random boxes,
-// to find new boxes for the pool. An ascent takes the worst interval on one axis after the other
-// until none is worse. The value is that of the worst box found, a lower bound.
+// to find new boxes for the pool. An ascent replaces a box's interval on one axis after the other
+// by the worst one, until none is worse. The value is that of the worst box found, a lower bound.
 #include <algorithm>
 #include <numeric>
 #include <vector>
@@ -120,7 +120,8 @@ class BoxObjective final : public Objective {
     }
 
   private:
-    static constexpr double reach = 7;  ///< boxes with weights below e^-reach are ignored
+    static constexpr double reach = 7;  ///< boxes with weights below e^-reach in the soft maximum
+                                        ///< are ignored
     static constexpr std::size_t ascents = 12;
     static constexpr std::size_t most_boxes = 1000;
 
@@ -297,7 +298,7 @@ class BoxObjective final : public Objective {
     PoolBox random_box() {
         PoolBox box{.open = empty_ || draws_.below(2) == 0};
         for (std::size_t j = 0; j < d_; ++j) {
-            // maximum: towards 1, as the worst boxes of many dimensions end
+            // maximum: near 1, where the worst boxes of many dimensions end
             const std::uint64_t a = draws_.below(n_ + 1);
             const std::uint64_t b = draws_.below(n_ + 1);
             const auto at = [&](std::uint64_t k) { return k == n_ ? rim_ : order_[j][k]; };

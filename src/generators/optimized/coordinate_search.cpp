@@ -67,9 +67,9 @@ class Adam {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Returns the end of a descent or, if it is cut short and the run keeps the best, the lowest set
-/// that it passed. If the value is above `enough`, there are no rows and the value may be too
-/// small, because a certain value can take longer than the descent.
+/// Returns the last set of a descent or, if a stop ends it and the run keeps the best, the lowest
+/// set so far. If the value is above `enough`, there are no rows and the value may be too small,
+/// because computing a certain value can take longer than the descent.
 OptimizedRows descend(std::vector<double> rows, const CoordinateSearch& search,
                       const Schedule& schedule, double enough, const RunContext& run) {
     const std::unique_ptr<Objective> objective = search.objective();
@@ -80,8 +80,8 @@ OptimizedRows descend(std::vector<double> rows, const CoordinateSearch& search,
     Geometric sharpness(schedule.first_sharpness, schedule.last_sharpness, schedule.steps);
     Adam adam(rows.size());
     constexpr double near = 1.001;
-    // Descends by `steps` steps. True if the descent is over: its value is useless, or no box is
-    // worse than those it saw.
+    // Descends by `steps` steps. True if the descent is over: its value exceeds `enough`, or no box
+    // is worse than those that the descent has used.
     const auto go = [&](std::size_t steps, auto next_rate, auto next_sharpness) {
         for (std::size_t step = 0; step < steps; ++step) {
             run.check_stop();

@@ -6,8 +6,8 @@
 //     d/dx_ij  =  -2/n f_j'(x_ij) prod_{l != j} f_l(x_il)
 //                 + 2/n^2 sum_k d_1 K_j(x_ij, x_kj) prod_{l != j} K_l(x_il, x_kl),
 //
-// where the slope of |x - y| at x = y is 0. In an even order of points, after m points p comes the
-// point x that minimizes
+// where the slope of |x - y| at x = y is 0. An even order of points puts after m points p the point
+// x that minimizes
 //
 //     2 sum_p K(x, p) + K(x, x) - 2 (m + 1) int K(x, y) dy.
 #include <algorithm>
@@ -78,7 +78,8 @@ struct Row {
     std::array<double, lanes> sum;  ///< sums of products
 };
 
-/// Multiplies by the factors of one axis, of a point at x with a block; `own` is own(x).
+/// Multiplies the products by the factors of one axis between a point at x and a block of others;
+/// `own` is own(x).
 STIPPLE_WIDE void multiply(double x, double own, const Factor& k, const double* __restrict others,
                            const double* __restrict owns, std::size_t size,
                            double* __restrict factors, double* __restrict before,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Objectives of the search for optimized sets: functions of the coordinates, with a gradient; and
-// what a search finds.
+// Objectives of the search for optimized sets, functions of the coordinates with a gradient; and
+// the result of a search.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,8 @@ namespace stipple::optimized {
 struct OptimizedRows {
     std::vector<double> rows;
     double value = 0;
-    bool stopped = false;  ///< before the budget was used up, for a run that keeps the best
+    bool stopped = false;  ///< true if the budget was not used up; only for a run that keeps the
+                           ///< best
     bool certain = true;   ///< whether the value is exact, not possibly too small
 };
 
@@ -38,8 +39,8 @@ class Objective {
     virtual double value(std::span<const double> rows, double sharpness, std::span<double> gradient,
                          const RunContext& run) = 0;
 
-    /// Value at the points of the last value() call, which returned `known` but may have missed the
-    /// worst box, by a more thorough search. The next value() reuses the box it finds.
+    /// Value by a more thorough search, at the points of the last value() call, which returned
+    /// `known` but may have missed the worst box. The next value() call reuses the box found.
     virtual double certain_value(std::span<const double> /*rows*/, double known,
                                  const RunContext& /*run*/) {
         return known;

@@ -232,7 +232,8 @@ Start start_without_file(const Plan& plan, const Values& options, const RunConte
                 generate(spec, {.count = n, .dimension = d, .seed = seed + i}, {}, quiet);
             return std::vector<double>(points.flat().begin(), points.flat().end());
         };
-    // Alternates, since the count decides which start ends lower, except on the torus in the plane.
+    // Alternates between lattices and other sets, because it depends on the count which ends lower.
+    // For the periodic discrepancy in the plane, all starts are of the other kind.
     const bool lattices = d > 2 || (d == 2 && options[objective] != "periodic");
     return [=, quiet = silent(run)](std::uint64_t i, SplitMix64& draws) {
         if (lattices && i % 2 == 0) return lattice_rows(n, d, draws, quiet);
@@ -246,7 +247,7 @@ double l2_steps(const Plan& plan) {
     return n * n * static_cast<double>(plan.dimension) / 3;
 }
 
-/// Default budget in steps; smaller for few points, which need only a number of values each.
+/// Default budget in steps; for few points smaller, a fixed number of values per point.
 double usual_budget(const Plan& plan, const Values& options) {
     const double most =
         1e6 * static_cast<double>(plan.count) * make_objective(plan, options)->steps();
@@ -429,7 +430,7 @@ bool is_soon_judged(const Plan& plan, const Values& options) {
     return has_few_pairs(plan) || (plan.dimension <= 2 && swept);
 }
 
-/// Orders the points and records their value; after a stop, only those of the two that are quick.
+/// Orders the points and records their value; after a stop, does only what is quick.
 PointSet finished(OptimizedRows found, const Plan& plan, const Values& options,
                   const RunContext& run) {
     const RunContext last = found.stopped ? unstopped(run) : run;

@@ -30,7 +30,7 @@ constexpr double solution = 30;         ///< steps of one solution, divided by n
 struct Descent {
     Ranks ranks;
     double level = std::numeric_limits<double>::infinity();
-    bool over = false;              ///< whether it gained nothing for long
+    bool over = false;              ///< true after many swaps without a gain
     std::vector<double> rows = {};  ///< points with that level; empty unless the run keeps the best
 };
 
@@ -186,7 +186,7 @@ class OrderSearch {
     }
 
   private:
-    /// Returns a start for use after all starts: one of them, changed by up to n swaps.
+    /// Returns a start for use after all others: one of them, changed by up to n swaps.
     Descent another_start() {
         SplitMix64 own = draws();
         Ranks ranks = starts_[own.below(starts_.size())].ranks;
@@ -199,7 +199,7 @@ class OrderSearch {
         return {std::move(ranks)};
     }
 
-    /// Number of descents side by side: fewer if each takes long, whatever the machine.
+    /// Number of descents advanced together: fewer if each takes long; the same on every machine.
     [[nodiscard]] std::size_t together() const { return n_ <= 200 ? 16 : n_ <= 500 ? 8 : 4; }
 
     [[nodiscard]] SplitMix64 draws() { return SplitMix64(rng_.bits(tasks_++)); }

@@ -336,7 +336,7 @@ void PlanarOrder::lower() {
 void PlanarOrder::tighten(const Swap& swap, bool more) {
     const auto [by_x, p] = swap;
     if (by_x == more) return push(static_cast<Node>(by_x ? p : n_ + p + 1));
-    // Here several coordinates across bound a single one.
+    // In this case, several coordinates of the other axis bound a single one.
     const auto [low, high] =
         by_x ? std::minmax(rank_[p], rank_[p + 1]) : std::minmax(place_[p], place_[p + 1]);
     const auto n = static_cast<double>(n_);

@@ -43,7 +43,7 @@ class PlanarOrder {
         std::size_t at;
     };
 
-    /// Solves the order. @throws Error(cancelled)
+    /// Finds the level of the order. @throws Error(cancelled)
     PlanarOrder(const Ranks& ranks, const RunContext& run);
 
     [[nodiscard]] Ranks ranks() const;
@@ -58,8 +58,9 @@ class PlanarOrder {
     /// rim.
     std::optional<Swap> critical_swap(SplitMix64& draws) const;
 
-    /// Swaps if the level is then at most `limit`; true if it did. Gives up if more than n
-    /// coordinates move. A critical swap must lower the level of the cycle that it changes.
+    /// Makes the swap if the level is then at most `limit`; returns whether it did. Gives up if
+    /// more than n coordinates move. A critical swap must lower the level of the cycle that it
+    /// changes.
     bool attempt(const Swap& swap, double limit, bool critical = false);
 
     /// Comparisons of bounds so far.
@@ -68,7 +69,7 @@ class PlanarOrder {
   private:
     enum class Outcome { feasible, cycle, given_up };
 
-    /// Coordinate number: i for x_i, n + j for y_j, 0 for the common value 1 of x_{n+1} and
+    /// Index of a coordinate: i for x_i, n + j for y_j, 0 for the common value 1 of x_{n+1} and
     /// y_{n+1}.
     using Node = std::uint32_t;
     struct Bound {  ///< bound of the box with the count c(i, j)

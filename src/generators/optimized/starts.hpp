@@ -12,8 +12,8 @@
 
 namespace stipple::optimized {
 
-/// Rows of multiples of the golden ratio modulo 1, alone in one dimension, after i / n in two;
-/// shifted at random.
+/// Rows (i phi) in one dimension or (i / n, i phi) in two, phi the golden ratio, modulo 1; shifted
+/// at random.
 std::vector<double> golden_rows(std::size_t count, std::size_t dimension, SplitMix64& draws);
 
 /// Rows of a lattice of rank 1: i times a vector over n, plus a shift, modulo 1.
