@@ -49,7 +49,8 @@ inline std::size_t nth_bit(SubcellBits bits, std::size_t n) {
     SubcellBits counts = bits - (bits >> 1 & 0x5555555555555555U);
     counts = (counts & 0x3333333333333333U) + (counts >> 2 & 0x3333333333333333U);
     const SubcellBits up_to = ((counts + (counts >> 4)) & 0x0f0f0f0f0f0f0f0fU) * each;
-    const SubcellBits passed = ((n * each | high) - up_to) & high;  // marks the bytes before it
+    const SubcellBits passed = ((n * each | high) - up_to) & high;  // marks the bytes before the
+                                                                    // bit's
     const std::size_t shift = (passed >> 7) * each >> 56 << 3;
     const std::size_t before = (up_to << 8) >> shift & 0xff;
     return shift + nth_in_byte[(bits >> shift & 0xff) * 8 + n - before];
@@ -57,7 +58,7 @@ inline std::size_t nth_bit(SubcellBits bits, std::size_t n) {
 
 template <std::size_t D>
 struct Gap {
-    std::array<double, D> corner;  ///< lowest corner, from that of the cell, in cells
+    std::array<double, D> corner;  ///< lowest corner relative to the cell's, in cells
     std::uint16_t place;           ///< number of the cell in its tile
     std::uint8_t level;            ///< the side is 2^-level of the cell's
 
@@ -112,8 +113,8 @@ void split(const Gap<D>& gap, SubcellBits open, std::vector<Gap<D>>& out) {
     }
 }
 
-/// Adds the rest of a gap with open sub-cells: a smaller gap if they fit into one. A gap that
-/// is open from end to end is split if it may be, and otherwise kept.
+/// Adds a smaller gap if one can hold all open sub-cells of this gap. Otherwise splits the gap if
+/// `may_split`, or keeps it.
 template <std::size_t D>
 void narrow(const Gap<D>& gap, SubcellBits open, bool may_split, std::vector<Gap<D>>& out) {
     constexpr std::size_t p = subcells<D>;

@@ -35,7 +35,8 @@ struct Grid {
     using Point = std::array<double, D>;
     using Index = std::array<std::uint32_t, D>;
 
-    /// Makes cells for `cell_radius`, which is at most `radius`: a grid may serve several radii.
+    /// Makes cells for `cell_radius`, which is at most `radius`, so that a grid can serve several
+    /// radii.
     /// @param tile_side maximum number of cells along a tile
     Grid(const BoxSpace& space, double disk_radius, double cell_radius, std::uint32_t tile_side)
         : torus(space.torus), radius(disk_radius) {
@@ -96,7 +97,7 @@ struct Grid {
 template <std::size_t D>
 struct Task {
     const Grid<D>& grid;
-    double slack;            ///< rounding errors of distances in doubles, in radii
+    double slack;            ///< bound on rounding errors of distances in doubles, in radii
     std::uint64_t expected;  ///< number of points
     std::uint64_t seed;
 };
@@ -113,7 +114,8 @@ inline constexpr unsigned space_tile_bits = 5;
 template <std::size_t D>
 Rows box_sample(const Task<D>& task, const RunContext& run);
 
-/// The same for grids in which a radius spans two cells along each direction, of five or more.
+/// Make the points on grids of five or more cells along each direction, of which a radius spans
+/// two.
 Rows plane_sample(const Task<2>& task, const RunContext& run);
 Rows space_sample(const Task<3>& task, const RunContext& run);
 

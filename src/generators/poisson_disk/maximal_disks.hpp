@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Maximal Poisson-disk sets: random points of a box, no two of them nearer than a radius r, such
-// that no further point fits. The process is dart throwing, to its end.
+// Maximal Poisson-disk sets: random points of a box, no two of them nearer than a radius r, by dart
+// throwing until no further point fits.
 //
 // Darts are a Poisson process in space and time. A dart is kept if it keeps the distance from all
 // darts kept before. A dart on a disk cannot be kept and need not be thrown. So darts are thrown
@@ -39,8 +39,8 @@ namespace stipple::poisson_disk {
 double expected_disks(const BoxSpace& space, double radius);
 
 /// Makes the points, in an arbitrary but reproducible order.
-/// @param cell_radius of the grid, at most `radius`; for the same one, similar radii give similar
-/// sets
+/// @param cell_radius radius that the grid's cells are made for, at most `radius`; with the same
+/// cells, similar radii give similar sets
 /// @throws Error(limit, cancelled)
 Rows maximal_disks(const BoxSpace& space, double radius, double cell_radius, std::uint64_t seed,
                    const RunContext& run);

@@ -6,12 +6,12 @@
 // On a line of sub-cells along the first direction, a disk covers those between two ends, which
 // take one square root:
 //
-//     |x_1 - p_1| < sqrt(1 - sum_{k > 1} y_k^2),    y_k from p_k to the farther face of the line.
+//     |x_1 - p_1| < sqrt(1 - sum_{k > 1} y_k^2),    y_k the distance from p_k to the line's far face.
 //
 // Shape   D = 2 ... 6.
 // Cost    eight lines, or eight disks, at a time.
-// Promise a sub-cell reported as covered is covered by a single disk, and a place reported as hit
-//         or not hit is so: within `slack` of a rim nothing is covered and the answer is `unsure`.
+// Promise a sub-cell reported as covered is covered by a single disk, and answers of hit or no hit
+//         are right: within `slack` of a rim, sub-cells are uncovered and the answer is `unsure`.
 #pragma once
 
 #include <algorithm>

@@ -23,7 +23,7 @@ struct PendingDart {
     std::uint32_t time;   ///< within the round
     std::uint16_t place;  ///< number of its cell in the tile
 
-    /// Several threads may read and set the status: they all set the same.
+    /// Several threads may read and set the status at once: all set the same value.
     [[nodiscard]] Status status() const {
         return std::atomic_ref<Status>(status_).load(std::memory_order_relaxed);
     }
@@ -35,7 +35,7 @@ struct PendingDart {
         return time < other.time || (time == other.time && at < other.at);
     }
 
-    mutable Status status_ = Status::pending;  // atomic_ref takes no constant object
+    mutable Status status_ = Status::pending;  // mutable, as atomic_ref takes no constant object
 };
 
 /// Darts of a tile of 2^side_bits cells along each direction, in blocks of 2^block_bits.

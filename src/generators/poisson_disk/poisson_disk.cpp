@@ -112,7 +112,7 @@ Plan plan(const Request& request, const Values& options) {
         fail(ErrorKind::usage, "--radius {} contradicts --n-approx {}; give one of them",
              format_number(options[radius]), options[about]);
     if (!options.given(radius) && !options.given(about)) {
-        if (options.given(radius_map) && !request.count) plan.count = 0;  // given by the map
+        if (options.given(radius_map) && !request.count) plan.count = 0;  // 0: the map decides
         return plan;
     }
     if (request.count)
@@ -164,7 +164,7 @@ RadiusField read_field(const BoxSpace& space, const Values& options, const RunCo
     return {space.box, source, run};
 }
 
-/// The radius of the packing is the minimum one.
+/// Makes points with varying radii; the radius of the packing is the minimum one.
 Packing pack_varied(const BoxSpace& space, const RadiusField& field, const Plan& plan,
                     const Values& options, const RunContext& run) {
     const auto fill = [&](double r, double cells, std::uint64_t seed, const RunContext& part) {
@@ -199,7 +199,7 @@ Packing pack(const BoxSpace& space, const Plan& plan, const Values& options,
         return {maximal_disks(space, r, r, plan.seed, run), r};
     }
     if (plan.count == 1) return single(space, plan.seed);
-    // For the largest distance itself, disks leave isolated places, which rounding may hide.
+    // With the largest distance as radius, disks leave isolated places, which rounding may hide.
     const double most = space.largest_distance();
     const double typical = typical_radius(space, static_cast<double>(plan.count));
     const SearchGoal goal{plan.count, plan.dimension, std::min(typical, 0.99 * most), most};

@@ -64,7 +64,7 @@ class Search {
         return found;
     }
 
-    /// Radius that should lead to the count, if it is between the bounds; else a middle one.
+    /// Radius that should lead to the count; if that is outside the known bounds, one between them.
     [[nodiscard]] double next(double r, std::uint64_t found) const {
         const double ratio = static_cast<double>(found) / static_cast<double>(count_);
         const double step = (ratio - 1) / static_cast<double>(dimension_);

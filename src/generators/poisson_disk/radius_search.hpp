@@ -20,8 +20,8 @@ struct Packing {
     double radius = 0;
 };
 
-/// Makes the points for a radius and a seed. Darts are thrown for cell_radius, at most the radius;
-/// for the same one, similar radii give similar sets.
+/// Makes the points for a radius and a seed. Darts are thrown for `cell_radius`, at most the
+/// radius; with the same cell_radius, similar radii give similar sets.
 using Pack = std::function<Rows(double radius, double cell_radius, std::uint64_t seed,
                                 const RunContext& run)>;
 

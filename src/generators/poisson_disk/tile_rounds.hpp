@@ -70,7 +70,8 @@ class Tile {
     [[nodiscard]] int size(std::size_t k) const { return size_[k]; }
     [[nodiscard]] std::vector<double>& points() { return points_; }
 
-    /// Coordinates of a place in a cell, given in cells; false if one is rounded up to a face.
+    /// Sets `at` to the coordinates of a place in a cell, given in cells; false if one is rounded
+    /// up to a face.
     [[nodiscard]] bool locate(const Grid<D>& grid, const Cell& cell, const Point& place,
                               Point& at) const {
         bool inside = true;
@@ -82,7 +83,8 @@ class Tile {
     }
 
     /// Place of a point in its cell, in cells.
-    /// @param cell of the point, from the tile's first; on the torus possibly beyond the box
+    /// @param cell the point's cell, relative to the tile's first; on the torus possibly beyond the
+    /// box
     [[nodiscard]] Point in_cell(const Grid<D>& grid, const Point& p, const Cell& cell) const {
         Point place;
         for (std::size_t k = 0; k < D; ++k) {
@@ -102,8 +104,8 @@ class Tile {
         return static_cast<std::size_t>(mean + std::sqrt(mean) / 2 + 1);
     }
 
-    /// Another tile within a radius of this one, and the number of cells from this one's first cell
-    /// to its first. On a small torus, several may be images of the same tile, or of this one.
+    /// Another tile within a radius of this one, and the offset from this one's first cell to its
+    /// first. On a small torus, several may be images of the same tile, or of this one.
     struct Neighbour {
         std::uint32_t number;
         Cell steps;
@@ -212,10 +214,11 @@ class TileRounds {
         run_.tick(std::min(count, task_.expected), task_.expected);
     }
 
-    /// Rounds until no tile has gaps: draw(tile, counts, key, workspace, first), where counts are
-    /// by the level of the gap, and `first` is true while gaps are not known yet. The rest
-    /// of the gaps goes to the workspace.
-    /// @param density of darts per r^D, in each round `growth` times as many
+    /// Runs rounds until no tile has gaps. draw(tile, counts, key, workspace, first) throws the
+    /// darts of a round and puts the remaining gaps into the workspace. `counts` has an entry for
+    /// each level of gaps; `first` is true in the first round, when gaps are not known yet.
+    /// @param density darts per r^D in the first round; each further round has `growth` times as
+    /// many
     template <class Draw>
     void close_gaps(double density, double growth, const Draw& draw) {
         for (bool first = true; !open_.empty(); first = false, density *= growth) {
@@ -296,8 +299,8 @@ class TileRounds {
                        [&](const Block& b) { work(tiles_[open_[b.first]], open_[b.first]); });
     }
 
-    /// Tiles along direction k within a radius of tile `own`, and the cells from its first to
-    /// theirs.
+    /// Tiles along direction k within a radius of tile `own`, and the offsets in cells from its
+    /// first cell to theirs.
     [[nodiscard]] std::vector<std::pair<std::uint32_t, int>> neighbours_along(
         std::size_t k, std::uint32_t own) const {
         const Grid<D>& grid = task_.grid;

@@ -180,7 +180,7 @@ STIPPLE_WIDE void draw_on_subcells(const PlaneTile& tile, const PoissonCounts& c
     }
 }
 
-/// Collects the points that may cover some of a gap, from its lowest corner, in radii.
+/// Collects the points that may cover a part of a gap, relative to its lowest corner, in radii.
 STIPPLE_WIDE void gather(const PlaneTile& tile, const Gap<2>& gap, NearDisks<2, float>& near) {
     const auto [column, row] = PlaneTile::cell_at(gap.place);
     const double half = gap.side() / 2;
@@ -270,7 +270,7 @@ class PlaneSampler {
         try_all(tile, work);
     }
 
-    /// Makes the first gaps: cubes around the open parts of cells, as far as known.
+    /// Makes the first gaps: squares around the sub-cells that no single disk covers.
     static void make_gaps(PlaneTile& tile) {
         for (int row = 0; row < tile.size(1); ++row) {
             const SubcellBits* covered = tile.covered(PlaneTile::number_of({0, row}));
@@ -312,7 +312,7 @@ class PlaneSampler {
 
     const Grid<2>& grid_;
     PlaneRules rules_;
-    std::unique_ptr<FixedPosition[]> positions_;  ///< cells of all tiles, as in the next two
+    std::unique_ptr<FixedPosition[]> positions_;  ///< for the cells of all tiles, like the next two
     std::unique_ptr<SubcellBits[]> covered_;
     std::unique_ptr<std::uint16_t[]> indices_;
     Rounds rounds_;

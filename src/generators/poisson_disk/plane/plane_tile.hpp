@@ -68,7 +68,7 @@ class FixedPositions {
     /// Number of positions for a tile with that many rows of cells.
     static constexpr std::size_t needed(std::size_t rows) { return (rows + 2 * halo) * stride; }
 
-    /// @param origin of the tile's first cell, in units
+    /// @param origin position of the tile's first cell, in units
     /// @param cell sides of a cell, in units
     /// @param rows number of rows of cells
     /// @param room memory for needed(rows) positions
@@ -102,7 +102,7 @@ class FixedPositions {
 
     /// Whether a point in the 25 cells from `first` on covers a place in the middle one.
     /// @param sure squared distances below it are hits
-    /// @param possible squared distances from it on are none
+    /// @param possible squared distances from it on are no hits
     [[nodiscard, gnu::always_inline]] Hit hit(std::size_t first, FixedPosition place,
                                               std::int32_t sure, std::int32_t possible) const {
         const FixedPosition* row = positions_ + first;
@@ -145,9 +145,9 @@ class FixedPositions {
 };
 
 // Coverage of the 5 x 5 cells around a disk's centre, with a bit for each of 8 x 8 sub-cells. It is
-// looked up by the place of the centre in its cell, one of Q^2. A bit is set if the sub-cell is
-// covered for every centre in that place. So one bit mostly decides whether a dart can be kept, and
-// one word whether a cell is covered.
+// looked up by the place of the centre in its cell, one of Q x Q places. A bit is set if the
+// sub-cell is covered for every centre in that place. So one bit mostly decides whether a dart can
+// be kept, and one word whether a cell is covered.
 //
 // Shape   grids in which a radius spans two cells along both directions.
 // Cost    25 words a disk; 200 kB for a table.
@@ -179,7 +179,7 @@ class CoverageTable {
     }
 
   private:
-    /// Number of the grid's cells per place for which the next finer table is worth its time.
+    /// Minimum number of the grid's cells per place for which the next finer table saves time.
     static constexpr std::size_t worth = 128;
     static constexpr std::size_t most_places = 32;
 
@@ -256,7 +256,7 @@ struct CellRoom {
 class PlaneTile : public Tile<2, plane_tile_bits, 2> {
   public:
     PlaneTile() = default;
-    /// @param room for FixedPositions::needed(rows of the tile) elements of each
+    /// @param room memory for FixedPositions::needed(rows of the tile) elements of each kind
     PlaneTile(const PlaneRules& rules, std::size_t number, const CellRoom& room)
         : Tile(rules.grid, number), rules_(&rules), covered_(room.covered), index_(room.indices) {
         Point origin;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t layer = 16;  ///< number of sub-cells with the same third index
 
-/// Positions of the sub-cells of a gap, from its middle; x + 4 y is the number in a layer.
+/// Positions of the sub-cells of a gap, relative to its middle; x + 4 y is the index in a layer.
 struct Pattern {
     std::array<float, 3> side;  ///< sides of a sub-cell
     std::array<float, layer> along_x;
@@ -44,7 +44,7 @@ struct Pattern {
                                                    const std::array<float, 3>& middle) {
     constexpr std::size_t most = power(5, 3);  // number of balls
     float across[most][layer];                 // squared distances along x and y
-    float left[4][most];                       // rest of the squared radius, by layer
+    float left[4][most];                       // squared radius minus squared distance along z
     for (std::size_t i = 0; i < near.size(); ++i) {
         const float x = near.along(0)[i] - middle[0];
         const float y = near.along(1)[i] - middle[1];
@@ -57,7 +57,8 @@ struct Pattern {
     }
     SubcellBits open = 0;
     for (std::size_t k = 0; k < 4; ++k) {
-        // Unrolled first, these loops would not be vectorised, nor `least` stay in registers.
+        // If these loops were unrolled first, they would not be vectorised and `least` would leave
+        // the registers.
         float least[layer];
         std::fill_n(least, layer, 1.0F);
         for (std::size_t i = 0; i < near.size(); ++i)
@@ -81,7 +82,7 @@ struct LineCover {
 
     int first;                       ///< number of the first line, from the cell's corner
     std::array<float, lines> far_y;  ///< squared distances to the far sides of the lines
-    float x;                         ///< centre in sub-cells, from `reach` of them before the cell
+    float x;  ///< centre in sub-cells, from `reach` sub-cells before the cell
     float per_side;
     int word;        ///< number of the word with the first bit
     unsigned shift;  ///< position of that bit
@@ -107,7 +108,7 @@ struct LineCover {
     }
 
     /// Bits of the covered sub-cells of a line, from the first one on.
-    /// @param left what the third direction leaves of the squared radius
+    /// @param left squared radius minus the squared distance along the third direction
     [[nodiscard, gnu::always_inline]] inline std::int32_t of(std::size_t line, float left) const {
         const float half = std::sqrt(std::max(left - far_y[line], 0.0F)) * per_side;
         const auto from = static_cast<std::int32_t>(x - half) + 1;

@@ -4,8 +4,8 @@
 // direction. A word has 32 such sub-cells of a line along the first direction; the words of
 // adjacent lines follow each other.
 //
-// A ball covers a sub-cell if it covers the corner farthest from its centre. On a line these are
-// the sub-cells between two places, which take a square root, for many lines side by side.
+// A ball covers a sub-cell if it covers the corner farthest from its centre. On a line, these are
+// the sub-cells between two places. Finding these takes a square root, for many lines side by side.
 //
 // Cost    0.25 us for a ball.
 // Promise exactly those sub-cells have their bit set that a single ball covers, not within

@@ -5,8 +5,8 @@
 //
 // First darts are thrown at the sub-cells that no single ball covers (space/ball_lines.hpp). The
 // open part of a sub-cell is mostly covered by several balls together, which shows when it is
-// divided into 64 smaller ones. Sub-cells for which it does not are gaps (space/ball_kernels.hpp),
-// at which darts are thrown until none is left.
+// divided into 64 smaller ones. Sub-cells that stay open are gaps (space/ball_kernels.hpp), at
+// which darts are thrown until no gap is left.
 //
 // Cost    O(n) time; on one core 2 us a point. Memory: 230 bytes a point.
 
@@ -41,13 +41,13 @@ struct SpaceWorkspace : GapWorkspace<3> {
     std::vector<SubcellBits> open;  ///< open sub-cells of these gaps
 };
 
-/// Number of sub-cells that share a Poisson number: two lines of 32 in each of four layers. One
-/// sub-cell more or less changes all their darts, so they are few: sets for similar radii should be
-/// nearly the same.
+/// Number of sub-cells that share a Poisson number: two lines of 32 in each of four layers. If one
+/// of them opens or closes, all their darts change. So they are few: sets for similar radii should
+/// be nearly the same.
 constexpr std::size_t together = 4 * 64;
 
-/// Draws darts on those of these sub-cells that no single ball covers.
-/// @param first indices of the first one in the tile, along each direction
+/// Draws darts on the open ones of the sub-cells that share a Poisson number.
+/// @param first indices of the first sub-cell in the tile, along each direction
 [[gnu::always_inline]] inline void draw_on_lines(const SpaceTile& tile,
                                                  const std::array<std::size_t, 3>& first,
                                                  const PoissonCounts& counts, std::uint64_t key,

@@ -24,9 +24,9 @@ namespace stipple::poisson_disk {
 /// Number of cells along a tile with its halo.
 inline constexpr int space_across = space_side + 4;
 
-/// One bit for each cell of a tile and its halo, such that those of the 5 x 5 x 5 cells around one
-/// are five words: for every fourth cell along the first direction there is a strip along the
-/// others, each byte of which has the eight cells from there on.
+/// One bit for each cell of a tile and its halo. The bits of any 5 x 5 x 5 cells are in five words:
+/// every fourth cell along the first direction begins a strip along the other directions, in which
+/// each byte has the eight cells from there on.
 class SpaceBits {
   public:
     static constexpr std::size_t layers = 5;
@@ -134,7 +134,8 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
         cover_lines(rules_->scales, balls, lines_.data());
     }
 
-    /// Collects points that reach into some sub-cells of a cell, and possibly others.
+    /// Collects the points that reach into the sub-cells `some` of a cell, and possibly other
+    /// points.
     void gather(const TileCell<3>& cell, SubcellBits some, NearDisks<3, float>& near) const {
         const std::uint16_t* numbers = &numbers_[number_of(cell)];
         const SpaceBits::Layers masks = reaching(some);

@@ -29,7 +29,7 @@ std::vector<std::size_t> owners(const std::vector<double>& lines,
     return owner;
 }
 
-/// Values of a grid, by the finer cells of a field.
+/// Values of a grid, indexed by the finer cells of a field.
 struct Seen {
     const double* values = nullptr;
     std::size_t width = 0;

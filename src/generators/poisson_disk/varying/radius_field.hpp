@@ -4,9 +4,9 @@
 //
 //     f(x) = sqrt(largest density / density(x)),    or a given length,    or 1,
 //
-// constant on the cells of a grid that is stretched over the rectangle. There are no points where
-// the density is 0, or outside a mask; the largest density is that of the other places. If a
-// density and a mask have different cells, those of the field lie between the lines of both.
+// constant on the cells of a grid that is stretched over the rectangle. Points are not allowed
+// where the density is 0, or outside a mask; the largest density is that of the other places. If a
+// density and a mask have different cells, the lines of both bound the field's cells.
 //
 // Cells are joined two by two, along the direction in which they are shorter, until one covers the
 // rectangle. Each joined cell has the bounds of f in it.
@@ -38,7 +38,7 @@ struct FieldSource {
 
 class RadiusField {
   public:
-    /// Value of f where no points may be.
+    /// Value of f where points are not allowed.
     static constexpr double closed = std::numeric_limits<double>::infinity();
 
     /// Maximum ratio of the largest f to the least; no box is that wide.
@@ -54,7 +54,7 @@ class RadiusField {
     /// One or two nodes.
     using Nodes = boost::container::static_vector<Node, 2>;
 
-    /// @throws Error(input) if points may be nowhere; Error(limit)
+    /// @throws Error(input) if points are allowed nowhere; Error(limit)
     RadiusField(const Box& box, const FieldSource& source, const RunContext& run);
 
     [[nodiscard]] Node root() const {
@@ -67,12 +67,12 @@ class RadiusField {
     /// Lowest and highest corner.
     [[nodiscard]] std::array<std::array<double, 2>, 2> corners(const Node& node) const;
 
-    /// Minimum of f where points may be; `closed` if they may be nowhere.
+    /// Minimum of f where points are allowed; `closed` if they are allowed nowhere.
     [[nodiscard]] double least(const Node& node) const {
         return levels_[node.level].least[index(node)];
     }
 
-    /// Maximum of f where points may be; 0 if they may be nowhere.
+    /// Maximum of f where points are allowed; 0 if they are allowed nowhere.
     [[nodiscard]] double most(const Node& node) const {
         const Level& level = levels_[node.level];
         if (node.level > 0) return level.most[index(node)];
@@ -82,10 +82,10 @@ class RadiusField {
 
     [[nodiscard]] double least() const { return least(root()); }
 
-    /// f at a place of the rectangle; `closed` if no points may be there.
+    /// f at a place of the rectangle; `closed` if points are not allowed there.
     [[nodiscard]] double at(double x, double y) const { return within(root(), x, y); }
 
-    /// The same for a place that is known to be in the node.
+    /// f at a place that is known to be in the node.
     [[nodiscard]] double within(const Node& node, double x, double y) const;
 
     /// Integral of 1 / f^2 over the rectangle.

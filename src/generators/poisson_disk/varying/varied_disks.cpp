@@ -64,7 +64,7 @@ class VariedSampler {
         gaps_.push_back({corners[0], corners[1], keys_.bits(0), field_.root()});
         double thrown = 0;  // darts per r^2
         for (std::uint64_t round = 1; !gaps_.empty(); ++round) {
-            // More in each round, and enough for the gap with the largest rate to get some.
+            // More darts in each round, and enough for the gap with the largest rate to get some.
             density_ =
                 round == 1 ? first_density : std::max(thrown * growth, most_darts / fastest_);
             thrown += density_;
@@ -115,7 +115,7 @@ class VariedSampler {
         });
     }
 
-    /// Appends to near_ those of its disks first, ..., last - 1 that reach into a gap.
+    /// Appends to near_ copies of its disks first, ..., last - 1 that reach into a gap.
     void narrow(std::size_t first, std::size_t last, const VariedGap& gap) {
         const double most = scale_ * field_.most(gap.node);
         for (std::size_t i = first; i < last; ++i)

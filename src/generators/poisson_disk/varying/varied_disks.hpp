@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Random points of a rectangle, with a radius that changes from place to place, such that no
-// further point fits: dart throwing, to its end.
+// Random points of a rectangle, with a radius that changes from place to place, by dart throwing
+// until no further point fits.
 //
 //     x and y may both be points if |x - y| >= min(r(x), r(y)),    r = scale * f
 //     (varying/radius_field.hpp);    darts are thrown in proportion to 1 / r(x)^2.
@@ -34,17 +34,18 @@
 
 namespace stipple::poisson_disk {
 
-/// Approximate number of points, if cells of the field are not much smaller than radii.
+/// Approximate number of points; valid if the field's cells are not much smaller than the radii.
 double expected_varied(const RadiusField& field, double scale);
 
 /// Makes the points, in an arbitrary but reproducible order.
-/// @param dart_scale at most `scale`; for the same one, similar scales give similar sets
+/// @param dart_scale scale that darts are thrown for, at most `scale`; with the same dart_scale,
+/// similar scales give similar sets
 /// @throws Error(limit, cancelled)
 Rows varied_disks(const BoxSpace& space, const RadiusField& field, double scale, double dart_scale,
                   std::uint64_t seed, const RunContext& run);
 
-/// Reorders such points so that the first m are well spread, for every m: as spread_out
-/// (generators/spread_order.hpp), with radii in proportion to r.
+/// Reorders the points of varied_disks() so that the first m are well spread, for every m: as
+/// spread_out (generators/spread_order.hpp), with radii in proportion to r.
 Rows spread_varied(std::span<const double> rows, const BoxSpace& space, const RadiusField& field,
                    double scale, const RunContext& run);
 
