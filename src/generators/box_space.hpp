@@ -45,7 +45,7 @@ struct BoxSpace {
     /// Largest absolute value of a coordinate.
     [[nodiscard]] double largest_coordinate() const;
 
-    /// Approximate number of points of minimum distance `radius` if a cube of that side holds
+    /// Approximate number of points of minimum distance `radius` if a cube of side `radius` holds
     /// `density` of them; walls allow a few more.
     [[nodiscard]] double expected_points(double density, double radius) const;
 
@@ -54,14 +54,14 @@ struct BoxSpace {
     void check_resolution(double radius, std::string_view name) const;
 };
 
-/// The plan's box, or the unit cube.
+/// Space of the plan's box, or of the unit cube if it has none.
 BoxSpace space_of(const Plan& plan, bool torus);
 
 /// Plan for a request whose box may determine the dimension.
 /// @throws Error(usage) if the box has another dimension
 Plan plan_in_bounds(const Request& request);
 
-/// The same for generators that use distances.
+/// plan_in_bounds() for generators that use distances.
 /// @throws Error(usage) if --torus and --bounded are given, or float64 cannot square the box's
 /// distances
 Plan plan_in_box(const Request& request, const Values& options);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Options of generators whose points follow a density (media/density_map.hpp), and how points do
-// so.
+// Options of generators whose points follow a density (media/density_map.hpp), and the map that
+// makes points follow it.
 #pragma once
 
 #include <cstddef>
@@ -32,14 +32,14 @@ void check_density(const Values& options, std::size_t dimension);
 /// @throws as check_invert, read_density
 std::optional<DensityMap> given_density(const Values& options, const RunContext& run);
 
-/// Maps a uniform point of the box, in place, so that it follows the density.
+/// Moves a uniform point of the box, in place, so that it follows the density.
 /// @return 1 / sqrt(density at the new point), for a mean density of 1: the local spacing of points
 double follow(const DensityMap& map, const Box& box, double* point);
 
 /// Records the given ones of these options in the points' provenance.
 void note_density(const Values& options, PointSet& points);
 
-/// Name of a given option that makes the points uneven; nullptr if there is none.
+/// Name of the given option that makes the points uneven; nullptr if there is none.
 const char* shaping_option(const Values& options);
 
 }  // namespace stipple

@@ -27,7 +27,7 @@ struct Destination {
     /// Whether point i at `row` has an image; safe to call from several threads.
     std::function<bool(std::uint64_t i, std::span<const double> row)> has_image = {};
     bool drops = false;                  ///< some points have no image; avoid them
-    std::vector<OutcomeAxis> axes = {};  ///< outcomes along each coordinate
+    std::vector<OutcomeAxis> axes = {};  ///< outcomes of each coordinate
     PointSet given = {};  ///< points of the cube to extend, if a file holds their images
 };
 
@@ -57,7 +57,8 @@ class Sequence {
     /// coordinates in [0, 1). With random_access() several threads may call it at once.
     void fill(std::uint64_t first, std::span<double> rows) const { fill_(first, rows); }
 
-    /// False for a sequential engine: continuing is cheap, jumps generate all points between.
+    /// False for a sequential engine: continuing is cheap, but a jump generates all points in
+    /// between.
     [[nodiscard]] bool random_access() const { return random_access_; }
 
     void set_found(Found found) { found_ = std::move(found); }
@@ -85,7 +86,7 @@ struct GeneratorTraits {
     bool seeded = true;        ///< uses the seed, at least under some options
     bool boxed = false;        ///< makes points in the box itself, for its distances
     bool independent = false;  ///< points are statistically independent
-    bool levels = false;  ///< coordinates are levels of factors, which warps may have outcomes for
+    bool levels = false;  ///< coordinates are levels of factors, to which warps may assign outcomes
     std::uint64_t max_index = std::uint64_t{1} << 53;  ///< start + count is at most this
     std::string more_dimensions = {};  ///< option with a file for more than max_dimension
 };
@@ -98,7 +99,7 @@ struct Generator {
     std::string summary;
     std::string source;
     std::string family = {};  ///< such as "blue noise"; set by the registry from the folder
-    /// Search terms for it that are not its names: a kind, a part or a use of it.
+    /// Further search terms: a kind, a part or a use of the generator.
     std::vector<std::string> related = {};
     GeneratorTraits traits;
     Schema options;
@@ -120,28 +121,28 @@ struct Generator {
     /// A set may add values it computed, such as a radius, to the options in its provenance.
     std::function<PointSet(const Plan&, const Values&, const RunContext&)> set = {};
 
-    /// Sets options that others imply, for the provenance: the rule implied by a vector.
+    /// Sets options implied by others, for the provenance, such as the rule implied by a vector.
     std::function<void(Values&)> settle = {};
 
     /// Whether the points depend on the seed under these options; if empty, traits.seeded decides.
     std::function<bool(const Values&)> uses_seed = {};
 
-    /// Sentences for the user about a valid request, such as counts that would be better.
+    /// Sentences for the user about a valid request, for example that other counts would be better.
     std::function<std::vector<std::string>(const Request&, const Plan&, const Values&)> notes = {};
 
     /// Seconds on one core for a set of n points, within a factor of ten. If empty: 3e-8 n d for a
     /// sequence, 3e-5 n 5^(d - 2) for other sets.
     double (*cost)(double n, double d) = nullptr;
 
-    /// For sequences: whether these options involve a search, so that sets are made in memory, and
-    /// a stopped search may return its best. If empty: never.
+    /// For sequences: true if these options start a search. Then sets are made in memory, and a
+    /// stopped search may return its best result. If empty: never.
     std::function<bool(const Values&)> whole = {};
 
-    /// For generators of digits in bases other than 2: the base of each coordinate, which scrambles
-    /// use by default.
+    /// For generators of digits in bases other than 2: the base of each coordinate, the default of
+    /// scrambles.
     std::function<std::vector<std::uint32_t>(const Plan&, const Values&)> bases = {};
 
-    /// Largest seed, if the seeding of an engine takes fewer than 64 bits.
+    /// Largest seed, if the engine's seeding takes fewer than 64 bits.
     std::function<std::uint64_t(const Values&)> max_seed = {};
 };
 
@@ -152,21 +153,21 @@ Plan plan_for(const Generator& generator, const Request& request, const Values& 
 /// Whether the points depend on the seed under these options.
 bool uses_seed(const Generator& generator, const Values& options);
 
-/// Default options with the least search effort, for points that are needed at once.
+/// Default options, with the least search effort, for points that are needed immediately.
 Values quick_options(const Generator& generator);
 
 /// Plan if generator.plan is empty.
 Plan default_plan(const Request& request, std::uint64_t count = 1024, std::size_t dimension = 2);
 
-/// Reports that `who` needs a count that is `what`, and names the nearest ones: `below` unless it
-/// is 0, `above` unless it exceeds 2^53. @throws Error(usage)
+/// Throws Error(usage): `who` needs a count that is `what`. The message names the nearest such
+/// counts: `below` unless it is 0, `above` unless it exceeds 2^53.
 [[noreturn]] void refuse_count(std::uint64_t count, const std::string& what, const std::string& who,
                                std::uint64_t below, std::uint64_t above);
 
 /// k with k^dimension == count. @throws Error(usage) naming the two nearest such counts
 std::uint64_t exact_root(std::uint64_t count, std::size_t dimension, const std::string& who);
 
-/// Plan for k^dimension points; the default count is the one nearest to 1024. @throws as exact_root
+/// Plan for k^dimension points; by default the count nearest to 1024. @throws as exact_root
 Plan plan_of_cubes(const Request& request, const std::string& who);
 
 namespace generators {

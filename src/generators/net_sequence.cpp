@@ -38,7 +38,7 @@ struct LowDigits {
             reversed.push_back(static_cast<std::uint32_t>(turned));
         }
     }
-    /// Whether these digits of the index affect only the first t digits of the coordinate.
+    /// True if these digits of the index affect only the first t digits of the coordinate.
     [[nodiscard]] bool stay_on_top_of(const DigitMatrix& matrix) const {
         for (std::size_t r = count; r < matrix.rows; ++r)
             for (std::size_t c = 0; c < std::min(count, matrix.columns); ++c)
@@ -89,8 +89,8 @@ class OwenNet {
         std::vector<double> images(low_.block);
         const std::uint64_t shared = reversed_digits(*out, base_) / low_.block;
         scrambles_[k].fill(shared * low_.block, low_.block, images.data(), 1);
-        // The sum truncates to the right digits: coordinates are at least 2^-50 apart, rounded by
-        // 2^-54.
+        // Adding 2^-51 before truncation gives the right digits: coordinates are at least 2^-50
+        // apart, rounded by 2^-54.
         const auto block = static_cast<double>(low_.block);
         for (std::size_t i = 0; i < count; ++i)
             out[i * d] =
@@ -111,7 +111,7 @@ DigitMatrix resized(DigitMatrix matrix, std::size_t rows) {
     return matrix;
 }
 
-/// Product of the scramble's matrix and the coordinate's, modulo the base.
+/// Product of the scramble's and the coordinate's matrix, modulo the base.
 DigitMatrix product(const BaseMatrix& left, const DigitMatrix& right, std::uint32_t base) {
     DigitMatrix result(right.rows, right.columns);
     for (std::size_t r = 0; r < right.rows; ++r)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Sequence of given generating matrices, by the fastest method for their base and optionally
-// scrambled. The numbers are those that the scramble of that name makes of the unscrambled points.
+// Points of given generating matrices, by the fastest method for their base and optionally
+// scrambled. The points equal those of the scramble of the same name, applied to the unscrambled
+// points.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +23,7 @@ std::size_t net_digits(std::uint32_t base);
 /// Value of an option --base. @throws Error(usage) if it is not prime
 std::uint32_t prime_base(std::int64_t base);
 
-/// Checks that the points are among the first base^net_digits(base), all that `who` has.
+/// Checks that the request ends within the first base^net_digits(base) points, all that `who` has.
 /// @throws Error(usage)
 void check_net_end(const Request& request, const Plan& plan, std::uint32_t base,
                    std::string_view who);
@@ -36,8 +37,8 @@ std::unique_ptr<Sequence> net_sequence(std::uint32_t base, std::vector<DigitMatr
 /// mod alpha. Drops the last matrices if alpha does not divide their number.
 std::vector<DigitMatrix> interlace(std::vector<DigitMatrix> matrices, std::size_t alpha);
 
-/// Comment of LatNet Builder on the line of the interlacing factor. The next line holds the number
-/// of components, factor times dimension.
+/// Comment in LatNet Builder's files on the line with the interlacing factor. The next line holds
+/// the number of components, factor times dimension.
 inline constexpr std::string_view interlacing_comment = "Interlacing factor";
 
 // Common parts of the digital sequences in base 2: the order of their points, their scrambles, and
@@ -75,7 +76,7 @@ bool binary_uses_seed(const Values& options);
 /// For Generator::notes: returns a sentence if start and count do not select a net.
 std::vector<std::string> binary_notes(const Request& request, const Plan& plan, const Values&);
 
-/// The same for any base b; k b^m points with k < b, a union of nets, count as a net, too.
+/// binary_notes() for any base b; k b^m points with k < b, a union of nets, also count as a net.
 std::vector<std::string> net_notes(std::uint64_t base, const Request& request, const Plan& plan);
 
 }  // namespace stipple

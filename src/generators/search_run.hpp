@@ -15,13 +15,14 @@
 
 namespace stipple {
 
-/// Run that ignores stop requests if it keeps the best: such searches check for them themselves.
+/// Run for the steps of a search. Ignores stop requests if the best result is kept: then the search
+/// itself checks for them.
 inline RunContext until_best_is_wanted(const RunContext& run) {
     return run.keeps_best ? unstopped(run) : run;
 }
 
-/// Runs `work`; returns false if a stop request cut it short and the best so far is wanted.
-/// @throws whatever `work` throws, including the cancellation unless the best is wanted
+/// Runs `work`; returns false if a stop request ended it and the best result so far is wanted.
+/// @throws all other errors of `work`, and the cancellation if the best is not wanted
 template <class Work>
 bool unless_best_is_wanted(const RunContext& run, const Work& work) {
     try {

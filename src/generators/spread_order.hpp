@@ -19,7 +19,7 @@
 
 namespace stipple {
 
-/// Rows in that order; those chosen at the same radius keep their relative order.
+/// Rows in that order; points chosen at the same radius keep their relative order.
 /// @param radius lower bound of the distances between points
 Rows spread_out(std::span<const double> rows, const BoxSpace& space, double radius,
                 const RunContext& run);

@@ -127,7 +127,7 @@ class VariedIndex {
 
     [[nodiscard]] std::int64_t cell(std::size_t c, std::size_t k, double x) const {
         const double at = std::floor((x - low_[k]) * classes_[c].scale[k]);
-        // A coordinate far outside only has to stay outside.
+        // Coordinates far outside the box are clamped to cells that are outside, too.
         const auto count = static_cast<double>(classes_[c].count[k]);
         return static_cast<std::int64_t>(std::clamp(at, -2 * count - 2, 3 * count + 2));
     }
@@ -188,7 +188,7 @@ class VariedIndex {
     std::vector<Class> classes_;
     std::vector<Disk> disks_;
     std::vector<std::uint32_t> next_;   ///< next disk in the list of its cell
-    std::vector<std::uint32_t> heads_;  ///< first disks of 2^k lists
+    std::vector<std::uint32_t> heads_;  ///< first disk of each list; 2^k lists
 };
 
 }  // namespace stipple
