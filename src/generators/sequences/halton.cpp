@@ -10,7 +10,7 @@
 //
 // Shape   n x d for d <= 1000; indices below 2^53.
 // Cost    O(n d): a table of reversed low digits makes it one division a coordinate. Owen's takes
-//         O(b) for every digit after those. With a leap, O(log_b i) a coordinate.
+//         O(b) for every digit beyond the table. With a leap, O(log_b i) a coordinate.
 // Promise without or with fixed permutations, every coordinate is correctly rounded; with random
 //         ones, within 2^-52. All are below 1. Any b_1^m1 * ... * b_d^md consecutive points meet
 //         every box of that grid exactly once, also those of a leaped sequence. Under random and

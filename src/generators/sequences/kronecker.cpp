@@ -13,7 +13,7 @@
 //         frac(offset + i alpha_k), at any index. A given alpha is rounded to a double. Those of
 //         R_d are within d 2^-126, so that point i is within i d 2^-126 + 2^-53; square roots of
 //         primes are within 2^-100.
-// Beware  beyond d = 1, that R_d is good is a conjecture; no bound of its discrepancy is known.
+// Beware  for d > 1, the evenness of R_d is a conjecture; no bound of its discrepancy is known.
 //         M. Roberts adds the offset 0.5 and begins with i = 1.
 // Source  M. Roberts, "The unreasonable effectiveness of quasirandom sequences" (2018),
 //         extremelearning.com.au; for any alpha: L. Kuipers, H. Niederreiter, Uniform Distribution
@@ -89,7 +89,7 @@ Wide golden(std::size_t d) {
     for (int bit = 127; bit >= 0; --bit) {
         const Wide larger = g | Wide{1} << bit;
         const Wide first = power(larger, d);
-        const bool above = first + times(first, larger) < first;  // carry: 1 or more
+        const bool above = first + times(first, larger) < first;  // a carry: the sum is 1 or more
         if (!above) g = larger;
     }
     return g;
@@ -105,7 +105,8 @@ Wide fraction(double x) {
     return x < 0 ? -bits : bits;
 }
 
-/// Fractional part of an integer's square root: that of a double, and the double's error.
+/// Fractional part of an integer's square root: that of the root as a double, plus the double's
+/// error.
 Wide fraction_of_root(std::uint64_t p) {
     const auto square = static_cast<double>(p);
     const double root = std::sqrt(square);
@@ -160,7 +161,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
     return multiples(steps, fraction(options[offset]));
 }
 
-/// Points repeat if all steps are multiples of a power of 1/2.
+/// Returns a note if all steps are multiples of a power of 1/2, because points then repeat.
 std::vector<std::string> notes(const Request& /*request*/, const Plan& plan,
                                const Values& options) {
     Wide bits = 0;

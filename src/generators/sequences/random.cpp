@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Independent uniform random points: the engine's numbers dealt to the coordinates in turn, number
-// i d + k (from 0) to coordinate k of point i.
+// j = i d + k (from 0) to coordinate k of point i.
 //
 //     engine       a number is                                  seeds
-//     philox       53 high bits of Philox 4x32-10, block i / 2  64 bits
+//     philox       53 high bits of Philox 4x32-10, block j / 2  64 bits
 //     mt19937-64   53 high bits of std::mt19937_64              64 bits
 //     drand48      x / 2^48 of srand48(seed)                    0 to 2^32 - 1
 //     ranlux48     x / 2^48 of std::ranlux48                    0 to 2147483562; 0 is 19780503
