@@ -9,8 +9,8 @@
 //
 // u and v uniform in [0, 1).
 //
-// m is the largest divisor of n in [sqrt(n / 2), sqrt(n)]; if there is none, floor(sqrt(n)), and
-// then the last row is not full; or as --shape says.
+// m is that of --shape, or the largest divisor of n in [sqrt(n / 2), sqrt(n)]. If there is none, m
+// is floor(sqrt(n)), and the last row is not full.
 //
 // Cost    O(n); point i is found without the others.
 // Promise exactly n points, one in each of n strips along y. For n = m r also one in each of n

@@ -25,7 +25,7 @@ std::vector<double> points_with_image(const Plan& plan, std::size_t need, const 
     constexpr std::size_t at_once = 64;
     const std::size_t d = plan.dimension;
     run.need_memory(8 * static_cast<double>(need) * static_cast<double>(d), "the strata");
-    const Rng rng(1, std::uint64_t{1} << 34);  // strata depend on no seed
+    const Rng rng(1, std::uint64_t{1} << 34);  // strata do not depend on the seed
     std::vector<double> found;
     std::uint64_t made = 0;
     while (found.size() < need * d && made < (found.empty() ? enough : most)) {
@@ -51,8 +51,8 @@ std::vector<double> points_with_image(const Plan& plan, std::size_t need, const 
 }
 
 /// Edges of strata that hold equal fractions of the points with an image, estimated from at least
-/// 16 random ones per stratum. The first and the last edge are the least and the largest coordinate
-/// of these.
+/// 16 random points per stratum. The first and the last edge are the least and the largest
+/// coordinate of these points.
 std::vector<std::vector<double>> strata_of_images(const Plan& plan, const RunContext& run) {
     const std::size_t d = plan.dimension;
     const auto n = static_cast<std::size_t>(plan.count);

@@ -17,7 +17,7 @@
 // Cost    O(n d); point i is found without the others, in constant memory. A search takes by
 //         default about 20 s of one core, less for few points, and up to 64 n^2 bytes: 256 MB at
 //         n = 2000.
-// Promise each stratum holds one point in exact arithmetic, and so it does by floor(x n)
+// Promise each stratum holds one point in exact arithmetic, and also as computed by floor(x n)
 //         (math/digital/stratum.hpp). A search's result is a function of the request and options,
 //         for any number of threads, and never worse with more effort. Its value in the provenance
 //         is that of the middles of strata, with a certificate if all designs were tried.
@@ -339,7 +339,7 @@ std::unique_ptr<Sequence> make_design(const Plan& plan, const Values& options,
     task.objective = objective_of(options);
     task.trials = options[effort] * search::usual_trials(task.objective, task.start);
     const search::Result result = search::best_design(task, options[optimize], run);
-    // For many points the description takes a second, too long after a stop.
+    // For many points, describing the design takes a second, too long after a stop.
     constexpr double few = 2e7;
     const bool soon = static_cast<double>(plan.count * plan.count * plan.dimension) <= few;
     if (result.stopped)

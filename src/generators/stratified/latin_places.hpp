@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Coordinates of the points of a Latin hypercube with known strata: anywhere in these, or in the
-// middle. Strata are of equal width, or, under constraints that no such Latin hypercube satisfies,
-// hold equal fractions of the points of the cube that have an image.
+// Coordinates of the points of a Latin hypercube with known strata: anywhere in their strata, or in
+// the middle. Strata have equal widths or, if constraints allow no such Latin hypercube, hold equal
+// fractions of the points of the cube that have an image.
 #pragma once
 
 #include <cstdint>

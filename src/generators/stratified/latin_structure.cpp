@@ -6,7 +6,7 @@
 namespace stipple::generators {
 namespace {
 
-/// Streams of random numbers, after that of the plain hypercube.
+/// Streams of random numbers; stream 0 belongs to the plain hypercube.
 constexpr std::uint64_t first_keys = 1;
 constexpr std::uint64_t second_keys = 2;
 

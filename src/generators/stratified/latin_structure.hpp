@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Latin hypercubes some of whose parts are Latin hypercubes of fewer strata, point by point.
+// Latin hypercubes with parts that are Latin hypercubes of fewer strata, computed point by point.
 //
 //     sliced   n = m K points in K slices, one after the other. In coordinate k, point j of slice s
 //              is in the stratum  K c + phi_kc(s)  of n,  c = pi_ks(j)  being its stratum of m; pi

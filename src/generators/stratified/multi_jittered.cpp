@@ -13,8 +13,8 @@
 //               are then shifted by a random whole number of strips along x (modulo n), which makes
 //               every point uniform.
 //
-// a is the largest divisor of n in [sqrt(n / 2), sqrt(n)]; floor(sqrt(n)) if there is none; or as
-// --shape says.
+// a is that of --shape, or the largest divisor of n in [sqrt(n / 2), sqrt(n)], or floor(sqrt(n)) if
+// there is none.
 //
 // Cost    O(n); point i is found without the others. Tables of n entries up to n = 2^20.
 // Promise one point in each strip, for every n; one in each cell of the grid, or, for other n, one

@@ -21,12 +21,12 @@ enum class StratifiedStream : std::uint64_t {
     first_of_offsets = std::uint64_t{1} << 31  ///< one per coordinate
 };
 
-// Numbers in a block of points, which fit the cache; and its minimum number of points, for which
-// the work per block and coordinate pays off.
+// Maximum of the coordinates in a block of points, so that it fits the cache; and minimum of its
+// points, so that the work per block and coordinate pays off.
 constexpr std::size_t block_numbers = 4096;
 constexpr std::size_t least_block = 256;
 
-// Coordinates that are written to the rows at a time: a cache line of them.
+// Number of coordinates that are written to the rows at a time, a cache line.
 constexpr std::size_t together = 8;
 
 Rng numbers_of(const Plan& plan, StratifiedStream first, std::uint64_t stream) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Points each of whose coordinates is in a given stratum: a part of [0, 1) between consecutive
-// multiples of 1 / parts. The position in the stratum is random, or the middle.
+// Points with every coordinate in a given stratum, a part of [0, 1) between consecutive multiples
+// of 1 / parts. The position in the stratum is random, or the middle.
 //
 // The cells of multi-jittered sets are a grid of a given shape, or as square as the count allows.
 //
@@ -31,7 +31,7 @@ inline constexpr Param<Choice> order_option{.name = "order",
                                             .choices = "shuffled|cells",
                                             .help = "Order of the points: random, or cell by cell"};
 
-/// For multi-jittered sets, whose cells form a grid.
+/// Option of multi-jittered sets, whose cells form a grid.
 inline constexpr Param<Extents> shape_option{
     {.name = "shape",
      .unit = "cells",
@@ -59,7 +59,7 @@ std::unique_ptr<Sequence> stratified_sequence(const Plan& plan, const Stratified
 double place_in_stratum(const Plan& plan, bool centered, std::size_t coordinate,
                         std::uint64_t index, double stratum, std::uint64_t parts);
 
-/// Random numbers for a unit's own use, stream 0, 1, ...
+/// Random numbers for a unit's own use; streams are numbered from 0.
 Rng stratified_numbers(const Plan& plan, std::uint64_t stream);
 
 /// Number of columns for `count` points: that of --shape; or the largest divisor of the count that
@@ -68,7 +68,7 @@ std::uint64_t jitter_columns(std::uint64_t count, const Values& options);
 
 /// Plan with the product of the sides as count, and their number as dimension.
 /// @param cells name of the cells in messages
-/// @throws Error(usage) if the request contradicts it
+/// @throws Error(usage) if the request contradicts the sides
 Plan plan_of_shape(const Request& request, const std::vector<std::int64_t>& sides,
                    std::string_view cells);
 

@@ -30,8 +30,8 @@ Exchanges::Exchanges(Design design, const Rules& rules)
             row_at_[k * design_.points + static_cast<std::size_t>(design_.along(k)[i])] = i;
 }
 
-/// Row to exchange with: one of a's group, or one whose level is in the same coarse stratum; a
-/// itself if there is none.
+/// Row to exchange with row a: one of a's group, or one whose level is in the same coarse stratum;
+/// a itself if there is none.
 std::size_t Exchanges::partner(SplitMix64& draws, std::size_t k, std::size_t a) const {
     const auto other = [&](std::size_t first, std::size_t last, std::size_t but) {
         const std::size_t drawn = first + draws.below(last - first - 1);

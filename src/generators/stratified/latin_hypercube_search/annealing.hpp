@@ -3,10 +3,10 @@
 // Simulated annealing of a design by exchanges of two levels along one coordinate.
 //
 // An exchange that raises the energy by e is accepted with probability exp(-e / temperature). The
-// temperature regulates the fraction of accepted ones: it falls a little with each accepted
-// exchange, and rises with each rejected one, so that the fraction falls from a first value to a
-// last one by a constant factor from trial to trial, whatever the scale of energies. When the
-// energy reaches its target, the next target is set (maximin).
+// temperature falls a little with each accepted exchange and rises with each rejected one, to keep
+// a wanted fraction of accepted exchanges for any scale of energies. This fraction falls from a
+// first value to a last one, by a constant factor from trial to trial. For maximin, the next target
+// is set when the energy reaches its target.
 //
 // Promise  a function of the start, the schedule and the draws, however the trials are split.
 #pragma once
@@ -23,7 +23,7 @@ struct Schedule {
     double trials = 1;
     double first_share = 0.05;
     double last_share = 5e-5;
-    double target = 0;  ///< first target of maximin; 0: suits a random design
+    double target = 0;  ///< first target of maximin; 0: one that suits a random design
 };
 
 /// Exchange of the levels of two rows along a coordinate; b may be a spare row.
@@ -64,8 +64,8 @@ class Exchanges {
     Design design_;
     const Rules& rules_;
     std::vector<std::uint32_t> group_;   ///< group of each row; empty: one group
-    std::vector<std::uint32_t> row_at_;  ///< row of each level, by coordinate; with groups
-    std::vector<Level> row_;             ///< levels that are checked
+    std::vector<std::uint32_t> row_at_;  ///< row of each level, by coordinate; only with groups
+    std::vector<Level> row_;             ///< buffer for the levels that are checked
 };
 
 /// Best design that exchanges reached, stored as the steps to it: improvements need no copy.
@@ -95,11 +95,11 @@ class Annealing {
     Annealing(const Objective& objective, const Design& start, const Rules& rules,
               const Schedule& schedule, SplitMix64 draws, const RunContext& run);
 
-    /// Makes that many more of the trials, or fewer if there is no more to gain.
+    /// Makes `trials` more of the trials, or fewer if nothing more can be gained.
     /// @throws Error(cancelled), having recorded the best so far if the run keeps it
     void advance(double trials, const RunContext& run);
 
-    /// Best design so far and its score; of maximin, among the designs that reached a target.
+    /// Best design so far and its score; for maximin, among the designs that reached a target.
     [[nodiscard]] const Design& best() { return trail_.best(); }
     [[nodiscard]] const Score& score() const { return score_; }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Correlation criterion by integer sums of products of every two coordinates; an exchange changes
-// d - 1.
+// Correlation criterion by integer sums of products, one for every two coordinates. An exchange
+// changes d - 1 of them.
 #include <algorithm>
 #include <cmath>
 

@@ -66,16 +66,18 @@ class Criterion {
 
     [[nodiscard]] virtual double energy() const = 0;
 
-    /// Whether the energy is as low as possible, or as its target requires.
+    /// Whether the energy is as low as possible or, for maximin, as the target requires.
     [[nodiscard]] virtual bool reached() const { return false; }
 
-    /// Sets the target of maximin, a squared distance; 0: the mean one of nearest neighbours.
+    /// Sets the target of maximin, a squared distance; 0: the mean squared distance of nearest
+    /// neighbours.
     /// Returns false for criteria without targets.
     virtual bool aim(double /*target*/) { return false; }
 
     [[nodiscard]] virtual Score score() const = 0;
 
-    /// The score if it may be below another one, else that one; avoids visiting all pairs.
+    /// Returns the score, or `other` if the score cannot be below it, which avoids visiting all
+    /// pairs.
     virtual Score score_below(const Score& other) = 0;
 };
 
@@ -90,7 +92,7 @@ std::unique_ptr<Criterion> correlation_criterion(const Design& design, const Rul
 /// Bytes that a criterion needs.
 double criterion_memory(const Objective& objective, const Design& design);
 
-/// Typical difference of two levels, and mean squared distance of two points: numbers to divide by.
+/// Typical difference of two levels, and mean squared distance of two points; used as divisors.
 double usual_difference(std::size_t points);
 double usual_square(std::size_t points, std::size_t dimension);
 

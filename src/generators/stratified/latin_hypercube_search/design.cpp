@@ -35,7 +35,7 @@ double least_square(const Lattice& lattice) {
     return least;
 }
 
-/// Estimate of the minimum squared distance, in levels, once n points are left.
+/// Estimate of the minimum squared distance, in levels, after a lattice is cut to n points.
 double promise_of(const Lattice& lattice, std::size_t points) {
     if (lattice.size <= points + 1) return least_square(lattice);
     const auto d = static_cast<double>(lattice.vector.size());
@@ -69,13 +69,13 @@ Lattice chosen(std::size_t points, std::size_t dimension, SplitMix64& draws) {
     return best;
 }
 
-/// Indices of the points that are kept.
+/// Indices of the `points` points nearest to the middle, by a maximum norm with random weights.
 std::vector<std::size_t> middle_of(const std::vector<std::size_t>& x, std::size_t points,
                                    std::size_t dimension, SplitMix64& draws) {
     const std::size_t size = x.size() / dimension;
     std::vector<std::size_t> order(size);
     std::iota(order.begin(), order.end(), std::size_t{0});
-    if (size == points + 1) return {order.begin() + 1, order.end()};  // without the corner
+    if (size == points + 1) return {order.begin() + 1, order.end()};  // all except the corner
     std::vector<double> weights(dimension, 1);
     for (double& weight : weights)
         if (draws.below(2) == 0) weight = to_unit(draws.next());

@@ -45,9 +45,9 @@ Design lattice_start(std::size_t points, std::size_t dimension, SplitMix64& draw
 
 /// Coordinate whose levels represent outcomes; levels of the same outcome are consecutive.
 struct Axis {
-    std::vector<Level> places = {};  ///< position of each level in distances; empty: itself
+    std::vector<Level> places = {};  ///< position of each level in distances; empty: the level
     Level parts = 0;                 ///< number of outcomes; 0: the coordinate is continuous
-    Level apart = 0;                 ///< squared distance of two categories; 0: by places
+    Level apart = 0;                 ///< squared distance of two categories; 0: no categories
 
     [[nodiscard]] Level place(Level level) const {
         return places.empty() || level < 0 ? level : places[static_cast<std::size_t>(level)];
@@ -71,8 +71,8 @@ Axis parts_by(std::span<const double> outcomes, bool categories);
 struct Rules {
     std::size_t fixed = 0;  ///< number of first rows that never change
 
-    /// Ends of groups of consecutive rows; empty: one group. Levels are exchanged within a group
-    /// only, and between rows whose levels are in the same coarse stratum, of `coarse` levels.
+    /// Ends of groups of consecutive rows; empty: one group. Levels are exchanged only within a
+    /// group, or between rows whose levels are in the same coarse stratum of `coarse` levels.
     std::vector<std::size_t> groups = {};
     Level coarse = 1;
 
@@ -83,7 +83,7 @@ struct Rules {
     /// by several threads.
     std::function<bool(std::size_t row, std::span<const Level> levels)> feasible = {};
 
-    /// Whether any exchange is allowed, and levels count as themselves.
+    /// True if there are no rules: any exchange is allowed, and levels are their own positions.
     [[nodiscard]] bool are_none() const {
         return fixed == 0 && groups.empty() && axes.empty() && !feasible;
     }
@@ -96,7 +96,7 @@ struct Rules {
 /// Result of a search.
 struct Result {
     Design design;
-    bool stopped = false;  ///< ended before its trials, as the run keeps the best
+    bool stopped = false;  ///< ended before all trials, because the run keeps the best
     bool optimal = false;  ///< no design is better
 };
 

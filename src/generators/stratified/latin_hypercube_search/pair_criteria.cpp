@@ -49,7 +49,7 @@ struct Shift {
     Level slope;
 };
 
-/// The same for categories.
+/// Change of a squared distance along an axis of categories.
 struct Change {
     explicit Change(const Row<Level>& row) : apart(row.apart), from(row.from), to(row.to) {}
     STIPPLE_INLINE Level operator()(Level x) const {
@@ -87,7 +87,8 @@ STIPPLE_INLINE void raise(double* r, std::size_t n, int power) {
     for (std::size_t l = 0; l < n; ++l) r[l] = result[l];
 }
 
-/// Coinciding points, which discrete axes may cause, count as half a level apart.
+/// scale / squared distance. Coinciding points, which discrete axes may cause, count as half a
+/// level apart.
 STIPPLE_INLINE double over(double scale, Level square) {
     return scale / std::max(0.25, static_cast<double>(square));
 }

@@ -39,13 +39,13 @@ bool is_better(const Score& one, const Score& other) {
     return one.second < other.second - 1e-12 * std::abs(other.second);
 }
 
-/// Trials of the stages of a search: a few, then twice as many from stage to stage. The stages for
-/// fewer trials are the first ones for more.
+/// Trials of the stages of a search: a few, then twice as many from stage to stage. A smaller total
+/// gives the first stages of a larger one.
 std::vector<double> stages_of(double trials, double usual, std::size_t points) {
     constexpr double few = 96;
     std::vector<double> stages{few};
     const double least = std::min(usual / 8, 64 * static_cast<double>(points));
-    double sum = usual;  // trials of all stages up to one of half as many
+    double sum = usual;  // total trials up to a stage of sum / 2 trials
     while (sum / 2 >= least) sum /= 2;
     for (; sum <= trials; sum *= 2) stages.push_back(sum / 2);
     return stages;
@@ -190,14 +190,14 @@ class Rounds {
 // (n! / 2)^(d - 1) designs, O(n^2) each, and n! / 2 bytes are needed (D. E. Knuth, The Art of
 // Computer Programming 4A (2011), 7.2.1.1 algorithm H, 7.2.1.2 algorithm P).
 
-/// First half of the plain changes of n things: p stands for an exchange of places p and p + 1.
-/// Ends before the two things that are first at the start would change their order.
+/// First half of the plain changes of n items: p is an exchange of the items at positions p and p +
+/// 1. Ends before the two items that are first at the start would change their order.
 std::vector<std::uint8_t> half_of_plain_changes(std::size_t n) {
     if (n < 3) return {};
     const std::vector<std::uint8_t> fewer = half_of_plain_changes(n - 1);
     std::vector<std::uint8_t> changes;
     for (std::size_t i = 0; i <= fewer.size(); ++i) {
-        const bool down = i % 2 == 0;  // direction of the last thing
+        const bool down = i % 2 == 0;  // direction of the last item
         for (std::size_t p = 0; p + 1 < n; ++p)
             changes.push_back(static_cast<std::uint8_t>(down ? n - 2 - p : p));
         if (i < fewer.size())

@@ -40,8 +40,8 @@ Result best_design(const Search& search, const std::string& words, const RunCont
 /// Default number of trials: about 20 seconds of one core, fewer for few points.
 double usual_trials(const Objective& objective, const Design& design);
 
-/// Number of all designs but mirror images, (n! / 2)^(d - 1); infinite for more than 11 points in
-/// two or more coordinates.
+/// Number of all designs except mirror images, (n! / 2)^(d - 1); infinite for more than 11 points
+/// in two or more coordinates.
 double designs_to_try(const Design& start);
 
 }  // namespace stipple::latin_hypercube_search
