@@ -172,8 +172,8 @@ class Herding {
     }
 
     /// Best point to choose, with the means times `weight`: for the current potentials (look),
-    /// after point i was added to them (grow), or as if point i were removed (remove). The last
-    /// stores the point's kernel values in removed_.
+    /// after point i was added to them (grow), or as if point i were removed (remove). A scan with
+    /// `remove` stores the point's kernel values in removed_.
     Best scan(Step step, std::size_t i, double weight) {
         constexpr std::size_t tiles = 32;
         if (step != Step::look) points_.row(i, row_.data());

@@ -386,7 +386,8 @@ class StarTrades {
         return measure(set_of(points_, set), enough, quiet_);
     }
 
-    /// Random row of the set whose point is inside the box, or outside; any row if such are rare.
+    /// Random row of the set with its point inside the box, or outside if `inside` is false; any
+    /// row if such points are rare.
     std::size_t& drawn_from(Rows& set, const Measured& box, bool inside) {
         constexpr int most_draws = 64;
         std::size_t at = draw(set.size());

@@ -140,7 +140,7 @@ std::uint64_t count_of_file(std::uint64_t asked, std::uint64_t all, const Values
     return count;
 }
 
-/// Reads the first rows of the file alone, so that the count may remain open.
+/// Plan for a file. Reads only its first rows, so the count may remain undecided.
 Plan plan_for_file(const Request& request, const Values& options) {
     const std::size_t d = io::width_of_given(from.name, options[from]);
     if (request.dimension.value_or(d) != d)
@@ -223,7 +223,7 @@ kernels::KernelPtr kernel_of(const Values& options, std::size_t width) {
     return kernels::of_l2(d, kinds.front());
 }
 
-/// Points to choose from, and how to choose.
+/// Points to choose from, and the parameters of the choice.
 struct Task {
     const PointSet& points;
     kernels::Columns columns;
@@ -271,7 +271,7 @@ std::vector<Rows> choose(const Task& task, const RunContext& run) {
 
 using Found = std::vector<std::pair<std::string, std::string>>;
 
-/// Values of the sets, for the provenance.
+/// Discrepancies of the sets, for the provenance.
 Found found_of(const Task& task, const std::vector<Rows>& sets, const RunContext& run) {
     std::vector<StarBounds> values;
     for (const Rows& rows : sets) {
