@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Scrambles: the record of one, and the randomization that it makes for given options. A scramble
-// moves points at random within the unit cube, so that each is uniform and the set stays as even as
+// Record of a scramble, and the randomization that it makes for given options. A scramble moves
+// points at random within the unit cube, so that each is uniform and the set stays as even as
 // before.
 #pragma once
 
@@ -28,9 +28,9 @@ struct ScrambleRequest {
     std::uint64_t count = 1;  ///< points in the whole set
 };
 
-/// One random choice of a scramble; safe to call from several threads. Moves points first, first +
-/// 1, ... of the set: `rows` holds their coordinates to scramble, in [0, 1] on entry and in [0, 1)
-/// on return.
+/// One random choice of a scramble's map; safe to call from several threads. Moves points first,
+/// first + 1, ... of the set: `rows` holds their coordinates to scramble, in [0, 1] on entry and in
+/// [0, 1) on return.
 using Randomization = std::function<void(std::uint64_t first, std::span<double> rows)>;
 
 struct Scramble {
@@ -38,7 +38,7 @@ struct Scramble {
     std::string summary;
     std::string source;
     std::string family = {};  ///< family name such as "blue noise", set by the registry
-    /// Search words that are not names of it: a kind, a part or a use.
+    /// Further search terms: a kind, a part or a use of the scramble.
     std::vector<std::string> related = {};
     Schema options;
     std::vector<std::string> aliases = {};  ///< other names that users may type
