@@ -239,8 +239,8 @@ struct BaseOwen::Stretch {
     std::size_t count;  ///< at most `lanes`
 };
 
-/// Appends the image of `digit` at position `depth` to those of the lower digits: the low ones,
-/// then those of `above`.
+/// Appends to each image of a stretch the image of `digit` at position `depth`. The digits before
+/// that one are a number's low digits, followed by those of `above`.
 void BaseOwen::append_digit(const Stretch& stretch, std::uint64_t above, std::size_t depth,
                             std::uint32_t digit, std::uint64_t* image) const {
     if (stretch.count == 0) return;

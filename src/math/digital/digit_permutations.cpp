@@ -62,7 +62,8 @@ PermutedInverse::PermutedInverse(std::uint32_t base, const Rng& numbers)
     std::ranges::reverse(zeros_);
 }
 
-/// Fraction from the images of all but the t low digits, in units of the lowest of these.
+/// Fraction formed by the images of the digits above the t low ones, in units of b^-t; kept inside
+/// (0, 1) by margin_.
 double PermutedInverse::behind(std::uint64_t high) const {
     Wide digits = 0;
     Wide power = 1;
@@ -71,7 +72,7 @@ double PermutedInverse::behind(std::uint64_t high) const {
         digits = digits * base_ + permuted_[position * base_ + high % base_];
         power *= base_;
     }
-    // Both are at most 2^53, since an index has no more digits.
+    // Both are below 2^53: power is at most b high, and so at most the index, as block_ >= b.
     const auto whole = static_cast<double>(static_cast<std::uint64_t>(digits));
     const double fraction =
         (whole + zeros_[position]) / static_cast<double>(static_cast<std::uint64_t>(power));

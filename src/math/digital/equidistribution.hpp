@@ -34,8 +34,8 @@ struct Net {
     }
 };
 
-/// Truncates points to a net. A coordinate is in the last interval [j / b^m, (j + 1) / b^m) whose
-/// lower edge, rounded to a double, it reaches; 1 is in the last interval.
+/// Truncates points to a net. The edges j / b^m of intervals are rounded to doubles; a coordinate
+/// is in the interval with the last edge that does not exceed it, and 1 is in the last interval.
 Net net_of(const PointSet& points, std::uint32_t base, std::size_t digits, const RunContext& run);
 
 /// Generating matrices: row(k, l)[j] is digit l + 1 of coordinate k of point b^j, minus that of
@@ -51,8 +51,8 @@ struct Matrices {
 };
 
 /// The generating matrices, if the base is prime and the points in their order form a digital net,
-/// with or without a digital shift: point i is a sum, digit by digit modulo b, selected by the
-/// digits of i. Otherwise nullopt.
+/// with or without a digital shift: each digit of i adds its multiple of a fixed vector to point i,
+/// digit by digit modulo b. Otherwise nullopt.
 std::optional<Matrices> matrices_of(const Net& net, const RunContext& run);
 
 /// Tests divisions with at most m digits in total, one coordinate after another. Not thread-safe.
@@ -63,11 +63,11 @@ class Probe {
     Probe& operator=(const Probe&) = delete;
     virtual ~Probe() = default;
 
-    /// Divides by `digits` digits of a coordinate, as cut number `depth`, from 0. Boxes must be
-    /// equal after the previous cuts.
+    /// Divides by `digits` digits of a coordinate, as cut number `depth`, from 0. After the
+    /// previous cuts, all boxes must hold the same number of points.
     virtual void cut(std::size_t depth, std::size_t coordinate, std::size_t digits) = 0;
 
-    /// True if boxes are equal after this cut as the last one.
+    /// True if all boxes hold the same number of points with this cut as the last one.
     virtual bool equal(std::size_t depth, std::size_t coordinate, std::size_t digits) = 0;
 };
 
@@ -76,8 +76,8 @@ class Probe {
 std::unique_ptr<Probe> probe_of(const Net& net, const std::optional<Matrices>& matrices,
                                 const RunContext& run);
 
-/// True if boxes are equal for every distribution of `digits` digits among the coordinates
-/// along[depth], ..., each of which gets at least one.
+/// True if all boxes hold the same number of points for every distribution of `digits` digits among
+/// the coordinates along[depth], ..., each of which gets at least one.
 bool all_equal(Probe& probe, std::span<const std::size_t> along, std::size_t depth,
                std::size_t digits);
 
