@@ -13,7 +13,8 @@ namespace {
 using Cipher = Permutation::Cipher;
 
 constexpr std::size_t indices_at_once = 256;
-constexpr std::uint64_t most_entries = std::uint64_t{1} << 20;  ///< of a family's table
+constexpr std::uint64_t most_entries = std::uint64_t{1} << 20;  ///< maximum size of a family's
+                                                                ///< table
 
 /// Cipher keys converted to the word type that the cipher works in.
 template <class Word>

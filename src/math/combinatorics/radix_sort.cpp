@@ -14,7 +14,7 @@ namespace {
 constexpr unsigned digit_bits = 11;
 constexpr unsigned digit_count = 6;  // cover 66 bits, at least the 64 of a double
 constexpr std::size_t radix = std::size_t{1} << digit_bits;
-constexpr std::size_t stretch = std::size_t{1} << 20;  // between checks of the stop token
+constexpr std::size_t stretch = std::size_t{1} << 20;  // items between two checks of the stop token
 
 using Histogram = std::array<std::uint32_t, radix>;
 
