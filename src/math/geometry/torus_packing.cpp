@@ -120,7 +120,7 @@ std::optional<Vector> partner(Vector u, std::int64_t n, const Metric& metric) {
                    static_cast<std::int64_t>(far_y - turns * (u.y / g))};
     const double half = metric.norm(u) / 2;
     const double step = metric.norm(u) / static_cast<double>(g);
-    constexpr double rounding = 1e-9;  // of a step: the best may be exactly half of u
+    constexpr double rounding = 1e-9;  // in steps: the best component may be exactly half of u
     const double along = metric.dot(u, v);
     const auto up = static_cast<std::int64_t>(std::floor((half - along) / step + rounding));
     const auto down = static_cast<std::int64_t>(std::ceil((-half - along) / step - rounding));

@@ -22,7 +22,7 @@ namespace stipple {
 /// Points ((k shift + j n / row_points) mod n, k row_points) / n for k < n / row_points,
 /// j < row_points; shift < n / row_points.
 struct TorusPacking {
-    std::uint64_t row_points;  ///< on each of the rows y = k row_points / n
+    std::uint64_t row_points;  ///< number of points on each row y = k row_points / n
     std::uint64_t shift;
     std::uint64_t shortest;  ///< |u|^2: the minimum distance is its root over n
 };
