@@ -105,7 +105,7 @@ class CoveringBound {
         for (std::size_t k = 0; k < d(); ++k) prices_[d()] += 2 * half[k] * std::abs(nearest->q[k]);
     }
 
-    /// Takes a step of the simplex method; returns false if there is none.
+    /// Takes a step of the simplex method; returns false if no step improves the bound.
     bool improve(const Point& half) {
         double least = -tolerance_ * prices_[d()];
         std::size_t entering = none;

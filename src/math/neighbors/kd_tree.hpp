@@ -65,7 +65,7 @@ class KdTree {
     [[nodiscard]] std::size_t dimension() const { return dimension_; }
     [[nodiscard]] bool torus() const { return !sides_.empty(); }
 
-    /// Points by rank, and their indices. Ranks are an order in which neighbours are close.
+    /// Points by rank, and their indices. Neighbours mostly have close ranks.
     [[nodiscard]] const double* row(std::size_t rank) const {
         return rows_.data() + rank * dimension_;
     }

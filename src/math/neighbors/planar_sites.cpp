@@ -17,7 +17,8 @@ struct Place {
     auto operator<=>(const Place&) const = default;
 };
 
-/// Coordinates relative to the low corner; on the torus, upper faces become lower ones.
+/// Coordinates relative to the low corner; on the torus, points on upper faces move to the lower
+/// ones.
 std::vector<double> seen_from_corner(std::span<const double> rows, const Box& box, bool torus) {
     std::vector<double> seen(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
