@@ -12,9 +12,9 @@
 //
 // Forward, xi_1 selects a facet at each face by its share of the volume, and its remainder is the
 // position along the last edge. xi_2 ... xi_d split off the weights of the apexes, one after
-// another, with small xi near the apex. Inverse: the ray from the
-// apex through a point meets the facet with the smallest ratio height(point) / height(apex) above
-// it. That ratio is the weight of the apex.
+// another, with small xi near the apex. Inverse: the ray from the apex through a point meets the
+// facet with the smallest ratio height(point) / height(apex) above it. That ratio is the weight of
+// the apex.
 //
 // Cost    forward about 20 ns per coordinate; inverse about 500 ns per point in 4 dimensions.
 // Source  C. W. Lee, "Subdivisions and triangulations of polytopes", Handbook of Discrete and
@@ -59,7 +59,7 @@ class FaceTree {
   private:
     struct Facet {
         std::uint32_t face;
-        double before;  ///< share of the face's volume in the facets before
+        double before;  ///< fraction of the face's volume in the facets before this one
         double share;
         double height;  ///< height of the apex above the facet
     };

@@ -9,7 +9,7 @@
 namespace stipple {
 
 struct HalfSpace {
-    std::vector<double> normal;  ///< if all 0: every point, or none for bound < 0
+    std::vector<double> normal;  ///< if all are 0, every point is inside, or none if bound < 0
     double bound = 0;
     std::string text = {};  ///< as written by the user, for messages
 };

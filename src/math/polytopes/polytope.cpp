@@ -110,8 +110,8 @@ FaceTree checked_tree(PolytopeVertices vertices) {
     return tree;
 }
 
-/// Rounding error of the distance of a point on a plane, because its numbers and those of the box
-/// are rounded.
+/// Rounding error in the distance of a plane from a point on it: the numbers of the plane and of
+/// the box are rounded.
 double rounding_of(const PolytopePlane& plane, const Box& frame) {
     double sum = 1;
     for (std::size_t k = 0; k < frame.dimension(); ++k) {

@@ -182,7 +182,8 @@ class DoubleDescription {
     /// Indices of planes whose vertices are not all on another plane.
     std::vector<std::size_t> facets() const {
         std::vector<std::size_t> vertices(planes_.size());
-        std::vector<PlaneSet> shared(planes_.size(), PlaneSet().set());  // by a plane's vertices
+        std::vector<PlaneSet> shared(planes_.size(), PlaneSet().set());  // planes that contain all
+                                                                         // vertices of a plane
         for (const Vertex& vertex : vertices_)
             for (std::size_t j = 0; j < planes_.size(); ++j)
                 if (vertex.planes[j]) {
