@@ -34,7 +34,7 @@ inline constexpr std::array<double, 7> saturated_density{0,      0.7476, 0.6966,
 /// Volume of the ball of radius 1.
 double unit_ball_volume(std::size_t dimension);
 
-/// A box and its metric; on the torus, distances go across opposite faces.
+/// A box and its metric; on the torus, distances also go across opposite faces.
 struct BoxSpace {
     Box box;
     bool torus = true;

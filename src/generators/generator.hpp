@@ -26,7 +26,7 @@ namespace stipple {
 struct Destination {
     /// Whether point i at `row` has an image; safe to call from several threads.
     std::function<bool(std::uint64_t i, std::span<const double> row)> has_image = {};
-    bool drops = false;                  ///< some points have no image; avoid them
+    bool drops = false;  ///< true if some points have no image and should be avoided
     std::vector<OutcomeAxis> axes = {};  ///< outcomes of each coordinate
     PointSet given = {};  ///< points of the cube to extend, if a file holds their images
 };
@@ -81,14 +81,14 @@ inline std::unique_ptr<Sequence> sequence_of(Sequence::Fill fill, bool random_ac
 struct GeneratorTraits {
     std::size_t min_dimension = 1;
     std::size_t max_dimension = 1'000'000;
-    bool sequence = true;      ///< streams in constant memory, shards
+    bool sequence = true;      ///< makes any range of points in constant memory
     bool prefix = true;        ///< point i does not depend on the count; --start works
     bool seeded = true;        ///< uses the seed, at least under some options
     bool boxed = false;        ///< makes points in the box itself, for its distances
     bool independent = false;  ///< points are statistically independent
     bool levels = false;  ///< coordinates are levels of factors, to which warps may assign outcomes
     std::uint64_t max_index = std::uint64_t{1} << 53;  ///< start + count is at most this
-    std::string more_dimensions = {};  ///< option with a file for more than max_dimension
+    std::string more_dimensions = {};  ///< option whose file allows more than max_dimension
 };
 
 /// Provenance entry of a search that was stopped and kept its best points.

@@ -279,7 +279,7 @@ std::vector<std::string> net_notes(std::uint64_t base, const Request& request, c
                         "{} or {}",
                         plan.count, start, power, before, before + power)};
     }
-    // A later start usually continues a set that is made in several runs.
+    // No note: a later start usually continues a set that is made in several runs.
     if (start > 0) return {};
     return {fmt::format("{} points do not form a net; take a {}power of {}: {} or {}", plan.count,
                         base == 2 ? "" : "multiple of a ", base == 2 ? "two" : std::to_string(base),

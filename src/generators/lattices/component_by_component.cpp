@@ -212,7 +212,7 @@ class Construction {
         for (std::uint64_t i = 0; i < n_; i += rows_at_once)
             multiply(omega_, i, std::min<std::size_t>(rows_at_once, n_ - i), static_cast<double>(z),
                      weight, &p[i]);
-        p[0] = 0;  // the origin is in every lattice
+        p[0] = 0;  // the same for all vectors, as every lattice has the origin
         products_.keep_in_range();
     }
 

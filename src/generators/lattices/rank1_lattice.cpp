@@ -186,8 +186,8 @@ std::vector<std::uint64_t> vector_of(const Plan& plan, const Values& options,
 /// Points i z / n modulo 1.
 Sequence::Fill multiples(std::uint64_t n, const std::vector<std::uint64_t>& z) {
     const std::size_t d = z.size();
-    const std::size_t points = (some_numbers + d - 1) / d;  // made at a time
-    std::vector<double> back;  // n - (points z mod n), for each of their numbers
+    const std::size_t points = (some_numbers + d - 1) / d;  // number of points made at a time
+    std::vector<double> back;  // n - (points z mod n) for each of these coordinates
     for (std::size_t m = 0; m < points * d; ++m)
         back.push_back(static_cast<double>(n) - multiple(points, z[m % d], n));
     return [=](std::uint64_t first, std::span<double> rows) {

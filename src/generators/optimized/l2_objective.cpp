@@ -75,7 +75,7 @@ struct Row {
     std::vector<double> factors;    ///< `lanes` for each axis
     std::vector<double> before;     ///< products of the factors of the preceding axes
     std::vector<double> slopes;     ///< sums of slopes times the factors of the other axes
-    std::array<double, lanes> sum;  ///< sums of products
+    std::array<double, lanes> sum;  ///< sums of the products of all factors
 };
 
 /// Multiplies the products by the factors of one axis between a point at x and a block of others;

@@ -21,8 +21,8 @@ enum class StratifiedStream : std::uint64_t {
     first_of_offsets = std::uint64_t{1} << 31  ///< one per coordinate
 };
 
-// Maximum of the coordinates in a block of points, so that it fits the cache; and minimum of its
-// points, so that the work per block and coordinate pays off.
+// A block of points has `block_numbers` coordinates, so that it fits the cache, but at least
+// `least_block` points, so that the work per block and coordinate pays off.
 constexpr std::size_t block_numbers = 4096;
 constexpr std::size_t least_block = 256;
 

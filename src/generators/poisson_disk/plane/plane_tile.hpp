@@ -233,7 +233,7 @@ class CoverageTable {
 /// Maximum number of cells along each side of a tile.
 inline constexpr int plane_side = 1 << plane_tile_bits;
 
-/// Units of a dart's place per cell.
+/// A dart's coordinates are in units of 1 / cell_unit of a cell.
 inline constexpr double cell_unit = 0x1p26;
 
 /// Data that all tiles share.
@@ -275,7 +275,7 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
                 covered_[number_of({x, y})] = ~SubcellBits{0};
     }
 
-    /// Index of a cell in the arrays.
+    /// Index of a cell in the arrays of positions, coverage and points.
     static std::size_t number_of(const Cell& cell) {
         return FixedPositions::number(static_cast<std::size_t>(cell[0] + int{halo}),
                                       static_cast<std::size_t>(cell[1] + int{halo}));
