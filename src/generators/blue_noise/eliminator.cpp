@@ -21,7 +21,7 @@ namespace {
 constexpr double beta = 0.65;
 constexpr double unit = 0x1p40;  ///< weights are integers, in units of 2^-40
 
-/// Term of a pair in the weights.
+/// Term that a pair of points adds to the weights of both.
 struct Kernel {
     double nearest;  ///< r_min / r_max: distances below 2 r_min count as 2 r_min
 
@@ -151,7 +151,7 @@ std::vector<std::uint32_t> eliminate_from(LayeredPoints<D> points, std::uint64_t
                                           const RunContext& run) {
     const double share = static_cast<double>(kept) / static_cast<double>(points.count());
     const Kernel kernel{beta * (1 - share * std::sqrt(share))};
-    auto weights = weights_of(points, kernel, run.stage(0, 0.3));  // indexed by the new numbers
+    auto weights = weights_of(points, kernel, run.stage(0, 0.3));  // by new number
     std::vector<Candidate> all;
     all.reserve(points.count());
     for (std::size_t s = 0; s < points.count(); ++s)

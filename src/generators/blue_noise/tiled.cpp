@@ -87,7 +87,7 @@ double difference(double a, double b) {
 
 /// Ranks the points of the torus: those removed last come first.
 std::vector<Vec2> ranked(std::vector<Vec2> points, Vec2 sides, const RunContext& run) {
-    const Vec2 torus{std::sqrt(sides.x / sides.y), std::sqrt(sides.y / sides.x)};  // area 1
+    const Vec2 torus{std::sqrt(sides.x / sides.y), std::sqrt(sides.y / sides.x)};  // of area 1
     const auto felt = [&](const Vec2& p, const Vec2& q, double sharpness) {
         const double x = torus.x * difference(p.x, q.x);
         const double y = torus.y * difference(p.y, q.y);

@@ -95,7 +95,7 @@ constexpr Param<std::int64_t> interlacing{
 struct MatrixFile {
     std::uint32_t base = 2;
     std::vector<DigitMatrix> matrices;
-    std::size_t interlaced = 1;  ///< factor, from the file or the options
+    std::size_t interlaced = 1;  ///< interlacing factor, from the file or the options
 };
 
 constexpr std::size_t most_columns = 64;

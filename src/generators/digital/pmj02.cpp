@@ -31,7 +31,7 @@ namespace stipple::generators::pmj02 {
 namespace {
 
 constexpr std::size_t index_digits = 53;
-constexpr std::uint64_t scrambling_stream = 0x706d6a3032;  // "pmj02"
+constexpr std::uint64_t scrambling_stream = 0x706d6a3032;  // the letters "pmj02"
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values&, const RunContext&) {
     return owen_sequence(sobol_matrices(2, index_digits),

@@ -50,7 +50,7 @@ VectorFile vector_in_file(const Values& options, bool polynomial) {
     if (polynomial ? of_numbers : of_polynomials)
         file.refuse_whole(polynomial ? "a lattice of whole numbers, which rank1-lattice reads"
                                      : "a polynomial lattice, which polynomial-lattice reads");
-    std::size_t wanted = 0;  // 0: not known
+    std::size_t wanted = 0;  // length of the vector; 0: not known
     if (of_polynomials || of_numbers) wanted = read_header(file, polynomial, found);
     std::optional<bool> numbered;
     while (!file.at_end()) {

@@ -95,7 +95,7 @@ class Search {
     std::vector<std::uint32_t> units_;      ///< powers of a generator of the units
     std::vector<std::uint32_t> exponents_;  ///< exponent of each unit
     CyclicCorrelation correlation_;
-    Products products_;           ///< p by exponent
+    Products products_;           ///< products p_i, by exponent of i
     std::vector<double> kernel_;  ///< omega by exponent, for two periods
     double kernel_norm_ = 0;
 };
@@ -110,7 +110,7 @@ double squared_polynomial_error(std::uint64_t modulus, std::span<const std::uint
                                 std::span<const double> weights) {
     const int m = gf2::degree(modulus);
     const auto digits = static_cast<std::size_t>(m);
-    std::vector<double> kernel{omega(0, m)};  // omega of 0, then of polynomials of degree j - 1
+    std::vector<double> kernel{omega(0, m)};  // omega of 0; at j of degree j - 1
     for (int j = 0; j < m; ++j) kernel.push_back(omega(std::uint64_t{1} << j, m));
     std::vector<std::uint64_t> shifted;  // q x^t mod modulus for each component
     for (std::uint64_t q : vector)
@@ -118,7 +118,7 @@ double squared_polynomial_error(std::uint64_t modulus, std::span<const std::uint
             shifted.push_back(q);
             q = q << 1 ^ ((q >> (m - 1) & 1) != 0 ? modulus : 0);
         }
-    std::vector<std::uint64_t> at(vector.size());  // i q mod modulus, i in Gray code order
+    std::vector<std::uint64_t> at(vector.size());  // i q mod modulus; i in Gray code order
     double sum = 0;
     for (std::uint64_t i = 0; i < std::uint64_t{1} << m; ++i) {
         double product = 1;
@@ -136,7 +136,7 @@ std::vector<std::uint64_t> polynomial_components(std::uint64_t modulus,
                                                  const RunContext& run) {
     assert(gf2::is_irreducible(modulus) && gf2::degree(modulus) <= largest_searched_degree);
     if (weights.size() == 1) return {1};
-    // 71 to 87 bytes were measured; 127 for the transforms of prime length 2^19 - 1.
+    // Bytes a point: 71 to 87 were measured; 127 for transforms of prime length 2^19 - 1.
     run.need_memory(130 * std::ldexp(1, gf2::degree(modulus)), "the search for a vector");
     return grow_vector(Search(modulus, run), weights, run);
 }

@@ -72,7 +72,7 @@ constexpr std::size_t lanes = 64;  ///< points per block
 
 /// Factors of one point with a block of others, axis by axis, and sums derived from them.
 struct Row {
-    std::vector<double> factors;    ///< `lanes` for each axis
+    std::vector<double> factors;    ///< `lanes` factors for each axis
     std::vector<double> before;     ///< products of the factors of the preceding axes
     std::vector<double> slopes;     ///< sums of slopes times the factors of the other axes
     std::array<double, lanes> sum;  ///< sums of the products of all factors

@@ -85,7 +85,7 @@ PlanarOrder::Ranks PlanarOrder::ranks() const {
 }
 
 std::vector<double> PlanarOrder::points() const {
-    const double one = x_[n_ + 1];  // as in normalise()
+    const double one = x_[n_ + 1];  // the scale, as in normalise()
     std::vector<double> rows;
     for (std::size_t i = 1; i <= n_; ++i)
         for (const double value : {x_[i] / one, y_[rank_[i]] * one})

@@ -39,7 +39,7 @@ Rows sample(const BoxSpace& space, double radius, double cell_radius, std::uint6
     return box_sample(task, on);
 }
 
-/// Bytes for that many points, in cells whose numbers along each direction are `along`.
+/// Bytes for `points` points in a grid with `along` cells in each direction.
 double memory_for(const std::vector<double>& along, bool fine, double points) {
     const auto d = static_cast<double>(along.size());
     const unsigned bits = along.size() == 2 ? plane_tile_bits : space_tile_bits;
@@ -51,8 +51,8 @@ double memory_for(const std::vector<double>& along, bool fine, double points) {
     }
     // Memory of points and their copies, and of gaps, at first one per cell.
     if (!fine) return points * (5 * 8 * d) + 2 * cells * (8 * d + 8);
-    // Memory of the tiles' tables; of points, their copies, and pending darts or points of others;
-    // of gaps.
+    // Memory of the tiles' tables, of points with their copies in other tiles and pending darts,
+    // and of gaps.
     return along.size() == 2 ? tiles * plane_tile_bytes + 45 * points + 4 * cells
                              : tiles * space_tile_bytes + 140 * points;
 }

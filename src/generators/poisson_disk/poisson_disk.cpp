@@ -248,7 +248,7 @@ std::vector<std::pair<std::string, std::string>> notes(const Values& options, co
 PointSet make(const Plan& plan, const Values& options, const RunContext& given) {
     const RunContext run = given.rising();
     const bool progressive = options[order] == "progressive";
-    const double packed = progressive ? 0.5 : 1;  // fraction of the time
+    const double packed = progressive ? 0.5 : 1;  // fraction of the time for packing
     const BoxSpace space = space_of(plan, !options[bounded_option]);
     std::optional<RadiusField> field;
     if (is_varied(options)) field = read_field(space, options, run);

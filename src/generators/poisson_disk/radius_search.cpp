@@ -53,7 +53,7 @@ class Search {
     /// Makes the points for a radius; keeps them if they are `count`, or the best so far. Returns
     /// their number.
     std::uint64_t attempt(double r, std::uint64_t seed) {
-        constexpr double typical = 8;  // number of tries
+        constexpr double typical = 8;  // typical number of tries
         cells_ = std::min(cells_, r);
         const double part = (1 - done_) / typical;
         Rows rows = pack_(r, cells_, seed, run_.stage(done_, done_ + part));

@@ -309,7 +309,7 @@ class TileRounds {
         std::vector<std::pair<std::uint32_t, int>> found{{own, 0}};
         for (const int direction : {-1, 1}) {
             std::int64_t there = own;
-            std::int64_t turns = 0;  // around the torus
+            std::int64_t turns = 0;  // number of turns around the torus
             while (true) {
                 there += direction;
                 if (there < 0 || there >= grid.tiles[k]) {
@@ -385,7 +385,7 @@ class TileRounds {
     /// kept rejects the later ones near it, which then need no search of their own.
     Status decide(T& tile, const Dart& d) {
         if (const Status known = d.status(); known != Status::pending) return known;
-        std::array<const Dart*, 32> later;  // more are rare, and are decided later
+        std::array<const Dart*, 32> later;  // more are rare; they search for themselves
         std::size_t later_count = 0;
         const bool ruled_out = any_near(tile, d, [&](T& there, const Dart& other) {
             if (&other == &d || other.status() == Status::rejected) return false;
@@ -404,7 +404,7 @@ class TileRounds {
     bool any_near(T& tile, const Dart& d, const Is& is) {
         const Cell own = T::cell_at(d.place);
         const auto& reach = task_.grid.reach;
-        unsigned faces = 0;  // faces within a radius
+        unsigned faces = 0;  // faces of the tile within a radius of d
         for (std::size_t k = 0; k < D; ++k) {
             if (own[k] < reach[k]) faces |= 1U << 2 * k;
             if (own[k] >= tile.size(k) - reach[k]) faces |= 2U << 2 * k;

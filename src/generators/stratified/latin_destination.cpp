@@ -90,7 +90,7 @@ void count_outcomes(const Destination& destination, LatinPlaces& places, search:
 
 /// Exchanges levels to satisfy the constraints; returns how many points of the start still do not.
 std::size_t unsatisfied(const Plan& plan, search::Search& task, const RunContext& run) {
-    constexpr std::uint64_t stream = 8;  // used nowhere else
+    constexpr std::uint64_t stream = 8;  // a stream used nowhere else
     search::Exchanges exchanges(task.start, task.rules);
     SplitMix64 draws(stratified_numbers(plan, stream).bits(0));
     const std::size_t wrong = exchanges.make_feasible(draws, run);

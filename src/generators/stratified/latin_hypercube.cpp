@@ -98,7 +98,7 @@ constexpr Param<Numbers> levels{
      .help = "Number m of levels of each axis, such as 0,3,8: --optimize then measures distances "
              "between the levels floor(x m); 0: between the x"}};
 
-/// Points are in order, so the images of a block are those of consecutive indices.
+/// Strata by random permutations. Points are in order, so a block has consecutive indices.
 StrataOf permuted_strata(const Plan& plan) {
     return [n = plan.count, keys = stratified_numbers(plan, 0)](
                std::size_t coordinate, std::span<const double> index, std::span<double> low) {

@@ -69,8 +69,8 @@ class OrthogonalPoints {
             return {level, row % before + row / before / s * before};
         }
         if (shape_.strength == 2) {
-            // Two columns determine the row. Neighbours do so for each other, so that both together
-            // are a multi-jittered set in the plane.
+            // Two columns determine the row. Neighbouring columns use each other, so that together
+            // they are a multi-jittered set in the plane.
             const std::size_t partner = (column ^ 1) <= s ? column ^ 1 : 0;
             return {level, value(partner, row)};
         }

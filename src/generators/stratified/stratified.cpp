@@ -18,7 +18,7 @@ namespace {
 enum class StratifiedStream : std::uint64_t {
     order,
     first_of_unit,
-    first_of_offsets = std::uint64_t{1} << 31  ///< one per coordinate
+    first_of_offsets = std::uint64_t{1} << 31  ///< one stream per coordinate
 };
 
 // A block of points has `block_numbers` coordinates, so that it fits the cache, but at least

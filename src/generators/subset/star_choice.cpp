@@ -49,7 +49,7 @@ void flip(Bits& bits, std::size_t i) { bits[i / 64] ^= std::uint64_t{1} << (i % 
 /// Star discrepancy of a set, and its worst box.
 struct Measured {
     double value = 1;
-    bool exact = false;  ///< otherwise `value` is a lower bound
+    bool exact = false;  ///< false: `value` is a lower bound
     Side side = Side::closed;
     std::vector<double> corner = {};
 };
@@ -432,7 +432,7 @@ Rows choose_by_star(const PointSet& points, Rows start, std::uint64_t measures, 
 void even_out_by_star(const PointSet& points, std::vector<Rows>& sets, std::uint64_t measures,
                       std::uint64_t seed, const RunContext& run) {
     StarTrades trades(points, sets, seed, run);
-    for (std::uint64_t done = 0; done < measures; done += 2) {  // two per trade
+    for (std::uint64_t done = 0; done < measures; done += 2) {  // two measurements per trade
         run.tick(done, measures + 1,
                  fmt::format("largest star discrepancy {:.6g}", trades.largest()));
         trades.trade();

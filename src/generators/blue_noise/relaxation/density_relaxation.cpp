@@ -43,7 +43,7 @@ namespace {
 constexpr double reach = 5;        // in standard deviations; exp(-12.5) = 3.7e-6
 constexpr double leaf_mass = 0.5;  // mass in points
 constexpr double window_mass = 2;  // mass in points
-constexpr int deepest = 24;        // level of the quadtree
+constexpr int deepest = 24;        // largest level of the quadtree
 
 using PlaneSides = std::array<double, 2>;
 

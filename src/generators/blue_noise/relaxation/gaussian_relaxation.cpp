@@ -34,7 +34,7 @@
 namespace stipple {
 namespace {
 
-constexpr double kernel_reach = 6;  // exp(-6^2 / 2) = 1.5e-8
+constexpr double kernel_reach = 6;  // the kernel there is exp(-6^2 / 2) = 1.5e-8
 constexpr double cell_side = 1.75;  // approximate; fastest of those measured
 constexpr double nowhere = 1e6;
 
@@ -83,7 +83,7 @@ STIPPLE_WIDE void add_squares(const double* places, double x, double* weights, s
     }
 }
 
-/// Replaces squared distances by kernels.
+/// Replaces squared distances by values of the kernel.
 STIPPLE_WIDE void to_kernels(double* weights, std::size_t count) {
     for (std::size_t j = 0; j < count; ++j) {
         const double kernel = exponential(-0.5 * weights[j]);

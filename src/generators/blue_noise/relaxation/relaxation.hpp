@@ -15,7 +15,7 @@
 
 namespace stipple {
 
-inline constexpr std::size_t relaxation_dimensions = 4;  ///< maximum
+inline constexpr std::size_t relaxation_dimensions = 4;  ///< maximum dimension
 
 /// Number of partial sums in a sum over points, the same on every machine.
 inline constexpr std::size_t sum_lanes = 8;

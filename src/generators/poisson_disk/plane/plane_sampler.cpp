@@ -66,7 +66,7 @@ void sort_by_time(PlaneWorkspace& work) {
     for (const Dart& d : work.darts) ++buckets[bucket_of(d.time) + 1];
     for (std::size_t i = 1; i < std::size_t{1} << bits; ++i) buckets[i] += buckets[i - 1];
     work.order.resize(n);
-    std::uint64_t* const order = work.order.data();  // times, and in the lower half indices
+    std::uint64_t* const order = work.order.data();  // time << 32 | index
     const Dart* const darts = work.darts.data();
     for (std::size_t i = 0; i < n; ++i)
         order[buckets[bucket_of(darts[i].time)]++] = std::uint64_t{darts[i].time} << 32 | i;
@@ -291,7 +291,7 @@ class PlaneSampler {
         if (open == 0) return;
         SplitMix64 mixer = stream_of(key, gap);
         throw_at_gap(gap, open, counts, mixer, work.gaps, [&](Point place) {
-            if (!(place[0] < 1 && place[1] < 1)) return;  // rounded up
+            if (!(place[0] < 1 && place[1] < 1)) return;  // rounded up to a face
             for (std::size_t k = 0; k < 2; ++k) place[k] += cell[k];
             work.darts.push_back({static_cast<std::uint32_t>(place[0] * cell_unit),
                                   static_cast<std::uint32_t>(place[1] * cell_unit),

@@ -225,7 +225,7 @@ class CoverageTable {
 
     const Grid<2>& grid_;
     Place sides_{};            ///< sides of a sub-cell, in radii
-    std::size_t places_ = 4;   ///< places of a centre along a direction
+    std::size_t places_ = 4;   ///< number of places of a centre along a direction
     unsigned place_bits_ = 2;  ///< binary logarithm of places_
     std::vector<Row> rows_;    ///< five for each place of a centre
 };

@@ -29,7 +29,7 @@ struct BallLines {
     static constexpr std::size_t along = 4 * space_side;  ///< sub-cells along each direction
     static constexpr std::size_t words = along / 32;      ///< words in a line
     static constexpr std::size_t layer = words * along;
-    static constexpr std::size_t pad = 16;  ///< padding at both ends, which is written, too
+    static constexpr std::size_t pad = 16;  ///< padding at both ends; kernels write to it, too
     static constexpr std::size_t room = along * layer + 2 * pad;
 
     /// Index of the word with that number in the line (y, z).

@@ -41,12 +41,12 @@ struct SpaceWorkspace : GapWorkspace<3> {
     std::vector<SubcellBits> open;  ///< open sub-cells of these gaps
 };
 
-/// Number of sub-cells that share a Poisson number: two lines of 32 in each of four layers. If one
-/// of them opens or closes, all their darts change. So they are few: sets for similar radii should
-/// be nearly the same.
+/// Number of sub-cells whose darts are counted by one Poisson number: two lines of 32 in each of
+/// four layers. If one of them opens or closes, all their darts change. So they are few: sets for
+/// similar radii should be nearly the same.
 constexpr std::size_t together = 4 * 64;
 
-/// Draws darts on the open ones of the sub-cells that share a Poisson number.
+/// Draws darts on the open ones of `together` sub-cells.
 /// @param first indices of the first sub-cell in the tile, along each direction
 [[gnu::always_inline]] inline void draw_on_lines(const SpaceTile& tile,
                                                  const std::array<std::size_t, 3>& first,

@@ -200,7 +200,7 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
     }
 
   private:
-    /// Point by the last number of its entry in places_.
+    /// Exact coordinates of a point, from the last number of its entry in places_.
     [[nodiscard]] Point exact(float known) const {
         const double* p = known < 0 ? &exact_[3 * static_cast<std::size_t>(-1 - known)]
                                     : &points_[3 * static_cast<std::size_t>(known)];

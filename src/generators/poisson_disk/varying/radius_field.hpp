@@ -44,7 +44,8 @@ class RadiusField {
     /// Maximum ratio of the largest f to the least; no box is that wide.
     static constexpr double widest = 1e75;
 
-    /// A cell, or joined ones: column i and row j of its level; level 0 has the cells of the field.
+    /// A cell, or several joined ones: column i and row j of its level. Level 0 has the cells of
+    /// the field.
     struct Node {
         std::uint32_t level;
         std::uint32_t i;
@@ -61,7 +62,7 @@ class RadiusField {
         return {static_cast<std::uint32_t>(levels_.size() - 1), 0, 0};
     }
 
-    /// Nodes that are joined to a node above level 0.
+    /// The nodes that were joined to form a node above level 0.
     [[nodiscard]] Nodes children(const Node& node) const;
 
     /// Lowest and highest corner.

@@ -68,7 +68,8 @@ class Exchanges {
     std::vector<Level> row_;             ///< buffer for the levels that are checked
 };
 
-/// Best design that exchanges reached, stored as the steps to it: improvements need no copy.
+/// Best design so far, stored as an earlier design and the exchanges since then, so that
+/// improvements need no copy.
 class Trail {
   public:
     explicit Trail(Design start) : best_(std::move(start)) {}
@@ -86,12 +87,12 @@ class Trail {
     Design best_;                  ///< design before the steps
     std::vector<Exchange> steps_;  ///< exchanges since then
     std::size_t mark_ = 0;         ///< number of steps that lead to the best
-    bool left_ = false;            ///< too many steps: the next mark is a copy
+    bool left_ = false;            ///< true after too many steps: the next mark is a copy
 };
 
 class Annealing {
   public:
-    /// @param objective, rules must outlive it
+    /// @param objective, rules must outlive the annealing
     Annealing(const Objective& objective, const Design& start, const Rules& rules,
               const Schedule& schedule, SplitMix64 draws, const RunContext& run);
 
@@ -124,7 +125,7 @@ class Annealing {
     double done_ = 0;
     double next_ = 0;  ///< trial at which the accepted fraction changes next
     double share_;
-    double cooling_;  ///< factor of the accepted fraction, from piece to piece
+    double cooling_;  ///< change of the accepted fraction from piece to piece, a factor
     bool polishing_ = false;
     bool over_ = false;
     double temperature_ = 0;

@@ -100,7 +100,7 @@ class CorrelationCriterion final : public Criterion {
 
     std::size_t points_;
     std::size_t dimension_;
-    std::vector<std::int64_t> x_;         ///< row after row, twice the distance from the middle
+    std::vector<std::int64_t> x_;  ///< twice a level's distance from the middle, row after row
     std::vector<std::int64_t> products_;  ///< sums over all points, for every two coordinates
     std::vector<double> lengths_;         ///< Euclidean norm of each coordinate
 };

@@ -63,8 +63,8 @@ struct Axis {
 Axis even_parts(std::size_t points, Level parts);
 
 /// Axis with these outcomes of the levels 0, 1, ...: consecutive levels of the same outcome count
-/// as their middle. Categories are equally far apart, so that the mean squared distance of two
-/// points is as along other axes, but not farther than n.
+/// as their middle. Categories are equally far apart, at a distance that gives two points the mean
+/// squared distance along other axes, but not farther than n.
 Axis parts_by(std::span<const double> outcomes, bool categories);
 
 /// Constraints on exchanges of levels, and the meaning of levels.
@@ -76,7 +76,7 @@ struct Rules {
     std::vector<std::size_t> groups = {};
     Level coarse = 1;
 
-    /// One for each coordinate; empty: all are continuous.
+    /// One axis for each coordinate; empty: all are continuous.
     std::vector<Axis> axes = {};
 
     /// Whether the point of this row may have these levels; empty: always. A pure function, called

@@ -233,7 +233,7 @@ struct ProjectionFactor {
     double scale = 1;  ///< typical difference of levels
     double n = 1;
 
-    /// Addition to the differences of discrete outcomes.
+    /// Term added to differences along an axis of discrete outcomes; 0 along others.
     [[nodiscard]] double more(const Axis& axis) const {
         return axis.parts > 0 ? n / axis.parts : 0;
     }
@@ -343,7 +343,7 @@ class PairCriterion final : public Criterion {
         std::swap(places(k)[a], places(k)[b]);
         energy_ += change;
         largest_ = std::max(largest_, std::abs(energy_));
-        constexpr std::uint64_t often = 1 << 14;  // keeps rounding errors small
+        constexpr std::uint64_t often = 1 << 14;  // exchanges until rounding errors are removed
         if (++exchanges_ % often == 0) rebuild();
     }
 
