@@ -100,7 +100,7 @@ class BaseOwen {
     std::uint64_t base_;
     BinaryOwen binary_;
     Keys keys_;
-    std::array<std::uint64_t, 64> powers_;  ///< of the base, modulo 2^64
+    std::array<std::uint64_t, 64> powers_;  ///< powers of the base, modulo 2^64
     std::uint64_t block_ = 1;               ///< b^t, the number of values of the t low digits
     std::size_t low_digits_ = 0;            ///< t
     std::vector<std::uint64_t> images_;     ///< images of the t low digits, as integers

@@ -27,7 +27,7 @@ struct Net {
     std::size_t digits = 0;  ///< m
     std::size_t count = 0;   ///< b^m, at most 2^31 - 1 points
     std::size_t dimension = 0;
-    std::vector<std::int32_t> cells = {};  ///< by coordinate
+    std::vector<std::int32_t> cells = {};  ///< coordinate after coordinate
 
     [[nodiscard]] std::span<const std::int32_t> coordinate(std::size_t k) const {
         return std::span(cells).subspan(k * count, count);

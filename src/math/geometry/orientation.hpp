@@ -24,7 +24,7 @@ namespace stipple {
 /// Sign of a sum of n products of two doubles.
 template <std::size_t n>
 int exact_sign(const std::array<DoubleDouble, n>& products) {
-    std::array<double, 2 * n> parts{};  // do not overlap; in increasing order of size
+    std::array<double, 2 * n> parts{};  // without common bits, in increasing order of size
     std::size_t count = 0;
     for (const DoubleDouble& product : products)
         for (double term : {product.low, product.high}) {

@@ -32,7 +32,7 @@ class CoveringBound {
     static constexpr std::size_t most = D > 0 ? D : 32;
 
   public:
-    using Point = std::array<double, most>;  ///< the first D coordinates count
+    using Point = std::array<double, most>;  ///< only the first D coordinates are used
 
     /// @param tolerance relative, of the squared distance
     explicit CoveringBound(std::size_t dimension = D, double tolerance = 1e-3)
@@ -189,7 +189,8 @@ class CoveringBound {
     double tolerance_;
     std::vector<Candidate> points_;
     std::array<std::size_t, most + 1> basis_{};
-    std::array<Row, most + 1> inverse_{};  ///< of the basis; the last column is the basic solution
+    std::array<Row, most + 1> inverse_{};  ///< inverse of the basis; the last column is the basic
+                                           ///< solution
     Row prices_{};                         ///< dual variables; the last one is the bound
 };
 

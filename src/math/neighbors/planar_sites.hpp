@@ -61,7 +61,7 @@ class PlanarCells {
     const PlanarSites& sites_;
     std::vector<Vec2> turns_;  ///< offsets of the copies of the rectangle
     std::optional<PeriodicVoronoi> grid_;
-    std::optional<Delaunay> triangles_;  ///< of all sites, followed by their copies
+    std::optional<Delaunay> triangles_;  ///< triangulation of all sites, then their copies
 };
 
 }  // namespace stipple

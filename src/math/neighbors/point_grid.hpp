@@ -99,7 +99,7 @@ class GridFrame {
     /// large.
     [[nodiscard]] double gap(std::size_t k, double place, std::int64_t cell) const {
         const auto low = static_cast<double>(cell);
-        place = std::clamp(place, 0.0, static_cast<double>(counts_[k]));  // outside: as at the edge
+        place = std::clamp(place, 0.0, static_cast<double>(counts_[k]));  // moved to the box
         const double cells = std::max(low - place, place - (low + 1)) - slacks_[k];
         if (cells <= 0) return 0;
         const double distance = cells / scales_[k];
@@ -380,7 +380,7 @@ class GrowingPoints {
 
     Box box_;
     GridFrame<D> frame_;
-    std::vector<Bucket> buckets_;  ///< one per cell, followed by those of crowded cells
+    std::vector<Bucket> buckets_;  ///< one per cell, then further ones of crowded cells
     std::vector<double> rows_;
     std::size_t filled_at_ = 0;  ///< number of points when the cells were last made
 };

@@ -86,7 +86,7 @@ class FaceTree::Builder {
     /// Data of a face that was built.
     struct Built {
         double volume;           ///< k-dimensional volume of a face of dimension k
-        std::uint32_t heaviest;  ///< facet with the largest volume; itself for a vertex
+        std::uint32_t heaviest;  ///< facet with the largest volume; for a vertex the vertex itself
     };
 
     PlaneSet planes_of(const std::vector<std::uint32_t>& members) const {
@@ -347,7 +347,7 @@ std::vector<double> FaceTree::means(std::size_t i) const {
 
 Moments FaceTree::moments() const {
     Moments m{std::vector<double>(d_), std::vector<double>(d_ * d_), std::vector<double>(d_)};
-    std::vector<std::vector<double>> first(d_), second(d_);  // of each face, about m.mean
+    std::vector<std::vector<double>> first(d_), second(d_);  // moments of each face about m.mean
     for (std::size_t i = 0; i < d_; ++i) {
         first[i] = means(i);
         m.mean[i] = first[i].back();
