@@ -100,7 +100,7 @@ void RadiusField::fill(const Box& box, const FieldSource& source, const RunConte
         });
         for_all(seen, [&](double& f, double value) { f *= std::sqrt(largest / value); });
         for (double& f : cells.least)
-            if (std::isnan(f)) f = closed;  // 0 / 0, if no density is above 0
+            if (std::isnan(f)) f = closed;  // largest is 0
     }
     const double least = std::ranges::min(cells.least);
     if (least == closed)
