@@ -53,7 +53,8 @@ constexpr double fine = 1e-8;    // tolerance at the end; Newton's last step rea
 constexpr double promised = 1e-6;
 constexpr std::uint64_t rest = 10;  // iterations between shakes
 
-/// Direction of d to the sixth power as a complex number: (x + iy)^6 / |x + iy|^6.
+/// The direction of d, as a complex number of length 1, to the sixth power: (x + iy)^6 / |x +
+/// iy|^6.
 Vec2 sixfold(const Vec2& d) {
     const auto times = [](const Vec2& a, const Vec2& b) {
         return Vec2{a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x};

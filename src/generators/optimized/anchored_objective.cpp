@@ -29,8 +29,9 @@ struct Hit {
     bool open;
 };
 
-/// Rows of counts of points. For each row: the volume of a box per unit of its last coordinate, and
-/// the value of one point, both weighted and with the sign for open or closed boxes.
+/// Counts of points in rows, one row for each value of the coordinate before the last. `reaches`
+/// has a box's volume per unit of its last coordinate, `shares` the value of one point; both are
+/// weighted, and negated for closed boxes.
 struct Plane {
     const float* counts;
     std::size_t stride;

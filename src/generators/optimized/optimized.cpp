@@ -379,8 +379,9 @@ std::vector<double> on_the_line(std::size_t n, bool empty, const RunContext& run
     return rows;
 }
 
-/// Coordinate x of the best single point for boxes at the origin: x + x^d = 1, where the largest
-/// empty box (volume x) and the closed box at the point (1 - x^d too small) are equally bad.
+/// Coordinate x of the best single point for boxes at the origin. There, the largest empty box has
+/// the volume x, and the closed box at the point a volume too small by 1 - x^d; both are equal if x
+/// + x^d = 1.
 double coordinate_for_star(std::size_t dimension) {
     double low = 0;
     double high = 1;

@@ -385,7 +385,7 @@ class TileRounds {
     /// kept rejects the later ones near it, which then need no search of their own.
     Status decide(T& tile, const Dart& d) {
         if (const Status known = d.status(); known != Status::pending) return known;
-        std::array<const Dart*, 32> later;  // more are rare; they search for themselves
+        std::array<const Dart*, 32> later;  // more are rare, and decided separately
         std::size_t later_count = 0;
         const bool ruled_out = any_near(tile, d, [&](T& there, const Dart& other) {
             if (&other == &d || other.status() == Status::rejected) return false;

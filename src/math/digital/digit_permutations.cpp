@@ -72,7 +72,7 @@ double PermutedInverse::behind(std::uint64_t high) const {
         digits = digits * base_ + permuted_[position * base_ + high % base_];
         power *= base_;
     }
-    // Both are below 2^53: power is at most b high, and so at most the index, as block_ >= b.
+    // Both are below 2^53: power <= b * high, which is at most the index, because block_ >= b.
     const auto whole = static_cast<double>(static_cast<std::uint64_t>(digits));
     const double fraction =
         (whole + zeros_[position]) / static_cast<double>(static_cast<std::uint64_t>(power));

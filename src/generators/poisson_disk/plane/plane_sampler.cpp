@@ -51,8 +51,8 @@ struct PlaneWorkspace : GapWorkspace<2> {
     std::vector<Dart> darts;
     std::vector<std::uint64_t> order;  ///< darts in order of time
     std::vector<Point> places;         ///< darts on gaps, from the tile's first cell, in cells
-    std::array<std::uint64_t, plane_side + 4> waiting;  ///< cells with pending darts: a bit each,
-                                                        ///< in rows from two before the first on
+    std::array<std::uint64_t, plane_side + 4> waiting;  ///< a bit for each cell with pending darts;
+                                                        ///< row y of cells is word y + 2
 };
 
 /// Sorts the indices of the darts by time; darts of equal times keep their order.
