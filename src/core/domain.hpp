@@ -18,8 +18,8 @@ namespace stipple {
 /// The product of a box's extents.
 double volume_of(const Box& box);
 
-/// A number computed to a tolerance: the true value differs by at most `error`. 0: exact up to
-/// rounding.
+/// A number computed to a tolerance: the true value differs by at most `error`, where 0 means exact
+/// up to rounding.
 struct Estimate {
     double value = 0;
     double error = 0;
@@ -52,8 +52,7 @@ struct Support {
     bool whole = true;   ///< the whole domain, except for a set of measure 0
     bool finite = true;  ///< its measure is finite, though perhaps unknown
 
-    /// If true, density() is 0 only in gaps: never at a point that follows the density, rounding
-    /// aside.
+    /// density() is 0 only in gaps, and never (up to rounding) at a point drawn from the density.
     bool by_density = false;
 
     /// Its measure, if known.
@@ -69,17 +68,17 @@ struct SphereCircle {
     double height = 0;
 };
 
-/// Density of directions: unit vectors in space.
+/// Shape of a density of directions, which are unit vectors in space.
 struct SphereShape {
-    /// Axis if the cube coordinates of a direction are the fraction of the directions nearer to the
-    /// axis, and longitude.
+    /// Axis of the map to the cube, if it has one: the cube coordinates of a direction are then the
+    /// fraction of directions that are nearer to the axis, and the longitude.
     struct Pole {
         std::array<double, 3> axis;  ///< a unit vector
         bool hemisphere;             ///< only directions within 90 degrees of the axis; false: all
     };
 
-    std::vector<SphereCircle> circles;  ///< where it jumps, has a kink or is steep
-    bool level = true;                  ///< it is constant between circles
+    std::vector<SphereCircle> circles;  ///< where the density jumps, has a kink or is steep
+    bool level = true;                  ///< the density is constant between the circles
     std::optional<Pole> pole = {};
 };
 
@@ -110,7 +109,7 @@ class Domain {
     /// all points that follow its density, for pictures.
     [[nodiscard]] virtual Box bounding_box() const = 0;
 
-    /// Numbers that to_cube() writes.
+    /// Number of coordinates that to_cube() writes.
     [[nodiscard]] virtual std::size_t cube_dimension() const { return dimension(); }
 
     /// Density of the domain's points with respect to its measure; 0 outside. Uniform by default.
@@ -141,9 +140,9 @@ class Domain {
     [[nodiscard]] virtual std::vector<std::string> cube_axes() const = 0;
 
     /// Probability of a box of the domain's own space, for points that follow density(); nullopt if
-    /// unknown. The box may extend beyond the domain, even to infinity. Mixtures need this: no
-    /// coordinates preserve their probability, so their cells are such boxes, or zones of the
-    /// sphere.
+    /// unknown. The box may extend beyond the domain, even to infinity. Needed for mixtures: no map
+    /// to the cube preserves their probability, so their cells are boxes of the space, or zones of
+    /// the sphere.
     [[nodiscard]] virtual std::optional<Estimate> box_mass(const Box& /*box*/) const {
         return std::nullopt;
     }
@@ -151,12 +150,12 @@ class Domain {
     /// Part of the domain where density() is not 0; by default the whole domain.
     [[nodiscard]] virtual Support support() const;
 
-    /// Whether the density may have gaps that support() finds at little cost, by boxes or
-    /// by_density.
+    /// Whether the density may have gaps that support() can describe at little cost, by `boxes` or
+    /// `by_density`.
     [[nodiscard]] virtual bool shows_gaps() const { return false; }
 
-    /// Shape of a density of directions; nullopt for other domains, and if the cells are zones of the
-    /// sphere themselves.
+    /// Shape of a density of directions; nullopt for other domains, and for those whose cells are
+    /// already zones of the sphere.
     [[nodiscard]] virtual std::optional<SphereShape> sphere_shape() const { return std::nullopt; }
 
     /// Names of the coordinates; empty: x, y, ...
@@ -174,8 +173,8 @@ Estimate box_mass_by_axes(const Domain& domain, const Box& box);
 DomainPtr unit_cube(std::size_t dimension, std::vector<std::string> names = {});
 DomainPtr box_domain(Box box);
 
-/// A factor of a product of domains: `domain` describes the given coordinates of a row. Nested
-/// products are kept, and so is the order of the factors.
+/// A factor of a product of domains: `domain` describes the given coordinates of a point. Products
+/// may be nested; product_domain() neither flattens them nor reorders the factors.
 struct Factor {
     DomainPtr domain;
     std::vector<std::size_t> coordinates;
@@ -186,7 +185,7 @@ DomainPtr product_domain(std::vector<Factor> factors);
 Box parse_box(std::string_view text, std::size_t dimension);
 std::string format_box(const Box& box);
 
-/// The smallest box that contains the rows and `around`; it may be flat.
+/// The smallest box that contains the points `rows` and the box `around`; extents may be 0.
 Box bounding_box(std::span<const double> rows, const Box& around);
 
 /// The smallest box that contains all rows; at least one row is required.

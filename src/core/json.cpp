@@ -25,7 +25,7 @@ JsonError error_of(const Json::exception& error, std::string_view text) {
             std::min(text.find(number), text.size())};
 }
 
-/// Rejects duplicate keys in an object, of which the parser would silently keep the last.
+/// Rejects duplicate keys in an object; the parser would silently keep only the last.
 class Repetitions {
   public:
     explicit Repetitions(const std::string& source) : source_(source) {}

@@ -19,8 +19,10 @@ std::string json_text(const Json& value, int indent = -1);
 
 /// Extent of the JSON value at the front of a text, found by its quotes and brackets.
 struct JsonExtent {
-    std::size_t size = std::string_view::npos;      ///< bytes; npos: the text ends too early
-    std::size_t too_deep = std::string_view::npos;  ///< a bracket of level 21; npos: none
+    /// in bytes; npos if the text ends within the value
+    std::size_t size = std::string_view::npos;
+    /// position of a bracket nested 21 deep; npos if none
+    std::size_t too_deep = std::string_view::npos;
 };
 
 /// Scans only up to the end of the value, or up to a bracket nested too deep.
@@ -40,7 +42,7 @@ Json parse_json(std::string_view text);
 Json try_parse_json(std::string_view text);
 
 /// Parses a file written by a user; duplicate keys in an object are errors.
-/// @throws Error(input) "SOURCE:LINE:COLUMN: not JSON", "SOURCE: $.a.b: the key stands twice"
+/// @throws Error(input) "SOURCE:LINE:COLUMN: not JSON", "SOURCE: $.a.b: the key occurs twice"
 Json parse_written_json(std::string_view text, const std::string& source);
 
 }  // namespace stipple

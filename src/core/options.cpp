@@ -28,8 +28,8 @@ std::vector<std::string> words(std::string_view text, char separator) {
     fail(ErrorKind::usage, "--{}: '{}' is not {}", option.name, text, wanted);
 }
 
-/// Whether a text that is not a number should be parsed as a formula: it has an operator other than
-/// its sign and that of an exponent, or is a constant.
+/// Whether a text that is not a number should be parsed as a formula: it contains '(' or an
+/// operator other than a leading sign or the sign of an exponent, or it is the constant pi or e.
 bool looks_like_formula(std::string_view text) {
     const auto digit = [&](std::size_t i) {
         return i < text.size() && (text[i] == '.' || (text[i] >= '0' && text[i] <= '9'));

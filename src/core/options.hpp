@@ -34,9 +34,9 @@ struct Points {};
 /// Whole numbers separated by x; "40x25".
 struct Extents {};
 
-/// A type of its own, not a plain vector: libstdc++ 12 assumes that a variant of only vectors and
-/// strings is never valueless, and destroys a value that is not there if copying one runs out of
-/// memory.
+/// Rows of numbers. Not a plain vector, since libstdc++ 12 assumes that a variant of only vectors
+/// and strings is never valueless: if copying runs out of memory, it destroys a value that does not
+/// exist.
 struct Table : std::vector<std::vector<double>> {
     using vector::vector;
 };
@@ -57,7 +57,7 @@ double formula_value(std::string_view option, std::string_view text);
 /// in parse_formula(). @throws Error(usage)
 std::vector<double> parse_numbers(std::string_view option, std::string_view text);
 
-/// Formats a value as it is typed: true, 12, 0.5, polar, "0,0", "0,0 1,0", 40x25.
+/// Formats a value as users type it: true, 12, 0.5, polar, "0,0", "0,0 1,0", 40x25.
 std::string format_value(const Value& value);
 
 /// A number option: std::int64_t or double.

@@ -11,8 +11,9 @@ namespace stipple {
 
 /// Maps a unit coordinate to the outcomes of a discrete distribution.
 struct OutcomeAxis {
-    std::function<double(double u)> outcome = {};  ///< rises with u; empty: the axis is continuous
-    bool categories = false;  ///< outcomes are unordered categories, all equally different
+    /// increasing in u; empty if the axis is continuous
+    std::function<double(double u)> outcome = {};
+    bool categories = false;  ///< outcomes are unordered categories, any two equally different
 
     [[nodiscard]] bool discrete() const { return static_cast<bool>(outcome); }
 };
@@ -21,7 +22,7 @@ struct OutcomeAxis {
 /// `most` intervals or the axis is continuous.
 std::vector<double> outcome_ends(const OutcomeAxis& axis, std::size_t most);
 
-/// Like outcome_ends(), for axes whose outcomes serve as levels: categories, or up to ten numbers.
+/// As outcome_ends(), for outcomes that serve as levels: at most ten numbers or 10 000 categories.
 std::vector<double> level_ends(const OutcomeAxis& axis);
 
 }  // namespace stipple

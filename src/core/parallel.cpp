@@ -12,7 +12,8 @@
 namespace stipple {
 
 RunContext worth_threads(const RunContext& run, double seconds) {
-    constexpr double waking = 1e-3;  // seconds on a busy machine; a quarter on an idle one
+    // seconds to wake threads on a busy machine, four times those on an idle one
+    constexpr double waking = 1e-3;
     RunContext fit = run;
     if (seconds < 2 * waking) fit.threads = 1;
     return fit;
@@ -35,8 +36,8 @@ RunContext unstopped(RunContext run) {
 
 namespace {
 
-/// Raises oneTBB's limit on threads, which defaults to the number of cores. The smallest active
-/// limit counts, so there is one for the whole program, which only grows.
+/// Raises oneTBB's limit on threads, by default the number of cores. The smallest active limit
+/// applies, so the whole program has one limit object, which only grows.
 void allow(unsigned threads) {
     static std::mutex mutex;
     static std::optional<tbb::global_control> bound;

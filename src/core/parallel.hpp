@@ -33,7 +33,7 @@ void for_each_block(const RunContext& run, std::uint64_t count, std::uint64_t si
 /// A copy of the context without progress reports.
 RunContext silent(RunContext run);
 
-/// A copy of the context without notes to the user.
+/// A copy of the context without warnings to the user.
 RunContext unwarned(RunContext run);
 
 /// A copy of the context that ignores requests to stop.

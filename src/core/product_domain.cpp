@@ -12,7 +12,7 @@
 namespace stipple {
 namespace {
 
-/// Copies the moments of coordinates `at` into the moments of the whole.
+/// Copies the moments of a factor on the coordinates `at` into the moments of the product.
 void place_moments(const Moments& part, std::span<const std::size_t> at, Moments& whole) {
     const std::size_t d = whole.dimension();
     for (std::size_t i = 0; i < at.size(); ++i) {

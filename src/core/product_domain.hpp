@@ -7,7 +7,7 @@
 
 namespace stipple {
 
-/// The factors of a product of domains; of another domain itself, on all coordinates.
+/// The factors of a product of domains; for another domain, one factor: itself on all coordinates.
 std::vector<Factor> factors_of(const DomainPtr& domain);
 
 }  // namespace stipple

@@ -10,7 +10,8 @@
 namespace stipple {
 namespace {
 
-/// The T under the key. @throws Error(usage) if there is none
+/// The result of type T under the key; `kind` names the type in messages.
+/// @throws Error(usage) if it is missing or of another type
 template <class T>
 const T& held(const Report& report, std::string_view key, std::string_view kind) {
     const Report::Item* item = report.find(key);

@@ -29,9 +29,9 @@ void start_one(std::vector<std::thread>& started, std::latch& leave) {
     allocated.acquire();
 }
 
-/// Number of threads that can run, out of those wanted and including this one; tested by starting
-/// them all. If limits of address space or processes allow fewer, half of those that started, so
-/// that memory is left for the work.
+/// Number of threads that can run, at most `wanted` and including this one; tested by starting them
+/// all. If limits of address space or processes allow fewer, returns half of the number that
+/// started, so that memory is left for the work.
 unsigned startable(unsigned wanted) {
     std::latch leave(1);
     std::vector<std::thread> started;
@@ -46,7 +46,7 @@ unsigned startable(unsigned wanted) {
     return wanted;
 }
 
-/// Limits the threads to those that can start: oneTBB would abort the program.
+/// Limits the number of threads to those that can start: with more, oneTBB would abort the program.
 unsigned limited_by_system(unsigned wanted) {
     static std::atomic<unsigned> tried = 1;
     static std::atomic<unsigned> most = 1;

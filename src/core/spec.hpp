@@ -18,8 +18,9 @@ namespace stipple {
 
 struct Spec {
     std::string name;
-    std::vector<std::size_t> coordinates;                       ///< from 0; empty: all
-    std::vector<std::pair<std::string, std::string>> settings;  ///< option and its text
+    std::vector<std::size_t> coordinates;  ///< from 0; empty: all
+    /// names of options, and their values as text
+    std::vector<std::pair<std::string, std::string>> settings;
 
     /// The schema's defaults, overridden by the settings. @throws Error(usage)
     [[nodiscard]] Values values(const Schema& schema) const;
@@ -37,7 +38,7 @@ std::vector<std::string> split_specs(std::string_view text, std::string_view who
 /// gives the same values.
 std::string format_spec(std::string_view name, const Values& values, const Schema& schema);
 
-/// Options as typed, without optional ones that were not given.
+/// Options and their values as text, without optional ones that were not given.
 std::vector<std::pair<std::string, std::string>> typed_settings(const Values& values,
                                                                 const Schema& schema);
 

@@ -20,7 +20,7 @@ enum class Compression { none, gzip, zstd };
 /// Compression by the extension of a file's name: .gz or .zst, in any case; otherwise none.
 Compression compression_of_name(std::string_view path);
 
-/// Compression by the first bytes of a file; none if they are those of another kind of file.
+/// Compression by the first bytes of a file; none if they match neither format.
 Compression compression_of_bytes(std::string_view bytes);
 
 class Compressor {
@@ -28,7 +28,7 @@ class Compressor {
     /// Takes the next bytes of the stream; returns false to stop.
     using Sink = std::function<bool(std::string_view bytes)>;
 
-    /// @param kind not none
+    /// @param kind not Compression::none
     explicit Compressor(Compression kind);
 
     /// Compresses bytes and passes on complete blocks. Returns false if the sink stopped.
@@ -56,7 +56,7 @@ class Decompressor {
     /// Returns the next compressed bytes, which stay valid until the next call; empty at the end.
     using Refill = std::function<std::string_view()>;
 
-    /// @param kind not none
+    /// @param kind not Compression::none
     /// @param name of the file, for error messages
     Decompressor(Compression kind, Refill refill, std::string name);
 

@@ -40,8 +40,8 @@ void limit_whole_files(std::uint64_t bytes);
 /// restricted.
 class FileRules {
   public:
-    /// @param readable maps a name to the path to open for it @param writable names allowed for
-    /// writing
+    /// @param readable maps each name that may be read to the path to open for it
+    /// @param writable names of the files that may be written
     FileRules(std::map<std::string, std::string> readable, std::vector<std::string> writable);
     FileRules(const FileRules&) = delete;
     FileRules& operator=(const FileRules&) = delete;

@@ -24,12 +24,12 @@ inline constexpr std::string_view npy_magic = "\x93NUMPY";
 /// Contents of a header.
 struct NpyHeader {
     RawType type = {};
-    bool columns_first = false;           ///< the first index runs fastest
+    bool columns_first = false;           ///< column-major order: the first index varies fastest
     std::vector<std::size_t> shape = {};  ///< extents; may be empty, or contain 0
     std::string shown_shape = {};         ///< as written in the file: "(1024, 2)"
     std::size_t start = 0;                ///< position of the dictionary, in bytes
     std::size_t size = 0;                 ///< bytes before the numbers
-    std::string source = {};              ///< for messages
+    std::string source = {};              ///< name of the file, for messages
 
     /// Whether some extent is 0.
     [[nodiscard]] bool empty() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Conversion of values to bytes and back, for another process on a machine of the same type.
+// Serialization of values to bytes and back, for other processes on machines of the same type.
 #pragma once
 
 #include <cassert>
@@ -47,7 +47,7 @@ class Packer {
 /// Reads values in the order in which they were put, with the same types.
 class Unpacker {
   public:
-    /// Refers to the bytes, which must outlive it.
+    /// Keeps a view of the bytes, which must outlive the Unpacker.
     explicit Unpacker(std::string_view bytes) : bytes_(bytes) {}
 
     template <class T>

@@ -14,7 +14,7 @@ namespace stipple {
 struct RawType {
     enum Kind { floating, integer, natural };
     Kind kind = floating;
-    std::size_t size = 8;  ///< bytes: 4 or 8; integers also 1 or 2
+    std::size_t size = 8;  ///< bytes per number: 4 or 8; for integers also 1 or 2
     bool big_endian = false;
 };
 

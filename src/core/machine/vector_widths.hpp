@@ -8,9 +8,9 @@
 //     #include "core/machine/vector_widths.hpp"
 //     … pick_vectors(&anywhere::sum, &fours::sum, &eights::sum) …
 //
-// No pragma once: a source may include this file again for other kernels. (Pragmas, because target
-// attributes on functions came too late: code inlined into them had already been split into scalar
-// operations.)
+// No pragma once: a source may include this file again for other kernels. (Pragmas are used because
+// target attributes on functions take effect too late: code inlined into the functions has already
+// been split into scalar operations.)
 
 #define STIPPLE_VECTOR_BITS 128
 namespace anywhere {
