@@ -217,7 +217,8 @@ namespace {
 
 using Utf8 = boost::locale::utf::utf_traits<char>;
 
-/// Control characters, line ends, marks that change the direction of writing, and noncharacters.
+/// Whether a terminal would obey the letter instead of showing it: control characters, line ends,
+/// marks that change the direction of writing, and noncharacters.
 bool is_obeyed(char32_t letter) {
     const auto in = [letter](char32_t low, char32_t high) {
         return letter >= low && letter <= high;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Includes the file STIPPLE_KERNELS three times, in the namespaces anywhere, fours and eights, with
-// STIPPLE_VECTOR_BITS = 128, 256 and 512. The wider two may use fused multiply-add. They need GCC or
+// STIPPLE_VECTOR_BITS = 128, 256 and 512. The last two may use fused multiply-add. They need GCC or
 // Clang on x86-64; elsewhere, their names are aliases of the first.
 //
 //     #define STIPPLE_KERNELS "folder/kernels.hpp"

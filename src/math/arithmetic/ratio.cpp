@@ -18,8 +18,8 @@ int bit_width(Wide x) {
                      : static_cast<int>(std::bit_width(static_cast<std::uint64_t>(x)));
 }
 
-/// Quotients computed in a buffer before they are copied: strided stores would keep compilers from
-/// vectorising the divisions.
+/// Number of quotients computed in a buffer before they are copied: strided stores would keep
+/// compilers from vectorising the divisions.
 constexpr std::size_t side_by_side = 128;
 
 STIPPLE_WIDE void divide(const double* numbers, double factor, double term, double whole,

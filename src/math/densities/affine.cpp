@@ -79,7 +79,7 @@ class AffineReader {
                 all.push_back(comparison());
                 continue;
             } catch (const NotAffine&) {
-                at_ = start;  // it may be in parentheses
+                at_ = start;  // the comparison may be in parentheses
             }
             if (!take("(")) throw NotAffine();
             conjunction(all);
@@ -184,8 +184,8 @@ class AffineReader {
         at_ = std::min(at_ + 1, text_.size());
     }
 
-    /// Value of the text from `start` to the current position, by the parser for formulas. It knows
-    /// no variables here.
+    /// Value of the text from `start` to the current position, which must be a formula without
+    /// variables.
     Affine constant(std::size_t start) const {
         Affine all{std::vector<double>(dimension_)};
         try {

@@ -137,7 +137,8 @@ constexpr std::pair<const char*, mu::multfun_type> functions_of_many[] = {
 };
 
 int read_number(const char* text, int* at, double* value) {
-    if (*text != '.' && !(*text >= '0' && *text <= '9')) return 0;  // neither a sign nor a word
+    // signs and words such as inf are no part of a number
+    if (*text != '.' && !(*text >= '0' && *text <= '9')) return 0;
     const char* last = text;
     while (*last != 0 && std::string_view("0123456789.eE+-").find(*last) != std::string_view::npos)
         ++last;
@@ -245,12 +246,13 @@ std::string expectation(const mu::ParserError& error, const std::string& variabl
 std::string_view first_word(std::string_view rest) {
     const std::size_t end = std::min(rest.find_first_not_of(name_letters), rest.size());
     if (end > 0) return rest.substr(0, end);
-    std::size_t size = std::min<std::size_t>(rest.size(), 1);  // then the character's other bytes
+    // one byte, then the other bytes of its UTF-8 character
+    std::size_t size = std::min<std::size_t>(rest.size(), 1);
     while (size < rest.size() && (static_cast<unsigned char>(rest[size]) & 0xC0U) == 0x80U) ++size;
     return rest.substr(0, size);
 }
 
-/// Throws an error that describes the one of muParser.
+/// Throws an Error that describes muParser's error.
 [[noreturn]] void explain(std::string_view option, std::string_view text,
                           const mu::ParserError& error, const std::string& variables,
                           const mu::funmap_type& functions) {
@@ -408,7 +410,8 @@ class NameReader {
         if (k && used_.insert(marked).second) variables_.emplace_back(marked, *k);
     }
 
-    /// The coordinate with which word i is compared, if that has words.
+    /// Coordinate with which word i is compared; nullopt if none, or if it has no words for its
+    /// values.
     std::optional<std::size_t> compared(std::size_t i) const {
         for (const std::size_t left : {i - 1, i}) {
             if (left + 1 == 0 || left + 1 >= words_.size()) continue;
@@ -437,8 +440,8 @@ class NameReader {
             by = fmt::format("{}{}", quote_mark, *name);
             use(word.text, by);
         }
-        // Placeholders may be longer if there are very many names; then only columns in messages
-        // change.
+        // A placeholder may be longer than the quoted text if there are very many names. This only
+        // shifts the columns in messages.
         const std::size_t size = word.end - word.begin;
         by.resize(std::max(by.size(), size), ' ');
         marked_.replace(word.begin + shift_, size, by);
@@ -462,7 +465,7 @@ class NameReader {
     std::size_t shift_ = 0;
 };
 
-/// The usual names that occur in a formula.
+/// The usual names of coordinates (x, x1, ...) that occur in a formula.
 VariableNames usual_in(std::string_view text, std::size_t dimension) {
     VariableNames used;
     for (auto& variable : usual_variables(dimension))

@@ -60,7 +60,7 @@ inline std::size_t fill_guide(std::span<const double> sums, std::span<std::uint3
 }
 
 /// Returns the index of the first sum above w < sums.back(), which must be in [low, high].
-/// @param few a power of two up to 16; ranges shorter than this take the same steps for all numbers
+/// @param few a power of two up to 16; fewer sums than this are searched in a fixed number of steps
 inline std::size_t first_above(std::span<const double> sums, std::size_t low, std::size_t high,
                                double w, std::size_t few = few_sums) {
     const std::size_t last = sums.size() - 1;
@@ -76,7 +76,7 @@ inline std::size_t first_above(std::span<const double> sums, std::size_t low, st
     return static_cast<std::size_t>(std::upper_bound(from, to, w) - sums.begin());
 }
 
-/// Increasing sums with their guide.
+/// Increasing sums with their guide table. Interval i is from sum i - 1, or 0, to sum i.
 class GuideTable {
   public:
     GuideTable() = default;
@@ -93,7 +93,7 @@ class GuideTable {
     [[nodiscard]] double total() const { return sums_.back(); }
     [[nodiscard]] std::span<const double> sums() const { return sums_; }
 
-    /// Ends of interval i.
+    /// Ends and width of interval i.
     [[nodiscard]] double begin(std::size_t i) const { return i == 0 ? 0 : sums_[i - 1]; }
     [[nodiscard]] double end(std::size_t i) const { return sums_[i]; }
     [[nodiscard]] double width(std::size_t i) const { return sums_[i] - begin(i); }
@@ -111,7 +111,8 @@ class GuideTable {
     double most_ = 0;  ///< the largest number below the total
     Buckets buckets_;
     std::vector<std::uint32_t> starts_;
-    std::size_t few_ = few_sums;  ///< bound on the sums of a bucket, if that is small
+    /// Power of two above the number of sums in any bucket, or few_sums if that is smaller.
+    std::size_t few_ = few_sums;
 };
 
 }  // namespace stipple

@@ -95,8 +95,8 @@ class LineTabulator {
         for (const Sampled& piece : pieces) add_probed(piece);
     }
 
-    /// Adds a piece after probing f at many points. If f differs there from what the samples lead
-    /// to expect, the piece is cut at all of them, since otherwise a narrow feature would be
+    /// Adds a piece after probing f at many points. If f differs from the table there by more than
+    /// the samples suggest, the piece is cut at all probes; otherwise a narrow feature would be
     /// missed.
     void add_probed(const Sampled& piece) {
         const std::size_t cuts = places_.size();
@@ -191,8 +191,8 @@ class LineTabulator {
             tolerance, error_ / mass_, piece.at(0.5));
     }
 
-    /// True if f is 0 at a point in the piece, but not in all of it. If it is 0 at an end, a point
-    /// close to the end decides.
+    /// Whether f is 0 at a sample inside the piece, but not at all samples. A 0 at an end counts
+    /// only if f is also 0 at a point close to that end.
     [[nodiscard]] bool has_gap(const Sampled& piece) const {
         constexpr double near = 0x1p-12;
         if (std::ranges::max(piece.f) == 0) return false;
@@ -259,7 +259,8 @@ LineTable::LineTable(std::vector<LinePiece> pieces) : pieces_(std::move(pieces))
         const double before = sum;
         const double width = piece.x_high - piece.x_low;
         sums.push_back(sum += 0.5 * (piece.f_low + piece.f_high) * width);
-        // A quantile depends only on their ratio, so they are scaled to avoid overflow of squares.
+        // A quantile depends only on the ratio of f_low and f_high: scaled so that squares do not
+        // overflow.
         int size = 0;
         std::frexp(std::max(piece.f_low, piece.f_high), &size);
         rows_.push_back({before, sum - before, std::ldexp(piece.f_low, -size),
@@ -315,7 +316,8 @@ namespace {
 
 constexpr std::size_t batch_size = 128;
 
-/// The pieces of several numbers by column, so that the loop over them is vectorised.
+/// Data of the pieces that contain several numbers, by column, so that loops over it are
+/// vectorised.
 struct Batch {
     using Column = std::array<double, batch_size>;
     Column wanted, before, mass, f_low, f_high, x_low, width, last;

@@ -52,7 +52,8 @@ using BlockFunction = std::function<void(std::span<const double> at, std::span<d
 struct LineRange {
     double low = 0;
     double high = 1;
-    std::vector<double> breaks = {};  ///< inside, in increasing order
+    /// jumps and corners of the density inside, in increasing order
+    std::vector<double> breaks = {};
 };
 
 /// Tabulates f. `what` names it in messages: "--density: 1/x". @throws Error(usage) if f is
@@ -68,14 +69,14 @@ void require_density(const std::string& what, std::span<const double> place, dou
 /// last.
 double largest_bend(const std::array<double, 5>& f);
 
-/// Fraction of a piece's width below which the fraction r of its mass is, for densities a and b at
-/// its ends.
+/// Lower fraction of a piece's width that contains the fraction r of its mass, for densities a and
+/// b at its ends.
 inline double width_share(double a, double b, double r) {
     const double slowness = a + std::sqrt((1 - r) * (a * a) + r * (b * b));
     return slowness > 0 ? std::min(r * (a + b) / slowness, 1.0) : 0;  // 0 for a = r = 0
 }
 
-/// Inverse of width_share: fraction of the mass below the fraction t of the width.
+/// Inverse of width_share: fraction of the mass in the lower fraction t of the width.
 double mass_share(double a, double b, double t);
 
 /// A density that is linear on each piece, and may jump between pieces.
@@ -95,14 +96,14 @@ class LineTable {
 
     [[nodiscard]] const std::vector<LinePiece>& pieces() const { return pieces_; }
 
-    /// Index of the piece that contains x in the closed range.
+    /// Index of the piece that contains x, which must be in the closed range of the table.
     [[nodiscard]] std::size_t piece_of(double x) const;
 
-    /// The x below which the fraction u in [0, 1] of the mass is; always below the upper end of its
-    /// piece.
+    /// The x with the fraction u in [0, 1] of the mass below it; always below the upper end of the
+    /// piece that contains it.
     [[nodiscard]] double quantile(double u) const;
 
-    /// Replaces each share by its quantile.
+    /// Replaces each fraction of the mass by its quantile.
     void quantiles(std::span<double> shares) const;
 
     /// Fraction of the mass below x.
@@ -113,7 +114,7 @@ class LineTable {
     struct alignas(64) Row {
         double before;  ///< mass of the pieces before
         double mass;
-        double f_low;  ///< f_low and f_high are scaled by a power of 2
+        double f_low;  ///< f_low and f_high are scaled by a common power of 2
         double f_high;
         double x_low;
         double width;
@@ -122,7 +123,7 @@ class LineTable {
 
     std::vector<LinePiece> pieces_;
     std::vector<Row> rows_;
-    GuideTable masses_;  ///< of the pieces, in order
+    GuideTable masses_;  ///< running sums of the pieces' masses
 };
 
 }  // namespace stipple

@@ -47,8 +47,8 @@ Estimate integrate_pieces(const std::function<double(double)>& f, std::span<cons
 struct Effort {
     double tolerance = 1e-10;
     std::size_t most = 200;
-    std::size_t first = 3;  ///< intervals to begin with; odd, so that a feature in the middle of a
-                            ///< side is not missed by symmetry
+    /// Initial number of intervals; odd, so that symmetry cannot hide a feature in the middle.
+    std::size_t first = 3;
 };
 
 Estimate integrate_interval(const std::function<double(double)>& f, double low, double high,

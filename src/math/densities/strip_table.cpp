@@ -26,23 +26,25 @@ struct SampledPatch {
     double low;
     double high;
     std::array<std::array<double, 5>, 3> f;
-    double hidden = 0;  ///< largest known difference elsewhere that the samples do not show
+    /// Largest known error of the table between the samples, if these do not suggest it.
+    double hidden = 0;
 
     [[nodiscard]] double at(double part) const { return low + part * (high - low); }
 
-    /// Interpolates from the corners at fractions s and t of the extents.
+    /// Bilinear interpolation of the corners' values, at fractions s of the width and t of the
+    /// height.
     [[nodiscard]] double bilinear(double s, double t) const {
         return (1 - s) * ((1 - t) * f[0][0] + t * f[0][4]) + s * ((1 - t) * f[2][0] + t * f[2][4]);
     }
 
-    /// Largest difference of the samples from linear along y.
+    /// Largest difference of a sample from linear interpolation along y.
     [[nodiscard]] double bend() const {
         double worst = 0;
         for (const auto& line : f) worst = std::max(worst, largest_bend(line));
         return worst;
     }
 
-    /// Largest difference of the samples from linear along x.
+    /// Largest difference of a sample from linear interpolation along x; at least `hidden`.
     [[nodiscard]] double slope() const {
         double worst = hidden;
         for (std::size_t k = 0; k < 5; ++k)
@@ -62,7 +64,7 @@ struct SampledPatch {
         return gap ? top() : 0;
     }
 
-    /// Difference from the table that the samples lead to expect.
+    /// Largest difference from the table that the samples suggest.
     [[nodiscard]] double expected() const {
         constexpr double rounding = 1e-12;
         return 2 * (bend() + slope()) + rounding * top();
@@ -140,7 +142,7 @@ class StripTabulator {
             require_density(what_, std::span(points_).subspan(2 * i, 2), values_[i]);
     }
 
-    /// Fills the given samples of the patch, out of five, on all three lines.
+    /// Evaluates f at the samples `which` (of 0 to 4) of the patch, on each of its three lines.
     void sample(const SampledStrip& strip, SampledPatch& patch,
                 std::initializer_list<std::size_t> which) {
         points_.clear();
@@ -260,7 +262,7 @@ class StripTabulator {
                                        (place.at[1] - patch.low) / (patch.high - patch.low)));
     }
 
-    /// Keeps surprises for later strips, and adds them to the errors of existing ones.
+    /// Stores surprises for strips made later, and adds them to the errors of existing patches.
     void note(const std::vector<Surprise>& met) {
         for (const Surprise& one : met) {
             SampledPatch* const patch = patch_of(one.at).second;
@@ -273,15 +275,15 @@ class StripTabulator {
         sum_anew();
     }
 
-    /// Sets `hidden` to the largest error of a patch at points other than its samples, if these do
-    /// not lead to expect it.
+    /// Sets `hidden` to the largest known error of a patch between its samples, if it exceeds the
+    /// error that the samples suggest.
     void note_hidden_error(const SampledStrip& strip, SampledPatch& patch) const {
         const double worst = std::max(
             {probe_error(strip, patch), parent_error(strip, patch), met_error(strip, patch)});
         if (worst > patch.expected()) patch.hidden = worst;
     }
 
-    /// Largest error of the patch at the surprises in it.
+    /// Largest error of the patch at the points of met_ in it.
     [[nodiscard]] double met_error(const SampledStrip& strip, const SampledPatch& patch) const {
         double worst = 0;
         const std::array<double, 2> low{strip.low, -std::numeric_limits<double>::infinity()};
@@ -308,10 +310,11 @@ class StripTabulator {
         return worst;
     }
 
-    /// Largest error of the patch at samples of the parent strip on its two sides.
+    /// Largest error of the patch on its two sides, at samples of the parent strip.
     [[nodiscard]] double parent_error(const SampledStrip& strip, const SampledPatch& patch) const {
         if (parent_ == nullptr) return 0;
-        const std::size_t left = strip.low == parent_->low ? 0 : 1;  // parent's line at its left
+        // the parent's line at the strip's left side
+        const std::size_t left = strip.low == parent_->low ? 0 : 1;
         const auto behind =
             std::ranges::upper_bound(parent_->patches, patch.low, {}, &SampledPatch::high);
         double worst = 0;
@@ -383,8 +386,8 @@ class StripTabulator {
         std::ranges::sort(strip.patches, {}, &SampledPatch::low);
     }
 
-    /// The error that halving along y may reduce. Hidden errors count only if the patch is tall for
-    /// its width, because flat patches could miss the feature and no longer see it.
+    /// Error that halving along y may reduce. Hidden errors count only if the patch is tall for its
+    /// width: in flatter halves, no known point might show the feature any more.
     [[nodiscard]] double bend_of(const SampledStrip& strip, const SampledPatch& patch) const {
         const bool tall =
             (patch.high - patch.low) * box_.extent(0) > strip.width() * box_.extent(1);
@@ -538,7 +541,7 @@ std::array<double, 2> StripTable::quantile(double u, double v) const {
                                      std::min((wanted - masses_.begin(i)) / masses_.width(i), 1.0));
     const double x =
         within(column.x_low, column.x_high, column.x_low + share * (column.x_high - column.x_low));
-    // Recomputed from the rounded x, so that the inverse is consistent.
+    // Recomputed from the rounded x, as fraction() does, so that the two are inverse functions.
     const double t = column.side((x - column.x_low) / (column.x_high - column.x_low));
 
     const auto patches = patches_of(i);

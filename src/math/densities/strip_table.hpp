@@ -71,8 +71,8 @@ class StripTable {
     [[nodiscard]] double density(double x, double y) const;
 
   private:
-    /// A patch, and the integrals over y from the bottom to its upper end, on both sides of the
-    /// strip.
+    /// A patch, and the integrals over y from the strip's bottom to the patch's upper end, on both
+    /// sides of the strip.
     struct Patch {
         StripPatch shape;
         double left_sum;
@@ -84,11 +84,12 @@ class StripTable {
         double x_low;
         double x_high;
         std::size_t first;  ///< index of the first patch
-        double left;        ///< integral over y on the left side, and on the right
+        double left;        ///< integral of the density over y on the left side
         double right;
 
-        /// Position between the sides at which to take the conditional density for position t. On a
-        /// side without mass, this density is its limit, that of the other side.
+        /// Position between the sides whose conditional density of y applies at position t: t
+        /// itself, except that a side without mass has the limit, the conditional density of the
+        /// other side.
         [[nodiscard]] double side(double t) const {
             if ((1 - t) * left + t * right > 0) return t;
             return left > 0 ? 0 : 1;
@@ -105,9 +106,10 @@ class StripTable {
                                            columns_[column + 1].first - columns_[column].first);
     }
 
-    std::vector<Column> columns_;  ///< and a sentinel, for its `first`
+    /// followed by a sentinel, whose `first` is the number of patches
+    std::vector<Column> columns_;
     std::vector<Patch> patches_;
-    GuideTable masses_;  ///< of the strips, in order
+    GuideTable masses_;  ///< running sums of the strips' masses
 };
 
 }  // namespace stipple

@@ -68,11 +68,12 @@ struct RankSet {
     }
 };
 
-/// Ranks between two ends; if it wraps, ranks above the lower or below the upper one.
+/// Ranks between the ends of an interval; if it wraps, ranks above its lower or below its upper
+/// end.
 RankSet ranks_between(Interval ends, Side side, bool wraps);
 
-/// Distinct coordinates on each axis, including 1 and for boxes of the cube 0, and the ranks of the
-/// points' coordinates among them.
+/// Distinct coordinates on each axis, with 1 except on the torus, and with 0 for boxes of the cube;
+/// and the ranks of the points' coordinates among them.
 struct BoxGrid {
     std::size_t count = 0;
     Family family = Family::anchored;
@@ -81,9 +82,10 @@ struct BoxGrid {
     std::uint64_t weight = 1;
     std::vector<std::vector<double>> values;        ///< by axis, ascending
     std::vector<std::vector<std::uint32_t>> ranks;  ///< by axis: rank of every point
-    std::vector<std::vector<std::uint32_t>> order;  ///< by axis: sorted points; empty if anchored
-    std::vector<unsigned> digits;                   ///< binary digits of the coordinates, by axis
-    unsigned all_digits = 0;                        ///< sum of `digits`
+    /// by axis: points by coordinate; empty if anchored
+    std::vector<std::vector<std::uint32_t>> order;
+    std::vector<unsigned> digits;  ///< binary digits of the coordinates, by axis
+    unsigned all_digits = 0;       ///< sum of `digits`
 
     [[nodiscard]] std::size_t dimension() const { return values.size(); }
     [[nodiscard]] bool anchored() const { return family <= Family::half_open; }
@@ -142,7 +144,7 @@ class WorstBox {
     /// double.
     [[nodiscard]] double value() const { return value_; }
 
-    /// A box with a value below this in doubles cannot be worse.
+    /// A box whose value in doubles is below this cannot be worse.
     [[nodiscard]] double threshold() const { return value_ - rounding_; }
 
     /// Excess of the box, rounded to the nearest double.

@@ -23,7 +23,7 @@ void offer_packed(Unpacker& from, WorstBox& worst) {
     worst.offer({.side = side, .axes = from.take_all<Interval>()}, points);
 }
 
-/// Number of open cells that fit into a quarter of the memory.
+/// Number of open cells that fit into a quarter of the memory limit, at most 1 GiB.
 std::size_t most_cells(const Cell& cell, const RunContext& run) {
     constexpr std::size_t of_two_blocks = 32;
     const double bytes = static_cast<double>(sizeof(Cell) + of_two_blocks +
@@ -174,7 +174,7 @@ class Search {
     /// Bound below which parts of cells are left for later; 0 to explore cells to the end.
     [[nodiscard]] double next_target() const {
         constexpr double step = 0.6;
-        constexpr double close = 0.1;  // relative gap that is nearly closed
+        constexpr double close = 0.1;  // smaller relative gaps: explore cells to the end
         const double lower = known_.worst.value();
         const double gap = known_.upper - lower;
         if (!problem_.by_stages(known_) || full() || gap < close * lower) return 0;
