@@ -22,7 +22,8 @@
 
 namespace stipple::discrepancy {
 
-/// Boxes of one side, given by ranges lo to hi of numbers; their meaning depends on the Problem.
+/// A set of open or of closed boxes, given by ranges lo[i] to hi[i] of integers. Their meaning
+/// depends on the Problem.
 struct Cell {
     Side side;
     double bound;  ///< upper bound on the values of its boxes
@@ -40,7 +41,7 @@ struct Task {
     std::uint64_t work = 0;
 };
 
-/// Certain bounds during a search.
+/// Proven bounds during a search.
 struct Known {
     WorstBox worst;
     double upper = 1;
@@ -96,7 +97,7 @@ class Explorer {
     }
 
   private:
-    /// May overwrite `from`, unless it is all_.
+    /// Explores a cell. `from` has the points of a larger cell; points_[depth] is overwritten.
     void descend(Cell cell, const Points& from, std::size_t depth) {
         if (points_.size() < depth + 1) points_.emplace_back();
         Points& mine = points_[depth];
@@ -124,7 +125,7 @@ class Explorer {
     Task& task_;
     const SearchLimits& limits_;
     const RunContext& run_;
-    std::deque<Points> points_;  ///< of the cells on the path to the current one
+    std::deque<Points> points_;  ///< points of the cells on the path to the current one, by depth
     std::uint64_t next_look_ = 0;
     bool late_ = false;
 };

@@ -78,7 +78,7 @@ class BoxAscent {
         return inside;
     }
 
-    /// Volume of the box on the other axes. By division if possible: in many dimensions, a product
+    /// Volume of the box on the other axes, by division if possible: in many dimensions, a product
     /// would take longer than the counting.
     [[nodiscard]] double section(std::size_t axis) const {
         constexpr double tiny = 1e-280;
@@ -162,7 +162,8 @@ class BoxAscent {
     GridBox box_;
     std::vector<std::uint32_t> outside_;    ///< by point: number of axes on which it is outside
     std::vector<std::uint32_t> points_at_;  ///< points inside on other axes, by rank on this one
-    std::vector<std::uint32_t> line_;       ///< ranks of these points, ascending
+    /// ranks on this axis of the points inside on others, ascending
+    std::vector<std::uint32_t> line_;
 };
 
 /// Maximum of d uniform numbers: the generator's numbers from `first` on or, for large d, one
@@ -230,7 +231,7 @@ struct Plan {
         constexpr std::uint64_t effort = 1U << 24;  // comparisons: a fraction of a second
         const std::uint64_t size = grid.count * grid.dimension();
         constexpr std::uint64_t share = 8;    // at most 1 / share of the work
-        constexpr std::uint64_t ascent = 16;  // cost of an ascent on both sides, in sizes
+        constexpr std::uint64_t ascent = 16;  // cost of an ascent on both sides, in units of `size`
         const std::uint64_t affordable = limits.work / (share * ascent * size);
         const std::uint64_t wanted = std::clamp<std::uint64_t>(effort / size, 8, 200);
         starts = std::clamp<std::uint64_t>(affordable, 1, wanted);
@@ -292,7 +293,7 @@ Ascent ascend(const BoxGrid& grid, const SearchLimits& limits, const RunContext&
         }
         mine.work += ascent.work();
     };
-    // Ascents end early on their own and keep their results.
+    // Not stopped from outside: each ascent checks for a stop itself, and keeps its result.
     for_each_block(silent(unstopped(run)), plan.starts, together, [&](const Block& block) {
         ascend_all(block, Side::open);
         if (grid.measure == Measure::discrepancy) ascend_all(block, Side::closed);

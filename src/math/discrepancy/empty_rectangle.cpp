@@ -38,9 +38,9 @@ struct Width {
     Interval between;
 };
 
-/// Sweeps upwards over points. Points have positions in the order of their first coordinate. A
-/// point's key gives its height order among the points below the current one; on the torus, the
-/// points above are also below, one turn down.
+/// Sweeps upwards over points. A point's position is its rank by the first coordinate. Its key is
+/// its rank by height among the points below the current one; on the torus, points above are also
+/// below, one turn down.
 class Sweep {
   public:
     Sweep(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run)
@@ -68,7 +68,7 @@ class Sweep {
     }
 
   private:
-    /// Returns false if cut short.
+    /// Offers all maximal rectangles; returns false if a deadline or a stop ended the sweep.
     bool sweep() {
         const auto& upward = grid_.order[1];
         const std::size_t n = upward.size();

@@ -63,7 +63,7 @@ struct SearchLimits {
     /// Comparisons that take about a quarter of a second.
     static constexpr std::uint64_t short_work = 1U << 28;
 
-    /// True if bounds may suffice.
+    /// True if bounds may suffice: there is a tolerance, a deadline or a low limit of work.
     [[nodiscard]] bool wants_bounds() const {
         return tolerance > 0 || work < 4 * short_work || timed();
     }
@@ -86,7 +86,7 @@ struct SearchLimits {
 
 enum class Ending { complete, tolerance, work, time, stopped };
 
-/// Bounds that are certain at the end of a search.
+/// Proven bounds at the end of a search.
 struct SearchResult {
     WorstBox worst;
     double upper;   ///< upper bound of all values
@@ -119,7 +119,8 @@ class Limits {
     /// Limits for a part with these fractions of the work and of the remaining time.
     [[nodiscard]] Limits part(double of_work, double of_time, const RunContext& run) const;
 
-    /// Prints a note if only bounds of `what`, such as "the star discrepancy", are known.
+    /// Warns if a limit ended the search of `what`, such as "the star discrepancy", before its
+    /// bounds were within the tolerance.
     /// @throws Error(limit) if the exact value is required
     void judge(const SearchResult& found, const std::string& what, const PointSet& points,
                const RunContext& run) const;

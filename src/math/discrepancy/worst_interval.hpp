@@ -24,7 +24,7 @@
 
 namespace stipple::discrepancy {
 
-/// An end of the line, instead of the index of a point.
+/// Used instead of the index of a point if an interval extends to an end of the line.
 inline constexpr std::size_t line_end = std::numeric_limits<std::size_t>::max();
 
 template <class Number>
@@ -56,7 +56,7 @@ WorstInterval<Number> worst_interval(std::size_t n, const LineTerms<Number>& lin
     // On the circle, the whole is no worse than the best interval cut at a point.
     if (torus && n > 0) best.excess = -(line.all + line.points);
     Number highest = 0;
-    Number lowest = 0;  // of the line's start, at which an open interval may begin
+    Number lowest = 0;  // Q at the line's start, at which an open interval may begin
     std::size_t at_highest = line_end;
     std::size_t at_lowest = line_end;
     const auto take = [&](Number excess, std::size_t lower, std::size_t upper) {

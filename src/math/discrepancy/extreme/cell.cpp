@@ -44,7 +44,7 @@ struct Range {
     [[nodiscard]] bool single() const { return first == last; }
 };
 
-/// Ranges of the intervals on one axis.
+/// Ranges of the ends of a cell's intervals on one axis, and of whether these wrap.
 struct Ends {
     Range lower;
     Range upper;
@@ -131,7 +131,8 @@ Counted counted_of(const Line& line, Side side) {
     return counted;
 }
 
-/// Worst interval on a cell's line, times 2^all_digits; `all` is the section times the scale.
+/// Worst interval on a cell's line, with its excess times 2^all_digits; `all` is the section times
+/// the scale.
 WorstInterval<Integer> worst_on(const BoxGrid& grid, Side side, const Line& line,
                                 const Counted& counted, const Integer& all) {
     const auto height = [&](double x) { return Integer(all * scaled(x, grid.digits[0])); };
@@ -162,8 +163,8 @@ GridBox box_of(const BoxGrid& grid, const Cell& cell, const Line& line, const Co
     return box;
 }
 
-/// Expected gain from halving an axis: the fraction of its length and that of its ranks that are
-/// not yet decided.
+/// Expected gain from halving a range of ends on an axis: the undecided fraction of its length,
+/// plus that of its ranks.
 double openness(const BoxGrid& grid, std::size_t axis, const Ends& ends, Range range) {
     if (range.single()) return -1;
     const auto& values = grid.values[axis];
@@ -324,7 +325,7 @@ class CellBounder {
     }
 
     /// True if the exact bound exceeds the worst box's excess and the cell can be split; offers the
-    /// box of a single cell.
+    /// box of a cell that cannot.
     bool check_exactly(const Cell& cell, const Line& line, double bound) {
         const bool single = cell.lo == cell.hi;
         if (!single && (rounding_ == 0 || bound > worst_.excess() + rounding_)) return true;
@@ -352,10 +353,10 @@ class CellBounder {
     }
 
     /// Marks the points of a run that may be ends of a worst interval for some section of the cell.
-    /// The excess up to a point is a linear function of the section, with slope x. A point is
+    /// The excess up to a point, P or Q, is a linear function of the section with slope x; the two
+    /// differ by a constant here. An interval ends at a high P and begins at a low Q. A point is
     /// dominated if another one is better for all sections: it suffices to compare with points of
-    /// larger x at the smallest section, and with those of smaller x at the largest. P and Q differ
-    /// by a constant here; P is wanted highest and Q lowest.
+    /// larger x at the smallest section, and with those of smaller x at the largest.
     void find_useful(const Stretch& stretch, const Line& line) {
         const std::size_t first = stretch.first;
         const std::size_t n = stretch.last - first;
@@ -389,8 +390,8 @@ class CellBounder {
         }
     }
 
-    /// Drops decided points that are dominated, because they make no difference for boxes worse
-    /// than the worst.
+    /// Drops dominated decided points, because they cannot be ends of boxes worse than the worst so
+    /// far.
     void prune(Line& line) {
         Stretch stretch{.first = 0, .last = 0};
         auto& entries = line.entries;
@@ -426,10 +427,11 @@ class CellBounder {
     // State of the current cell.
     Side side_ = Side::open;
     std::vector<RankSet> outer_;  ///< ranks inside for some box, on all axes but the first
-    std::vector<RankSet> inner_;  ///< ranks inside for all boxes
+    std::vector<RankSet> inner_;  ///< ranks inside for all boxes, on these axes
     double largest_ = 0;          ///< scale times the section of the largest boxes
     double smallest_ = 0;
-    std::array<bool, longest_stretch> useful_{};  ///< for the points of a run
+    /// results of find_useful(), by position in the run
+    std::array<bool, longest_stretch> useful_{};
 };
 
 }  // namespace

@@ -32,9 +32,10 @@ class FreeBoxes final : public Problem {
     const RunContext& run_;
 };
 
-// An indicator of a box is a signed sum of those of up to 2^d anchored boxes, on the torus of 3^d -
-// 1: an interval is the difference of two from 0, plus the whole axis if it wraps, and the whole
-// space has no discrepancy. So the star discrepancy bounds the others.
+// The indicator function of a box is a signed sum of those of up to 2^d anchored boxes, or 3^d - 1
+// on the torus: an interval is the difference of two that begin at 0, plus the whole axis if it
+// wraps, and the whole space has no discrepancy. So a multiple of the star discrepancy bounds the
+// others.
 
 /// Grid for anchored boxes; on the torus, coordinates 1 become 0.
 BoxGrid anchored_grid(const PointSet& points, Family family, const RunContext& run) {
@@ -45,7 +46,7 @@ BoxGrid anchored_grid(const PointSet& points, Family family, const RunContext& r
     return box_grid(moved, Family::anchored, run);
 }
 
-/// Upper bound on the ratio to the star discrepancy, rounded up.
+/// Upper bound on the ratio of a family's discrepancy to the star discrepancy, rounded up.
 double factor(Family family, double dimension) {
     return (family == Family::cube ? std::pow(2, dimension) : std::pow(3, dimension) - 1) *
            (1 + 0x1p-50);

@@ -10,7 +10,7 @@ namespace stipple::discrepancy::extreme {
 /// Bytes of a search with this number of threads, including the grid.
 double search_memory(const PointSet& points, unsigned threads);
 
-/// Searches for boxes worse than `worst`; no value exceeds `upper`.
+/// Searches for boxes worse than `worst`, given an upper bound of all values.
 SearchResult search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits,
                     const RunContext& run, double upper = 1);
 

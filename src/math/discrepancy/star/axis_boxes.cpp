@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Bounds from single axes. Boxes that cover all axes but one give a first worst box, also to report
-// if there is no time for more. For an upper bound, let E_k bound the discrepancy of the points'
-// coordinates on axis k of d. A box has sides v_k and volume v, their product. It contains at most
-// the points of the box with any one of its sides, and misses at most the points that all these
-// boxes miss:
+// Bounds from boxes that cover all axes except one. Their worst is a first worst box, also the
+// result if there is no time for more. For an upper bound, let E_k bound the discrepancy of the
+// points' coordinates on axis k of d. A box with sides v_k and volume v is the intersection of d
+// such boxes, each with one of its sides. It contains at most as many points as any of them, and
+// misses at most as many as all of them together:
 //
 //     #/n <= min_k (v_k + E_k),          min_k v_k = p   =>  v >= p^d,
 //     #/n >= 1 - sum_k (1 - v_k + E_k),  mean_k v_k = s  =>  v <= s^d.
@@ -25,7 +25,7 @@
 namespace stipple::discrepancy::star {
 namespace {
 
-/// A box that covers all axes but one.
+/// A box that covers all axes except one.
 struct AxisBox {
     double value = -1;
     std::uint32_t rank = 0;  ///< rank of its end on that axis
@@ -42,7 +42,7 @@ struct Worst {
     AxisBox closed;
 };
 
-/// Points with a coordinate 1, which are in no open one-axis box.
+/// Marks points with a coordinate 1, which no open box contains.
 std::vector<bool> points_at_one(const BoxGrid& grid) {
     std::vector<bool> at_one(grid.count);
     for (std::size_t k = 0; k < grid.dimension(); ++k)

@@ -53,7 +53,7 @@ constexpr std::uint32_t candidate = std::uint32_t{1} << 31;
 /// same bin repeatedly is slow.
 constexpr std::int32_t dummy_bins = 16;
 
-/// The state of a point counts, in its upper bits, the axes on which it is undecided. Below, it has
+/// The upper bits of a point's state count the axes on which it is undecided. The lower bits are
 /// twice the number of axes on which it is above hi, plus the number on which it is at hi.
 constexpr int undecided_bits = 16;
 constexpr std::int32_t undecided_unit = 1 << undecided_bits;
@@ -156,8 +156,8 @@ class CellBounder {
     [[nodiscard]] std::uint64_t work() const { return work_; }
 
   private:
-    /// Candidates for corners on an axis: ranks from lo on, and signed counts of the assigned
-    /// points up to there. The vectors have room for more than `size`.
+    /// Candidates for corners on an axis: ranks, counted from lo, and signed numbers of assigned
+    /// points up to each. The vectors have room for more than `size`.
     struct Candidates {
         std::size_t size = 0;
         std::vector<std::int32_t> ranks;
@@ -244,8 +244,8 @@ class CellBounder {
             offer(cell.lo, inside_lo_);
     }
 
-    /// Assigns each point to an axis, or to -1 for none. Only for closed boxes: for open ones, a
-    /// point's axis is the only one on which it is undecided, if it is unique.
+    /// Assigns each point to an axis, or to -1 for none. Only for closed boxes: in open ones, a
+    /// point undecided on a single axis belongs to that axis.
     void assign(const Cell& cell, const Active& active) {
         const std::size_t inside = active.inside;
         axes_.assign(inside, -1);
@@ -254,7 +254,7 @@ class CellBounder {
             const double low = std::max(value(k, cell.lo[k]), tiny);
             const double steps = cell.hi[k] - cell.lo[k] + 1;
             const double price =
-                logarithm(value(k, cell.hi[k]) / low + 1e-9) / steps;  // a rough price
+                logarithm(value(k, cell.hi[k]) / low + 1e-9) / steps;  // approximate
             assign_to(active.axis(k), inside, signed_rank(cell.lo[k]),
                       std::max(1e-30F, static_cast<float>(price)), static_cast<std::int32_t>(k),
                       cost_.data(), axes_.data());

@@ -12,16 +12,17 @@
 
 namespace stipple::discrepancy::star {
 
-/// Cell of all corners of one side. A cell contains the corners lo <= y <= hi. On axis k, y stands
-/// for values[k][y] for open boxes and for values[k][y - 1] for closed ones, so that on both sides
-/// a point is inside if its rank is below y.
+/// Cell of all corners of one side. A cell contains the corners lo <= y <= hi. On axis k, y means
+/// values[k][y] for open boxes and values[k][y - 1] for closed ones, so that on both sides a point
+/// is inside if its rank is below y.
 Cell whole_cell(const BoxGrid& grid, Side side);
 
 /// The points that can matter in a cell, axis by axis, and the number of points that are inside all
 /// its boxes and were dropped.
 struct Active {
     std::size_t size = 0;
-    std::size_t inside = 0;  ///< the first so many are below hi, the rest on a face at hi
+    /// Number of points below hi, which come first; the others are on a face at hi.
+    std::size_t inside = 0;
     std::uint64_t decided = 0;
     std::vector<std::int32_t> ranks;
 

@@ -95,7 +95,7 @@ double worst_cell(const BoxGrid& grid, const std::vector<double>& cuts, const Ru
     double worst = 0;
     for (std::size_t line = 0; line * side + across < counts.size(); ++line) {
         if (line % 65536 == 0) run.check_stop();
-        double low = 1;  // volumes of the corners on all axes but the last
+        double low = 1;  // volumes of the corners on all axes except the last
         double high = 1;
         std::size_t rest = line;
         for (std::size_t k = 1; k < grid.dimension(); ++k, rest /= side) {

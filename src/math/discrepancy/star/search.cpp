@@ -36,7 +36,7 @@ class AnchoredBoxes final : public Problem {
     }
 
     [[nodiscard]] bool by_stages(const Known& known) const override {
-        constexpr std::uint64_t part = 64;  // work / part is spent on an exact value first
+        constexpr std::uint64_t part = 64;  // work / part: spent on an exact value first
         return limits_.wants_bounds() ||
                known.work > std::max(SearchLimits::short_work, limits_.work / part);
     }
@@ -44,7 +44,8 @@ class AnchoredBoxes final : public Problem {
     void look_around(Known& known, std::uint64_t work) override {
         constexpr std::uint64_t short_work = SearchLimits::short_work;
         if (known.work > short_work / 4) look_quickly(known.worst, known.upper);
-        constexpr std::uint64_t searches_apart = 16;  // in multiples of their cost
+        // work between two threshold searches, as a multiple of theirs
+        constexpr std::uint64_t searches_apart = 16;
         if (known.work > short_work && searches_apart * threshold_work_ < known.work) {
             const std::uint64_t cost =
                 accept_thresholds(grid_, rounds_, known.worst, limits_, run_);
@@ -86,7 +87,7 @@ class AnchoredBoxes final : public Problem {
     const Active points_;
     const SearchLimits& limits_;
     const RunContext& run_;
-    std::uint64_t rounds_ = 0;  ///< of threshold accepting
+    std::uint64_t rounds_ = 0;  ///< rounds of threshold accepting so far
     std::uint64_t threshold_work_ = 0;
     bool looked_ = false;
     bool covered_ = false;
@@ -123,7 +124,7 @@ SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const R
 }
 
 double search_bytes(std::size_t count, std::size_t dimension, unsigned threads) {
-    // The path to a cell holds about as many points again as the cell.
+    // The smaller cells on a path have about as many points together as the largest one.
     constexpr double copies = 3;
     return (1 + copies * threads) * static_cast<double>(count) * static_cast<double>(dimension) *
            sizeof(std::int32_t);

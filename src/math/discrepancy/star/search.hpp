@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The worst anchored box in any dimension, by branch and bound, or certain bounds if stopped early.
+// The worst anchored box in any dimension, by branch and bound, or proven bounds if stopped early.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace stipple::discrepancy::star {
 SearchResult search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits,
                     const RunContext& run, Peers* peers = nullptr);
 
-/// Searches like search(), but by a sweep without a start in one and two dimensions.
+/// As search(), except that one and two dimensions use a sweep, which ignores `worst`.
 SearchResult sweep_or_search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits,
                              const RunContext& run);
 
@@ -24,9 +24,9 @@ SearchResult sweep_or_search(const BoxGrid& grid, WorstBox worst, const SearchLi
 SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
                         Peers* peers = nullptr);
 
-/// Upper bound on all discrepancies that takes milliseconds, more for many points. Also covers
-/// boxes whose discrepancy is at most `of_axis` times that of anchored ones on each axis, and
-/// `of_all` times in all dimensions. Ignores stop requests.
+/// Upper bound on the discrepancy that takes milliseconds, more for many points. With factors it
+/// holds for other boxes, whose discrepancy is at most `of_axis` times that of anchored ones on
+/// each axis, and `of_all` times that in all dimensions. Ignores stop requests.
 double quick_bound(const BoxGrid& grid, const RunContext& run, double of_axis = 1,
                    double of_all = 1);
 
@@ -35,10 +35,11 @@ double search_bytes(std::size_t count, std::size_t dimension, unsigned threads);
 
 // Bounds for all anchored boxes at once, available before the cells of a search become small.
 
-/// Offers the worst one-axis boxes of each axis and side; their value is always above 1/(2n).
+/// Offers the worst box that covers all axes except one, for each axis and side; the worst of these
+/// has a value of at least 1/(2n).
 void offer_axis_boxes(const BoxGrid& grid, WorstBox& worst);
 
-/// Offers the worst one-axis boxes, separately for open and closed ones; one kind may have no bad
+/// As offer_axis_boxes() above, separately for open and closed boxes; one kind may have no bad
 /// boxes.
 void offer_axis_boxes(const BoxGrid& grid, WorstBox& open, WorstBox& closed);
 
@@ -69,7 +70,7 @@ struct WorstOfSides {
     WorstBox closed;
 };
 
-/// Finds both by the sweep. @throws Error(cancelled) when a stop is requested
+/// Finds the worst box of each side by the sweep. @throws Error(cancelled) when a stop is requested
 WorstOfSides worst_of_sides_2d(const BoxGrid& grid, const RunContext& run);
 
 }  // namespace stipple::discrepancy::star

@@ -91,19 +91,19 @@ STIPPLE_WIDE double pass(double* height, const double* y, const double* slope, s
     return top;
 }
 
-/// Adds to a range of whole vectors.
+/// Adds `by` to a range of whole vectors.
 STIPPLE_WIDE void add_to_vectors(float* c, std::size_t size, float by) {
     for (std::size_t i = 0; i < size; i += lanes) store(c + i, load<Floats>(c + i) + by);
 }
 
-/// Adds to c[from] and all numbers after it; `size` is a multiple of the vector length.
+/// Adds `by` to c[from] and all numbers after it; `size` is a multiple of the vector length.
 void add_from(float* c, std::size_t from, std::size_t size, float by) {
     const std::size_t whole = padded(from);
     for (std::size_t i = from; i < whole; ++i) c[i] += by;
     add_to_vectors(c + whole, size - whole, by);
 }
 
-/// Adds to all numbers before c[to].
+/// Adds `by` to all numbers before c[to].
 void add_before(float* c, std::size_t to, float by) {
     const std::size_t whole = to / lanes * lanes;
     add_to_vectors(c, whole, by);
@@ -300,8 +300,7 @@ class Sweep {
 
     [[nodiscard]] double level() const { return plane_.count * worst_.threshold(); }
 
-    /// Number of the strip's points in the box up to its last rank; all points if they share one
-    /// rank.
+    /// Number of the strip's entered points inside a box that ends at the strip's only rank.
     [[nodiscard]] double all_entered() const {
         return side == Side::open ? 0 : static_cast<double>(entered_);
     }
@@ -353,8 +352,8 @@ class Sweep {
                 if (height_a + height_j >= least) offer(u, a, j, corner_points, {first, last});
     }
 
-    /// Finds the lines of at least some height at z, the highest first: after its box is offered,
-    /// others rarely need an exact comparison.
+    /// Finds the lines with heights of at least `least` at z. The highest is first: after its box
+    /// is offered, others rarely need an exact comparison.
     static void gather(const float* w, const float* c, std::size_t size, float z, double least,
                        std::vector<Line>& lines) {
         lines.clear();
@@ -389,12 +388,12 @@ class Sweep {
     const std::vector<double>& ys_;
     WorstBox& worst_;
 
-    // State of the blocks.
-    std::vector<double> y_;         ///< its reference coordinate
-    std::vector<double> slope_;     ///< slope of its chord, in x
-    std::vector<double> height_;    ///< of its chord, including the points in its corner
-    std::vector<double> raised_;    ///< of its chord, without these points
-    std::vector<std::size_t> row_;  ///< index of its first line
+    // State of the blocks; y_ to row_ have one number per block.
+    std::vector<double> y_;         ///< reference coordinate
+    std::vector<double> slope_;     ///< slope of the chord, in x
+    std::vector<double> height_;    ///< height of the chord, including the points in the corner
+    std::vector<double> raised_;    ///< height of the chord, without these points
+    std::vector<std::size_t> row_;  ///< index of the first line
     std::vector<float> weight_;     ///< w, by line
     std::vector<float> points_;     ///< c, by line
 
@@ -402,12 +401,12 @@ class Sweep {
     std::size_t strip_ = 0;
     std::uint32_t first_ = 0;  ///< first rank of the strip
     double x_ = 0;
-    double corner_ = 0;  ///< maximum of the last line of the formula
+    double corner_ = 0;  ///< maximum of the last line of the formula in strips.hpp
     std::vector<float> strip_weight_;
     std::vector<float> strip_points_;
     std::vector<Entering> entering_;
-    std::size_t entered_ = 0;     ///< number of those added
-    std::vector<Line> of_strip_;  ///< lines whose boxes to offer
+    std::size_t entered_ = 0;     ///< number of entering_ that were added
+    std::vector<Line> of_strip_;  ///< lines whose boxes are offered
     std::vector<Line> of_block_;
 };
 

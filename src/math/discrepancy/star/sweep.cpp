@@ -68,7 +68,7 @@ void need_memory_of_sweep(const BoxGrid& grid, const RunContext& run) {
     run.need_memory(each * static_cast<double>(grid.count), "the sweep over the square");
 }
 
-/// Number of parts. Each first adds all points to its left, and starts with a worst box of its own.
+/// Number of parts; few, because each first adds all points to its left, and has its own worst box.
 std::size_t parts_of_sweep(const BoxGrid& grid) { return grid.count < 100'000 ? 1 : 2; }
 
 }  // namespace
