@@ -167,7 +167,7 @@ struct Triangular {
     double below = (mode - low) / (high - low);   ///< probability below the mode
     double above = (high - mode) / (high - low);  ///< probability above the mode
 
-    /// Measured from the nearer end, using sums of positive numbers only.
+    /// Computed from the nearer end, using sums of positive numbers only.
     double quantile(double p, Tail tail) const {
         const double from_low = tail == Tail::lower ? p : 1 - p;
         const double from_high = tail == Tail::lower ? 1 - p : p;
@@ -301,7 +301,7 @@ struct Weibull {
     std::pair<double, double> support() const { return {0, infinite}; }
 
   private:
-    /// By quadrature, for large shapes whose raw moments would cancel.
+    /// Moments by quadrature, for large shapes, where differences of raw moments would cancel.
     MarginalMoments narrow_moments() const {
         const auto [mean, variance, skewness] = moments_by_quadrature(*weibull_law(shape, 1));
         return {scale * mean, scale * scale * variance, skewness};
@@ -374,7 +374,7 @@ struct Beta {
         const double from_high = tail == Tail::lower ? at.rest : at.x;
         return from_low < 0.5 ? low + from_low * (high - low) : high - from_high * (high - low);
     }
-    /// Measured from the nearer end, whose distance has no rounding error.
+    /// Computed from the nearer end, whose distance has no rounding error.
     double probability(double x, Tail tail) const {
         const double y = (x - low) / (high - low);
         const double rest = (high - x) / (high - low);
@@ -403,7 +403,7 @@ struct StudentT {
     double ratio = gamma_ratio(0.5 * degrees, 0.5);                ///< sqrt(pi) / B(nu / 2, 1 / 2)
     double peak = ratio / std::sqrt(degrees * std::numbers::pi);   ///< density at 0
     double slope = degrees * std::sqrt(std::numbers::pi) / ratio;  ///< nu B(nu / 2, 1 / 2)
-    double far_out = 1e15 * std::sqrt(degrees);                    ///< t^2 + nu = t^2 beyond
+    double far_out = 1e15 * std::sqrt(degrees);  ///< beyond this, t^2 + nu rounds to t^2
 
     double quantile(double p, Tail tail) const {
         if (p == 0.5) return location;

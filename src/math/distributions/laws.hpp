@@ -30,7 +30,7 @@ MarginalPtr student_t_law(double degrees, double location, double scale);
 MarginalPtr integers_law(double low, double high);
 MarginalPtr poisson_law(double mean);
 MarginalPtr binomial_law(double trials, double probability);
-/// Probability of each value in proportion to its frequency in the list.
+/// Each value has a probability proportional to its frequency in the list.
 MarginalPtr empirical_law(std::vector<double> values);
 
 /// Linear interpolation between the sorted values, which must be distinct: probability 1 / (n - 1)

@@ -26,7 +26,7 @@ namespace stipple {
 
 enum class Tail { lower, upper };
 
-/// Infinite or NaN if a moment does not exist.
+/// Moments of a distribution; infinite or NaN if they do not exist.
 struct MarginalMoments {
     double mean = 0;
     double variance = 0;
