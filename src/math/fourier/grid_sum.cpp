@@ -36,8 +36,8 @@ double signed_of(std::uint64_t bits) {
     return static_cast<double>(static_cast<std::int64_t>(bits));
 }
 
-/// Smallest multiple of 4 with size <= 2^exponent. A sum of such grids loses at most 2^-61 of its
-/// size.
+/// Smallest exponent that is a multiple of 4 with size <= 2^exponent. A sum of such grids loses at
+/// most 2^-61 of its size.
 int exponent_of(double size) {
     if (!(size > 0)) return 0;
     constexpr int farthest = 1000;

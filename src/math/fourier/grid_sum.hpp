@@ -7,8 +7,8 @@
 // sums for different sizes are added in a fixed order. So rounding errors are relative to the size
 // of each grid.
 //
-// Shape   16 bytes per cell and size; numbers below 2^29 sizes, and sums below 2^42 of up to 2^20
-//         grids.
+// Shape   16 bytes per cell and size; cells below 2^29 times their grid's size, and sums of up to
+//         2^20 grids below 2^42 times it.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ class ScaledGridSum {
     void merge(Unpacker& from);
 
   private:
-    /// Both modulo 2^64.
+    /// Sums of the two integers of each cell, modulo 2^64.
     struct Cells {
         std::vector<std::uint64_t> coarse;
         std::vector<std::uint64_t> fine;

@@ -19,7 +19,8 @@ namespace {
 double cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
                const KaiserBessel& window) {
     const auto width = static_cast<double>(window.width());
-    // Averages vectors of four and of eight, so that the choice does not depend on the machine.
+    // Mean of vectors of four and of eight doubles, so that the choice does not depend on the
+    // machine.
     const double vectors = std::ceil(width / 4) / 2 + std::ceil(width / 8);
     const double d = static_cast<double>(dimension);
     const double cells = real_power_of(side, dimension);
@@ -38,8 +39,8 @@ constexpr double reserve = 1.2;
 
 /// True if the division by the scaling factors keeps rounding errors small enough.
 bool keeps_digits(const KaiserBessel& window, std::size_t dimension, double allowed) {
-    // Found by trial. Per point, errors are largest for sums over points in one place, and for the
-    // polynomials of each axis.
+    // Limits found by trial, for the largest errors per point: in sums over points in one place,
+    // and in the polynomials of each axis.
     const double times = window.magnification();
     return 1e-15 * std::pow(times, dimension) <= std::max(allowed / 8, 2e-14) &&
            6e-15 * times <= std::max(allowed / 16, 4e-14);
@@ -67,7 +68,7 @@ Nufft::Nufft(std::uint64_t count, std::size_t dimension, std::size_t max_frequen
                            (reserve * static_cast<double>(dimension));
     const auto wanted = static_cast<double>(2 * frequency_ + 1);
     double cheapest = std::numeric_limits<double>::infinity();
-    // If the count is unknown, it is usually much larger than the actual number of points.
+    // If the number of points is unknown, `count` is usually much larger than the actual number.
     const std::uint64_t likely = std::min(count, std::uint64_t{1} << 23);
     // A finer grid allows a narrower window and magnifies rounding errors less.
     std::size_t side = std::max(static_cast<std::size_t>(1.25 * wanted), CellGrid::smallest_side);

@@ -41,14 +41,14 @@ namespace stipple {
 /// Choice of grid and window.
 class Nufft {
   public:
-    /// @param count expected maximum of points; more points lose accuracy
+    /// @param count expected maximum number of points; more points lose accuracy
     /// @param max_frequency F, from 1 to 10^6.
     /// @param tolerance in [1e-13, 0.1], relative to sqrt(count).
     /// @param weighted true if rows have strengths after the coordinates.
     Nufft(std::uint64_t count, std::size_t dimension, std::size_t max_frequency, double tolerance,
           bool weighted = false);
 
-    /// Peak memory of the transform.
+    /// Peak memory of the transform, in bytes.
     [[nodiscard]] double bytes() const;
 
     [[nodiscard]] std::uint64_t count() const { return count_; }
@@ -76,8 +76,8 @@ class FourierSummation {
   public:
     explicit FourierSummation(const Nufft& nufft);
 
-    /// Number of points in a block: that of the cells, so that adding grids costs little, but
-    /// between 2^24 and 2^26.
+    /// Number of points in a block: about the number of cells, so that adding grids costs little,
+    /// but between 2^24 and 2^26.
     static std::uint64_t block_of(const Nufft& nufft);
 
     void add(std::span<const double> rows, const RunContext& run);
@@ -100,8 +100,8 @@ class FourierSummation {
     std::optional<Spreader> spreader_;  ///< exists until finish()
     std::uint64_t block_;               ///< points per block
     std::uint64_t points_ = 0;          ///< in the current block
-    double strongest_ = 0;              ///< their largest strength, or 1
-    ScaledGridSum sum_;                 ///< sum over the previous blocks
+    double strongest_ = 0;  ///< largest |strength| in the current block; 1 without strengths
+    ScaledGridSum sum_;     ///< sum over the previous blocks
 };
 
 /// Reference implementation by the plain sum, O(n (2F + 1)^d). Phases are reduced before rounding,

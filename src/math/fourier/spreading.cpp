@@ -31,7 +31,7 @@ constexpr std::size_t tiles_at_a_time = 128;                 // tiles of a colou
 /// rounding errors of long sums small.
 constexpr std::size_t fold_after = 512;
 
-/// Number of points sorted at a time: about that of the cells, between 2^20 and 2^22.
+/// Number of points sorted at a time: about the number of cells, between 2^20 and 2^22.
 std::size_t spreading_batch(const CellGrid& grid) {
     constexpr std::size_t most = std::size_t{1} << 30;  // within the range of 32-bit counters
     std::size_t cells = 1;

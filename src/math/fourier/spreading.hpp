@@ -56,7 +56,7 @@ class Spreader {
     /// Spreads the remaining points, which did not fill a batch.
     void finish(const RunContext& run);
 
-    /// Peak memory for `count` points, without the grid.
+    /// Peak memory for `count` points without the grid, in bytes.
     static double bytes(double count, const CellGrid& grid, bool weighted);
 
   private:

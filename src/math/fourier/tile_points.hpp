@@ -41,7 +41,7 @@ class TilePoints {
 
     void clear();
 
-    /// Memory for `count` points.
+    /// Bytes for `count` points.
     static double bytes(double count, double tiles, std::size_t numbers);
 
   private:
@@ -57,8 +57,8 @@ class TilePoints {
     std::size_t numbers_;
     Rows room_;
     std::vector<List> lists_;
-    std::vector<std::uint32_t> next_;  ///< next block in the list, by block
-    std::uint32_t used_ = 1;           ///< blocks; the first is unused, so that 0 means none
+    std::vector<std::uint32_t> next_;  ///< by block: the next block in its list
+    std::uint32_t used_ = 1;  ///< number of blocks in use; block 0 never is, so that 0 means none
 };
 
 }  // namespace stipple

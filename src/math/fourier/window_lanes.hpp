@@ -103,7 +103,8 @@ struct Chunk {
     alignas(64) std::array<std::array<std::int32_t, chunk>, Dimension> piece;
     alignas(64) std::array<std::int32_t, chunk> corner;  ///< first cell in the buffer
     alignas(
-        64) double values[chunk][Dimension][margin + vectors_of(Fours) * lanes];  ///< of the window
+        /// values of the window
+        64) double values[chunk][Dimension][margin + vectors_of(Fours) * lanes];
 
     Chunk() {
         for (auto& point : values)
@@ -111,7 +112,7 @@ struct Chunk {
     }
 };
 
-/// Bits of a word below the 12 of its grid point, and of a double below its exponent.
+/// The lower 52 bits: of a word, those below its grid point; of a double, its mantissa.
 constexpr std::uint64_t fraction = (std::uint64_t{1} << 52) - 1;
 STIPPLE_INLINE Words word_of(const V& cell, const V& between) {
     const V zero = {};
@@ -209,7 +210,7 @@ STIPPLE_INLINE void add_window(
 
 template <std::size_t Dimension, std::size_t Fours>
 void add_all(std::span<const double> rows, const SpreadTile& tile, double* buffer) {
-    thread_local Chunk<Dimension, Fours> work;  // keeps its zeros
+    thread_local Chunk<Dimension, Fours> work;  // its margins stay 0
     const std::size_t numbers = tile.numbers;
     const std::size_t all = rows.size() / numbers;
     for (std::size_t first = 0; first < all; first += chunk) {

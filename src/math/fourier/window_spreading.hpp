@@ -21,15 +21,15 @@ namespace stipple {
 /// A tile of the grid. Only `start` and `reach` differ between tiles.
 struct SpreadTile {
     double side = 0;                       ///< M
-    double tiles = 0;                      ///< number along an axis
+    double tiles = 0;                      ///< number of tiles along an axis
     double shift = 0;                      ///< 1/2 for odd windows, which centre on a grid point
     double lead = 0;                       ///< grid points of the window before the point's cell
-    std::size_t width = 0;                 ///< of the window
+    std::size_t width = 0;                 ///< of the window, in grid points
     unsigned piece_bits = 0;               ///< the window's table has 2^this pieces
     const double* coefficients = nullptr;  ///< of the window's table
     std::size_t numbers = 0;               ///< per point: coordinates, and its strength if weighted
-    std::size_t extent = 0;  ///< cells of a row of the buffer: a multiple of 8, from the widest
-                             ///< tile and whole vectors on
+    /// Cells in a row of the buffer: a multiple of 8, enough for the widest tile and whole vectors.
+    std::size_t extent = 0;
     std::array<std::int64_t, 3> start{};           ///< first cell, by axis
     std::array<std::size_t, 3> reach = {1, 1, 1};  ///< cells that its points touch, by axis
 };
