@@ -17,8 +17,9 @@ namespace stipple {
 
 struct Cholesky {
     std::vector<double> factor;  ///< d x d, row after row; complete if `failed` is 0
-    std::size_t failed = 0;      ///< size of the first leading minor not above rounding, or 0
-    double minor = 1;            ///< value of that minor, or the determinant
+    /// Size of the first leading minor that is not above rounding errors; 0 if all are.
+    std::size_t failed = 0;
+    double minor = 1;  ///< value of that minor, or the determinant
 };
 
 inline Cholesky cholesky(std::span<const double> a, std::size_t d) {

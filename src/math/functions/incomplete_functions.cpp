@@ -20,7 +20,7 @@ namespace {
 using Number = PortableDouble;
 constexpr detail::NoErrors no_errors;
 
-/// Below this, both functions equal x^a over a constant, with a relative error of 1e-18.
+/// Below this x, P(a, x) and I_x(a, b) equal x^a over a constant, with a relative error of 1e-18.
 constexpr double tiny = 1e-24;
 constexpr double log_tiny = -55;
 

@@ -6,7 +6,7 @@
 //     I_x(a, b) = integral of t^(a-1) (1-t)^(b-1) from 0 to x / B(a, b).
 //
 // I_x is x^a (1-x)^b / B(a, b) divided by a continued fraction, computed for the thinner tail. With
-// n = a + b, the power is
+// n = a + b, the dividend is
 //
 //     exp(s(n) - s(a) - s(b)) a b / n (n x / a)^a (n (1-x) / b)^b,    s = log_excess,
 //

@@ -89,7 +89,7 @@ namespace detail {
 
 namespace policies = boost::math::policies;
 
-/// Returns infinity or NaN if a function has no value, without exceptions.
+/// Boost's functions return infinity or NaN where they have no value, without exceptions.
 using NoErrors = policies::policy<policies::domain_error<policies::ignore_error>,
                                   policies::pole_error<policies::ignore_error>,
                                   policies::overflow_error<policies::ignore_error>,
