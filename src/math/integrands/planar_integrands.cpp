@@ -71,8 +71,8 @@ Vector3 sum(const Vector3& a, double s, const Vector3& b, double t, const Vector
 struct Parallelogram {
     Vector3 corner, side, other;
 
-    /// Intersects the parallelogram's plane with `ray`: coordinates (s, t) in the parallelogram,
-    /// and the ray parameter. Not finite if they are parallel.
+    /// Intersects the parallelogram's plane with `ray`. Returns the intersection's coordinates (s,
+    /// t) in the parallelogram, and the ray parameter; not finite if ray and plane are parallel.
     [[nodiscard]] Vector3 met_by(const Vector3& ray) const {
         const Vector3 normal = cross(side, other);
         const double far = dot(normal, corner) / dot(normal, ray);
