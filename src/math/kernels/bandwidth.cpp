@@ -15,7 +15,7 @@
 namespace stipple::kernels {
 namespace {
 
-/// Median; the mean of the two middle numbers if the count is even, 0 if it is 0.
+/// Median; the mean of the two middle numbers if the count is even, 0 if there are no numbers.
 double median_of(std::vector<double>& numbers) {
     if (numbers.empty()) return 0;
     const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);

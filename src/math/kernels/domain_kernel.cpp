@@ -65,7 +65,7 @@ class Marginals {
         }
     }
 
-    /// Bounds of the coordinate; of an unbounded domain, those used for plots.
+    /// Bounds of coordinate k; of an unbounded domain, those that plots use.
     [[nodiscard]] std::array<double, 2> ends(std::size_t k) const {
         return {box_.low[k], box_.high[k]};
     }
@@ -79,7 +79,7 @@ class Marginals {
 
     DomainPtr domain_;
     Box box_;
-    std::vector<double> inside_;  ///< point of which one coordinate at a time is changed
+    std::vector<double> inside_;  ///< a point inside, of which one coordinate at a time is changed
     std::vector<bool> falls_;     ///< true if the cube's coordinate is 1 - F
 };
 
@@ -123,8 +123,8 @@ class DomainKernel final : public Kernel {
         return part * exponential(-a);
     }
 
-    /// Integrates over panels on which k, and usually F, is smooth; bisects panels with too large
-    /// an error.
+    /// Mean of the kernel on axis k over Y. Integrates over panels on which the kernel, and usually
+    /// F, is smooth; bisects panels with too large an error.
     [[nodiscard]] Estimate mean_of(std::size_t k, double x) const {
         run_.check_stop();
         Marginals::Place place = marginals_.here();

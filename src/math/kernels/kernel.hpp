@@ -107,13 +107,14 @@ struct SquaredDiscrepancy {
     double expected;  ///< for n random points of the target: (mean of K(x,x) - total) / n
 };
 
-/// Squared discrepancy from the kernel's target, whose means it knows. If mean_diagonal() is
-/// unknown, `expected` uses the mean K(x, x) of the points. @throws Error(limit) if values are too
-/// large for a double
+/// Squared discrepancy of the points from the kernel's target, by the kernel's means. If
+/// mean_diagonal() is unknown, `expected` uses the mean K(x, x) of the points.
+/// @throws Error(limit) if values are too large for a double
 SquaredDiscrepancy squared_from_mean(const Kernel& kernel, const Columns& points,
                                      const RunContext& run);
 
-/// Squared discrepancy from target points. @throws Error(limit) like squared_from_mean
+/// Squared discrepancy of the points from target points. @throws Error(limit) as
+/// squared_from_mean()
 SquaredDiscrepancy squared_from_points(const Kernel& kernel, const Columns& points,
                                        const Columns& target, const RunContext& run);
 

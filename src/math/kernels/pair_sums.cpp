@@ -32,8 +32,8 @@ namespace {
 
 using Integer = boost::multiprecision::cpp_int;
 
-constexpr int high_places = 26;  ///< for values below 1: sums of 2^37 fit 64 bits
-constexpr int low_places = 70;   ///< for remainders of at most 2^43 units: sums of 2^20 fit
+constexpr int high_places = 26;  ///< of values, at most 1 in size: sums of 2^37 of them fit 64 bits
+constexpr int low_places = 70;  ///< of the remainders, at most 2^43 units: sums of 2^20 of them fit
 
 /// Sum of numbers of at most 2^exponent in absolute value, in multiples of 2^(exponent -
 /// low_places).
@@ -41,7 +41,7 @@ class FixedSum {
   public:
     explicit FixedSum(int exponent) : scale_(std::ldexp(1.0, -exponent)) {}
 
-    /// Adds `times` the sum of up to `tile` values.
+    /// Adds the sum of up to `tile` values, multiplied by `times`.
     void add(const double* values, std::size_t count, unsigned times) {
         std::array<std::uint64_t, 2> parts = parts_of(values, count, scale_);
         const auto high = static_cast<Int128>(std::bit_cast<std::int64_t>(parts[0]));
@@ -165,7 +165,7 @@ struct Diagonal {
     }
 };
 
-/// Exponent with headroom for values of K, means and rounding.
+/// Exponent e so that 2^e exceeds all values of K and means, with headroom for rounding.
 int exponent_above(double largest) { return std::ilogb(std::max(largest, 0x1p-900)) + 2; }
 
 /// numerator / denominator in units of 2^(exponent - low_places), rounded to about 60 bits.
