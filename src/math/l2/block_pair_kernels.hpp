@@ -134,7 +134,7 @@ STIPPLE_INLINE Compensated<Group> from_vertex(const double* row, const double* b
     return {flipped(t, whole) - all(same(axis.vertex)), flipped(rest, whole)};
 }
 
-/// A minimum: selects the numbers of the point that comes first in the order of column 0.
+/// The factor min(g_x, g_y): selects the term of the point whose number in column 0 is smaller.
 struct Minimum {
     static constexpr std::size_t columns_of_factor = 3;
     static constexpr bool separates = true;
@@ -147,7 +147,7 @@ struct Minimum {
             where_less(mine, other, rows(row + block_width), columns(block + block_width)),
             where_less(mine, other, rows(row + 2 * block_width), columns(block + 2 * block_width))};
     }
-    /// Factors of the points of a block that come before all others.
+    /// Factors of a block's points if these precede all points of the other block.
     STIPPLE_INLINE static Compensated<V> own(const double* block) {
         return {load(block + block_width), load(block + 2 * block_width)};
     }
@@ -157,7 +157,7 @@ struct Minimum {
 struct TwoSided {
     static constexpr std::size_t columns_of_factor = 2;
     static constexpr bool separates = false;
-    static constexpr bool above_one = true;  ///< factors are given minus 1
+    static constexpr bool above_one = true;  ///< factor() returns the factor minus 1
     STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
                                                     const AxisConstants&) {
         const Group none = all(V{});

@@ -12,24 +12,25 @@
 namespace stipple::l2 {
 namespace {
 
-constexpr std::size_t group = 4;        ///< rows that are multiplied together
-constexpr std::size_t batch_size = 16;  ///< blocks between which sums are doubles
+constexpr std::size_t group = 4;  ///< rows that are multiplied together
+/// blocks whose sums are added in lanes before they are totalled
+constexpr std::size_t batch_size = 16;
 
-/// How much of a factor is the same for all pairs of points of two blocks.
+/// Property of a factor that all pairs of points of two blocks share.
 enum class Known {
     nothing,
-    of_rows,     ///< belongs to the rows, which come first on its axis
-    of_columns,  ///< belongs to the columns, which come first
+    of_rows,     ///< depends only on the row's point: the rows come first on its axis
+    of_columns,  ///< depends only on the column's point: the columns come first
     one          ///< equals 1: the blocks are on different sides of 1/2
 };
 
-/// Knowledge about a factor if the kernel depends on the order of two points.
+/// Property of a factor of a kernel that depends on the order of two points.
 Known known_in_order(const BlockTable::Range& rows, const BlockTable::Range& columns) {
     if (rows.greatest <= columns.least) return Known::of_rows;
     return columns.greatest <= rows.least ? Known::of_columns : Known::nothing;
 }
 
-/// Knowledge about a factor of the centered kernel.
+/// Property of a factor of the centered kernel.
 Known known_by_side(const BlockTable::Range& rows, const BlockTable::Range& columns) {
     const bool apart = std::min(rows.greatest, columns.greatest) <= 0.5 &&
                        std::max(rows.least, columns.least) >= 0.5;
@@ -47,13 +48,13 @@ struct LaneSums {
     double error[max_lanes] = {};
 };
 
-/// A block of rows and one of columns, and what their factors have in common.
+/// A block of rows and a block of columns, with the factors sorted by Known.
 struct BlockPair {
     const double* rows = nullptr;
     const double* columns = nullptr;
-    std::vector<std::size_t> factors = {};  ///< those that differ between pairs of points
+    std::vector<std::size_t> factors = {};  ///< factors that differ between pairs of points
     bool full = true;                       ///< no padding
-    // For kernels that separate into a factor of either point.
+    // For kernels whose factors can depend on one of two points.
     std::vector<std::size_t> row_factors = {};
     std::vector<std::size_t> column_factors = {};
     PointProducts row_products = {};

@@ -24,8 +24,10 @@ enum class PairForm { minimum, two_sided, bernoulli, linear, mixture, one_plus_m
 struct AxisConstants {
     double base = 0;
     double base_error = 0;
-    double offset = 0;  ///< amount added to the base
-    double vertex = 0;  ///< |x - y| at the vertex of the parabola, or the middle of its range
+    double offset = 0;  ///< amount added to the base, and subtracted from the factor again
+    /// Value of |x - y| at the vertex of a parabola, or in the middle of its range for linear
+    /// factors.
+    double vertex = 0;
 };
 
 /// Blocks of points, stored by column; the last column is 1 for points and 0 for padding. The more

@@ -152,7 +152,7 @@ class OneProduct {
         if (kind_ == Kind::centered) return {of(std::max(along, Fixed{0}))};
         return {upper ? of(half - c) : unity};
     }
-    /// True if the i-th number of a side is 1 and it pays to know.
+    /// True if the i-th number of a side is 1, so that a multiplication can be saved.
     static bool is_one(const Side& side, std::size_t, bool upper) {
         return !upper && side[0] == unity;
     }
@@ -160,7 +160,7 @@ class OneProduct {
     [[nodiscard]] Fixed factor(Terms lower, Terms upper) const {
         return times(side(lower, false)[0], side(upper, true)[0]);
     }
-    /// Upper bound on 1 and all terms of a point.
+    /// Upper bound on all terms of a point; at least 1.
     [[nodiscard]] double most() const {
         return alone_ ? 1 : 1 + std::ldexp(static_cast<double>(weight_), -behind);
     }
@@ -231,7 +231,8 @@ class ThreeProducts {
 
 struct Item {
     std::array<std::uint64_t, max_axes> at;
-    Fixed weight = unity;     ///< for one product: product of those of the axes halved so far
+    /// For one product per kernel: product of the factors on the axes halved so far.
+    Fixed weight = unity;
     std::uint32_t point;      ///< index in the order of the last axis
     std::uint32_t upper = 0;  ///< bit set of the axes on which it was in an upper half
 
@@ -353,8 +354,8 @@ class Division {
     /// Merges two halves in order of axis r - 2, and distributes the items for the next level.
     void halve(std::size_t r, std::size_t first, std::size_t last, FixedSum& sum) {
         Item* const below = levels_[r - 1].data();
-        std::size_t next = first;  // end of the items with one color below and the other above
-        std::size_t rest = last;   // begin of the items the other way round, in reverse order
+        std::size_t next = first;  // end of the items in the same half of axes r - 1 and r
+        std::size_t rest = last;   // begin of those in different halves, in reverse order
         merge(r, first, last, [&](const Item& item, bool upper) {
             const bool crossed = r != axes_.size() && item.is_upper(r) != upper;
             Item& share = below[crossed ? --rest : next++];
@@ -430,7 +431,7 @@ class Division {
     }
 
     std::vector<Axis> axes_;
-    std::vector<Terms> terms_;  ///< of points on all axes, for three products
+    std::vector<Terms> terms_;  ///< terms of all points on all axes; only for three products
     std::array<std::vector<Item>, max_axes + 1> levels_;  ///< items, by number of axes left
     std::vector<Item> spare_;
     const RunContext& run_;

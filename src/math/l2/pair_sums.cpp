@@ -50,7 +50,7 @@ namespace {
 
 /// Per-point terms of one axis factor.
 struct PointNumbers {
-    double position;  ///< on the axis; a multiple of 2^-53 if distances matter
+    double position;  ///< on the axis; a multiple of 2^-53 if the factor depends on distances
     double rest;      ///< remainder of the position
     DoubleDouble value;
 };
@@ -214,8 +214,8 @@ Axes axes_of(std::size_t dimension, Kind kind, const AxisWeights& weights, bool 
     return axes;
 }
 
-/// True if the two minima of the centered kernel form one factor minus 1, exactly, and its products
-/// need no scaling.
+/// True if the two minima of the centered kernel can be computed as one factor minus 1 without
+/// rounding errors, and products need no scaling.
 bool is_two_sided(const PointSet& points, Kind kind, const AxisWeights& weights) {
     constexpr std::size_t most_axes = 1500;  // 1.5^1500 is within the range of doubles
     if (kind != Kind::centered || points.dimension() > most_axes ||
@@ -298,7 +298,7 @@ Numbers numbers_of(const PointSet& points, const Axes& axes, const RunContext& r
 struct Scaling {
     std::vector<int> exponents;  ///< even numbers, by factor
     double any_order = 0;        ///< products of any of the factors are at most 2^any_order
-    double growth = 0;           ///< products of any last factors are at most 2^growth
+    double growth = 0;  ///< products of the last factors, of any number, are at most 2^growth
 };
 
 Scaling scaling_of(const Numbers& numbers, const std::vector<const FactorForm*>& forms) {
@@ -370,7 +370,7 @@ PairForm form_of(const FactorForm& form, Kind kind) {
     return form.is_bernoulli() ? PairForm::bernoulli : PairForm::minimum;
 }
 
-/// Factor for distances if factors are multiplied by root^2.
+/// Scale of positions in a form whose factors are multiplied by root^2.
 double scale_of_distance(PairForm form, double root) {
     return form == PairForm::linear ? root * root : root;
 }
@@ -400,7 +400,7 @@ Factors factors_of(const Axes& axes) {
     return factors;
 }
 
-/// Binary digits by which products may exceed 1, or recover from underflow.
+/// Products up to 2^safe_digits neither overflow nor magnify digits lost by underflow too much.
 constexpr double safe_digits = 850;
 
 BlockTable table_of(PairForm form, const Numbers& numbers, const Scaling& scaling,

@@ -81,7 +81,7 @@ class LongSum {
     std::array<Uint128, 4> parts_{};
 };
 
-/// A point: its coordinate t on the axis of the order, and w on the other.
+/// A point: its coordinate t on the axis by which points are ordered, and w on the other axis.
 struct Item {
     std::uint64_t t;
     std::uint64_t w;
@@ -255,7 +255,7 @@ std::vector<Item> by_first_axis(const PointSet& points, const RunContext& run) {
     return items;
 }
 
-/// V of an axis, from moments of the other coordinate alone and multiplied by t.
+/// V of an axis, from moments of the other coordinate: `alone`, and multiplied by t in `with_t`.
 PlaneSums::Symmetric along(const AxisSums& sums, const std::array<Integer, 4>& alone,
                            const std::array<Integer, 4>& with_t, const Integer& sum_t) {
     const Integer n = alone[0];
@@ -342,7 +342,8 @@ double quotient(const Integer& value, std::size_t n, unsigned axes) {
     return Fraction(value, below).convert_to<double>();
 }
 
-/// Scales `value` from its degrees in the coordinates to those of all axes.
+/// Scales a value of some degree in the coordinates to degree 2 on each axis, so that all can be
+/// added.
 Integer scaled(const Integer& value, unsigned degrees, unsigned axes) {
     return value << (fraction_bits * (2 * axes - degrees));
 }

@@ -22,10 +22,11 @@ Square pair_square(const PointSet& points, Kind kind, const AxisWeights& weights
 /// Bytes that pair_square() needs.
 double pair_memory(std::size_t count, std::size_t dimension);
 
-/// Sums over the points of a set, with phi_p scaled by 2^63 to the power of its degree.
+/// Sums over the points of a set (see planar.cpp), with phi_p scaled by 2^63 to the power of its
+/// degree.
 struct PlaneSums {
     using Integer = boost::multiprecision::cpp_int;
-    using Symmetric = std::array<Integer, 5>;  ///< V of (0,0), (0,1), (0,2), (0,3), (1,1)
+    using Symmetric = std::array<Integer, 5>;  ///< V_pq: 00, 01, 02, 03, 11
 
     std::size_t count = 0;
     std::array<std::array<Integer, 4>, 4> moments;  ///< M_pq, p on the first axis, q on the second
