@@ -41,8 +41,8 @@ const std::vector<Kind>& catalog();
 /// The kinds as JSON for `list --json`.
 Json json_of(const std::vector<Kind>& kinds);
 
-/// All units that a verb accepts, as a kind with the name of the last of their kinds; nullptr if it
-/// accepts none.
+/// All units that a verb accepts, as one Kind with the name of the last kind among them; nullptr if
+/// the verb accepts none.
 const Kind* units_for(std::string_view verb);
 
 /// Unit by name or alias; nullptr if there is none.
@@ -51,13 +51,13 @@ const UnitInfo* find_unit(const Kind& kind, std::string_view name);
 /// Names and aliases of all units of a kind.
 std::vector<std::string> names_of(const Kind& kind);
 
-/// Unit of a verb by name. @throws Error(usage)
+/// The unit with this name that the verb accepts. @throws Error(usage) if there is none
 const UnitInfo& unit_of(std::string_view verb, std::string_view name);
 
-/// Notes after an option in help, such as "default 1, in [0, 9], steps".
+/// Notes after an option in help, such as " (in [0, 9]; steps; default 1)".
 std::string option_notes(const Option& option);
 
-/// Option as it is typed, such as "--radius R".
+/// An option as users type it, such as "--radius X".
 std::string option_usage(const Option& option);
 
 }  // namespace stipple

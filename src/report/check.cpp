@@ -96,7 +96,7 @@ std::string_view meant_by(std::string_view op) {
     return {};
 }
 
-/// "uniform, non-uniform or stratified"
+/// Lists words: "uniform, non-uniform or stratified".
 std::string listed(const std::vector<std::string_view>& words) {
     const std::span most = std::span(words).first(words.size() - 1);
     return fmt::format("{} or {}", fmt::join(most, ", "), words.back());

@@ -12,13 +12,13 @@
 namespace stipple {
 
 struct Check {
-    std::string key = {};            ///< dotted
+    std::string key = {};            ///< dotted key of a result
     std::string op = {};             ///< < <= > >= == !=
     std::string value = {};          ///< a number, true, false, or a word
     std::string option = "--check";  ///< option that gave it, for messages
 
-    /// Whether it holds. @throws Error(usage) if the key does not exist, or is not a number but
-    /// compared with one
+    /// Whether the condition holds. @throws Error(usage) if the key does not exist, or if its
+    /// result is not a number but is compared with one
     [[nodiscard]] bool holds(const Report& report) const;
 
     /// The value under the key, in words: "0.25", "false", "between 0.1 and 0.2".

@@ -45,8 +45,8 @@ using Cells = std::vector<std::pair<std::string, std::string>>;  // column, cell
 /// Lists of equal length in one group of the results.
 struct Lists {
     std::size_t count = 0;
-    bool whole = false;            ///< one of them holds integers
-    std::vector<Cells> rows = {};  ///< if they are curves: cells of each entry
+    bool whole = false;            ///< true if one of the lists holds integers
+    std::vector<Cells> rows = {};  ///< cells of each entry, if the lists are curves
 };
 
 /// The cells of one measurement.

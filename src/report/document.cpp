@@ -42,7 +42,7 @@ Json measurement_json(const Measurement& m) {
     return object;
 }
 
-constexpr std::size_t most_shown = 9;  ///< limit for numbers of a list on a line
+constexpr std::size_t most_shown = 9;  ///< longest list that is shown on one line
 
 std::string shortened(const Report::Curve& curve) {
     const std::size_t some = std::min(curve.size(), most_shown);

@@ -22,7 +22,7 @@ struct Measurement {
     std::string analyzer;
     std::string source;
     std::optional<std::size_t> set = {};  ///< number of the set, if its file has several
-    std::size_t sets = 1;                 ///< number of sets that the results are the mean of
+    std::size_t sets = 1;                 ///< number of sets that were averaged
     std::uint64_t count = 0;              ///< points; for a mean over different sizes, the smallest
     std::uint64_t largest_count = 0;      ///< largest size, for such a mean; else 0
     std::size_t dimension = 0;
