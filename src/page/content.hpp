@@ -19,13 +19,13 @@ namespace stipple::page {
 
 inline constexpr std::size_t most_sets = 12;  ///< one per colour
 
-/// One measure of a set: its results, or why there are none.
+/// One measure of a set: its results, or the reason why it has none.
 struct Measure {
     std::string name;   ///< first part of its keys: "star-discrepancy", "extreme-discrepancy"
     std::string title;  ///< displayed name
     std::string analyzer;
     std::vector<std::pair<std::string, std::string>> options = {};  ///< options that have a value
-    std::string command = {};  ///< that reproduces the results; empty: there is none
+    std::string command = {};  ///< command that reproduces the results; empty if there is none
     std::optional<Report> results = {};
     std::string left_out = {};  ///< reason if there are no results
 };
@@ -41,7 +41,7 @@ struct Set {
     std::string domain = {};
     std::optional<std::uint64_t> fingerprint = {};  ///< fingerprint of the coordinates
     Provenance provenance = {};
-    std::string command = {};  ///< that makes the points; empty: unknown
+    std::string command = {};  ///< command that makes the points; empty if unknown
     std::vector<Measure> measures = {};
     std::vector<std::string> figures = {};  ///< pictures, as HTML
     /// Results of further sets of the same kind, as from all_results(). If there are any, the
@@ -58,7 +58,7 @@ struct Set {
 struct Page {
     std::string title;
     std::string version;       ///< version of stipple
-    std::string command = {};  ///< that makes the page
+    std::string command = {};  ///< command that makes the page
     std::vector<Set> sets = {};
 };
 
@@ -94,10 +94,10 @@ struct Key {
 /// All compared numbers, in the order of the table.
 std::span<const Key> compared_keys();
 
-/// Word that a test found, such as "uniform"; empty if there is none.
+/// Verdict of a test, such as "uniform"; empty if the results have none.
 std::string verdict_of(const Report& results);
 
-/// Knowledge of a number: exact, bounds, or a mean with its error.
+/// A number: exact, between bounds, or a mean with its error.
 struct Known {
     double value = 0;
     double lower = 0;
@@ -117,7 +117,7 @@ struct Row {
     std::vector<bool> best = {};  ///< no other set can be better; several sets may tie
 };
 
-/// The number under a key of a set's results, with its bounds if there are some; if the set has
+/// The number under a key of a set's results, with its bounds if it is not exact; if the set has
 /// replications, the mean over all sets.
 std::optional<Known> known_under(const Set& set, const Key& key);
 

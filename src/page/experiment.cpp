@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t most_values = 12;  ///< limit for values of a list that are written out
 
-/// "2", "x > 1", "a, b, c"
+/// A value in words: "2", "x > 1", "a, b, c".
 std::string words_of(const Json& value) {
     if (value.is_string()) return value.get<std::string>();
     if (!value.is_array()) return json_text(value);
@@ -32,14 +32,14 @@ std::string words_of(const Json& value) {
     return fmt::format("{}, ... ({} in all)", join(all, ", "), count);
 }
 
-/// "2 to 3"
+/// A range in words: "2 to 3".
 std::string ends_of(const Json& ends) {
     return ends.is_array() && ends.size() == 2
                ? fmt::format("{} to {}", words_of(ends[0]), words_of(ends[1]))
                : words_of(ends);
 }
 
-/// "uniform from 2 to 3", "normal: mean 0, standard-deviation 1", "words: steel, brass"
+/// Values of a parameter in words: "uniform from 2 to 3", "normal: mean 0, standard-deviation 1".
 std::string law_of(const Json& parameter) {
     std::string text;
     std::vector<std::string> more;

@@ -94,7 +94,7 @@ std::string boxes_figure(const char* kind, const std::string& drawing, const Set
     return figure(kind, drawing + box_legend(boxes, projections), caption + ".");
 }
 
-/// Odd side of the blocks, so that at most `most` blocks are next to each other.
+/// Smallest odd side of square blocks with at most `most` blocks in a row.
 std::size_t block_side(std::size_t rows, std::size_t most) {
     std::size_t block = 1;
     while ((rows + block - 1) / block > most) block += 2;
@@ -203,7 +203,7 @@ std::vector<MarkedBox> worst_boxes(const Set& set) {
         const Report& found = *measure.results;
         const std::string kind = option_of(measure.options, "kind");
         if (const auto corner = list_at(found, "worst_box.corner")) {
-            // Measuring prefixes repeats the search in the whole set.
+            // Measures of prefixes repeat the search in the whole set.
             if (std::ranges::find(boxes, kind, &MarkedBox::kind) != boxes.end()) continue;
             MarkedBox box{.kind = kind, .high = *corner};
             box.low = list_at(found, "worst_box.lower_corner")
@@ -294,7 +294,7 @@ std::string curve_figures(std::span<const Set> sets, std::span<const std::size_t
     for (const Planned& plan : planned_measures())
         for (const CurveKey& curve : plan.analyzer->curves)
             if (!curve.caption.empty()) all.emplace_back(&plan, &curve);
-    // Logarithmic axes, those of numbers of points, come last.
+    // Curves over the number of points, whose axes are logarithmic, come last.
     std::ranges::stable_sort(all, {}, [](const auto& one) { return one.second->log; });
     std::string out;
     for (const auto& [plan, curve] : all) out += chart_figure(sets, which, *plan, *curve);

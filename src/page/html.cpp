@@ -44,7 +44,7 @@ std::string plural(std::uint64_t n, const char* one, const char* many) {
     return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
-/// "the unit cube", "the disk", "the domain disk:center=[1,2]"
+/// A domain in words: "the unit cube", "the disk", "the domain disk:center=[1,2]".
 std::string domain_in_words(const std::string& spec) {
     if (is_experiment(spec)) return "named parameters";
     if (spec.find_first_of(": ") != std::string::npos) return "the domain " + spec;

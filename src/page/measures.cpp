@@ -18,8 +18,8 @@
 namespace stipple::page {
 namespace {
 
-/// Limits comparisons of all pairs, except in dimensions where faster methods exist.
-/// @throws Error(limit)
+/// Rejects measures that would compare too many pairs of points, except in dimensions with faster
+/// methods. @throws Error(limit)
 void need_few_pairs(const Planned& plan, const PointSet& points, std::int64_t work) {
     const auto& [above, steps] = plan.analyzer->pairs;
     const auto n = static_cast<double>(points.count());
@@ -32,8 +32,8 @@ void need_few_pairs(const Planned& plan, const PointSet& points, std::int64_t wo
          points.count(), points.dimension(), plan.analyzer->name);
 }
 
-/// Work limit of a search for a worst box, in comparisons. For many points the searches with other
-/// options than the defaults end with their initial bounds anyway, so they get less.
+/// Work limit of a search for a worst box, in comparisons. For many points, searches with
+/// non-default options end with their initial bounds anyway, so they get less.
 std::int64_t work_for(const Planned& plan, std::size_t count, std::int64_t work) {
     constexpr std::size_t many = 50'000;
     const bool usual = std::ranges::all_of(
@@ -48,8 +48,8 @@ std::string prefixes_of(std::size_t count) {
     return text + std::to_string(count);
 }
 
-/// Prefixes are measured only for sequences, and only for sizes where the search is exact and fast.
-/// @throws Error(limit), Error(input)
+/// Rejects measures of prefixes, except for sequences of a size for which the search is exact and
+/// fast. @throws Error(limit), Error(input)
 void need_prefixes(const PointSet& points) {
     constexpr std::size_t fewest = 32;
     constexpr std::size_t most = 100'000;
@@ -108,7 +108,8 @@ Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube,
     measure.command += input.remark;
     if (input.words.empty()) measure.command.clear();
     const std::string domain = shown->domain->spec();
-    const bool distances = values.try_find("metric") != nullptr;  // between points
+    // the measure uses distances between points
+    const bool distances = values.try_find("metric") != nullptr;
     if (distances && points.dimension() > 1 && is_experiment(domain)) {
         measure.left_out =
             "its distances would mix the units of the parameters; 'stipple warp parameters "
