@@ -83,7 +83,7 @@ struct Provenance {
     std::string bounds;     ///< empty: none
     std::string shard;      ///< "I/K"; empty: the whole set
     double efficiency = 1;  ///< fraction of the points that warps kept
-    std::string command;    ///< that makes the set, without options that do not affect it
+    std::string command;    ///< command that makes the set, without options that do not affect it
 
     std::optional<int> precision = {};  ///< digits after the point to which the file was rounded
     bool single = false;                ///< the file holds float32

@@ -42,7 +42,8 @@ struct RunContext {
     /// Bytes already in use that count towards max_memory, such as the points; empty: 0.
     std::function<std::uint64_t()> memory_in_use = {};
 
-    /// Number of threads that `threads` stands for, at least 1.
+    /// Number of threads to use, at least 1: `threads`, or fewer if memory or the system allow no
+    /// more.
     [[nodiscard]] unsigned thread_count() const;
 
     /// Whether a stop was requested and the best result so far is acceptable.
@@ -70,7 +71,7 @@ struct RunContext {
     /// A copy of this context for one of several workers that share the memory left.
     [[nodiscard]] RunContext share_of_memory(std::uint64_t workers) const;
 
-    /// Calls `warn` with the sentence, if it is set.
+    /// Calls `warn`, if set, with the sentence.
     void notify(const std::string& sentence) const;
 
     /// @throws Error(limit) naming `what` if `bytes` and the memory in use together exceed
