@@ -49,16 +49,16 @@ struct Moments {
 /// Part of a domain where its density is not 0. The mean of f / p over points with density p
 /// estimates the integral of f over this part only, so comparisons with exact values need it.
 struct Support {
-    bool whole = true;   ///< the whole domain, except for a set of measure 0
-    bool finite = true;  ///< its measure is finite, though perhaps unknown
+    bool whole = true;   ///< the part is the whole domain, except for a set of measure 0
+    bool finite = true;  ///< the measure of the part is finite, though perhaps unknown
 
     /// density() is 0 only in gaps, and never (up to rounding) at a point drawn from the density.
     bool by_density = false;
 
-    /// Its measure, if known.
+    /// Measure of the part, if known.
     std::optional<Estimate> measure = {};
 
-    /// Disjoint boxes that cover it; empty if there would be too many.
+    /// Disjoint boxes that cover the part; empty if there would be too many.
     std::vector<Box> boxes = {};
 };
 
@@ -95,7 +95,7 @@ class Domain {
     /// Name in messages.
     [[nodiscard]] virtual std::string title() const { return spec(); }
 
-    /// Numbers per point.
+    /// Number of coordinates of a point.
     [[nodiscard]] virtual std::size_t dimension() const = 0;
 
     /// Length, area, volume, ...; infinite for a whole line, plane or space.
@@ -169,7 +169,7 @@ class Domain {
 /// monotonic function of coordinate k of the point alone.
 Estimate box_mass_by_axes(const Domain& domain, const Box& box);
 
-/// @param names of its coordinates; empty: x, y, ...
+/// @param names names of the coordinates; empty: x, y, ...
 DomainPtr unit_cube(std::size_t dimension, std::vector<std::string> names = {});
 DomainPtr box_domain(Box box);
 

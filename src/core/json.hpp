@@ -19,9 +19,9 @@ std::string json_text(const Json& value, int indent = -1);
 
 /// Extent of the JSON value at the front of a text, found by its quotes and brackets.
 struct JsonExtent {
-    /// in bytes; npos if the text ends within the value
+    /// Size in bytes; npos if the text ends within the value.
     std::size_t size = std::string_view::npos;
-    /// position of a bracket nested 21 deep; npos if none
+    /// Position of a bracket nested 21 deep; npos if there is none.
     std::size_t too_deep = std::string_view::npos;
 };
 

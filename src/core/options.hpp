@@ -155,8 +155,8 @@ struct Option {
     std::string type;  ///< flag, integer, number, choice, text, file, numbers, points, extents
     Value fallback;
     bool optional = false;
-    double low = 0;   ///< for integer and number
-    double high = 0;  ///< for integer and number
+    double low = 0;   ///< smallest value, for integer and number
+    double high = 0;  ///< largest value, for integer and number
     bool low_open = false;
     std::vector<std::string> choices = {};
     std::string unit = {};

@@ -11,7 +11,7 @@ namespace stipple {
 
 /// Maps a unit coordinate to the outcomes of a discrete distribution.
 struct OutcomeAxis {
-    /// increasing in u; empty if the axis is continuous
+    /// Increasing in u; empty if the axis is continuous.
     std::function<double(double u)> outcome = {};
     bool categories = false;  ///< outcomes are unordered categories, any two equally different
 

@@ -12,7 +12,7 @@
 namespace stipple {
 
 RunContext worth_threads(const RunContext& run, double seconds) {
-    // seconds to wake threads on a busy machine; a quarter of it on an idle one
+    // Seconds to wake threads on a busy machine; a quarter of that on an idle one.
     constexpr double waking = 1e-3;
     RunContext fit = run;
     if (seconds < 2 * waking) fit.threads = 1;

@@ -19,7 +19,7 @@ namespace stipple {
 struct Spec {
     std::string name;
     std::vector<std::size_t> coordinates;  ///< from 0; empty: all
-    /// names of options, and their values as text
+    /// Names of options, and their values as text.
     std::vector<std::pair<std::string, std::string>> settings;
 
     /// The schema's defaults, overridden by the settings. @throws Error(usage)

@@ -29,7 +29,7 @@ std::optional<std::uint64_t> parse_bytes(std::string_view text);
 /// The shortest text that reads back to the same double.
 std::string format_number(double value);
 
-/// 1536 -> "1.5 KiB".
+/// Formats a size: 1536 -> "1.5 KiB".
 std::string format_bytes(double bytes);
 
 /// Replaces every `from` by `to`.
@@ -52,8 +52,7 @@ std::string lower_case(std::string_view text);
 /// Removes white space at both ends.
 std::string_view trim(std::string_view text);
 
-/// Returns up to three words of `known` that `word` is probably a misspelling of; case is ignored.
-/// Empty if none is near enough.
+/// Returns up to three words of `known` of which `word` may be a misspelling; case is ignored.
 std::vector<std::string> nearest_words(std::string_view word, std::span<const std::string> known);
 
 /// Formats {a, b, c} as "'a', 'b' or 'c'"; `last` is the word before the last item ("or").
@@ -68,7 +67,7 @@ std::string suggest(std::string_view word, std::span<const std::string> known);
 
 struct Letter {
     char32_t point;    ///< U+FFFD if the bytes are not valid UTF-8
-    std::size_t size;  ///< bytes
+    std::size_t size;  ///< in bytes
     bool valid = true;
 };
 

@@ -108,7 +108,7 @@ Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube,
     measure.command += input.remark;
     if (input.words.empty()) measure.command.clear();
     const std::string domain = shown->domain->spec();
-    // the measure uses distances between points
+    // The measure uses distances between points.
     const bool distances = values.try_find("metric") != nullptr;
     if (distances && points.dimension() > 1 && is_experiment(domain)) {
         measure.left_out =

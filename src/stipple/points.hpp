@@ -80,7 +80,7 @@ struct Provenance {
     std::vector<std::string> columns = {};
     Levels levels = {};  ///< level names, by column
     std::string domain = "unit-cube";
-    std::string bounds;     ///< empty: none
+    std::string bounds;     ///< empty: no bounds
     std::string shard;      ///< "I/K"; empty: the whole set
     double efficiency = 1;  ///< fraction of the points that warps kept
     std::string command;    ///< command that makes the set, without options that do not affect it
@@ -147,10 +147,9 @@ class PointSet {
 
     DomainPtr domain;  ///< the space that the points live on; null: the unit cube
 
-    /// Density of each point with respect to the domain's measure, set only if it may differ from
-    /// the domain's own density; empty: the domain's.
+    /// Density of each point with respect to the domain's measure; empty if it is the domain's own.
     std::vector<double> densities;
-    Provenance provenance;  ///< empty unless known
+    Provenance provenance;  ///< empty if unknown
 
     std::vector<SideFile> side_files;  ///< to be written along with the points
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Numbers as stored in binary files.
+// Conversion of numbers from and to the types in which binary files store them.
 #pragma once
 
 #include <cstddef>

@@ -2,8 +2,8 @@
 //
 // STIPPLE_WIDE before a function compiles it once per vector width, including what it inlines; an
 // ELF indirect function selects a version at run time. Results do not change, since operations are
-// neither fused nor reordered. Sanitizers run before the selection can, so they get the plain
-// function.
+// neither fused nor reordered. Sanitized programs get the plain function, because sanitizers call
+// it before a version is selected.
 #pragma once
 
 #if defined(__x86_64__) && defined(__ELF__) && defined(__GNUC__) && !defined(__clang__) && \

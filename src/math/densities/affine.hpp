@@ -6,7 +6,7 @@
 //
 // Supported are + - * / and parentheses if one factor of each product and all divisors are
 // constant, one of < <= > >= between two sums, and several such inequalities joined by &&.
-// Constants may be any formula without variables: sqrt(2)/3. Strictness only matters between
+// Constants may be any formula without variables: sqrt(2)/3. < and <= differ only between
 // constants.
 #pragma once
 

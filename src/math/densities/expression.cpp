@@ -137,7 +137,7 @@ constexpr std::pair<const char*, mu::multfun_type> functions_of_many[] = {
 };
 
 int read_number(const char* text, int* at, double* value) {
-    // signs and words such as inf are no part of a number
+    // Signs, and words such as inf, are not numbers here.
     if (*text != '.' && !(*text >= '0' && *text <= '9')) return 0;
     const char* last = text;
     while (*last != 0 && std::string_view("0123456789.eE+-").find(*last) != std::string_view::npos)
@@ -246,7 +246,7 @@ std::string expectation(const mu::ParserError& error, const std::string& variabl
 std::string_view first_word(std::string_view rest) {
     const std::size_t end = std::min(rest.find_first_not_of(name_letters), rest.size());
     if (end > 0) return rest.substr(0, end);
-    // one byte, then the other bytes of its UTF-8 character
+    // One byte, then the other bytes of its UTF-8 character.
     std::size_t size = std::min<std::size_t>(rest.size(), 1);
     while (size < rest.size() && (static_cast<unsigned char>(rest[size]) & 0xC0U) == 0x80U) ++size;
     return rest.substr(0, size);

@@ -52,7 +52,7 @@ using BlockFunction = std::function<void(std::span<const double> at, std::span<d
 struct LineRange {
     double low = 0;
     double high = 1;
-    /// jumps and corners of the density inside, in increasing order
+    /// Jumps and corners of the density between low and high, in increasing order.
     std::vector<double> breaks = {};
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Integrals by Gauss-Kronrod rules: by a single rule, of functions that are smooth except at the
-// ends, and of any function over intervals and boxes. The interval with the largest error is halved
-// first. Integrals over boxes are nested, a coordinate at a time.
+// Integrals by Gauss-Kronrod rules: with a single rule; of functions that are smooth except at the
+// ends; and of any function, over intervals and boxes. The interval with the largest error is
+// halved first. Integrals over boxes are nested, one coordinate at a time.
 //
 //     error of an interval = |Kronrod - Gauss| + 1/200 of its width times the difference of f
-//                            at its ends, which are no nodes, from a parabola through nodes
+//                            at its ends, beyond the nodes, from a parabola through nodes
 //
 // Shape   any finite f; jumps and corners are found by halving.
 // Cost    17 values per interval; at most `most` intervals per coordinate.

@@ -313,7 +313,7 @@ class StripTabulator {
     /// Largest error of the patch on its two sides, at samples of the parent strip.
     [[nodiscard]] double parent_error(const SampledStrip& strip, const SampledPatch& patch) const {
         if (parent_ == nullptr) return 0;
-        // the parent's line at the strip's left side
+        // The parent's line at the strip's left side.
         const std::size_t left = strip.low == parent_->low ? 0 : 1;
         const auto behind =
             std::ranges::upper_bound(parent_->patches, patch.low, {}, &SampledPatch::high);

@@ -39,7 +39,7 @@ namespace stipple {
 struct StripPatch {
     double y_low;
     double y_high;
-    std::array<double, 2> left;  ///< at y_low and y_high
+    std::array<double, 2> left;  ///< densities at y_low and y_high
     std::array<double, 2> right;
 
     /// Densities at y_low and y_high at the fraction t of the width.
@@ -106,7 +106,7 @@ class StripTable {
                                            columns_[column + 1].first - columns_[column].first);
     }
 
-    /// followed by a sentinel, whose `first` is the number of patches
+    /// Followed by a sentinel, whose `first` is the number of patches.
     std::vector<Column> columns_;
     std::vector<Patch> patches_;
     GuideTable masses_;  ///< running sums of the strips' masses

@@ -96,7 +96,7 @@ Integer scaled(double x, unsigned places) {
 RankSet ranks_between(Interval ends, Side side, bool wraps) {
     const auto [lower, upper] = ends;
     const bool with_ends = (side == Side::closed) != wraps;
-    // ends of the ranks inside, or outside if it wraps
+    // Ends of the ranks inside, or of those outside if the interval wraps.
     const std::uint32_t low = wraps ? upper : lower;
     const std::uint32_t high = wraps ? lower : upper;
     const std::uint32_t first = with_ends ? low : low + 1;

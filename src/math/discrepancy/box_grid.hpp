@@ -82,7 +82,7 @@ struct BoxGrid {
     std::uint64_t weight = 1;
     std::vector<std::vector<double>> values;        ///< by axis, ascending
     std::vector<std::vector<std::uint32_t>> ranks;  ///< by axis: rank of every point
-    /// by axis: points by coordinate; empty if anchored
+    /// By axis: points sorted by their coordinate; empty if boxes are anchored.
     std::vector<std::vector<std::uint32_t>> order;
     std::vector<unsigned> digits;  ///< binary digits of the coordinates, by axis
     unsigned all_digits = 0;       ///< sum of `digits`

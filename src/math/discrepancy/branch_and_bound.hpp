@@ -48,7 +48,7 @@ struct Known {
     std::uint64_t work = 0;  ///< comparisons done
 };
 
-/// A kind of boxes to search.
+/// Interface to a family of boxes to search.
 class Problem {
   public:
     Problem() = default;

@@ -160,9 +160,10 @@ class BoxAscent {
     double volume_ = 1;
     double excess_ = 0;
     GridBox box_;
-    std::vector<std::uint32_t> outside_;    ///< by point: number of axes on which it is outside
-    std::vector<std::uint32_t> points_at_;  ///< points inside on other axes, by rank on this one
-    /// ranks on this axis of the points inside on others, ascending
+    std::vector<std::uint32_t> outside_;  ///< by point: number of axes on which it is outside
+    /// Points inside on all other axes, by rank on this one.
+    std::vector<std::uint32_t> points_at_;
+    /// Ranks on this axis of the points inside on all others, ascending.
     std::vector<std::uint32_t> line_;
 };
 

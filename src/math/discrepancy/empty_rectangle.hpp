@@ -5,8 +5,8 @@
 // The highest point inside bounds this rectangle from below, and bounds deeper ones from the left
 // or the right. This repeats until a point is straight below the first.
 //
-// Cost    O((n + s) log n) with s <= n^2 maximal rectangles (about n log n for random points), less
-//         since narrow ones are skipped; O(n) memory.
+// Cost    O((n + s) log n) with s <= n^2 maximal rectangles (about n log n for random points), in
+//         practice less, since narrow ones are skipped; O(n) memory.
 // Source  A. Naamad, D. T. Lee, W.-L. Hsu, "On the maximum empty rectangle problem", Discrete Appl.
 //         Math. 8 (1984) 267-277, doi:10.1016/0166-218X(84)90124-0.
 #pragma once

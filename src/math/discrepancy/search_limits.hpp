@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Limits that end searches for a worst box early: time, work, or certain bounds that are close
+// Limits that end searches for a worst box early: time, work, or proven bounds that are close
 // enough.
 #pragma once
 
@@ -57,7 +57,7 @@ inline constexpr Param<std::int64_t> max_work{
 /// Conditions to stop before the worst box is found.
 struct SearchLimits {
     std::uint64_t work = std::numeric_limits<std::uint64_t>::max();  ///< comparisons of coordinates
-    double deadline = std::numeric_limits<double>::infinity();       ///< by the run's clock, in s
+    double deadline = std::numeric_limits<double>::infinity();  ///< in seconds, by the run's clock
     double tolerance = 0;  ///< stops if upper - lower <= tolerance * lower
 
     /// Comparisons that take about a quarter of a second.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Constructors of distributions. Parameters are not checked here but in families.hpp.
+// Constructors of distributions. Parameters are checked in families.hpp, not here.
 #pragma once
 
 #include <cstdint>

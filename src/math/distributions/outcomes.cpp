@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Discrete distributions: tables of outcomes with running sums from both ends, and integers of a
-// range; and columns of numbers with linear interpolation. The weights of the Poisson and binomial
-// distributions are products of ratios
+// Discrete distributions: tables of outcomes with running sums from both ends, and ranges of
+// integers. Also columns of numbers with linear interpolation. The weights of the Poisson and
+// binomial distributions are products of ratios
 //
 //     p(k + 1) / p(k) = mean / (k + 1)    or    (n - k) / (k + 1) * p / (1 - p)
 //

@@ -24,7 +24,7 @@ enum class Planning { estimated, measured };
 /// In-place transform of lines of one length. Threads may execute it concurrently.
 class LineTransform {
   public:
-    /// real: n real numbers become n / 2 + 1 complex ones, for frequencies from 0 on.
+    /// real: n real numbers become n / 2 + 1 complex ones, of frequencies 0, 1, ..., n / 2.
     enum class Kind { real, complex };
 
     LineTransform(Kind kind, std::size_t length, Planning planning);

@@ -8,7 +8,7 @@
 // of each grid.
 //
 // Shape   16 bytes per cell and size; cells below 2^29 times their grid's size, and sums of up to
-//         2^20 grids below 2^42 times it.
+//         2^20 grids, below 2^42 times that size.
 #pragma once
 
 #include <cstdint>

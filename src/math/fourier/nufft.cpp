@@ -19,8 +19,8 @@ namespace {
 double cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
                const KaiserBessel& window) {
     const auto width = static_cast<double>(window.width());
-    // Mean of vectors of four and of eight doubles, so that the choice does not depend on the
-    // machine.
+    // Mean number of vectors of four and of eight doubles, so that the choice does not depend on
+    // the machine.
     const double vectors = std::ceil(width / 4) / 2 + std::ceil(width / 8);
     const double d = static_cast<double>(dimension);
     const double cells = real_power_of(side, dimension);

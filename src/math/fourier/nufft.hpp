@@ -99,7 +99,7 @@ class FourierSummation {
     CellGrid grid_;
     std::optional<Spreader> spreader_;  ///< exists until finish()
     std::uint64_t block_;               ///< points per block
-    std::uint64_t points_ = 0;          ///< in the current block
+    std::uint64_t points_ = 0;          ///< points in the current block
     double strongest_ = 0;  ///< largest |strength| in the current block; 1 without strengths
     ScaledGridSum sum_;     ///< sum over the previous blocks
 };

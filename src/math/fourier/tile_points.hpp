@@ -58,7 +58,8 @@ class TilePoints {
     Rows room_;
     std::vector<List> lists_;
     std::vector<std::uint32_t> next_;  ///< by block: the next block in its list
-    std::uint32_t used_ = 1;  ///< number of blocks in use; block 0 never is, so that 0 means none
+    /// Number of blocks in use; block 0 is never used, so that 0 means none.
+    std::uint32_t used_ = 1;
 };
 
 }  // namespace stipple

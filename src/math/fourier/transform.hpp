@@ -4,8 +4,8 @@
 //
 //     S(f) = c(f_0) c(f_1) ... sum_i g[i] exp(-2 pi i f.i / M),    |f_k| <= F,
 //
-// by rows and then across. Only F + 1 numbers of each row's transform are used further, and half of
-// the frequencies follow from the others.
+// first by rows, then across them. Only F + 1 numbers of each row's transform are used further, and
+// half of the frequencies follow from the others.
 //
 // Shape   f_0 = 0..F, the fastest index; f_1, f_2 = -F..F. The other half is S(-f) = conj S(f).
 // Cost    O(M^d log M); 13 ms for M = 2048, F = 512 in the plane on one core.

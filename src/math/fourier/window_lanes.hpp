@@ -103,7 +103,7 @@ struct Chunk {
     alignas(64) std::array<std::array<std::int32_t, chunk>, Dimension> piece;
     alignas(64) std::array<std::int32_t, chunk> corner;  ///< first cell in the buffer
     alignas(
-        /// values of the window
+        /// Values of the window, after the margin.
         64) double values[chunk][Dimension][margin + vectors_of(Fours) * lanes];
 
     Chunk() {

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <utility>
 
-// Vectors are passed only between inlined functions.
+// The ABI of vectors does not matter here: they are passed only between inlined functions.
 
 namespace stipple {
 namespace {

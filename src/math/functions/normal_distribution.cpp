@@ -65,7 +65,7 @@ STIPPLE_WIDE [[gnu::flatten]] bool quantiles(const double* p, double* x, std::si
 }  // namespace
 
 double normal_distribution(double z) {
-    const double size = std::min(std::abs(z), 40.0);  // 0 or 1 beyond
+    const double size = std::min(std::abs(z), 40.0);  // Phi is 0 or 1 beyond, up to rounding
     const double x = size * (std::numbers::sqrt2 / 2);
     if (x <= 15 / 32.0) return 0.5 + 0.5 * std::copysign(x, z) * central_ratio(0.5 * size * size);
     const auto [square, rest] = split_product(size, size);

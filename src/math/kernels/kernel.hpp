@@ -88,7 +88,7 @@ KernelPtr of_l2(std::size_t dimension, l2::Kind kind);
 /// Langevin Stein kernel; points have d coordinates followed by d scores. See stein.cpp.
 KernelPtr stein(std::size_t dimension, double bandwidth);
 
-// domain_kernel.cpp
+// Defined in domain_kernel.cpp.
 
 /// True if the domain's coordinates are independent, and each cube coordinate is the distribution
 /// function of one of them. Tested at the given points, moved along single coordinates.
@@ -99,7 +99,7 @@ bool has_independent_axes(const Domain& domain, std::span<const double> points);
 KernelPtr of_domain(DomainPtr domain, double bandwidth, std::optional<unsigned> order,
                     const RunContext& run);
 
-// pair_sums.cpp
+// Defined in pair_sums.cpp.
 
 struct SquaredDiscrepancy {
     double squared;
@@ -118,7 +118,7 @@ SquaredDiscrepancy squared_from_mean(const Kernel& kernel, const Columns& points
 SquaredDiscrepancy squared_from_points(const Kernel& kernel, const Columns& points,
                                        const Columns& target, const RunContext& run);
 
-// bandwidth.cpp
+// Defined in bandwidth.cpp.
 
 struct MedianDistance {
     double value = 0;         ///< mean of the two middle distances if `pairs` is even

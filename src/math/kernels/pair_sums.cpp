@@ -32,8 +32,10 @@ namespace {
 
 using Integer = boost::multiprecision::cpp_int;
 
-constexpr int high_places = 26;  ///< of values, at most 1 in size: sums of 2^37 of them fit 64 bits
-constexpr int low_places = 70;  ///< of the remainders, at most 2^43 units: sums of 2^20 of them fit
+/// Binary places of the upper parts of values: sums of 2^37 values below 1 fit 64 bits.
+constexpr int high_places = 26;
+/// Binary places of the remainders, which have at most 2^43 units: sums of 2^20 fit 64 bits.
+constexpr int low_places = 70;
 
 /// Sum of numbers of at most 2^exponent in absolute value, in multiples of 2^(exponent -
 /// low_places).
@@ -81,7 +83,7 @@ class FixedSum {
 constexpr std::size_t rows_at_once = 64;
 
 /// Sum of K over a block of rows and all columns. If both are the same points, each row takes the
-/// columns up to itself, counting all but the diagonal twice.
+/// columns up to itself, and counts all except the diagonal twice.
 class BlockSum {
   public:
     BlockSum(const Kernel& kernel, const Columns& rows, const Columns& columns, int exponent)

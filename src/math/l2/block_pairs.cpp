@@ -7,13 +7,13 @@
 
 #include "core/parallel.hpp"
 
-// Vectors are passed only between inlined functions.
+// The ABI of vectors does not matter here: they are passed only between inlined functions.
 
 namespace stipple::l2 {
 namespace {
 
 constexpr std::size_t group = 4;  ///< rows that are multiplied together
-/// blocks whose sums are added in lanes before they are totalled
+/// Number of blocks whose sums stay in lanes before they are added to the total.
 constexpr std::size_t batch_size = 16;
 
 /// Property of a factor that all pairs of points of two blocks share.

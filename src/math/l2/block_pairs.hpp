@@ -30,8 +30,8 @@ struct AxisConstants {
     double vertex = 0;
 };
 
-/// Blocks of points, stored by column; the last column is 1 for points and 0 for padding. The more
-/// blocks are separated on an axis, the less work.
+/// Blocks of points, stored by column; the last column is 1 for points and 0 for padding. Work is
+/// saved on each axis on which two blocks are separated.
 class BlockTable {
   public:
     /// Smallest and largest position of a block's points on the axis of a factor.

@@ -20,10 +20,10 @@
 //
 // Points are halved along the last axis. A pair from different halves has the factors L of its
 // lower point and U of its upper one. With these as weights of the points, the problem has one axis
-// less, and pairs are between two colors. Halving such points along their next axis gives two
-// problems between lower points of one color and upper points of the other. On the last axis only
-// running sums remain, computed while points are merged along it. Small sets are summed pair by
-// pair.
+// less, and its pairs are between points of two colors: the halves. Halving such points along their
+// next axis gives two problems, between lower points of one color and upper points of the other. On
+// the last axis only running sums remain, computed while points are merged along it. Small sets are
+// summed pair by pair.
 //
 // Numbers are fixed-point with 90 fractional bits.
 //
@@ -354,8 +354,8 @@ class Division {
     /// Merges two halves in order of axis r - 2, and distributes the items for the next level.
     void halve(std::size_t r, std::size_t first, std::size_t last, FixedSum& sum) {
         Item* const below = levels_[r - 1].data();
-        std::size_t next = first;  // end of the items in the same half of axes r - 1 and r
-        std::size_t rest = last;   // begin of those in different halves, in reverse order
+        std::size_t next = first;  // end of the items that are in the same half of axes r - 1 and r
+        std::size_t rest = last;   // begin of the items in different halves, in reverse order
         merge(r, first, last, [&](const Item& item, bool upper) {
             const bool crossed = r != axes_.size() && item.is_upper(r) != upper;
             Item& share = below[crossed ? --rest : next++];

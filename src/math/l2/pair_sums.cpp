@@ -425,7 +425,7 @@ BlockTable table_of(PairForm form, const Numbers& numbers, const Scaling& scalin
 /// Combined data of the axes' factors.
 struct AxisProducts {
     Quad total = 1;  ///< mean over both points of the products
-    Quad scale = 1;  ///< by which the sum over pairs is divided
+    Quad scale = 1;  ///< the products in the sum over pairs were divided by this
     Quad most = 1;   ///< upper bound on all products
     double cancellation = 0;
     bool may_vanish = false;

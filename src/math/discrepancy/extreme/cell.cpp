@@ -9,18 +9,18 @@
 namespace stipple::discrepancy::extreme {
 namespace {
 
-/// Exceeds every excess.
+/// Larger than any excess.
 constexpr double huge = 1e300;
 
 /// Maxima of differences of P and Q, updated point by point; see worst_interval.hpp.
 struct Maxima {
     double all;         ///< scale times the section of the boxes
-    double weight;      ///< of a point
+    double weight;      ///< weight of a point
     double before = 0;  ///< weight of the points so far
     double highest = -huge;
     double lowest = huge;
-    double ordered = -huge;   ///< P_j - Q_i, i < j
-    double reversed = -huge;  ///< P_i - Q_j, i <= j
+    double ordered = -huge;   ///< maximum of P_j - Q_i over i < j
+    double reversed = -huge;  ///< maximum of P_i - Q_j over i <= j
 
     void add(const Entry& entry) {
         before += weight * entry.pruned;
@@ -90,7 +90,7 @@ double length_of(const BoxGrid& grid, std::size_t axis, const Ends& ends, Extent
     return length_of<double>(ends, extent, 1, [&](std::uint32_t i) { return values[i]; });
 }
 
-/// Section of a cell's largest or smallest boxes: product of their lengths on all axes but the
+/// Section of a cell's largest or smallest boxes: product of their lengths on all axes except the
 /// first.
 double section(const BoxGrid& grid, const Cell& cell, Extent extent) {
     double product = 1;
@@ -426,11 +426,11 @@ class CellBounder {
 
     // State of the current cell.
     Side side_ = Side::open;
-    std::vector<RankSet> outer_;  ///< ranks inside for some box, on all axes but the first
+    std::vector<RankSet> outer_;  ///< ranks inside for some box, on all axes except the first
     std::vector<RankSet> inner_;  ///< ranks inside for all boxes, on these axes
     double largest_ = 0;          ///< scale times the section of the largest boxes
     double smallest_ = 0;
-    /// results of find_useful(), by position in the run
+    /// Results of find_useful(), by position in the run.
     std::array<bool, longest_stretch> useful_{};
 };
 

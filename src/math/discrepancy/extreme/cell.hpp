@@ -22,8 +22,8 @@
 
 namespace stipple::discrepancy::extreme {
 
-/// Cell of all boxes of one side. A cell has three ranges for every axis but the first: ranks where
-/// a box begins, ranks where it ends, and whether it wraps, 0 or 1.
+/// Cell of all boxes of one side. A cell has three ranges for every axis except the first: ranks
+/// where a box begins, ranks where it ends, and whether it wraps, 0 or 1.
 Cell whole_cell(const BoxGrid& grid, Side side);
 
 /// A point of a line.

@@ -190,8 +190,9 @@ class CellBounder {
         mine.size = kept_.size();
     }
 
-    /// Sets kept_ to the points to keep, inside ones first, and state_ to the number of axes on
-    /// which each of these is undecided. Counts the other inside points as decided.
+    /// Sets kept_ to the points to keep, first those below hi on all axes, and state_ to the number
+    /// of axes on which each of these is undecided. Points inside all boxes are only counted, in
+    /// mine.decided, unless they make lo a candidate.
     void select(const Cell& cell, const Active& from, Active& mine) {
         kept_.resize(from.size);
         on_face_.resize(side == Side::open ? from.size : 0);
@@ -367,8 +368,8 @@ class CellBounder {
         return (high - m) / logarithm(high / m) * (1 - 1e-12);
     }
 
-    /// Removes the ends of an axis up to its outermost candidates with terms of at most `most`;
-    /// returns false if there are none.
+    /// Removes the ends of an axis up to its outermost candidates with terms of at most `most`.
+    /// Returns false if there are no such candidates.
     bool cut_ends(std::size_t k, double most, const Cell& seen, Cell& cell) {
         const Candidates& candidates = candidates_[k];
         const auto rank = [&](std::size_t i) {

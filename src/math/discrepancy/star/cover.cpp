@@ -13,7 +13,7 @@
 //
 // Shape   any n; about (d / (d - 1) ln(d) / delta)^d corners: useful only in few dimensions.
 // Cost    O(n d + corners d); 4 bytes per corner.
-// Promise a certain bound, including rounding. Does not depend on the number of threads.
+// Promise a proven bound, including rounding errors. Does not depend on the number of threads.
 // Source  B. Doerr, M. Gnewuch, A. Srivastav, J. Complexity 21 (2005) 691-709 (delta-covers).
 
 #include "math/discrepancy/star/search.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// For many points, whose cells take long to become small, a first upper bound comes from a grid
-// cover or from the points being a net. From time to time a threshold search looks for a worse box,
-// which the cells would find only late.
+// Branch and bound for anchored boxes. For many points, whose cells take long to become small, a
+// first upper bound comes from a grid cover, or from a net if the points form one. From time to
+// time a threshold search looks for a worse box, which the cells would find only late.
 //
 // Source  the bounds are original; earlier exact methods are surveyed in C. Doerr, M. Gnewuch, M.
 //         Wahlstroem, arXiv:1405.1653.
@@ -36,7 +36,7 @@ class AnchoredBoxes final : public Problem {
     }
 
     [[nodiscard]] bool by_stages(const Known& known) const override {
-        constexpr std::uint64_t part = 64;  // work / part: spent on an exact value first
+        constexpr std::uint64_t part = 64;  // 1 / part of the work is spent on an exact value first
         return limits_.wants_bounds() ||
                known.work > std::max(SearchLimits::short_work, limits_.work / part);
     }
@@ -44,7 +44,7 @@ class AnchoredBoxes final : public Problem {
     void look_around(Known& known, std::uint64_t work) override {
         constexpr std::uint64_t short_work = SearchLimits::short_work;
         if (known.work > short_work / 4) look_quickly(known.worst, known.upper);
-        // work between two threshold searches, as a multiple of theirs
+        // Work between two threshold searches, as a multiple of theirs.
         constexpr std::uint64_t searches_apart = 16;
         if (known.work > short_work && searches_apart * threshold_work_ < known.work) {
             const std::uint64_t cost =

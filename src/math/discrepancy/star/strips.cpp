@@ -179,7 +179,7 @@ class Sweep {
         return xs_[plane_.strips.first[strip]];
     }
 
-    /// Sets up the lines of a block without points.
+    /// Sets up the lines of a block, before any points are added to it.
     void fill_block(std::size_t u) {
         const std::size_t first = plane_.blocks.first[u];
         const std::size_t size = size_of(plane_.blocks, u);
