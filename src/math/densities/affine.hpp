@@ -19,7 +19,8 @@
 
 namespace stipple {
 
-/// Half-spaces of a formula, each with the whole text; nullopt if the formula has another form.
+/// Half-spaces whose intersection a formula describes, each with the formula's whole text; nullopt
+/// if the formula has another form.
 /// @param text a formula that Expression accepts
 std::optional<std::vector<HalfSpace>> affine_inequalities(std::string_view text,
                                                           const VariableNames& variables,

@@ -31,7 +31,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double whole_turn = 2 * std::numbers::pi;
 
-// Definitions of the functions, extended to arguments for which those of src/math are not defined.
+// Functions of formulas: those of src/math, extended to arguments that these do not accept.
 
 CosSin turned(double x) {
     if (!std::isfinite(x)) return {nan, nan};

@@ -59,7 +59,8 @@ inline std::size_t fill_guide(std::span<const double> sums, std::span<std::uint3
     return std::min(few_sums, std::bit_ceil(most + 1));
 }
 
-/// Returns the index of the first sum above w < sums.back(), which must be in [low, high].
+/// Returns the index of the first sum above w. Requires w < sums.back(), and an index in [low,
+/// high].
 /// @param few a power of two up to 16; fewer sums than this are searched in a fixed number of steps
 inline std::size_t first_above(std::span<const double> sums, std::size_t low, std::size_t high,
                                double w, std::size_t few = few_sums) {

@@ -134,7 +134,7 @@ class StripTabulator {
         return i == first_strips ? box_.high[0] : box_.low[0] + part * box_.extent(0);
     }
 
-    /// Evaluates f at points_, with checks.
+    /// Sets values_ to f at points_, and checks that they are densities.
     void look_at_points() {
         values_.resize(points_.size() / 2);
         f_(points_, values_);
@@ -172,7 +172,7 @@ class StripTabulator {
         return static_cast<std::size_t>(std::clamp(std::ceil(at), 0.0, double{probes_a_side}));
     }
 
-    /// Samples f all over the box.
+    /// Sets seen_ to f at all probes.
     void probe_density() {
         for (std::size_t i = 0; i < probes_a_side; ++i) {
             run_.check_stop();

@@ -87,9 +87,8 @@ class StripTable {
         double left;        ///< integral of the density over y on the left side
         double right;
 
-        /// Position between the sides whose conditional density of y applies at position t: t
-        /// itself, except that a side without mass has the limit, the conditional density of the
-        /// other side.
+        /// Position whose conditional density of y is used at position t (0: left side, 1: right
+        /// side): t itself, or the other side if the column has no mass at t.
         [[nodiscard]] double side(double t) const {
             if ((1 - t) * left + t * right > 0) return t;
             return left > 0 ? 0 : 1;

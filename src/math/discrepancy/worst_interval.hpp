@@ -53,7 +53,8 @@ WorstInterval<Number> worst_interval(std::size_t n, const LineTerms<Number>& lin
     const bool torus = line.torus;
     const Number around = open ? line.all - line.points : line.points - line.all;
     WorstInterval<Number> best{around};
-    // On the circle, the whole is no worse than the best interval cut at a point.
+    // The whole circle is no worse than the circle cut at a point, so only ends at points are
+    // tried.
     if (torus && n > 0) best.excess = -(line.all + line.points);
     Number highest = 0;
     Number lowest = 0;  // Q at the line's start, at which an open interval may begin

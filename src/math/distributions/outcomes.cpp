@@ -139,8 +139,8 @@ MarginalPtr Integers::between(double low, double high) const {
 
 namespace {
 
-/// Table of the weights of all outcomes from 0 to `last` that are likely enough, from up(k) = p(k +
-/// 1) / p(k).
+/// Distribution on 0, ..., `last` from the ratios up(k) = p(k + 1) / p(k), without extremely
+/// unlikely outcomes.
 template <class Ratio>
 MarginalPtr by_ratios(std::string_view name, double mode, double last, const Ratio& up) {
     constexpr double rare = 1e-306;

@@ -77,8 +77,8 @@ class Truncated final : public Marginal {
     double mass_;
 };
 
-/// E ((x - about) / unit)^n, integrated over both halves with p = exp(-w) / 2 from their ends. NaN
-/// if more than a fraction of 1e-12 is beyond p = 1e-300, or if it is infinite.
+/// E ((x - about) / unit)^n, integrated over w in both tails, with p = exp(-w) / 2. NaN if more
+/// than a fraction of 1e-12 is beyond p = 1e-300, or if it is infinite.
 double moment_about(const Marginal& law, double about, double unit, int n) {
     double sum = 0, size = 0, beyond = 0;
     for (const Tail tail : {Tail::lower, Tail::upper}) {

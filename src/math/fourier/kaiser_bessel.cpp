@@ -113,8 +113,8 @@ KaiserBessel window_for(double tolerance, double band) {
 }
 
 WeightTable::WeightTable(const KaiserBessel& window) : width_(window.width()), pieces_(2) {
-    // Error of polynomials through the Chebyshev nodes of a piece, for waves at the end of the
-    // band; the error of the weights approaches it.
+    // Error of interpolating a wave at the end of the band by a polynomial through a piece's
+    // Chebyshev nodes; the error of the weights approaches it.
     constexpr std::size_t most_pieces = 64;  // more give no gain, because values are rounded
     const double allowed = std::max(0.05 * window.error(), 1e-15);
     const auto terms = static_cast<double>(degree() + 1);

@@ -41,9 +41,9 @@ class KaiserBessel {
     /// The window's transform s(xi), for xi in [0, band].
     [[nodiscard]] double scaling(double xi) const;
 
-    /// The window at the grid points around a point.
-    /// @param u in [0, 1]: distance in cells from grid point width / 2 - 1 (rounded down) to the
-    ///        point; for odd widths, this distance minus 1/2.
+    /// The window at the `width` grid points around a point.
+    /// @param u in [0, 1]: the point's distance in cells from grid point floor(width / 2) - 1,
+    /// counted from 0; for odd widths, this distance minus 1/2
     [[nodiscard]] std::array<double, max_width> weights(double u) const;
 
     /// Largest error of exp(-2 pi i xi x), |xi| <= band, of one point in one dimension, after

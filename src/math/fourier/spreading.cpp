@@ -25,7 +25,7 @@ constexpr std::size_t streams = 2;
 constexpr std::size_t stream_chunk = std::size_t{1} << 15;
 constexpr std::size_t round_of_streams = streams * stream_chunk;
 constexpr std::size_t sorting_block = std::size_t{1} << 12;  // points that fit in the caches
-constexpr std::size_t tiles_at_a_time = 128;                 // tiles of a colour
+constexpr std::size_t tiles_at_a_time = 128;  // tiles of a colour before the next one
 
 /// Maximum number of points of a tile summed before the sums are added to the grid; this keeps
 /// rounding errors of long sums small.

@@ -17,7 +17,8 @@ namespace stipple {
 
 struct Cholesky {
     std::vector<double> factor;  ///< d x d, row after row; complete if `failed` is 0
-    /// Size of the first leading minor that is not above rounding errors; 0 if all are.
+    /// Size of the first leading minor that is 0 up to rounding errors, or negative; 0 if there is
+    /// none.
     std::size_t failed = 0;
     double minor = 1;  ///< value of that minor, or the determinant
 };

@@ -40,7 +40,7 @@ namespace detail {
 /// size = t 8^(third - 341) with t in [1/2, 4), and a first guess of the cube root of t.
 struct CubeRootStart {
     double t;
-    double root;          ///< relative error 2e-7
+    double root;          ///< guess of the cube root of t, relative error 2e-7
     std::uint64_t third;  ///< 341 is a third of the exponent's bias 1023
 };
 

@@ -16,8 +16,8 @@
 //
 //     1 + max(min(x - 1/2, y - 1/2), min(1/2 - x, 1/2 - y), 0)
 //
-// The numbers of a block's points are stored by column. `row` points to a group of points in a
-// block, `block` to the first of as many points as a vector holds.
+// The numbers of a block's points are stored by column. `row` points to the first point of a group
+// of rows in its block; `block` points to the first of the columns' points that fill a vector.
 
 constexpr std::size_t lanes = STIPPLE_VECTOR_BITS / 64;
 using V [[gnu::vector_size(8 * lanes)]] = double;
@@ -281,7 +281,8 @@ STIPPLE_INLINE Compensated<Group> first_factor(const GroupPair& g, std::size_t k
     return {value, more - (value - one)};
 }
 
-/// Products of a group of rows with a vector of a block's points, from the k-th on.
+/// Products of the factors of a group of rows with a vector of the block's points, from its k-th
+/// on.
 template <class Kernel>
 STIPPLE_INLINE Compensated<Group> products(const GroupPair& g, std::size_t k) {
     Compensated<Group> p = first_factor<Kernel>(g, k);

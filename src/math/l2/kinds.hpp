@@ -35,7 +35,7 @@ inline constexpr double diaphony = 2 * std::numbers::pi * std::numbers::pi;
 /// coefficients are multiplied by 48; those not listed are 0.
 struct AxisKernel {
     std::int64_t s00 = 0;
-    std::int64_t s01 = 0;  ///< s10 is equal; likewise for the others
+    std::int64_t s01 = 0;  ///< also s10; likewise s02 is also s20, and s03 is also s30
     std::int64_t s02 = 0;
     std::int64_t s03 = 0;
     std::int64_t s11 = 0;

@@ -190,8 +190,8 @@ class FactorForm {
     Quad scale_;
     Quad base_ = 0;
     double step_ = 0;
-    DoubleDouble top_ = {};     ///< coordinates are subtracted from this
-    DoubleDouble bottom_ = {};  ///< coordinates are added to this
+    DoubleDouble top_ = {};     ///< terms are this minus a coordinate or its half
+    DoubleDouble bottom_ = {};  ///< terms are this plus a part of a coordinate
 };
 
 /// The axes with nonzero weights.
@@ -297,8 +297,8 @@ Numbers numbers_of(const PointSet& points, const Axes& axes, const RunContext& r
 /// hence every product, is at most about 1 after each factor.
 struct Scaling {
     std::vector<int> exponents;  ///< even numbers, by factor
-    double any_order = 0;        ///< products of any of the factors are at most 2^any_order
-    double growth = 0;  ///< products of the last factors, of any number, are at most 2^growth
+    double any_order = 0;        ///< any product of some of the factors is at most 2^any_order
+    double growth = 0;           ///< any product of the last few factors is at most 2^growth
 };
 
 Scaling scaling_of(const Numbers& numbers, const std::vector<const FactorForm*>& forms) {

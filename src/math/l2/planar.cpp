@@ -96,7 +96,7 @@ struct Features {
     std::uint64_t from_middle;
 };
 
-/// Adds a phi_q to sums[q - 1] for q = 1, 2, 3.
+/// Adds a * phi_q to sums[q - 1] for q = 1, 2, 3.
 void add_features(std::array<LongSum, 3>& sums, Uint128 a, const Features& phi) {
     sums[0].add_product(a, phi.x);
     sums[1].add_product(a, phi.square);

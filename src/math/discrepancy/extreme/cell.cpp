@@ -60,7 +60,7 @@ Ends ends_on(const Cell& cell, std::size_t k) {
     return {range(0), range(1), range(2)};
 }
 
-/// The largest or the smallest intervals of a cell.
+/// Selects the largest or the smallest boxes of a cell.
 enum class Extent { outer, inner };
 
 Interval interval_of(const Ends& ends, Extent extent) {
@@ -68,7 +68,7 @@ Interval interval_of(const Ends& ends, Extent extent) {
                                    : Interval{ends.lower.last, ends.upper.first};
 }
 
-/// Ranks inside some (outer) or all (inner) intervals.
+/// Ranks inside at least one (outer) or all (inner) of a cell's intervals on an axis.
 RankSet ranks_of(const Ends& ends, Extent extent, Side side) {
     if (!ends.wraps.single()) return {0, 0, extent == Extent::outer};
     return ranks_between(interval_of(ends, extent), side, ends.wraps.first == 1);
@@ -99,7 +99,7 @@ double section(const BoxGrid& grid, const Cell& cell, Extent extent) {
     return product;
 }
 
-/// Section times 2^digits of all its axes, exact.
+/// Exact section(), times 2^digits of every axis except the first.
 Integer exact_section(const BoxGrid& grid, const Cell& cell, Extent extent) {
     Integer product = 1;
     for (std::size_t k = 0; k < axes_of(cell); ++k) {
@@ -111,7 +111,7 @@ Integer exact_section(const BoxGrid& grid, const Cell& cell, Extent extent) {
     return product;
 }
 
-/// Entries of a line that a bound counts, and the number of points before each.
+/// Entries of a line that count for a bound, and for each the number of points before it.
 struct Counted {
     std::vector<std::uint32_t> entries;
     std::vector<std::uint32_t> before;
@@ -148,7 +148,8 @@ WorstInterval<Integer> worst_on(const BoxGrid& grid, Side side, const Line& line
         [&](std::size_t i) { return Integer(weight * counted.before[i]); });
 }
 
-/// Box of a cell with a single section, with the interval found on the first axis.
+/// Box of a cell that has a single interval on every axis except the first, with the interval
+/// `found` on the first one.
 GridBox box_of(const BoxGrid& grid, const Cell& cell, const Line& line, const Counted& counted,
                const WorstInterval<Integer>& found) {
     const auto rank = [&](std::size_t i) {
@@ -219,8 +220,8 @@ class CellBounder {
           rounding_(grid.rounding()) {}
 
     /// Shrinks and bounds the cell, given the line of a larger one, and sets `mine` to its line.
-    /// Offers the box of a cell with a single section. Returns false if no box can be worse than
-    /// the worst, or if there is nothing left to split.
+    /// Offers the worst box of a cell that cannot be split. Returns false if no box can be worse
+    /// than the worst so far, or if there is nothing left to split.
     bool tighten(Cell& cell, const Line& from, Line& mine) {
         work_ += 2 * grid_.dimension() * (from.entries.size() + 1);
         if (!trim(cell)) return false;
@@ -426,8 +427,9 @@ class CellBounder {
 
     // State of the current cell.
     Side side_ = Side::open;
-    std::vector<RankSet> outer_;  ///< ranks inside for some box, on all axes except the first
-    std::vector<RankSet> inner_;  ///< ranks inside for all boxes, on these axes
+    /// ranks inside at least one box, for every axis except the first
+    std::vector<RankSet> outer_;
+    std::vector<RankSet> inner_;  ///< ranks inside all boxes, for the same axes
     double largest_ = 0;          ///< scale times the section of the largest boxes
     double smallest_ = 0;
     /// Results of find_useful(), by position in the run.

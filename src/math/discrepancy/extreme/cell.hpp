@@ -26,7 +26,7 @@ namespace stipple::discrepancy::extreme {
 /// where a box begins, ranks where it ends, and whether it wraps, 0 or 1.
 Cell whole_cell(const BoxGrid& grid, Side side);
 
-/// A point of a line.
+/// A point on a cell's line.
 struct Entry {
     double x;
     std::uint32_t point;

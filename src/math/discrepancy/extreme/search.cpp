@@ -52,8 +52,8 @@ double factor(Family family, double dimension) {
            (1 + 0x1p-50);
 }
 
-/// Upper bound from that of the star discrepancy, within a small part of the search's work and
-/// time.
+/// Upper bound from an upper bound of the star discrepancy, computed within a small part of the
+/// search's work and time.
 double star_bound(const PointSet& points, Family family, const SearchLimits& share,
                   const RunContext& run) {
     const auto d = static_cast<double>(points.dimension());

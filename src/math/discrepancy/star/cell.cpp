@@ -67,7 +67,7 @@ STIPPLE_WIDE void compare(const std::int32_t* ranks, std::size_t size, std::int3
                     (ranks[i] >= lo ? undecided_unit : 0);
 }
 
-/// Assigns points to `axis` if they cost more there than on the previous axes.
+/// Assigns points to `axis` if reaching them costs more there than on the axes before.
 STIPPLE_WIDE void assign_to(const std::int32_t* ranks, std::size_t size, std::int32_t lo,
                             float price, std::int32_t axis, float* cost, std::int32_t* axes) {
     for (std::size_t i = 0; i < size; ++i) {
@@ -95,7 +95,7 @@ STIPPLE_WIDE double fill_terms(const double* values, const std::int32_t* ranks,
     return least;
 }
 
-/// Offset from a rank to the y of the box that ends there.
+/// Difference between the y of a corner and the rank at which its box ends.
 template <Side side>
 constexpr std::uint32_t shift = side == Side::open ? 0 : 1;
 

@@ -191,7 +191,7 @@ class Sweep {
         }
     }
 
-    /// Adds all points to the left of a strip.
+    /// Adds all points to the left of a strip to their blocks.
     void start(std::size_t strip, const RunContext& run) {
         std::vector<std::uint64_t> points_in(y_.size());
         std::vector<std::uint32_t> until = plane_.first;
@@ -215,7 +215,8 @@ class Sweep {
         for (std::size_t u = 0; u < y_.size(); ++u) bound_block(u, strip, until[u]);
     }
 
-    /// Converts numbers of points at ranks to numbers before (open) or after (closed) each rank.
+    /// Converts a block's points_ from the numbers of points at its ranks to the numbers before
+    /// (open) or after them (closed).
     void sum_block(std::size_t u) {
         const auto line = std::span(points_).subspan(row_[u], size_of(plane_.blocks, u));
         float sum = 0;
