@@ -124,7 +124,7 @@ class Values {
         bool operator==(const Item&) const = default;
     };
 
-    /// The option's value; the empty value of its type if it is optional and was not given.
+    /// The option's value; an empty or zero value if the option is optional and was not given.
     template <class T>
     [[nodiscard]] typename Param<T>::Held operator[](const Param<T>& param) const {
         return std::get<typename Param<T>::Held>(find(param.name).value);

@@ -22,10 +22,12 @@ inline constexpr std::int64_t usual_work = 1'000'000'000;
 
 /// Arguments by which `stipple analyze` reads the points of a set.
 struct Input {
-    /// "points.csv --domain disk", "--generate halton -n 64"; empty: no command can read them
+    /// Points as arguments: "points.csv --domain disk", "--generate halton -n 64"; empty if no
+    /// command can read them.
     std::string words;
-    bool bounds = false;      ///< --bounds can be appended
-    std::string remark = {};  ///< " # the third of its results"; usually empty
+    bool bounds = false;  ///< --bounds can be appended
+    /// appended to commands, " # the third of its results"; usually empty
+    std::string remark = {};
 };
 
 /// Results of all measures, in the order of the page. Measures that do not accept the points, or

@@ -69,11 +69,11 @@ void require_density(const std::string& what, std::span<const double> place, dou
 /// last.
 double largest_bend(const std::array<double, 5>& f);
 
-/// Lower fraction of a piece's width that contains the fraction r of its mass, for densities a and
-/// b at its ends.
+/// Fraction t of a piece's width, from its lower end, that contains the fraction r of its mass, for
+/// densities a and b at its ends.
 inline double width_share(double a, double b, double r) {
     const double slowness = a + std::sqrt((1 - r) * (a * a) + r * (b * b));
-    return slowness > 0 ? std::min(r * (a + b) / slowness, 1.0) : 0;  // 0 for a = r = 0
+    return slowness > 0 ? std::min(r * (a + b) / slowness, 1.0) : 0;  // a = r = 0 gives 0
 }
 
 /// Inverse of width_share: fraction of the mass in the lower fraction t of the width.

@@ -174,7 +174,7 @@ class Search {
     /// Bound below which parts of cells are left for later; 0 to explore cells to the end.
     [[nodiscard]] double next_target() const {
         constexpr double step = 0.6;
-        constexpr double close = 0.1;  // smaller relative gaps: explore cells to the end
+        constexpr double close = 0.1;  // below this relative gap, cells are explored to the end
         const double lower = known_.worst.value();
         const double gap = known_.upper - lower;
         if (!problem_.by_stages(known_) || full() || gap < close * lower) return 0;

@@ -31,7 +31,7 @@ struct Cell {
     std::vector<std::uint32_t> hi;
 };
 
-/// A cell to explore, and the results.
+/// A cell to explore, and the results of exploring it.
 struct Task {
     Cell cell;
     WorstBox worst;

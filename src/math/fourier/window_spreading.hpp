@@ -20,7 +20,7 @@ namespace stipple {
 
 /// A tile of the grid. Only `start` and `reach` differ between tiles.
 struct SpreadTile {
-    double side = 0;                       ///< M
+    double side = 0;                       ///< M, the cells along an axis
     double tiles = 0;                      ///< number of tiles along an axis
     double shift = 0;                      ///< 1/2 for odd windows, which centre on a grid point
     double lead = 0;                       ///< grid points of the window before the point's cell

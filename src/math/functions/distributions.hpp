@@ -15,8 +15,8 @@ namespace stipple {
 double chi_square_below(double statistic, double freedom);
 double chi_square_above(double statistic, double freedom);
 
-/// Noncentrality at which a chi-square test of two-sided level `level` finds too large a statistic
-/// with probability 0.9.
+/// Noncentrality at which a chi-square test of two-sided level `level` rejects a statistic as too
+/// large with probability 0.9.
 double detectable_noncentrality(double freedom, double level);
 
 /// Probability that Student's t with `freedom` degrees of freedom is above `t`, in [0, 1e150].

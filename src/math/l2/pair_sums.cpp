@@ -70,7 +70,7 @@ class FactorForm {
     /// @param two_sided true if the two minima of the centered kernel form one factor
     FactorForm(Kind kind, bool alone, bool two_sided, double weight)
         : kind_(kind), alone_(alone), two_sided_(two_sided) {
-        // A kernel of the distance is s00 + sigma t + ..., in units of 1/48.
+        // A kernel that depends on the distance t is s00 + sigma t + ..., in units of 1/48.
         const AxisKernel& kernel = record_of(kind).kernel;
         const double steep = is_of_distance() ? -static_cast<double>(kernel.sigma) / 48 : 1;
         const Quad curve = Quad(record_of(kind).scale * steep) * weight;

@@ -181,7 +181,7 @@ bool trim(Cell& cell) {
     for (std::size_t at = 0; at < cell.lo.size(); at += parts) {
         if (cell.lo[at + 2] != cell.hi[at + 2]) continue;
         // An interval that does not wrap has lower < upper if open, lower <= upper if closed. One
-        // that wraps has the reverse.
+        // that wraps has lower >= upper if open, lower > upper if closed.
         const bool plain = cell.lo[at + 2] == 0;
         const std::size_t below = plain ? at : at + 1;
         const std::size_t above = plain ? at + 1 : at;

@@ -117,7 +117,7 @@ struct Chord {
 };
 
 Chord chord(const Heights& ends, double z_low, double z_high) {
-    constexpr double near = 1e-6;  // avoids that a slope amplifies rounding errors
+    constexpr double near = 1e-6;  // shorter ranges get slope 0: others would amplify rounding
     const auto [low, high] = ends;
     if (z_high - z_low < near) return {std::max(low, high) + margin, 0};
     const double slope = (high - low) / (z_high - z_low);
