@@ -26,7 +26,7 @@ struct Input {
     /// command can read them.
     std::string words;
     bool bounds = false;  ///< --bounds can be appended
-    /// appended to commands, " # the third of its results"; usually empty
+    /// Appended to commands: " # the third of its results"; usually empty
     std::string remark = {};
 };
 

@@ -427,7 +427,7 @@ class CellBounder {
 
     // State of the current cell.
     Side side_ = Side::open;
-    /// ranks inside at least one box, for every axis except the first
+    /// Ranks inside at least one box, for every axis except the first.
     std::vector<RankSet> outer_;
     std::vector<RankSet> inner_;  ///< ranks inside all boxes, for the same axes
     double largest_ = 0;          ///< scale times the section of the largest boxes
