@@ -19,7 +19,7 @@ constexpr std::string_view open_tag = "<metadata>\n";
 constexpr std::string_view close_tag = "</metadata>\n";
 constexpr std::string_view ply_comment = "comment ";
 
-/// Calls `take` with each line of a ply header and whether it is a comment. Returns the position
+/// Calls take(line, whether it is a comment) for each line of a ply header. Returns the position
 /// after the header.
 template <class Take>
 std::size_t ply_header(std::string_view bytes, const Take& take) {
@@ -34,7 +34,7 @@ std::size_t ply_header(std::string_view bytes, const Take& take) {
     return at;
 }
 
-/// Parses provenance from lines "key: value"; nullopt if no line is one.
+/// Parses provenance from lines "key: value"; nullopt if no line has a known key.
 std::optional<CarriedMeta> of_lines(std::string of, std::string_view text) {
     CarriedMeta meta{.of = std::move(of)};
     bool found = false;
@@ -83,7 +83,7 @@ std::string to_text(const CarriedMeta& meta) {
     if (meta.width > 0) out["width"] = meta.width;
     if (meta.sets > 0) out["sets"] = meta.sets;
     out["meta"] = to_json(meta.provenance);
-    // ASCII, since a PNG text chunk cannot hold more.
+    // ASCII only, since a tEXt chunk of a PNG cannot hold UTF-8.
     return out.dump(-1, ' ', true, Json::error_handler_t::replace);
 }
 

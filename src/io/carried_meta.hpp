@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Provenance stored outside the data proper: in a sidecar file for formats that have no place for
-// it (npy, bin, utk, psa); in comments of ply; in the metadata of svg; in a text chunk of a PNG
-// picture that a generator made with its points.
+// Provenance stored beside or around the points: in a sidecar file for formats that cannot hold it
+// (npy, bin, utk, psa); in comments of ply; in the metadata element of svg; in a text chunk of a
+// PNG picture that a generator made with its points.
 //
 //     points.npy.meta.json {"format":"stipple.meta","version":1,"of":"npy","width":2,"meta":{...}}
 //
@@ -18,7 +18,7 @@
 namespace stipple::io {
 
 struct CarriedMeta {
-    std::string of;         ///< the points' format, or the option that named the picture
+    std::string of;  ///< the points' format, or the generator's option that names the picture
     std::size_t width = 0;  ///< numbers per point; 0: unknown
     std::size_t sets = 0;   ///< sets in the file; 0: unknown
     Provenance provenance = {};
@@ -32,11 +32,11 @@ std::string to_text(const CarriedMeta& meta);
 /// Parses the output of to_text(). @throws Error(input) if the text is not provenance
 CarriedMeta carried_meta(std::string_view text, const std::string& source);
 
-/// Provenance in the bytes of a ply, svg or PNG file; nullopt for other formats and if there is
-/// none.
+/// Provenance in the bytes of a ply, svg or PNG file; nullopt if the file has none or another
+/// format.
 std::optional<CarriedMeta> find_carried_meta(std::string_view bytes, const std::string& source);
 
-/// The JSON description in a PNG or svg picture by `stipple plot`; nullopt for other files.
+/// JSON description in a PNG or svg picture made by `stipple plot`; nullopt for other files.
 std::optional<std::string> picture_note(std::string_view bytes);
 
 /// A ply or svg file with its provenance removed.

@@ -12,13 +12,13 @@ namespace {
 
 bool measures_points(const std::string& name) { return name == "pdf" || name == "weight"; }
 
-/// Whether a column name in a header would be read back as a name.
+/// Whether a coordinate name in a header would be read back as such.
 bool is_name(const std::string& name, bool table) {
     return is_word(name) && name != "set" && (table || !measures_points(name));
 }
 
-/// Reads column pdf or, if missing, weight as an extra number after the coordinates; records which
-/// of them exist.
+/// Assigns column pdf or, if missing, weight to an extra number after the coordinates; records in
+/// `density` which of them exist.
 void add_density(Columns& columns, const std::vector<std::string>& names) {
     for (const char* name : {"pdf", "weight"}) {
         const auto it = std::ranges::find(names, name);
@@ -30,7 +30,7 @@ void add_density(Columns& columns, const std::vector<std::string>& names) {
     }
 }
 
-/// An empty first name, as R and pandas write it.
+/// Whether the first column has no name: R and pandas write row names so.
 bool has_row_names(const std::vector<std::string>& names, const ReadOptions& options) {
     return names[0].empty() && !options.all_columns;
 }
@@ -86,7 +86,7 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
         picked.columns = options.expected;
         return choose_columns(std::move(names), width, picked, place);
     }
-    // Default names (x, y, ...) carry no meaning: then the columns are taken in order.
+    // Default names (x, y, ...) carry no meaning: columns with such names are taken in order.
     if (options.columns.empty() && missing != options.expected.end() && !kept_names(names).empty())
         fail_with_hint(ErrorKind::input, suggest(*missing, names), "{}: there is no column '{}'",
                        place, *missing);

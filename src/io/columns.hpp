@@ -17,46 +17,46 @@ namespace stipple::io {
 /// Role of each column: the index of a coordinate, or one of the constants below.
 struct Columns {
     static constexpr std::size_t skipped = std::numeric_limits<std::size_t>::max();  ///< not read
-    static constexpr std::size_t checked = skipped - 1;     ///< must be a number, but is not used
-    static constexpr std::size_t set_number = skipped - 2;  ///< number of the set
+    static constexpr std::size_t checked = skipped - 1;  ///< must hold numbers, which are not used
+    static constexpr std::size_t set_number = skipped - 2;  ///< holds the number of the set
 
     std::vector<std::size_t> role;
     std::size_t dimension = 0;
     std::vector<std::string> names = {};  ///< of the coordinates, in order; may be empty
     /// Level names of each coordinate; empty for numeric coordinates.
     std::vector<std::vector<std::string>> words = {};
-    /// Name of the density column after the coordinates; "pdf,weight" if the file has both, of
-    /// which the first is read.
+    /// Name of the density column after the coordinates; "pdf,weight" if the file has both: then
+    /// pdf is read.
     std::string density = {};
 
     [[nodiscard]] std::size_t width() const { return role.size(); }
-    /// Whether all columns are coordinates, in order.
+    /// Whether all columns are coordinates, in their original order.
     [[nodiscard]] bool plain() const;
     [[nodiscard]] bool has(std::size_t wanted) const;
 };
 
-/// Coordinate names to store in provenance. Empty if they are the default x, y, ..., or if a header
-/// with them would not be recognized. Names pdf and weight are allowed only for a `table`.
+/// Coordinate names to store in provenance. Empty if they are the default names, or if a header
+/// with them would not be read back. Names pdf and weight are allowed only if `table`.
 std::vector<std::string> kept_names(std::vector<std::string> names, bool table = false);
 
-/// Whether a text can be a level name: unchanged by writing and reading, and not a number.
+/// Whether a text can be a level name: not a number, and unchanged by writing and reading.
 bool is_word(const std::string& text);
 
 /// Index of the column with this name or, failing that, with this number counted from 1. `place`
-/// and `option` are for the message. @throws Error(usage) if there is none
+/// and `option` are for the message. @throws Error(usage) if no column matches
 std::size_t find_column(const std::string& wanted, const std::vector<std::string>& names,
                         const std::string& place, const char* option = "column");
 
 /// Assigns roles to columns. Unnamed columns are called x, y, ... (see coordinate_names). Columns
-/// pdf and weight are coordinates only if picked, in tables (gaps), or if options.all_columns. A
-/// first column with an empty name holds row names; it is a coordinate only if picked, or if
-/// options.all_columns. A first column `set` is the set number. `place` begins the messages
-/// ("p.csv:3").
+/// pdf and weight are coordinates only if picked in options.columns, or if options.gaps or
+/// options.all_columns is set. A first column with an empty name holds row names; it is a
+/// coordinate only if picked, or if options.all_columns is set. A first column named `set` holds
+/// the set number. Messages begin with `place` ("p.csv:3").
 /// @throws Error(usage) for a missing column; Error(input) for a wrong dimension
 Columns choose_columns(std::vector<std::string> names, std::size_t width,
                        const ReadOptions& options, const std::string& place);
 
-/// The density columns that follow the coordinates in a file, from the provenance of its points.
+/// Density columns after the coordinates in a file, from the provenance of its points.
 struct DensityColumns {
     bool pdf = false;
     bool weight = false;
@@ -71,11 +71,11 @@ void take_densities(PointSet& set);
 /// Drops the columns of a table that are not coordinates.
 std::vector<double> keep_coordinates(std::vector<double> table, const Columns& columns);
 
-/// Sets the provenance of each set of a file. Generated sets have consecutive seeds, except if
-/// their scrambles differ instead.
+/// Sets the provenance of each set of a file. Generated sets get consecutive seeds, except if they
+/// were scrambled: then only the scrambles' seeds differ.
 void tell_origin(std::vector<PointSet>& sets, const Provenance& provenance);
 
-/// Splits rows into sets; `starts` has the first row of each set, ascending from 0.
+/// Splits rows into sets; `starts` has the index of each set's first row, ascending from 0.
 std::vector<PointSet> cut_sets(std::vector<double> rows, std::size_t dimension,
                                const std::vector<std::uint64_t>& starts,
                                const Provenance& provenance);

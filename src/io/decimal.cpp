@@ -16,7 +16,7 @@
 namespace stipple::io {
 namespace {
 
-constexpr std::size_t longest = 25;  // "-1.2345678901234567e-308" has 24
+constexpr std::size_t longest = 25;  // the longest text, such as "-1.2345678901234567e-308", has 24
 
 constexpr auto small_powers_of_10 = [] {
     std::array<std::uint64_t, 20> powers{1};
@@ -31,14 +31,14 @@ std::uint64_t cut_fraction(double fraction, int precision) {
     const int shift = 1075 - std::max(biased, 1);
     if (biased == 0 || shift >= 128) return 0;
     const std::uint64_t c = (bits & ((std::uint64_t{1} << 52) - 1)) | std::uint64_t{1} << 52;
-    // Below 2^53 * 10^19 < 2^117.
+    // The product is below 2^53 * 10^19 < 2^117.
     const Uint128 product = Uint128{c} * small_powers_of_10[static_cast<std::size_t>(precision)];
     return static_cast<std::uint64_t>(product >> shift);
 }
 
 /// Appends |value|, truncated to `precision` digits after the point; for any value and precision.
 void append_cut_slowly(std::string& out, double value, int precision) {
-    constexpr int most_digits = 1074;  // the most that a double can have after the point
+    constexpr int most_digits = 1074;  // no double has more after the point
     std::string text = fmt::format("{:.{}f}", value, std::max(precision, most_digits));
     const auto point = text.find('.');
     if (point != std::string::npos)
@@ -60,13 +60,13 @@ void append_cut(std::string& out, double value, int precision) {
             fmt::format_to(std::back_inserter(out), FMT_COMPILE(".{:0{}}"),
                            cut_fraction(size - whole, precision), precision);
     }
-    // No sign if all digits were cut to 0.
+    // Removes the sign if only zeros are left.
     if (std::signbit(value) && out.find_first_of("123456789in", start) == std::string::npos)
         out.erase(start, 1);
 }
 
-/// The double for text beyond from_chars' range: infinity if too large, subnormal or zero if too
-/// small.
+/// Parses a number that from_chars reports as out of range: infinity if too large, subnormal or
+/// zero if too small.
 double beyond_range(const char* first, const char* end) {
     return std::strtod(std::string(first, end).c_str(), nullptr);
 }
@@ -75,7 +75,7 @@ double beyond_range(const char* first, const char* end) {
 
 void append_number(std::string& out, double value, std::optional<int> precision) {
     if (precision && std::isfinite(value)) return append_cut(out, value, *precision);
-    // Buffer on the stack: inserting into the string directly takes a third longer.
+    // Formats into a buffer on the stack: appending to the string directly takes a third longer.
     std::array<char, longest> text;
     const char* const begin = text.data();
     const char* const end = fmt::format_to(text.data(), FMT_COMPILE("{}"), value);

@@ -10,8 +10,8 @@
 
 namespace stipple::io {
 
-/// Appends the shortest text that reads back to the same double. With a precision, that many digits
-/// after the point instead, truncated so that values below 1 never print as 1.
+/// Appends the shortest text that reads back to the same double. With a precision, appends that
+/// many digits after the point, truncated so that values below 1 never print as 1.
 void append_number(std::string& out, double value, std::optional<int> precision = std::nullopt);
 
 /// Text before, between and after the numbers of a row.
@@ -27,7 +27,7 @@ void append_rows(std::string& out, std::span<const double> rows, std::size_t wid
 
 /// Reads the decimal number (or nan, inf, infinity) at `first`, rounded to the nearest double;
 /// infinity if too large, a subnormal or zero if too small. Returns the end of the number; nullptr
-/// if there is none at `first`.
+/// if the text at `first` is not a number.
 const char* read_number(const char* first, const char* last, double& value);
 
 }  // namespace stipple::io

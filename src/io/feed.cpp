@@ -49,7 +49,8 @@ Feed::Feed(const std::string& path, RunContext run)
     if (file_.descriptor < 0 || ::fstat(file_.descriptor, &status) != 0) refuse_file(name_, errno);
     if (S_ISDIR(status.st_mode)) refuse_file(name_, EISDIR);
 #ifdef F_SETPIPE_SZ
-    // Room for a writer's whole block, so that both sides can work at the same time.
+    // Enlarges the pipe to hold a writer's whole block, so that both sides can work at the same
+    // time.
     if (S_ISFIFO(status.st_mode)) ::fcntl(file_.descriptor, F_SETPIPE_SZ, 1 << 20);
 #endif
     if (S_ISREG(status.st_mode)) size_ = static_cast<std::size_t>(status.st_size);
@@ -132,9 +133,9 @@ std::string Feed::read_all() {
     std::string bytes(front_.substr(taken_));
     taken_ = front_.size();
     if (ends_in_front()) return bytes;
-    // One byte more than the file's size, to detect its end.
+    // One byte more than the file's size, so that a short read shows its end.
     std::size_t room = size_ > bytes.size() ? size_ + 1 : bytes.size() + front_size;
-    constexpr std::size_t step = std::size_t{4} << 20;  // between two looks at the stop token
+    constexpr std::size_t step = std::size_t{4} << 20;  // bytes between checks of the stop token
     for (;; room = 2 * bytes.size()) {
         run_.need_memory(static_cast<double>(room), "the bytes of " + name_);
         bytes.reserve(room);

@@ -22,13 +22,13 @@ class Feed {
     static constexpr std::size_t front_size = std::size_t{1} << 22;
 
     /// Blocks until the front is available or a stop is requested.
-    /// @throws Error(io): missing, a directory, unreadable; Error(input): damaged compressed data,
-    /// which read() may throw, too; Error(cancelled)
+    /// @throws Error(io): missing, a directory, unreadable; Error(input): damaged compressed data
+    /// (also thrown by read()); Error(cancelled)
     Feed(const std::string& path, RunContext run);
     /// Reads from memory that the caller owns and keeps valid.
     explicit Feed(std::string_view bytes) : front_(bytes) {}
 
-    /// The first front_size bytes, or all if there are fewer; all of them for bytes in memory.
+    /// The first front_size bytes, or all bytes if the input is shorter or in memory.
     [[nodiscard]] std::string_view front() const { return front_; }
 
     /// Whether the front holds the whole input.
@@ -36,7 +36,8 @@ class Feed {
         return file_.descriptor < 0 || front_.size() < front_size;
     }
 
-    /// Takes the next bytes, beginning with the front; fewer than requested only at the end.
+    /// Reads the next bytes, beginning with the front, and returns how many: fewer than requested
+    /// only at the end.
     /// @throws Error(io) if the file has changed since it was opened
     std::size_t read(std::span<char> bytes);
 

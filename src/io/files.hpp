@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Point files or standard input read as a whole.
+// Reads point files or standard input as a whole.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ std::string read_bytes(const std::string& path, const RunContext& run);
 /// Detects the format by the file's extension or, if that is ambiguous, by the first bytes.
 const Format& format_for(const std::string& path, std::string_view bytes);
 
-/// Parses the bytes of a file; `path` names it. Otherwise as read_points().
+/// As read_points(), for the bytes of a file already read; `path` is its name.
 std::vector<PointSet> read_sets(std::string_view bytes, const std::string& path,
                                 const ReadOptions& options, const RunContext& run,
                                 const Format* format = nullptr);
@@ -30,7 +30,7 @@ std::vector<PointSet> read_sets(std::string_view bytes, const std::string& path,
 std::vector<PointSet> read_points(const std::string& path, const ReadOptions& options,
                                   const RunContext& run, const Format* format = nullptr);
 
-/// Reads the only set of a file that a unit's option names.
+/// Reads a file named by a unit's option, which must hold exactly one set.
 /// @throws Error as read_points; Error(usage) for standard input, which cannot be read twice
 PointSet read_given(std::string_view option, const std::string& path, const ReadOptions& options,
                     const RunContext& run);

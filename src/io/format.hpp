@@ -21,7 +21,7 @@
 
 namespace stipple {
 
-/// Number of points in each set; constant size if all sets are equal.
+/// Number of points in each set. Takes constant memory if all sets have equally many.
 class Counts {
   public:
     Counts() = default;
@@ -43,20 +43,21 @@ class Counts {
   private:
     std::uint64_t sets_ = 0;
     std::uint64_t first_ = 0;
-    std::vector<std::uint64_t> all_ = {};  ///< empty if all are equal
+    std::vector<std::uint64_t> all_ = {};  ///< empty if all sets are equal
 };
 
 /// Parameters of a writer, known before the first row.
 struct Layout {
     std::size_t dimension = 0;             ///< coordinates per point
-    std::vector<std::string> extras = {};  ///< names of further numbers in a row ("pdf")
+    std::vector<std::string> extras = {};  ///< names of the numbers after them ("pdf")
     Counts counts = {};                    ///< points of each set
     bool header = true;                    ///< column names, in CSV
     bool meta = false;                     ///< provenance in `# ` lines
     bool single = false;                   ///< float32 in binary formats
     std::optional<int> precision = {};     ///< digits after the point
     Provenance provenance = {};
-    std::optional<Box> extent = {};  ///< shown area; unset: the bounds, else the unit cube
+    std::optional<Box> extent =
+        {};  ///< area that svg shows; unset: bounds in provenance or unit cube
 
     [[nodiscard]] std::size_t width() const { return dimension + extras.size(); }
     [[nodiscard]] bool many_sets() const { return counts.size() > 1; }
@@ -84,11 +85,11 @@ struct ReadOptions {
     std::vector<std::string> expected = {};
     Levels levels = {};  ///< level names of categorical columns
 
-    bool any_count = false;      ///< accepts another number of points than the header announces
+    bool any_count = false;      ///< accepts a number of points that differs from the header's
     bool all_columns = false;    ///< reads columns pdf and weight as coordinates, too
     bool densities = false;      ///< reads column pdf or weight as a number after the coordinates
     bool single = false;         ///< bin holds float32
-    bool gaps = false;           ///< text: reads empty fields and nan as coordinate NaN
+    bool gaps = false;           ///< text: reads empty fields, NA and nan as NaN
     std::string strengths = {};  ///< weight column, read after the coordinates
 };
 
@@ -112,7 +113,8 @@ struct Format {
     std::vector<std::string> extensions;  ///< ".csv"
     FormatTraits traits;
 
-    /// Append the text before all rows, before the rows of each set, and after all; may be null.
+    /// Functions that append text before all rows, before the rows of each set, and after all rows;
+    /// null: no such text.
     void (*head)(const Layout&, std::string& out) = nullptr;
     void (*begin_set)(const Layout&, std::size_t set, std::string& out) = nullptr;
     /// Appends rows first, first + 1, ... of a set; sets are numbered from 0 in this file. Pure.
@@ -125,8 +127,9 @@ struct Format {
     std::vector<PointSet> (*read)(std::string_view bytes, const ReadOptions&,
                                   const RunContext&) = nullptr;
 
-    /// Reads in blocks if the front of the bytes allows it: takes ownership of the feed then.
-    /// Otherwise leaves the feed alone and returns null. Null: never possible.
+    /// Opens a stream that reads in blocks and takes ownership of the feed. Returns null, without
+    /// touching the feed, if its front shows that the file must be read as a whole. Null: the
+    /// format cannot be read in blocks.
     std::unique_ptr<io::PointStream> (*stream)(std::unique_ptr<io::Feed>&, const ReadOptions&,
                                                const RunContext&) = nullptr;
 };
@@ -142,8 +145,8 @@ const Format& format_named(std::string_view name);
 /// Lower-case extension of a file name, ".csv"; that of a compression is removed first.
 std::string extension_of(std::string_view path);
 
-/// @throws Error(usage) with the hint if an output's name has an extension other than the known
-/// ones
+/// Checks the extension of an output's name; accepts names without extension. @throws Error(usage)
+/// with the hint if the extension is not among `known`
 void require_extension(std::string_view path, std::span<const std::string> known,
                        const std::string& hint);
 
@@ -153,8 +156,8 @@ const Format* format_of_extension(std::string_view path);
 /// Whether the extension means float32: ".f32".
 bool extension_is_single(std::string_view path);
 
-/// Radius of the disks that show `count` points, in units of which a picture is 1000 wide: 0.15
-/// times the mean distance sqrt(area / count), between 0.5 and 10.
+/// Radius of the disks that show `count` points: 0.15 times the mean distance sqrt(area / count),
+/// between 0.5 and 10. Units are 1/1000 of the picture's longer side.
 inline double disk_radius(double area, double count) {
     return std::clamp(0.15 * std::sqrt(area / std::max(count, 1.0)), 0.5, 10.0);
 }

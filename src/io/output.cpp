@@ -24,7 +24,7 @@
 namespace stipple::io {
 namespace {
 
-/// File descriptor of the names for standard output and standard error; nullopt for other paths.
+/// File descriptor if the path names standard output or standard error; otherwise nullopt.
 std::optional<int> standard_descriptor(const std::string& path) {
     if (path == "-" || path == "/dev/stdout" || path == "/dev/fd/1") return STDOUT_FILENO;
     if (path == "/dev/stderr" || path == "/dev/fd/2") return STDERR_FILENO;
@@ -44,8 +44,7 @@ std::string folder_of(const std::filesystem::path& path) {
     return parent.empty() ? "." : parent.string();
 }
 
-/// Temporary name beside a target. The counter keeps names distinct, since one command may have
-/// many such files.
+/// Temporary name in the target's folder. The counter distinguishes the files of one command.
 std::string part_name(const std::filesystem::path& target) {
     static std::atomic<std::uint64_t> number = 0;
     return fmt::format("{}/.stipple-{}-{}.part", folder_of(target), ::getpid(), number++);
@@ -59,7 +58,7 @@ void append_text(std::string& record, const std::string& text) {
 /// Buffer for a file name.
 using NameBuffer = std::array<char, PATH_MAX>;
 
-/// Reads a text into the buffer, without allocating; nullopt at the end.
+/// Reads a text into the buffer, without allocating; returns nullopt at the end.
 std::optional<std::string_view> take_text(Spool& spool, NameBuffer& buffer) {
     std::size_t size = 0;
     if (spool.read({reinterpret_cast<char*>(&size), sizeof size}) < sizeof size)
@@ -81,7 +80,7 @@ std::string name_of_descriptor(int descriptor) {
     return fmt::format("/proc/self/fd/{}", descriptor);
 }
 
-/// Whether enough descriptors remain for inputs.
+/// Whether enough file descriptors remain for inputs after this one.
 bool leaves_descriptors(int descriptor) {
     constexpr rlim_t spare = 64;
     rlimit limit{};
@@ -111,11 +110,11 @@ Output::Output(std::string path, std::stop_token stop)
         open_in_place();
         return;
     }
-    // A read-only file is meant to stay, even if directory permissions would allow replacing it.
+    // A read-only file is not replaced, even if the folder's permissions would allow it.
     const bool protected_file = (status.st_mode & 0222) == 0 || ::access(path_.c_str(), W_OK) != 0;
     if (there && protected_file) fail(ErrorKind::io, "{}: the file is read-only", path_);
     target_ = follow_links(path_);
-    // Drops set-user-ID and set-group-ID: they were granted to the old content only.
+    // Drops set-user-ID and set-group-ID: they were set for the old content only.
     const auto mode = static_cast<mode_t>(there ? status.st_mode & 01777 : 0666);
     open_beside(mode);
     if (!there) return;
@@ -151,7 +150,7 @@ void Output::open_beside(mode_t mode) {
     owned_ = true;
 }
 
-/// Creates a file without a name if the file system supports it and it can be named later.
+/// Creates a file without a name if the file system supports that and allows naming it later.
 bool Output::open_unnamed(mode_t mode) {
     if (unnamed_file == 0) return false;
     const std::string folder = folder_of(target_);
@@ -212,8 +211,8 @@ void Output::close() {
     if (closed != 0) refuse_file(path_, errno);
 }
 
-/// Links an unnamed file to the target's name. If that exists, links it to a temporary name, to be
-/// renamed.
+/// Links the unnamed file to the target's name. If the target exists, links the file to a temporary
+/// name, which commit() changes.
 void Output::name_it() {
     const std::string unnamed = name_of_descriptor(descriptor_);
     const auto link_as = [&](const std::string& name) {
@@ -265,7 +264,7 @@ Outputs::~Outputs() {
 void Outputs::commit() {
     constexpr std::size_t named = 10;
     std::uint64_t count = 0;
-    std::vector<std::string> some;  // of the files in place
+    std::vector<std::string> some;  // names of files already in place
     some.reserve(named);
     // Puts one file in place and returns true; false if `put` has no more files.
     const auto place = [&](const auto& put) {

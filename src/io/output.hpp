@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Output files written under temporary names, and renamed when all of them are complete.
+// Output files that appear under their names only when all of them are complete.
 #pragma once
 
 #include <sys/types.h>
@@ -21,14 +21,14 @@ namespace stipple::io {
 /// A file that appears only when it is complete, or standard output for "-". Devices and pipes are
 /// written in place; for a symbolic link, its target is replaced. Names ending in .gz or .zst get
 /// compressed bytes. Until commit() the bytes are in an unnamed file, which vanishes with the
-/// process, or in a file NAME.part if the file system has no unnamed files.
+/// process, or in a file .stipple-PID-N.part beside it if the file system has no unnamed files.
 class Output {
   public:
-    /// A write that a signal interrupts (handler installed without SA_RESTART) is abandoned if
-    /// `stop` was requested.
+    /// If a signal interrupts a write (handler installed without SA_RESTART) and `stop` was
+    /// requested, the write is abandoned.
     /// @throws Error(io) if the file cannot be created
     explicit Output(std::string path, std::stop_token stop = {});
-    /// Takes the bytes instead of a file; returns false to stop.
+    /// Function that receives the bytes instead of a file; it returns false to stop the output.
     using Sink = std::function<bool(std::string_view bytes)>;
     explicit Output(Sink sink);
     Output(const Output&) = delete;
@@ -55,7 +55,7 @@ class Output {
         return {temporary_, target_};
     }
 
-    /// Gives up the temporary file: the caller renames or removes it.
+    /// Leaves the temporary file to the caller, who renames or removes it.
     void release() { temporary_.clear(); }
 
   private:
@@ -67,8 +67,8 @@ class Output {
     void close();
 
     std::string path_;       ///< name in messages
-    std::string target_;     ///< file to be replaced; empty: written in place
-    std::string temporary_;  ///< name until commit(); empty: none
+    std::string target_;     ///< file to create or replace; empty: written in place
+    std::string temporary_;  ///< name until commit(); empty if the file has no name
     std::stop_token stop_;
     Sink sink_;
     std::unique_ptr<Compressor> compressor_;  ///< for names ending in .gz or .zst
@@ -101,7 +101,7 @@ class Outputs {
   private:
     void set_aside();
 
-    std::list<Output> files_;       ///< open: unnamed or written in place, and the last one
+    std::list<Output> files_;       ///< open files: unnamed, written in place, or the last one
     std::unique_ptr<Spool> names_;  ///< temporary and final names of the other files
 };
 

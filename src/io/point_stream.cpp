@@ -107,13 +107,13 @@ class RawStream final : public PointStream {
     }
 
   private:
-    /// Reports bytes that end within a point, or before the announced number of points.
+    /// Reports input that ends within a point, or before the announced number of points.
     [[noreturn]] void refuse_end() {
         if (shape_.count) PointStream::skip(1);
         refuse_part(source_);
     }
 
-    /// Checks that the bytes may end here.
+    /// Checks that `wanted` points were read, or whole points if their number is unknown.
     void check_end(std::size_t wanted) const {
         const std::size_t point = shape_.width * shape_.type.size;
         const std::size_t all = shape_.offset + numbers_ * shape_.type.size + bytes_.size();
@@ -135,7 +135,7 @@ class RawStream final : public PointStream {
              shape_.width, 8 * shape_.type.size);
     }
 
-    /// Rejects bytes after the last of a known number of points.
+    /// Rejects bytes after the last point if the number of points is known.
     void check_rest() {
         if (!shape_.count || left_ > 0 || set_ < shape_.sets || ended_) return;
         ended_ = true;
@@ -215,7 +215,7 @@ class JoinedStream final : public PointStream {
         shards_ = shards_ && part_->provenance().shard == fmt::format("{}/{}", at_, paths_.size());
     }
 
-    /// Opens the next file; false if there is none.
+    /// Opens the next file; returns false after the last one.
     bool next_part() {
         if (part_->next_set())
             fail(ErrorKind::input,
@@ -261,7 +261,7 @@ class JoinedStream final : public PointStream {
     std::vector<std::string> paths_;
     Opener open_;
     std::unique_ptr<PointStream> part_;
-    Provenance whole_;  ///< of the first file
+    Provenance whole_;  ///< provenance of the first file
     std::size_t at_ = 0;
     std::uint64_t count_ = 0;
     bool begun_ = false;

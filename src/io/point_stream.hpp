@@ -31,8 +31,8 @@ class PointStream {
 
     [[nodiscard]] virtual std::size_t dimension() const = 0;
 
-    /// Moves to the next set; the first call to the first set. The current set must have been read
-    /// to its end. Returns false if there is no more.
+    /// Moves to the next set, at first to the first one. The current set must have been read to its
+    /// end. Returns false after the last set.
     virtual bool next_set() = 0;
 
     /// Number of sets, if known in advance.
@@ -52,29 +52,29 @@ class PointStream {
     /// Reads all sets; call it before next_set().
     virtual std::vector<PointSet> read_all(const RunContext& run);
 
-    /// Reads the next points of the set into `rows`. Fewer than fit, or none, only at the set's
-    /// end.
+    /// Reads the next points of the set into `rows` and returns how many: fewer than fit only at
+    /// the end of the set.
     /// @throws Error(input), Error(io), Error(cancelled)
     virtual std::size_t read(std::span<double> rows) = 0;
 
-    /// Skips up to `count` points of the set and returns how many were skipped. If all points have
-    /// a fixed size, the skipped bytes are not checked.
+    /// Skips up to `count` points of the set and returns how many were skipped. In binary files,
+    /// the skipped bytes are not checked.
     virtual std::uint64_t skip(std::uint64_t count);
 };
 
-/// Opens a file as a stream. Small files, and those that must be read as a whole (JSON, column-major
-/// matrices, text with unknown level names), are read at once; others in blocks. Errors are those of
-/// read_points, but may occur after valid points were already returned.
+/// Opens a file as a stream. Small files and those that must be read as a whole (JSON, column-major
+/// matrices, text with unknown level names), are read at once; others in blocks. Errors are those
+/// of read_points, but may occur after valid points were already returned.
 std::unique_ptr<PointStream> open_points(const std::string& path, const ReadOptions& options,
                                          const RunContext& run, const Format* format = nullptr);
 
-/// Numbers in a row of the one set of the file that an option names, from its first rows.
+/// Numbers per row in the file that an option names; reads only the first rows if possible.
 /// @throws as read_given
 std::size_t width_of_given(std::string_view option, const std::string& path);
 
-/// Concatenates files of one set each into one set; each file is opened when it is needed. If they
-/// are all shards of one set, in order, the provenance is that of the whole; otherwise only their
-/// common domain is known.
+/// Concatenates files of one set each into one set; each file is opened when it is needed. If the
+/// files are all shards of one set, in order, the provenance is that of the whole set; otherwise it
+/// holds only what they have in common.
 /// @throws Error(input) for points with different numbers of coordinates or on different domains,
 /// and for a file with several sets
 using Opener = std::function<std::unique_ptr<PointStream>(const std::string& path)>;
@@ -82,10 +82,10 @@ std::unique_ptr<PointStream> join_points(std::vector<std::string> paths, Opener 
 
 // Functions for the implementation of formats.
 
-/// Layout of raw numbers, one set after another.
+/// Layout of raw numbers in a file, one set after another.
 struct RawShape {
     std::size_t sets = 1;
-    std::optional<std::uint64_t> count = {};  ///< points per set; unset: all up to the end
+    std::optional<std::uint64_t> count = {};  ///< points per set; unset: all to the end of the file
     std::size_t width = 1;                    ///< numbers per point
     RawType type = {};
     std::size_t offset = 0;  ///< bytes before the first number
@@ -94,9 +94,9 @@ struct RawShape {
 std::unique_ptr<PointStream> stream_raw(std::unique_ptr<Feed> feed, const RawShape& shape,
                                         const ReadOptions& options);
 
-/// @throws Error(input) naming the first number that is not finite, its byte and, unless
-/// shape.width is 0, its point
-/// @param before how many numbers precede these
+/// Checks that all numbers are finite. @throws Error(input) naming the first that is not, its byte
+/// and, unless shape.width is 0, its point
+/// @param before how many numbers of the file precede these
 void check_finite(std::span<const double> numbers, const RawShape& shape, const std::string& source,
                   std::size_t before = 0);
 

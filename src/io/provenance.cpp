@@ -60,7 +60,8 @@ bool take(const Json& value, std::vector<std::string>& texts) {
     return true;
 }
 
-/// Drops names that a header could not have.
+/// Parses column names; drops them all if one could not be in a header, or if they are the
+/// defaults.
 bool take_columns(const Json& value, std::vector<std::string>& names) {
     const bool texts = take(value, names);
     names = kept_names(std::move(names));
@@ -129,8 +130,8 @@ std::optional<bool> take_value(std::string_view key, const Json& value, Provenan
     return std::nullopt;
 }
 
-/// Parses the value of one key and records a flaw if it is invalid. Returns false for an unknown
-/// key.
+/// Parses the value of one key and records a flaw if the value is invalid. Returns false for an
+/// unknown key.
 bool take(std::string_view key, const Json& value, Provenance& to) {
     const auto good = take_value(key, value, to);
     if (good == false && to.flaw.empty())
@@ -187,7 +188,8 @@ bool take_comment_line(std::string_view line, Provenance& provenance) {
     if (colon == std::string_view::npos) return false;
     const Json value = try_parse_json(line.substr(colon + 2));
     if (!value.is_discarded()) return take(line.substr(0, colon), value, provenance);
-    // A number beyond the range of doubles is not valid JSON; other text is ignored.
+    // A number beyond the range of doubles is not valid JSON: it is passed on as text, to be
+    // recorded as a flaw. Other text is ignored.
     const std::string text(line.substr(colon + 2));
     if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string::npos)
         return false;

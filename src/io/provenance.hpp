@@ -21,10 +21,11 @@ nlohmann::ordered_json to_json(const Provenance& provenance);
 /// Parses the known keys and ignores the others.
 Provenance provenance_from(const nlohmann::ordered_json& meta);
 
-/// Formats lines "# key: value" with the value as JSON; `begin` replaces "# " in other formats.
+/// Formats provenance as lines "# key: value" with the value as JSON; other formats replace "# " by
+/// `begin`.
 std::string to_comment_lines(const Provenance& provenance, std::string_view begin = "# ");
 
-/// Parses one such line, without "# ", into `provenance`. Returns false for other lines.
+/// Parses a line "key: value" of to_comment_lines(), without "# ". Returns false for other lines.
 bool take_comment_line(std::string_view line, Provenance& provenance);
 
 }  // namespace stipple::io

@@ -18,10 +18,10 @@ std::string source_name(std::string_view source);
 /// Text without its byte-order mark; does not own the bytes.
 class SourceText {
   public:
-    /// @throws Error(input) if the text is empty, compressed, or in UTF-16 or similar
+    /// @throws Error(input) if the text is empty, compressed by gzip, or in UTF-16
     SourceText(std::string_view bytes, std::string_view source);
 
-    /// A later part of a text, after `lines_before` lines.
+    /// A part of a text that begins after `lines_before` lines.
     SourceText(std::string_view bytes, std::string_view source, char newline,
                std::size_t lines_before);
 
@@ -48,7 +48,7 @@ class SourceText {
     std::size_t lines_before_ = 0;
 };
 
-/// The first control byte in a line, except tab; null if there is none.
+/// First control byte in a line, except tab; null if the line has none.
 const char* first_control_byte(std::string_view line);
 
 }  // namespace stipple::io

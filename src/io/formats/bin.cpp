@@ -30,7 +30,7 @@ std::unique_ptr<PointStream> stream(std::unique_ptr<Feed>& feed, const ReadOptio
                                     const RunContext& /*run*/) {
     const RawShape shape{.width = width_of(options), .type = {.size = options.single ? 4U : 8U}};
     ReadOptions inner = options;
-    inner.dimension.reset();  // width_of() already gives the row's width, before columns are picked
+    inner.dimension.reset();  // it is the row's width here, before columns are picked
     return stream_raw(std::move(feed), shape, inner);
 }
 

@@ -28,7 +28,7 @@
 namespace stipple::io::csv {
 namespace {
 
-/// Quotes a text if it contains a separator.
+/// Quotes a text if it contains a separator of the reader.
 std::string field(const std::string& text) {
     return text.find_first_of(",; \t") == std::string::npos ? text : "\"" + text + "\"";
 }

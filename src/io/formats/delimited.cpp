@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Reader for delimited text. Cuts the file at line starts into blocks of about 1 MiB and parses
-// them in parallel, each directly into its part of the result.
+// them in parallel, each directly into its place in the result.
 //
 // Cost    45 ns for a number of 17 digits on one core; memory for the points in addition to the
 //         file.
@@ -114,13 +114,13 @@ bool is_number(std::string_view text) {
     return !text.empty() && read_number(text.data(), last, value) == last;
 }
 
-/// Parses a finite number; false if the field is not one.
+/// Parses a finite number; returns false if the field is not one.
 bool take_number(const Field& field, double& value) {
     const char* const last = field.text.data() + field.text.size();
     return read_number(field.text.data(), last, value) == last && std::isfinite(value);
 }
 
-/// Replaces a decimal comma (0,5) by a point; empty if the text is not such a number.
+/// Replaces the decimal comma of a number (0,5) by a point; empty if the text is not such a number.
 std::string with_point(std::string_view text) {
     const auto comma = text.find(',');
     if (comma == std::string_view::npos || text.find('.') != std::string_view::npos) return {};
@@ -129,7 +129,7 @@ std::string with_point(std::string_view text) {
     return is_number(number) ? number : "";
 }
 
-/// As take_number(), for files with decimal commas.
+/// As take_number(), for files with decimal commas; rejects decimal points.
 bool take_number_with_comma(const Field& field, double& value) {
     if (field.text.find('.') != std::string_view::npos) return false;
     if (field.text.find(',') == std::string_view::npos) return take_number(field, value);
@@ -174,7 +174,7 @@ class RowReader {
     /// Upper bound for the number of rows in [p, last).
     [[nodiscard]] std::uint64_t most_rows(const char* p, const char* last) const {
         const auto lines = 1 + static_cast<std::uint64_t>(std::count(p, last, text_.newline()));
-        const std::uint64_t least_bytes =  // per row
+        const std::uint64_t least_bytes =  // least bytes of a row with its line end
             columns_.width() + (dialect_.gaps ? 0 : columns_.dimension);
         return std::min(lines, 1 + static_cast<std::uint64_t>(last - p) / least_bytes);
     }
@@ -214,7 +214,8 @@ class RowReader {
         return some ? &columns_.words[role] : nullptr;
     }
 
-    /// Value of a field: its number, or the index of its level name. @throws Error(input)
+    /// Value of a field: its number, the index of its level name, or NaN if missing. @throws
+    /// Error(input)
     double number_in(std::string_view line, const Field& field, std::size_t c) const {
         const auto* words = words_of(c);
         const bool gap = dialect_.gaps && is_gap(field);
@@ -236,7 +237,8 @@ class RowReader {
         return value;
     }
 
-    /// Stores a value in its coordinate or set number; false if it is not a valid set number.
+    /// Stores the value of column c as a coordinate or as the set number. Returns false for an
+    /// invalid set number.
     bool store(std::size_t c, double value, double* row, double& set) const {
         const std::size_t role = columns_.role[c];
         if (role < columns_.dimension) {
@@ -269,7 +271,8 @@ class RowReader {
                                             : std::string()));
     }
 
-    /// Reports a control byte in the line if there is one, else the error. @throws Error(input)
+    /// Reports the first control byte in the line or, if it has none, the error. @throws
+    /// Error(input)
     [[noreturn]] void refuse(std::string_view line, const char* at, const std::string& what) const {
         if (const char* bad = first_control_byte(line))
             text_.refuse(bad, fmt::format("byte 0x{:02X} is not text; expected numbers",
@@ -325,7 +328,7 @@ std::vector<Piece> cut_at_lines(const SourceText& text, const char* body, const 
     return pieces;
 }
 
-/// Moves rows together: pieces may hold fewer rows than were reserved for them.
+/// Closes gaps between the pieces, which may hold fewer rows than were reserved for them.
 Rows close_gaps(std::vector<Piece>& pieces, std::vector<double> numbers, std::size_t dimension) {
     Rows rows;
     std::uint64_t count = 0;
@@ -415,7 +418,7 @@ std::vector<std::uint64_t> set_starts(const SourceText& text, const Rows& rows,
                                       std::size_t dimension) {
     std::vector<std::uint64_t> starts{0};
     for (const Mark& mark : rows.marks) {
-        if (mark.row == 0) continue;  // comments before the first point
+        if (mark.row == 0) continue;  // `#` lines before the first point
         if (mark.row == starts.back() || mark.row * dimension == rows.numbers.size())
             text.refuse(mark.at, "a set without points; a line such as this separates two sets");
         starts.push_back(mark.row);
@@ -453,7 +456,8 @@ namespace {
 /// Groups rows by set number; sets are ordered by their first rows.
 std::vector<PointSet> gather_sets(Rows rows, std::size_t dimension, const Provenance& provenance) {
     std::vector<Mark>& marks = rows.marks;
-    // Blocks repeat the number of their first set. `#` lines have no meaning in a table.
+    // Every block marks its first set number again; such repetitions are removed. `#` lines do not
+    // separate the sets of a table.
     std::erase_if(marks, [](const Mark& mark) { return std::isnan(mark.number); });
     const auto same = [](const Mark& a, const Mark& b) { return a.number == b.number; };
     marks.erase(std::unique(marks.begin(), marks.end(), same), marks.end());
@@ -483,8 +487,8 @@ struct TableHead {
     Columns columns;
     bool names = false;          ///< the first line is a header
     bool row_names = false;      ///< the first column has no name and holds row names
-    std::string counter = {};    ///< the first column if it counts the rows, as a coordinate
-    std::string measure = {};    ///< name of the column pdf or weight next to named columns
+    std::string counter = {};    ///< name of a coordinate column that numbers the rows
+    std::string measure = {};    ///< name of the column pdf or weight if others are named
     const char* body = nullptr;  ///< start of the rows
     bool words_to_find = false;  ///< the first row has words that are not known levels
 
@@ -519,7 +523,7 @@ void look_at_rows(const SourceText& text, const char* body, char separator,
     }
 }
 
-/// Whether the first fields are 0, 1, 2, ... or 1, 2, 3, ...
+/// Whether the first column holds 0, 1, 2, ... or 1, 2, 3, ...
 bool counts_rows(const SourceText& text, const char* body, char separator) {
     constexpr int few = 3;
     int rows = 0;
@@ -557,8 +561,8 @@ bool holds_word(const Field& field) {
     return is_word(std::string(field.text)) && std::ranges::any_of(field.text, is_letter);
 }
 
-/// Sorted distinct words of a column. Empty if the column also holds numbers, has too many words,
-/// or has only one row, whose word is more likely a mistake.
+/// Sorted distinct words of a column. Empty if the column also holds numbers or too many words.
+/// Also empty for a single row, where a word is more likely a mistake.
 std::vector<std::string> words_in_column(const SourceText& text, const TableHead& head,
                                          std::size_t c) {
     constexpr std::size_t most = 10'000;
@@ -568,7 +572,7 @@ std::vector<std::string> words_in_column(const SourceText& text, const TableHead
         const std::string_view line = line_at(text, at);
         if (trim(line).empty() || trim(line).starts_with('#')) continue;
         const auto fields = fields_of(line, head.dialect.separator);
-        if (fields.size() <= c) break;  // an error is reported later
+        if (fields.size() <= c) break;  // read_row() reports the short row later
         if (head.dialect.gaps && is_gap(fields[c])) continue;
         if (!holds_word(fields[c]) || words.size() > most) return {};
         words.emplace(fields[c].text);
@@ -578,7 +582,7 @@ std::vector<std::string> words_in_column(const SourceText& text, const TableHead
     return {words.begin(), words.end()};
 }
 
-/// Finds the level names of columns for which the provenance has none.
+/// Finds level names in columns for which the provenance has none, and reports them.
 void find_words(TableHead& head, const SourceText& text, const std::string& source,
                 const RunContext& run) {
     for (std::size_t c = 0; head.words_to_find && c < head.columns.width(); ++c) {
@@ -611,8 +615,8 @@ void take_words(TableHead& head, const SourceText& text) {
             const std::size_t role = columns.role[c];
             if (role >= columns.words.size() || (head.dialect.gaps && is_gap(fields[c]))) continue;
             auto& words = columns.words[role];
-            // A number that is not a level name: the column was written as numbers. "nan" may be a
-            // level.
+            // A number that is not a level name (as "nan" may be) shows that the column was written
+            // as numbers.
             if (is_number(fields[c].text) &&
                 std::ranges::find(words, fields[c].text) == words.end())
                 words.clear();
@@ -649,7 +653,7 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
         !options.all_columns && names[0] != "set" &&
         counts_rows(text, head.body, head.dialect.separator))
         head.counter = names[0];
-    // Points written by stipple have default names next to pdf or weight.
+    // Files by stipple have default names next to pdf or weight, which need no notice.
     if (head.names && options.columns.empty() && !head.top.provenance.columns.empty())
         for (std::size_t c = 0; c < names.size(); ++c)
             if (head.columns.role[c] == Columns::checked) head.measure = names[c];
@@ -679,7 +683,7 @@ class DelimitedStream final : public PointStream {
     std::size_t dimension() const override { return columns_.dimension; }
     const Provenance& provenance() const override { return provenance_; }
 
-    /// With a header, a column numbers the sets; without one, `#` lines separate them.
+    /// With a header, a column holds the set numbers; without one, `#` lines separate the sets.
     bool looks_like_one_set() const override { return names_ && !numbered(); }
 
     bool next_set() override {
@@ -708,7 +712,7 @@ class DelimitedStream final : public PointStream {
     }
 
   private:
-    /// A `#` line between two sets, and the index of the first row after it.
+    /// Boundary between two sets: its line, and the index of the first row after it.
     struct Cut {
         std::uint64_t row;
         std::size_t line;
@@ -720,7 +724,7 @@ class DelimitedStream final : public PointStream {
     bool numbered() const { return columns_.has(Columns::set_number); }
     bool cut_here() const { return !marks_.empty() && marks_.front().row == at_; }
 
-    /// Parses parts until there is a new row or a cut; false at the end. A part may hold no rows.
+    /// Parses parts of the text until one has a row or a cut; returns false at the end of the text.
     bool refill() {
         while (at_ == part_end()) {
             if (!read_lines()) {
@@ -733,7 +737,8 @@ class DelimitedStream final : public PointStream {
         return true;
     }
 
-    /// Moves the incomplete last line to the front of the buffer and reads on.
+    /// Moves the incomplete last line to the front of the buffer and reads more text. Returns false
+    /// at the end.
     bool read_lines() {
         text_.erase(0, used_);
         used_ = 0;
@@ -758,7 +763,7 @@ class DelimitedStream final : public PointStream {
         for (const Mark& mark : rows_.marks) {
             if (numbered()) break;
             const Cut cut{part_begin_ + mark.row, text.line_of(mark.at)};
-            if (cut.row == 0) continue;  // comments before the first point
+            if (cut.row == 0) continue;  // `#` lines before the first point
             if (cut.row == last_cut_.row) refuse_empty(cut.line);
             marks_.push_back(cut);
             last_cut_ = cut;
@@ -766,8 +771,8 @@ class DelimitedStream final : public PointStream {
         lines_ = text.line_of(text.end()) - 1;
     }
 
-    /// Finds changes of the set number. Unlike in a small file, rows of one set must be adjacent:
-    /// earlier rows are no longer available.
+    /// Adds a cut at each change of the set number. Rows of one set must be adjacent, unlike in a
+    /// small file, since earlier rows are no longer available.
     void cut_at_numbers(const SourceText& text) {
         for (const Mark& mark : rows_.marks) {
             if (std::isnan(mark.number) || mark.number == number_) continue;

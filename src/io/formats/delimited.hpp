@@ -18,18 +18,18 @@ namespace stipple::io {
 
 /// Syntax of a row.
 struct Dialect {
-    char separator = ' ';        ///< a blank matches any run of blanks and tabs
+    char separator = ' ';        ///< ' ' matches any run of blanks and tabs
     bool brackets = false;       ///< rows are [x,y]; lines starting with { separate sets
     bool comma = false;          ///< numbers have a decimal comma: 0,5
     bool gaps = false;           ///< missing numbers are allowed, and read as NaN
-    std::size_t model_line = 0;  ///< number of the line that defined the columns; 0: none
+    std::size_t model_line = 0;  ///< line that defined the columns, for messages; 0: none
 };
 
-/// A line between rows where a new set may begin.
+/// Position in the rows where a new set may begin: a line between rows, or a changed set number.
 struct Mark {
-    std::uint64_t row;  ///< index of the first row after it
+    std::uint64_t row;  ///< index of the first row after the mark
     const char* at;
-    double number;  ///< the set's number; NaN for `#` lines and lines starting with {
+    double number;  ///< the set's number; NaN for lines between rows
 };
 
 struct Rows {
@@ -44,7 +44,7 @@ struct Rows {
 Rows read_rows(const SourceText& text, const char* body, const Columns& columns,
                const Dialect& dialect, const RunContext& run);
 
-/// Index of the first row of each set: 0 and the rows after marks.
+/// Index of the first row of each set: 0, and each row that follows a mark.
 /// @throws Error(input) for a set without points
 std::vector<std::uint64_t> set_starts(const SourceText& text, const Rows& rows,
                                       std::size_t dimension);
@@ -53,10 +53,11 @@ std::vector<std::uint64_t> set_starts(const SourceText& text, const Rows& rows,
 struct Top {
     Provenance provenance;  ///< from `# key: value` lines
     const char* first;      ///< first line that is neither blank nor a comment
-    const char* next;       ///< the line after it
+    const char* next;       ///< the line after `first`
 };
 
-/// @throws Error(input) if there are only comments or blank lines
+/// Reads all lines above the first row. @throws Error(input) if the text has only comments and
+/// blank lines
 Top read_top(const SourceText& text);
 
 /// The line that starts at `begin`, without its line end.
@@ -69,8 +70,8 @@ const char* next_line(const SourceText& text, const char* at);
 std::vector<PointSet> read_delimited(std::string_view bytes, const ReadOptions& options,
                                      const RunContext& run);
 
-/// As read_delimited(), in blocks. Returns null if the front of the file does not determine the
-/// columns. Rows of one set must be adjacent.
+/// As read_delimited(), in blocks; rows of one set must be adjacent. Returns null, without touching
+/// the feed, if the front of the file does not determine the columns.
 std::unique_ptr<PointStream> stream_delimited(std::unique_ptr<Feed>& feed,
                                               const ReadOptions& options, const RunContext& run);
 

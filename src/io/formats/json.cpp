@@ -75,7 +75,7 @@ class Reader {
                 "\"points\":[[0.1,0.2],...]");
     }
 
-    /// @throws Error(input) if a coordinate of a record is not a number
+    /// Checks that all records have numbers in the coordinate columns. @throws Error(input)
     void require_numbers(const Columns& columns) {
         for (std::size_t c = 0; c < words_.size(); ++c)
             if (words_[c] != nullptr && columns.role[c] < columns.dimension) {
@@ -146,7 +146,7 @@ class Reader {
         expect(']', "',' or ']'");
     }
 
-    /// Parses a record into the columns named by the first one; remembers values that are not
+    /// Parses a record into the columns named by the first record; remembers values that are not
     /// numbers.
     void read_record() {
         expect('{', "a record such as {\"x\":0.1,\"y\":0.2}");
@@ -201,7 +201,8 @@ class Reader {
         return static_cast<std::size_t>(it - keys_.begin());
     }
 
-    /// Reserves for all rows, assuming that they are as long as the first, to allocate only once.
+    /// Reserves memory for all rows at once, assuming that each has as many characters as the
+    /// first.
     void reserve_for(const char* begin) {
         const auto rows = (last_ - begin) / std::max<std::ptrdiff_t>(p_ - begin, 1) + 1;
         const std::size_t room = static_cast<std::size_t>(rows) * width;
@@ -242,8 +243,8 @@ class Reader {
         ++p_;
     }
 
-    /// Skips a value for the JSON library to parse and returns its text; the rest of the text if it
-    /// is nested too deep.
+    /// Skips a value and returns its text, for the JSON library to parse. Returns all remaining
+    /// text if the value is nested too deep, so that the library reports it.
     std::string_view skip_value() {
         const std::string_view rest(p_, last_);
         const auto [size, too_deep] = json_extent(rest);

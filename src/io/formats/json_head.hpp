@@ -19,14 +19,13 @@
 
 namespace stipple::io {
 
-/// The text above, up to the points and without a closing brace. Extras add
-/// "columns":["x","y","pdf"].
+/// Writes the text above, without a closing brace. Extras add "columns":["x","y","pdf"].
 std::string json_head(const Layout& layout, const Counts& counts);
 
 /// Contents of the head.
 struct JsonHead {
     Provenance provenance = {};
-    std::vector<std::string> columns = {};  ///< empty: none given
+    std::vector<std::string> columns = {};  ///< empty: not given
     std::optional<std::uint64_t> dimension = {};
     std::vector<std::uint64_t> counts = {};  ///< per set, or one for all sets; empty: not given
     const char* dimension_at = nullptr;      ///< position in the text, for messages
@@ -37,17 +36,17 @@ struct JsonHead {
 void take_key(const SourceText& text, const char* at, std::string_view key,
               const nlohmann::ordered_json& value, JsonHead& head);
 
-/// Parses a piece of the text. @throws Error(input) at the first byte that is invalid or nested too
-/// deep
+/// Parses a JSON value within the text. @throws Error(input) at the first byte that is invalid or
+/// nested too deep
 nlohmann::ordered_json parse_piece(const SourceText& text, std::string_view piece);
 
-/// Assigns roles to columns of rows with `width` numbers, and records the density column in the
-/// head.
-/// @throws Error(input) if the head contradicts them
+/// Assigns roles to the `width` columns of the points, and records density and coordinate names in
+/// the provenance.
+/// @throws Error(input) if columns or dimension in the head contradict `width`
 Columns json_columns(const SourceText& text, JsonHead& head, std::size_t width,
                      const ReadOptions& options);
 
-/// @throws Error(input) if the counts in the head differ
+/// Compares the counts in the head, if given, with those found. @throws Error(input) if they differ
 void check_counts(const SourceText& text, const JsonHead& head,
                   const std::vector<std::uint64_t>& found);
 

@@ -41,7 +41,8 @@ std::vector<double> rows_first(const std::vector<double>& stored, std::size_t se
     return table;
 }
 
-/// @throws Error(input) if the array's shape does not fit points
+/// Converts the shape (n,), (n, d) or (sets, n, d) of an array. @throws Error(input) for other
+/// shapes
 RawShape shape_of(const NpyHeader& header) {
     const std::size_t rank = header.shape.size();
     if (rank == 0 || rank > 3)

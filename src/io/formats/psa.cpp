@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Point set analysis: the number of points on the first line, then one point `x y` per line.
+// Files of PSA (point set analysis): the number of points on the first line, then one point `x y`
+// per line.
 //
 // Shape   one set of 2-D points.
 // Beware  never detected by content: its first line looks like a point with one coordinate.

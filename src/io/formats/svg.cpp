@@ -6,12 +6,12 @@
 //
 // With more than two coordinates, each pair has a panel: column i, row j - 1 shows x_i to the right
 // and x_j > x_i upward, with the ranges below the panel. All panels have the same scale if the
-// points' domain is a single one. On products of domains each coordinate is scaled to the panel,
-// since pixel, time and lens of one row have different units.
+// points have a single domain other than the unit cube. Otherwise each coordinate is scaled to the
+// panel: coordinates such as pixel, time and lens have different units.
 //
 // Shape   one set of points with 2 to 8 coordinates; extras are omitted. Write only.
-// Beware  positions are rounded to a tenth of a unit: for viewing, not for reading back. Each point
-//         of d coordinates gives d (d - 1) / 2 disks.
+// Beware  positions are cut to a tenth of a unit: for viewing, not for reading back. Each point of
+//         d coordinates gives d (d - 1) / 2 disks.
 // Source  W3C, Scalable Vector Graphics 1.1.
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Plain text: one point per line, coordinates separated by one blank, no header; a line `#`
-// separates two sets. Read by the reader of csv.
+// separates two sets. The reader is that of csv.
 //
 // Promise written points read back as the same doubles.
 // Source  the format of UTK and other sampling programs; also read by gnuplot and numpy.loadtxt.

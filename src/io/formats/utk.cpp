@@ -41,7 +41,7 @@ void rows(const Layout& layout, std::size_t, std::uint64_t, std::span<const doub
     append_raw(out, numbers, layout.single);
 }
 
-/// @throws Error(input) if the bytes are not the head of such a file
+/// Parses the first 20 bytes of a file. @throws Error(input) if they are invalid
 RawShape shape_of(std::string_view bytes, const std::string& source) {
     const auto refuse = [&](std::size_t byte, const std::string& what) {
         fail(ErrorKind::input, "{}: byte {}: {}", source, byte, what);
