@@ -33,7 +33,7 @@ Cells cells_of_png(std::string_view bytes, const std::string& path, bool invert,
     return {picture.width, picture.height, std::move(values)};
 }
 
-/// @throws Error(input) naming the first value for which `good` is false
+/// Checks all values. @throws Error(input) naming the first value for which `good` is false
 template <class Good>
 void check_values(const Cells& cells, const std::string& path, const Good& good,
                   const char* expected) {
@@ -63,8 +63,8 @@ Cells cells_of_array(std::string_view bytes, const std::string& path, const RunC
     return cells;
 }
 
-/// Checks densities from a PFM or NPY file. Inverts them relative to their maximum, since they have
-/// no white.
+/// Checks densities from a PFM or NPY file. Inverts them relative to their maximum, since these
+/// formats define no white.
 Cells densities(Cells cells, const std::string& path, bool invert) {
     check_values(
         cells, path, [](double value) { return value >= 0 && std::isfinite(value); },
@@ -96,14 +96,14 @@ Cells read_cells(const std::string& path, bool invert, const RunContext& run) {
     return cells;
 }
 
-/// Fraction of the cell's mass below `wanted`, less than 1.
+/// Fraction of the cell's mass below the cumulative sum `wanted`; less than 1.
 double fraction_before(std::span<const double> sums, std::size_t cell, double wanted) {
     const double before = cell == 0 ? 0 : sums[cell - 1];
     return std::min((wanted - before) / (sums[cell] - before), one_minus_ulp);
 }
 
-/// Number of sums searched in a bucket before looking beyond it; mostly enough, and beyond would be
-/// another cache line.
+/// Buckets with fewer sums are searched in a fixed number of steps. Most have fewer; a higher limit
+/// would touch another cache line.
 constexpr std::size_t few_in_bucket = 4;
 
 /// Fraction of the total mass before a position in a cell.
@@ -128,7 +128,7 @@ double coordinate(std::size_t cell, double fraction, std::size_t cells) {
 DensityMap::DensityMap(std::size_t width, std::size_t height, std::vector<double> values)
     : width_(width), height_(height), values_(std::move(values)) {
     fill_with_zeros(row_sums_, width * height);
-    // First scaled to a maximum of 1, so that the sum cannot overflow.
+    // Scales to a maximum of 1 first, so that the sum cannot overflow.
     const double top = std::ranges::max(values_);
     double sum = 0;
     for (double& value : values_) sum += value /= top;

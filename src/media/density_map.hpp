@@ -6,8 +6,8 @@
 //     cell (i, j) = [i/W, (i+1)/W) x [j/H, (j+1)/H),    mean over the square = 1.
 //
 // PNG     value = luminance x alpha (media/png_picture.hpp), samples taken as linear; the top row
-//         is at y near 1. Inverted, for ink on paper: (1 - luminance) x alpha. Transparent areas get
-//         no points either way.
+//         is at y near 1. Inverted, for ink on paper: (1 - luminance) x alpha. Transparent areas
+//         get no points either way.
 // PFM     value = the grey of media/pfm_picture.hpp; the top row is at y near 1. Inverted: largest
 //         value - value.
 // NPY     shape (H, W), row 0 at y = 0; any real type. Inverted: largest value - value.
@@ -38,13 +38,14 @@ namespace stipple {
 
 class DensityMap {
   public:
-    /// Scales the values to a mean of 1. @param values in row-major order from y = 0, not all 0
+    /// Scales the values to a mean of 1.
+    /// @param values in row-major order from y = 0, not all 0
     DensityMap(std::size_t width, std::size_t height, std::vector<double> values);
 
     [[nodiscard]] std::size_t width() const { return width_; }
     [[nodiscard]] std::size_t height() const { return height_; }
 
-    /// In row-major order from y = 0; the mean is 1.
+    /// Densities of the cells in row-major order from y = 0; their mean is 1.
     [[nodiscard]] std::span<const double> values() const { return values_; }
 
     /// Density at a point of the closed unit square.
@@ -61,7 +62,8 @@ class DensityMap {
     /// with u.
     [[nodiscard]] std::array<double, 2> place(double u, double v) const;
 
-    /// place() for all rows (u, v) of `cube`; overlaps their memory accesses.
+    /// Applies place() to all rows (u, v) of `cube`; faster, since it overlaps their memory
+    /// accesses.
     void place_all(std::span<const double> cube, std::span<double> image) const;
 
     /// Inverse of place(), from the closed unit square into itself. A point of an empty cell maps
@@ -73,7 +75,7 @@ class DensityMap {
     struct Visit {
         std::size_t row;
         std::size_t bucket;  ///< index into row_guides_
-        double wanted;       ///< cumulative sum within the row to search for
+        double wanted;       ///< cumulative sum to find within the row
         double y;
     };
     /// Data for searching one row.
@@ -98,7 +100,7 @@ class DensityMap {
     std::vector<double> values_;
     std::vector<double> row_sums_;  ///< cumulative sums of the cells, row by row
     std::vector<Row> rows_;
-    GuideTable column_;                      ///< for searching the rows
+    GuideTable column_;                      ///< guide table for finding a point's row
     std::vector<std::uint32_t> row_guides_;  ///< guide tables of the rows, concatenated
     std::size_t row_guide_size_ = 0;
     double largest_ = 0;
@@ -113,7 +115,7 @@ DensityMap read_density(const std::string& path, bool invert, const RunContext& 
 /// formats and for lengths that are not above 0
 PlaneValues read_lengths(const std::string& path, const RunContext& run);
 
-/// As read_density, for a region: values other than 0 become 1 before scaling.
+/// As read_density(), for a region: values other than 0 become 1 before scaling.
 DensityMap read_mask(const std::string& path, bool invert, const RunContext& run);
 
 }  // namespace stipple

@@ -43,7 +43,7 @@ DensityMoments::Place DensityMoments::place(std::int64_t column, std::int64_t ro
     Pixel left = line[there];
     const double x = static_cast<double>(there) * size_.x;
     if (there == column) return {left, x};
-    // Adds `turns` whole rows; row m is shifted by m sides.
+    // Adds the integrals over `turns` whole periods; period m is shifted by m sides.
     const auto turns = static_cast<double>((column - there) / width_);
     const double shift = turns * sides_.x;
     const double squares = (turns - 1) * turns * (2 * turns - 1) / 6 * sides_.x * sides_.x;
@@ -56,7 +56,7 @@ DensityMoments::Place DensityMoments::place(std::int64_t column, std::int64_t ro
     return {left, x + shift};
 }
 
-/// Calls visit(place, a, b) for each segment of the edge that lies in one pixel.
+/// Splits an edge at pixel boundaries and calls visit(pixel, a, b) for each segment.
 template <class Visit>
 void DensityMoments::walk(Vec2 from, Vec2 to, const Visit& visit) const {
     const Vec2 step{to.x - from.x, to.y - from.y};

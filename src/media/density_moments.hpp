@@ -29,7 +29,7 @@ class DensityMoments {
     DensityMoments(std::size_t width, std::size_t height, std::span<const double> values,
                    Vec2 sides);
 
-    /// Moments of a Voronoi cell about its site; `site` is the site's position.
+    /// Moments of a Voronoi cell about its site, which is at position `site`.
     [[nodiscard]] CellMoments operator()(const VoronoiCell& cell, Vec2 site) const;
 
     /// Integral of the density along a line segment.
@@ -44,7 +44,7 @@ class DensityMoments {
         double density = 0;
     };
 
-    /// One pixel of the plane; x_low is the x of its left side, not reduced to the torus.
+    /// A pixel of the periodic plane; x_low is the x of its left side, not reduced to [0, sides.x).
     struct Place {
         Pixel left;
         double x_low;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Faces of a mesh, cut into triangles: the fan from the first corner if a face is convex, otherwise
-// by cutting off ears (Meisters), corners whose triangle contains no other corner. All predicates
-// are exact.
+// Triangulates the faces of a mesh: a convex face becomes a fan from its first corner. Otherwise
+// ears are cut off one by one (Meisters): corners whose triangle contains no other corner. All
+// predicates are exact.
 //
-// Shape   n corners, in either direction; consecutive ones may be equal. n - 2 triangles, fewer if
-//         corners are equal, with the orientation of the face.
+// Shape   n corners, in either direction; consecutive ones may be equal. n - 2 triangles with the
+//         orientation of the face; fewer if it is not convex and has equal corners.
 // Cost    O(n) for a convex polygon, otherwise O(n r) for r reflex corners, at worst O(n^2 r).
 // Source  G. H. Meisters, Amer. Math. Monthly 82 (1975) 648-651, doi:10.2307/2319703.
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace {
 
 using PolygonTriangles = std::vector<std::array<std::uint32_t, 3>>;  ///< indices of corners
 
-/// Indices of the corners that differ from the next one.
+/// Indices of the corners that differ from their successors.
 std::vector<std::uint32_t> different(const Ring& corners) {
     std::vector<std::uint32_t> places;
     for (std::uint32_t i = 0; i < corners.size(); ++i)
@@ -33,7 +33,8 @@ std::vector<std::uint32_t> different(const Ring& corners) {
     return places;
 }
 
-/// Orientation at the lowest corner: 1 counterclockwise, -1 clockwise, 0 if the corner is straight.
+/// Orientation of the ring, at its lowest corner: 1 counterclockwise, -1 clockwise, 0 if the corner
+/// is straight.
 int direction(const Ring& ring) {
     std::size_t low = 0;
     for (std::size_t i = 1; i < ring.size(); ++i)
@@ -42,8 +43,8 @@ int direction(const Ring& ring) {
     return orientation(ring[(low + n - 1) % n], ring[low], ring[(low + 1) % n]);
 }
 
-/// True if all turns have the direction `sign` and the ring goes around once, so that a single
-/// corner is lower than both neighbours. For sign 0, true if all corners are collinear.
+/// Whether all turns have the direction `sign` and the ring goes around only once: then a single
+/// corner is lower than both neighbours. For sign 0, whether all corners are collinear.
 bool is_convex(const Ring& ring, int sign) {
     const std::size_t n = ring.size();
     std::size_t lowest = 0;
@@ -72,7 +73,7 @@ class EarCutter {
         }
     }
 
-    /// Returns triangles of indices into the ring.
+    /// Returns triangles as indices into the ring; fewer than n - 2 if no ear is left.
     PolygonTriangles cut(const RunContext& run) {
         PolygonTriangles triangles;
         std::uint32_t at = 0;
@@ -110,8 +111,8 @@ class EarCutter {
         return true;
     }
 
-    /// Removes corner i. Returns the next corner to test, which is not a neighbour of i, so that
-    /// triangles do not become a fan of slivers.
+    /// Removes corner i. Returns the next corner to test: not a neighbour of i, which would make a
+    /// fan of slivers.
     std::uint32_t take_off(std::uint32_t i) {
         const std::uint32_t a = before_[i];
         const std::uint32_t b = after_[i];
@@ -133,7 +134,7 @@ class EarCutter {
     std::vector<std::uint32_t> blunt_;  ///< corners that are not convex
 };
 
-/// Returns nullopt if edges cross, overlap or touch.
+/// Triangulates a plane polygon; nullopt if its edges cross, overlap or touch.
 std::optional<PolygonTriangles> polygon_triangles(const Ring& corners, const RunContext& run) {
     const auto places = different(corners);
     Ring ring;

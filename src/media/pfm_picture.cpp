@@ -15,7 +15,7 @@ namespace {
 
 bool ends_word(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 
-/// Reads the words of the header, each with the one white space after it.
+/// Reads the words of the header, each with the single white space after it.
 class Head {
   public:
     Head(std::string_view bytes, const std::string& source) : bytes_(bytes), source_(source) {}
@@ -86,7 +86,7 @@ PlaneValues read_pfm(std::string_view bytes, const std::string& source, const Ru
     std::array<double, 3> rgb{};
     for (std::size_t i = 0; i < picture.values.size(); ++i) {
         take_raw(bytes.substr(head.size() + 12 * i, 12), type, rgb);
-        // A negative component must not be hidden by the others.
+        // A negative component must make the value negative, so that it is rejected later.
         const bool good = rgb[0] >= 0 && rgb[1] >= 0 && rgb[2] >= 0;
         picture.values[i] = good ? 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
                                  : std::min({rgb[0], rgb[1], rgb[2]});

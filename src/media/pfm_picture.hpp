@@ -6,7 +6,7 @@
 // for PNG (media/png_picture.hpp).
 //
 // Shape   width and height at least 1.
-// Cost    24 bytes a pixel while it is read.
+// Cost    24 bytes a pixel while reading.
 // Promise malformed files throw an Error.
 // Beware  the magnitude of the scale is ignored, since a density has no unit.
 // Source  P. Debevec, "PFM Portable FloatMap Image Format", the format of HDR Shop.
@@ -31,7 +31,7 @@ struct PlaneValues {
 /// Whether the bytes begin like a PFM picture.
 bool looks_like_pfm(std::string_view bytes);
 
-/// Returns the grey of each pixel unchanged, including NaN.
+/// Returns the grey of each pixel, including NaN and, if a component is negative, a negative value.
 /// @throws Error(input) "SOURCE: error" if the bytes are not a complete PFM picture; Error(limit)
 PlaneValues read_pfm(std::string_view bytes, const std::string& source, const RunContext& run);
 

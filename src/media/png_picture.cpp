@@ -14,8 +14,8 @@
 namespace stipple {
 namespace {
 
-/// libpng reports errors by longjmp. The functions that call setjmp hold no objects with
-/// destructors, since the jump would skip those.
+/// Stores the message of libpng, which reports errors by longjmp. Functions that call setjmp must
+/// hold no objects with destructors, since the jump would skip these.
 class ErrorText {
   public:
     [[nodiscard]] const char* error() const { return text_.data(); }
@@ -136,7 +136,7 @@ class Encoder : public ErrorText {
     png_infop info_ = nullptr;
 };
 
-/// Whether every chunk fits into the file: libpng would allocate the length that a chunk claims.
+/// Whether every chunk fits into the file: libpng would allocate any length that a chunk claims.
 bool chunks_fit(std::string_view png) {
     for (png.remove_prefix(png_magic.size()); png.size() >= 8;) {
         const std::size_t length = png_get_uint_32(reinterpret_cast<png_const_bytep>(png.data()));

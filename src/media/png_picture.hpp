@@ -5,7 +5,7 @@
 //
 //     Y = 0.2126 R + 0.7152 G + 0.0722 B,
 //
-// applied to the samples as stored: they are taken as linear, without gamma correction.
+// applied to the stored samples, which are taken as linear (no gamma correction).
 //
 // Shape   any PNG: 1 to 16 bits; grey, colour or palette; with or without alpha and interlacing.
 // Cost    at most 24 bytes a pixel while reading.
@@ -30,7 +30,7 @@ struct PngPicture {
     std::size_t width = 0;
     std::size_t height = 0;
     std::vector<double> grey;     ///< in [0, 1], in row-major order from the top
-    std::vector<double> opacity;  ///< alpha of each pixel, likewise; empty: opaque
+    std::vector<double> opacity;  ///< alpha in [0, 1], same order; empty: all pixels opaque
 };
 
 inline constexpr std::string_view png_magic = "\x89PNG\r\n\x1a\n";

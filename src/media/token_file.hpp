@@ -43,7 +43,7 @@ class TokenFile {
     /// Whether no token is left on the line of the last token; true before the first one.
     [[nodiscard]] bool at_line_end() const { return at_end() || line_ != last_line_; }
 
-    /// The first line, where some formats have a comment that names them.
+    /// The first line of the file, where some formats have a comment with their name.
     [[nodiscard]] std::string_view first_line() const {
         return std::string_view(bytes_).substr(0, bytes_.find_first_of("\r\n"));
     }
@@ -51,7 +51,7 @@ class TokenFile {
     /// Whether a comment line before the first token begins with `words`.
     [[nodiscard]] bool is_headed(std::string_view words) const;
 
-    /// Whether the line of the next token ends in a comment with these words.
+    /// Whether the line of the next token ends in a comment that contains `words`.
     [[nodiscard]] bool comment_has(std::string_view words) const;
 
     /// Returns the next token without consuming it; its text is empty at the end of the file.
@@ -71,7 +71,7 @@ class TokenFile {
     std::uint64_t number_on_line(std::string_view what, std::uint64_t low = 0,
                                  std::uint64_t high = ~std::uint64_t{0});
 
-    /// @throws Error(input) unless the line of the last token ends after it
+    /// Checks that the line of the last token ends after it. @throws Error(input)
     void expect_line_end() const;
 
     /// Skips the rest of the next token's line, up to a comment.

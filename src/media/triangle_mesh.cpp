@@ -26,7 +26,7 @@ double coordinate(TokenFile& file, const char* what) {
     return *value;
 }
 
-/// The corner with the highest vertex index so far, checked when all vertices are known.
+/// The corner with the highest vertex index so far; the index is checked at the end of the file.
 struct Highest {
     Token token;
     std::int64_t place = -1;

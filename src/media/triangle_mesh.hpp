@@ -8,8 +8,7 @@
 //
 // Shape   at least one triangle; finite coordinates in [-1e150, 1e150].
 // Promise every error names the file with line and column, or with the byte if binary (all from 1).
-// Beware  a polygon that is not flat is replaced by its triangles; a warning states how many there
-//         are.
+// Beware  a polygon that is not flat is replaced by its triangles; a warning gives their number.
 // Source  G. Turk, The PLY polygon file format, Stanford University, 1994; Wavefront Technologies,
 //         The Advanced Visualizer manual, appendix B1 (OBJ).
 #pragma once
@@ -38,10 +37,11 @@ struct TriangleMesh {
 /// Polygons of a mesh, triangulated once all vertices are known.
 class MeshFaces {
   public:
-    /// @param polygon vertex indices of its corners, at least 3
+    /// Adds a face. @param polygon vertex indices of its corners, at least 3
     void add(std::span<const std::uint32_t> polygon);
 
-    /// @throws Error(input) naming the first face, counted from 1, that is not a simple polygon
+    /// Triangulates all faces. @throws Error(input) naming the first face, counted from 1, that is
+    /// not a simple polygon
     [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles(
         const std::vector<Vector3>& vertices, const std::string& name, const RunContext& run) const;
 
