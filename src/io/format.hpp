@@ -56,8 +56,7 @@ struct Layout {
     bool single = false;                   ///< float32 in binary formats
     std::optional<int> precision = {};     ///< digits after the point
     Provenance provenance = {};
-    std::optional<Box> extent =
-        {};  ///< area that svg shows; unset: bounds in provenance or unit cube
+    std::optional<Box> extent = {};  ///< area that svg shows; unset: bounds, else unit cube
 
     [[nodiscard]] std::size_t width() const { return dimension + extras.size(); }
     [[nodiscard]] bool many_sets() const { return counts.size() > 1; }

@@ -17,10 +17,10 @@ constexpr double panel_gap = 12;
 constexpr double legend_row = 19;
 constexpr double legend_size = 12;
 constexpr double swatch = 22;
-constexpr std::size_t most_entries = 12;  ///< limit for a legend
+constexpr std::size_t most_entries = 12;  ///< limit for curves and bars in a legend
 constexpr double least_panels = 60;       ///< smallest total height of the panels, in units
 
-/// Range of the values that an axis has to show.
+/// Range of values on an axis, which grows with the values taken.
 struct Span {
     bool log = false;
     double low = std::numeric_limits<double>::infinity();
@@ -42,7 +42,7 @@ bool marked(std::span<const ChartPanel> panels) {
     });
 }
 
-/// Extends an axis at each end by a fraction of its length, so that nothing lies on the ends.
+/// Extends an axis at each end by a fraction of its length, so that no value is at the ends.
 void widen(Axis& axis, double share, bool keep_low = false) {
     if (axis.log) {
         const double more = std::exp(share * (std::log(axis.high) - std::log(axis.low)));
@@ -93,14 +93,14 @@ Axis x_axis(std::span<const ChartPanel> panels, const PictureStyle& style) {
     // An axis that would begin close to zero begins at zero.
     const bool near_zero = !span.log && span.low > 0 && span.low < 0.04 * span.high;
     if (near_zero) axis.low = 0;
-    constexpr double share = 0.02;  // more than the size of a mark
+    constexpr double share = 0.02;  // leaves space for marks at the ends
     if (!style.tight && marked(panels) && span.low < span.high)
         widen(axis, share, near_zero && span.low > share * span.high);
     return axis;
 }
 
-/// Whether the y axis is logarithmic: as requested, unless there are negative numbers, such as
-/// decibels.
+/// Whether the y axis is logarithmic: as requested, except for curves with negative numbers, such
+/// as decibels.
 bool log_upward(const ChartPanel& panel, const PictureStyle& style) {
     const bool below = std::ranges::any_of(panel.series, [](const Series& series) {
         return std::ranges::any_of(series.y, [](double y) { return y < 0; });
@@ -127,7 +127,7 @@ Axis y_axis(const ChartPanel& panel, const PictureStyle& style) {
         }
     if (panel.from_zero && !span.log) span.take(0);
     if (!span.log) span.take(panel.reach_y);
-    constexpr int digits = 7;  // smaller differences are due to rounding
+    constexpr int digits = 7;  // values equal to 7 digits differ only by rounding
     Axis axis{.low = span.low, .high = span.high, .log = span.log, .name = panel.y_name};
     axis.make_valid(digits);
     if (axis.log) axis.low = std::max(axis.low, panel.least_y > 0 ? panel.least_y : 0);
@@ -186,8 +186,8 @@ std::vector<LegendEntry> legend_of(const Chart& chart, std::size_t number, const
     return entries;
 }
 
-/// Drops positions too close to be distinguished: in each column of half a unit, keeps the first,
-/// lowest, highest and last.
+/// Drops positions too close to be distinguished: in each run along x of half a unit, keeps the
+/// first, lowest, highest and last.
 std::vector<Position> thinned(const std::vector<Position>& vertices) {
     if (vertices.size() < 4000) return vertices;
     std::vector<Position> out;
@@ -248,7 +248,7 @@ void draw_guide(Drawing& drawing, const Panel& panel, const Guide& guide, Colour
     drawing.add(std::move(line));
 }
 
-/// Draws only the outline of the bars, if several histograms overlap.
+/// Draws only the outline of a histogram, for several that overlap.
 void draw_steps(Drawing& drawing, const Panel& panel, const Bars& bars, Colour colour) {
     const double base = panel.frame().bottom();
     Line outline{.vertices = {{panel.x(bars.edges[0]), base}}, .colour = colour, .width = 1.6};
@@ -266,7 +266,7 @@ void draw_bars(Drawing& drawing, const Panel& panel, const Bars& bars, Colour co
     for (std::size_t i = 0; i < bars.heights.size(); ++i) {
         const double left = panel.x(bars.edges[i]);
         const double right = panel.x(bars.edges[i + 1]);
-        // A thin gap between bars that are wide enough.
+        // Leaves a thin gap between bars if they are wide enough.
         const double space = right - left > 4 ? 0.5 : 0;
         const double top = panel.y(bars.heights[i]);
         if (!(top < base)) continue;
@@ -287,7 +287,7 @@ void draw_series(Drawing& drawing, const Panel& panel, const Series& series, Col
     }
 }
 
-/// Draws one of several series as bars, side by side in each category, with intervals over them.
+/// Draws series i as bars with their intervals, one in each category.
 void draw_columns(Drawing& drawing, const Panel& panel, const ChartPanel& content, std::size_t i,
                   const Theme& theme) {
     const Series& series = content.series[i];
@@ -311,7 +311,7 @@ void draw_columns(Drawing& drawing, const Panel& panel, const ChartPanel& conten
 
 void draw_rug(Drawing& drawing, const Panel& panel, const std::vector<double>& values,
               Colour colour) {
-    constexpr std::size_t most = 4000;  // more are indistinguishable
+    constexpr std::size_t most = 4000;  // more marks are indistinguishable
     if (values.size() > most) return;
     for (const double value : values) {
         const double x = panel.x(value);
@@ -364,7 +364,7 @@ void draw_panel(Drawing& drawing, const ChartPanel& content, const Panel& panel,
     panel.draw_axes(drawing, theme, false);
 }
 
-/// Position of a legend's entry, left to right in rows, and its name divided into lines.
+/// Position of a legend's entry, relative to the legend, and the lines of its name.
 struct LegendPlace {
     Position at;
     std::vector<std::string> lines;
@@ -373,7 +373,7 @@ struct LegendPlace {
 };
 
 std::vector<LegendPlace> legend_places(const std::vector<LegendEntry>& entries, double width) {
-    constexpr double wider = 1.12;  // for fonts that replace Helvetica
+    constexpr double wider = 1.12;  // allows for wider fonts that replace Helvetica
     std::vector<LegendPlace> places;
     double x = 0;
     double y = 0;
@@ -420,7 +420,7 @@ std::vector<Guide> falling_guides(const Series& series) {
     if (first == series.y.end() || series.x.size() < 3) return {};
     const double n = series.x[static_cast<std::size_t>(first - series.y.begin())];
     if (!(n > 0)) return {};
-    constexpr double aside = 1.5;  // so that they do not overlap the curve
+    constexpr double aside = 1.5;  // factor that separates them from the curve
     std::vector<Guide> guides;
     for (const double power : {0.5, 1.0}) {
         Guide guide{.name = guides.empty() ? "falling as 1/√n and as 1/n" : ""};
@@ -470,7 +470,7 @@ void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Posi
 SquareDrawing square_drawing(TitledDrawing titled, const std::vector<LegendEntry>& legend,
                              const Axis& x, const Axis& y, bool bar, const PictureStyle& style) {
     constexpr double least = 60;
-    constexpr double above = 14;  // height for the bar's name
+    constexpr double above = 14;  // space for the colour bar's name
     Drawing& drawing = titled.drawing;
     double top = titled.top;
     const double whole_width = drawing.width - 2 * picture_margin;
@@ -543,16 +543,17 @@ struct Layout {
     double left = 0;
     double width = 0;
     double unit = 0;  ///< height of a panel with share 1
-    double gap = 0;   ///< between panels
+    double gap = 0;   ///< space between panels
     double below = 0;
-    double needed = 0;  ///< height of everything except the panels
+    double needed = 0;  ///< height of everything except the panels' frames
     double height = 0;
 };
 
-/// Layout for a drawing of this width, if `used` is the height already taken. Iterates, since long
-/// names are wrapped into rows beside and below the panels, which leaves less space for these.
+/// Layout for a drawing of this width, if titles and legends take the height `used`. Iterates,
+/// since names of axes are wrapped to the panels' size, and more rows of them leave less space for
+/// the panels.
 Layout layout_of(const Chart& chart, const PictureStyle& style, double width, double used) {
-    constexpr double least = 40;  // width of a panel
+    constexpr double least = 40;  // minimum width of a panel
     constexpr double first_panel = 305;
     constexpr double other_panel = 158;
     double shares = 0;

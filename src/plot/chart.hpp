@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Charts of curves: panels one above the other, usually with a common x axis, each with its legend
-// above.
+// Charts of curves: panels one above the other, usually with a common x axis, each below its
+// legend.
 #pragma once
 
 #include <limits>
@@ -18,30 +18,31 @@ namespace stipple::plot {
 /// Space between a picture's edge and its content, in drawing units.
 constexpr double picture_margin = 14;
 
-/// Style of a picture. Sizes are in drawing units; 0: automatic. Pictures with equal scales on both
-/// axes may use less height.
+/// Style of a picture. Width and height are in drawing units; 0: automatic. Pictures with equal
+/// scales on both axes may be less high than requested.
 struct PictureStyle {
     const Theme* theme = &light_theme;
     double width = 0;
     double height = 0;
     double scale = 1;  ///< pixels per unit
-    double rows = 1;   ///< pictures of this kind that share the requested height
-    std::optional<std::string> title = {};  ///< instead of the picture's own
+    double rows = 1;   ///< rows of pictures that share the height requested by the user
+    std::optional<std::string> title = {};  ///< replaces the picture's own title
     std::optional<bool> log_x = {};
     std::optional<bool> log_y = {};
     bool tight = false;  ///< axes of charts end exactly at the data
 };
 
-/// A curve, or the bars of one category chart. Values that are not finite are gaps.
+/// A curve, or bars with one value for each category. Values that are not finite are gaps.
 struct Series {
     std::string name;
     std::vector<double> x = {};
     std::vector<double> y = {};
     std::vector<double> low = {};  ///< lower limit of a band around the curve; empty: no band
     std::vector<double> high = {};
-    bool marks = false;                   ///< draws a disk at each value
-    std::size_t measurement = 0;          ///< index of the measurement that it shows, if any
-    std::optional<std::size_t> set = {};  ///< index of the set: its colour, and group in a page
+    bool marks = false;           ///< draws a disk at each value
+    std::size_t measurement = 0;  ///< index of the measurement that the curve shows, if any
+    /// Index of the set, which determines the colour and the group in a page.
+    std::optional<std::size_t> set = {};
 };
 
 /// A reference line.
@@ -49,7 +50,7 @@ struct Guide {
     std::string name = {};
     std::vector<double> x = {};  ///< empty: a horizontal line at y[0]
     std::vector<double> y = {};
-    bool reached = false;  ///< the axis always includes it
+    bool reached = false;  ///< the y axis always includes the line
 };
 
 /// Bars of a histogram; there is one more edge than heights.
@@ -63,21 +64,22 @@ struct ChartPanel {
     std::string x_name;
     std::string y_name;
     std::vector<Series> series = {};
-    std::vector<Series> bands = {};  ///< range of random variation; only low and high
+    std::vector<Series> bands = {};  ///< ranges of random variation, drawn from low to high
     std::vector<Guide> guides = {};
     std::vector<Bars> bars = {};
-    /// Names along the x axis, at 1, 2, ...; if set, the series are drawn there as bars from 0,
-    /// side by side, each with an interval from low to high.
+    /// Names along the x axis, at 1, 2, ... If not empty, the series are drawn as bars from 0, side
+    /// by side at each name, with intervals from low to high.
     std::vector<std::string> categories = {};
-    std::vector<double> rug = {};  ///< marks at the bottom, one per value
+    std::vector<double> rug = {};  ///< values marked by short lines at the bottom
     bool log_x = false;
     bool log_y = false;
     bool whole_x = false;
     bool from_zero = false;  ///< the y axis starts at 0
     double reach_y =
-        -std::numeric_limits<double>::infinity();  ///< a linear y axis includes at least this value
-    double least_y = -std::numeric_limits<double>::infinity();  ///< lower limit of the axis
-    double share = 1;  ///< fraction of the height, relative to other panels
+        -std::numeric_limits<double>::infinity();  ///< a linear y axis includes this value
+    /// Limit below which a logarithmic y axis does not extend.
+    double least_y = -std::numeric_limits<double>::infinity();
+    double share = 1;  ///< height relative to other panels
 };
 
 struct Chart {
@@ -87,21 +89,22 @@ struct Chart {
     bool own_x = false;  ///< each panel has its own x axis
 };
 
-/// Whether a panel's curves have other names than those of the panel above.
+/// Whether a panel has several curves or bars, and their names differ from those of the panel
+/// above.
 bool needs_legend(const Chart& chart, std::size_t panel);
 
 /// Left and right end of a series' bar along x, in the category at x.
 std::pair<double, double> bar_edges(const ChartPanel& panel, std::size_t series, double x);
 
-/// @throws Error(usage) if the requested height is less than the picture needs
+/// Checks the requested height. @throws Error(usage) if the picture needs more
 void require_height(const PictureStyle& style, double needed);
 
-/// @param frames if not null, receives the positions of the panels
+/// Draws all panels with their legends. @param frames if not null, receives the panels' frames
 /// @throws Error(usage) if the requested height is too small
 Drawing draw_chart(const Chart& chart, const PictureStyle& style,
                    std::vector<Area>* frames = nullptr);
 
-/// The axes of a panel as drawn.
+/// The x and y axis of a panel, with their final ranges.
 std::pair<Axis, Axis> chart_axes(const Chart& chart, std::size_t panel, const PictureStyle& style);
 
 /// A drawing with title lines at the top left.
@@ -119,11 +122,11 @@ struct LegendEntry {
     std::string name;
     Colour colour = {};
     Dash dash = Dash::none;
-    double width = 2;  ///< of a line
+    double width = 2;  ///< width of a line
 };
 
-/// A drawing with titles and a legend above a square, with space for axes and, optionally, a colour
-/// bar.
+/// A drawing with titles and a legend above an empty square, and space for axes and, if `bar`, a
+/// colour bar.
 struct SquareDrawing {
     Drawing drawing;
     Area frame;  ///< the square
@@ -142,7 +145,8 @@ inline std::string_view last_part(std::string_view key) { return key.substr(key.
 /// A result's name on an axis: "radial power" for "radial.power".
 std::string words_of(std::string name);
 
-/// Guides through the curve's first positive value that decrease as n^(-1/2) and n^(-1).
+/// Guides that decrease as n^(-1/2) and n^(-1), starting slightly above the curve's first positive
+/// value.
 std::vector<Guide> falling_guides(const Series& series);
 
 /// Height of a legend wrapped to `width`.

@@ -32,7 +32,7 @@ std::vector<double> nearest_distances(const PointSet& set, bool& torus, const Ru
 }
 
 /// Density of the distances for independent uniform points. Empty if typical distances exceed half
-/// the side of the domain's box.
+/// the shortest side of the domain's box, or if the domain is not known.
 Guide random_distances(const PointSet& set, double largest) {
     const double volume = set.domain->measure();
     if (without_domain(set) || !std::isfinite(volume) || !(volume > 0)) return {};

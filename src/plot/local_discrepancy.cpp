@@ -19,11 +19,11 @@ double middle_of_cell(std::size_t cell, std::size_t cells) {
     return (static_cast<double>(cell) + 0.5) / static_cast<double>(cells);
 }
 
-/// The first cell whose middle is above x; `cells` if there is none.
+/// Index of the first cell whose middle is above x; `cells` if no middle is.
 std::size_t first_cell_above(double x, std::size_t cells) {
     const auto all = static_cast<double>(cells);
     auto cell = static_cast<std::size_t>(std::min(std::floor(x * all + 0.5), all));
-    // Corrects for rounding of the product and of the middles.
+    // Corrects rounding errors of the product and of the middles.
     while (cell > 0 && x < middle_of_cell(cell - 1, cells)) --cell;
     while (cell < cells && !(x < middle_of_cell(cell, cells))) ++cell;
     return cell;
@@ -41,7 +41,7 @@ Colour colour_of_discrepancy(double share, const Theme& theme) {
     return mixed(theme.background, theme.series_colour(share < 0 ? 0 : 1), size);
 }
 
-/// Number of pixels between two positions, rounded as in png_bytes_of(). @param resolution pixels
+/// Number of pixels between two positions, rounded as by png_bytes_of(). @param resolution pixels
 /// per unit
 std::size_t pixels_between(double from, double to, double resolution) {
     constexpr double most = 2048;
@@ -60,9 +60,9 @@ PixelImage image_of_discrepancy(const Grid& grid, const Area& area, double large
     return image;
 }
 
-/// Draws points as small disks, unless they would cover much of the image.
+/// Draws points as small disks, except if they would cover much of the image.
 void draw_dots(Drawing& drawing, const PointSet& points, const Panel& panel, const Theme& theme) {
-    constexpr double least = 4;  // minimum distance, as if points were on a grid
+    constexpr double least = 4;  // minimum distance in units, if the points were on a grid
     const double apart = panel.frame().width / std::sqrt(static_cast<double>(points.count()));
     if (apart < least) return;
     Disks dots{.radius = std::clamp(0.05 * apart, 0.6, 2.0), .colour = theme.ink};
@@ -89,7 +89,7 @@ void draw_box(Drawing& drawing, const std::optional<AnchoredBox>& box, const Pan
                      .dash = dash});
 }
 
-/// Draws the colour bar, with the meaning of its ends.
+/// Draws the colour bar, with "too many" and "too few" at its ends.
 void draw_bar_of_discrepancy(Drawing& drawing, const Area& frame, double largest,
                              const Theme& theme) {
     const Area bar = bar_beside(frame);

@@ -5,9 +5,9 @@
 //
 //     delta(c) = #{x in [0,c)} / n - c_1 c_2        for every c in the square.
 //
-// Drawn as an image with one pixel for each c. Its two extremes occur at corners made of
-// coordinates of points and 1: the minimum in an open box (too few points), the maximum in a closed
-// one (too many). The larger magnitude is the star discrepancy.
+// It is drawn as an image with one pixel for each c. The coordinates of its two extremes are
+// coordinates of points or 1: the minimum is in an open box (too few points), the maximum in a
+// closed one (too many). The larger magnitude is the star discrepancy.
 //
 // Cost    image: O(n + pixels), with cumulative counts. Worst boxes: O(n^(4/3)) in practice.
 // Promise each pixel has the value at its centre; the worst boxes are those of star-discrepancy.
@@ -32,7 +32,8 @@ struct AnchoredBox {
     double value = 0;
 };
 
-/// The extremes of the local discrepancy; nullopt if it never has that sign.
+/// The extremes of the local discrepancy: negative for `open`, positive for `closed`; nullopt if no
+/// box has that sign.
 struct WorstBoxes {
     std::optional<AnchoredBox> open;
     std::optional<AnchoredBox> closed;
@@ -41,14 +42,15 @@ struct WorstBoxes {
     [[nodiscard]] double star() const;
 };
 
-/// @throws Error(input) for an empty set, points of another dimension, or outside the unit square
+/// Finds both boxes. @throws Error(input) if the set is empty, not two-dimensional, or outside the
+/// unit square
 WorstBoxes worst_boxes_of(const PointSet& points, const RunContext& run);
 
-/// delta at the centres of a grid of cells; the first row is the lowest.
+/// Values of delta at the centres of a grid's cells; the first row is the lowest.
 Grid local_discrepancy(const PointSet& points, std::size_t columns, std::size_t rows,
                        const RunContext& run);
 
-/// "[0, 0.5) × [0, 0.25): −0.03"; the corner has this many digits.
+/// "[0, 0.5) × [0, 0.25): −0.03"; `digits` is the number of digits of the corner's coordinates.
 std::string text_of(const AnchoredBox& box, int digits);
 
 /// Title and colour scale of the picture.
@@ -57,10 +59,10 @@ struct LocalDiscrepancyFrame {
     std::string subtitle;
     double largest = 0;     ///< colours range from minus this value to this value
     bool bar = true;        ///< draws the colour bar
-    double resolution = 2;  ///< pixels of the image per unit; limited for large images
+    double resolution = 2;  ///< pixels per unit of the drawing; at most 2048 per side
 };
 
-/// Draws the image, the worst boxes, and the points unless they would cover the image.
+/// Draws the image, the worst boxes, and the points, except if these would cover the image.
 Drawing draw_local_discrepancy(const PointSet& points, const WorstBoxes& worst,
                                const LocalDiscrepancyFrame& around, const PictureStyle& style,
                                const RunContext& run);

@@ -33,13 +33,13 @@ std::size_t points_of(const PointsPicture& picture) {
     return sum;
 }
 
-/// The point of the box at relative coordinates a, b, c in [0, 1].
+/// The point at a, b, c in [0, 1] between the ends of the box's sides.
 std::array<double, 3> corner(const Box& box, double a, double b, double c) {
     return {box.low[0] + a * box.extent(0), box.low[1] + b * box.extent(1),
             box.low[2] + c * box.extent(2)};
 }
 
-/// Whether the domain's outline is just the picture's frame.
+/// Whether the domain is a box, so that the picture's frame is its outline.
 bool is_box(const PointSet& set) {
     const std::string spec = set.domain->spec();
     return spec.starts_with("unit-cube") || spec.starts_with("box");
@@ -60,7 +60,7 @@ void widen(Box& box, double share) {
     }
 }
 
-/// The box around the domain and all points.
+/// The box around the domain, if it is known and bounded, and all points.
 Box whole_box(std::span<const PointSet* const> sets) {
     const PointSet& first = *sets[0];
     const std::vector<double> point(first[0].begin(), first[0].end());
@@ -76,7 +76,7 @@ bool frame_is_outline(const PointsPicture& picture) {
         picture.sets, [](const PointSet* set) { return is_box(*set) && !without_domain(*set); });
 }
 
-/// Fraction of its bounding box that a plane domain fills.
+/// Fraction of its bounding box that a plane domain fills; 1 if unknown.
 double share_of_box(const PointSet& set) {
     if (set.dimension() != 2 || without_domain(set)) return 1;
     const double share = set.domain->measure() / volume_of(set.domain->bounding_box());
@@ -92,7 +92,7 @@ struct View {
     Place place;
 };
 
-/// Draws points as marks in areas of a drawing.
+/// Draws points as disks, pixels or counts in areas of a drawing.
 class PointMarks {
   public:
     PointMarks(const PointsPicture& picture, const PictureStyle& style, const RunContext& run)
@@ -110,7 +110,7 @@ class PointMarks {
                static_cast<double>(points_of(picture_)) >= density_share * width * height;
     }
 
-    /// A disk for each point.
+    /// Draws a disk for each point.
     void disks(Drawing& drawing, const Area& area, const Place& place) const {
         const double side = std::max(area.width, area.height);
         const double unit = side / 1000;
@@ -132,9 +132,9 @@ class PointMarks {
         }
     }
 
-    /// Draws many points in each view as pixels half a unit wide. If `dense`, draws counts in
-    /// squares instead, which hold a few points on average; shades are relative to the largest
-    /// count of all views. Returns that count, else 0.
+    /// Draws points in each view as pixels half a unit wide; nothing if they are drawn as disks. If
+    /// `dense`, draws counts in squares that hold a few points on average, shaded relative to the
+    /// largest count of all views. Returns that count, or 0 if not `dense`.
     double raster(Drawing& drawing, const std::vector<View>& views, bool dense) const {
         if (as_disks()) return 0;
         std::vector<PixelImage> images;
@@ -174,7 +174,8 @@ class PointMarks {
             ticks.numbers);
     }
 
-    /// Colours from the background through the first series' colour to the ink.
+    /// Colour for a fraction of the largest count: from the background through the first series'
+    /// colour to the ink.
     [[nodiscard]] Colour shade(double share) const {
         const Colour middle = theme_.series[0];
         return share < 0.6 ? mixed(theme_.background, middle, share / 0.6)
@@ -224,11 +225,11 @@ std::vector<LegendEntry> legend_of(const PointsPicture& picture, const Theme& th
     return entries;
 }
 
-/// A drawing with its title and legend; `top` is the height that they take.
+/// A drawing with title and legend, which take the height `top`.
 struct Page {
     Drawing drawing;
     double top = 0;
-    double width = 0;  ///< between the margins
+    double width = 0;  ///< width between the margins
 
     Page(const PointsPicture& picture, const PictureStyle& style, double usual_width) {
         auto titled = titled_drawing(picture.title, picture.subtitle, style, usual_width);
@@ -254,13 +255,13 @@ void draw_outline(Drawing& drawing, const PointsPicture& picture, const Panel& p
     }
 }
 
-/// The parts of [low, high] on an axis of the torus; low > high wraps around and gives two parts.
+/// The parts of [low, high] on an axis of the torus: two if low > high, which wraps around.
 std::vector<std::pair<double, double>> parts_of_range(double low, double high) {
     if (low <= high) return {{low, high}};
     return {{0, high}, {low, 1}};
 }
 
-/// Draws the edges of the Voronoi cells, each once.
+/// Draws the edges of the Voronoi cells, each edge once.
 void draw_cells(Drawing& drawing, const PointSet& set, const Panel& panel, const Theme& theme,
                 const RunContext& run) {
     const Box box = shown_box(std::array{&set});
@@ -283,7 +284,7 @@ void draw_cells(Drawing& drawing, const PointSet& set, const Panel& panel, const
     }
 }
 
-/// Draws the circles, clipped to the frame; on the torus with periodic copies.
+/// Draws the circles, clipped to the frame; circles on the torus get periodic copies.
 void draw_circles(Drawing& drawing, const PointsPicture& picture, const Panel& panel,
                   const Theme& theme) {
     if (picture.circles.empty()) return;
@@ -330,7 +331,8 @@ void draw_boxes(Drawing& drawing, const PointsPicture& picture, const Panel& pan
     }
 }
 
-/// Size of a box's frame; x and y have equal scales, unless the box is very thin.
+/// Size of the frame for a box. x and y have equal scales, except if the box is very thin. @param
+/// height limit; 0: automatic
 std::pair<double, double> frame_size(const Box& box, double width, double height) {
     double ratio = std::clamp(picture_ratio(box, 0, 1), 0.12, 3.0);
     if (!(ratio > 0)) ratio = 1;
@@ -343,7 +345,7 @@ std::pair<double, double> frame_size(const Box& box, double width, double height
 
 // ---------------------------------------------------------------- three coordinates
 
-/// The projected box: scale and offset in the drawing.
+/// The projected box, with its scale and offset in the drawing.
 struct Scene {
     const Box& box;
     double scale = 1;
@@ -359,7 +361,7 @@ struct Scene {
     }
 };
 
-/// Draws the box's edges that are behind all points (`front` false) or in front of them.
+/// Draws the box's edges: the three at the far corner, behind all points, or the others if `front`.
 void draw_edges(Drawing& drawing, const Scene& scene, const Theme& theme, bool front) {
     constexpr std::array hidden = {0, 1, 0};  // the far corner: high x, low y, high z
     for (int bits = 0; bits < 8; ++bits)
@@ -376,7 +378,7 @@ void draw_edges(Drawing& drawing, const Scene& scene, const Theme& theme, bool f
         }
 }
 
-/// Numbers at the ends, and names, of the three free outer edges.
+/// Numbers and names along three outer edges of the projected box, one per coordinate.
 struct EdgeTexts {
     std::array<std::pair<std::string, std::string>, 3> ends;
     std::array<std::vector<std::string>, 3> names;  ///< wrapped lines
@@ -394,14 +396,14 @@ struct EdgeTexts {
         return std::max(text_width(ends[k].first, number_size),
                         text_width(ends[k].second, number_size));
     }
-    /// Height of the name's lines after the first.
+    /// Height of all lines of a name except the first.
     [[nodiscard]] double more_rows(std::size_t k) const {
         return name_row * (static_cast<double>(names[k].size()) - 1);
     }
-    /// Distance from the vertical edge to its name, which allows for the numbers.
+    /// Distance from the vertical edge to its name, with the numbers between them.
     [[nodiscard]] double aside() const { return std::max(36.0, 22 + wide(2)); }
 
-    /// Space needed on both sides of the box, and below it.
+    /// Space needed for texts on each side of the box.
     [[nodiscard]] double beside() const {
         return std::max({aside() + more_rows(2) + 10, wide(0), wide(1) + 10});
     }
@@ -521,8 +523,8 @@ Drawing draw_space(const PointsPicture& picture, const PictureStyle& style, cons
 
 // ---------------------------------------------------------------- pairs of coordinates
 
-/// Panels of all pairs: column i, row j - 1 shows x_i to the right and x_j > x_i upwards. For plane
-/// points a single panel with equal scales.
+/// Panels of all pairs of coordinates: the one in column i, row j - 1 (i < j) shows coordinate i to
+/// the right and j upwards. Plane points have a single panel with equal scales.
 class PairSheet {
   public:
     PairSheet(const PointsPicture& picture, const PictureStyle& style, const RunContext& run)
@@ -567,8 +569,8 @@ class PairSheet {
     static constexpr double gap = 10;
     static constexpr double least = 30;  ///< minimum side of a panel
 
-    /// Iterates, since long names are wrapped into rows beside and below the panels, which leaves
-    /// less space for these.
+    /// Iterates, since names of axes are wrapped to the panels' size, and more rows of them leave
+    /// less space for the panels.
     void place_panels(const PictureStyle& style) {
         const auto columns = static_cast<double>(shown_ - 1);
         const double gaps = (columns - 1) * gap;
@@ -604,7 +606,7 @@ class PairSheet {
             std::max(page_.drawing.width, left_ + columns * width_ + gaps + right);
     }
 
-    /// Axis of a coordinate; only at the sheet's edge with numbers and name.
+    /// Axis of a coordinate; if `edge`, at the sheet's edge, with numbers and name.
     [[nodiscard]] Axis axis(std::size_t k, bool edge) const {
         Axis axis{.low = box_.low[k],
                   .high = box_.high[k],
@@ -642,7 +644,7 @@ class PairSheet {
     bool dense_ = false;
     double left_ = 0;
     double top_ = 0;
-    double width_ = 0;  ///< of a panel
+    double width_ = 0;  ///< width of a panel
     double height_ = 0;
 };
 
@@ -653,13 +655,14 @@ std::vector<double> coordinate(const PointSet& set, std::size_t k) {
     return values;
 }
 
-/// Number of histogram bins for n values: the cube root minimizes the error for smooth densities.
+/// Number of histogram bins for n values. In proportion to the cube root of n, it minimizes the
+/// error for smooth densities.
 std::size_t bins_of(std::size_t n) {
     return std::clamp<std::size_t>(
         static_cast<std::size_t>(std::ceil(2 * std::cbrt(static_cast<double>(n)))), 5, 200);
 }
 
-/// Frequencies of levels as bars at 1, 2, ...
+/// Histogram of a categorical coordinate: frequencies of its levels as bars at 1, 2, ...
 ChartPanel words_panel(const PointsPicture& picture, const std::vector<std::string>& words,
                        std::size_t k) {
     ChartPanel panel{.x_name = shown_names(picture)[k],

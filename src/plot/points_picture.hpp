@@ -23,23 +23,23 @@
 namespace stipple::plot {
 
 inline constexpr std::size_t most_pair_coordinates = 8;
-inline constexpr double density_share = 0.75;  ///< more points per pixel: a density
+inline constexpr double density_share = 0.75;  ///< points per square unit of the frame
 
-/// Limit for the ratio of a box's sides. Beyond it, coordinates have different units, and are
-/// scaled separately.
+/// Limit for the ratio of a box's sides. Beyond it, coordinates are assumed to have different units
+/// and are scaled separately.
 inline constexpr double most_unlike = 20;
 
 /// Marks for points.
 enum class Marking { automatic, disks, density };
 
-/// A box drawn over the points, in relative coordinates of the first set's domain. If low > high,
-/// it wraps around from 1 to 0.
+/// A box drawn over the points, in coordinates from 0 to 1 relative to the box around the first
+/// set's domain. Where low > high, it wraps around from 1 to 0.
 struct MarkedBox {
     std::string kind;        ///< class in a page's style sheet
     std::string label = {};  ///< description
     std::vector<double> low = {};
     std::vector<double> high = {};
-    bool closed = true;  ///< solid line; false: dashed
+    bool closed = true;  ///< drawn with a solid line; false: dashed
 };
 
 /// A circle drawn over plane points.
@@ -50,8 +50,8 @@ struct MarkedCircle {
 };
 
 struct PointsPicture {
-    std::vector<const PointSet*> sets;  ///< of the same dimension, not empty
-    std::vector<std::string> names;     ///< of the sets, for the legend
+    std::vector<const PointSet*> sets;  ///< of one dimension; all non-empty, at least one
+    std::vector<std::string> names;     ///< names of the sets, for the legend
     std::string title = {};
     std::string subtitle = {};
     Marking marking = Marking::automatic;
@@ -59,33 +59,34 @@ struct PointsPicture {
     std::vector<MarkedCircle> circles = {};
     bool cells = false;  ///< draws the Voronoi cells of a single plane set, in its domain's box
     bool pairs = false;  ///< draws three coordinates as pairs
-    std::size_t most_disks = 20'000;  ///< with more points, pixels instead of disks
-    std::size_t most_coordinates = most_pair_coordinates;  ///< drawn in pairs
+    std::size_t most_disks = 20'000;  ///< limit beyond which pixels replace disks
+    std::size_t most_coordinates = most_pair_coordinates;  ///< how many of them are drawn in pairs
 };
 
-/// Polylines along the boundary, in the domain's coordinates; empty if the domain has no interior
-/// (a circle) or is unbounded.
+/// Polylines along the boundary of a planar domain, in its coordinates; empty for other dimensions
+/// and for domains that are unbounded or have no interior (a circle).
 std::vector<std::vector<Position>> outline_of(const Domain& domain);
 
-/// The box that a picture of the sets shows: around their domain and all points. If the domain is
-/// the default unit cube and points are outside, only around the points. Each level of a
-/// categorical coordinate gets the same space; an invisible range is widened.
+/// The box that a picture of the sets shows: around their domain and all points, or around the
+/// points alone if the domain is only the default unit cube and points are outside. Each level of a
+/// categorical coordinate gets the same space. A range too narrow to be visible is widened.
 /// @throws Error(input) if the range is too wide for an axis
 Box shown_box(std::span<const PointSet* const> sets);
 
-/// Names of the coordinates, with notes on ranges that no picture can show.
+/// Names of the coordinates, with notes on ranges too narrow to be shown.
 std::vector<std::string> shown_names(const PointsPicture& picture);
 
-/// Texts for both ends of a coordinate; for a categorical one, the first and last level.
+/// Texts for both ends of a coordinate: numbers, or the first and last level of a categorical one.
 std::pair<std::string, std::string> shown_ends(const PointsPicture& picture, const Box& box,
                                                std::size_t k);
 
-/// Height over width of a picture of two coordinates: that of the box, or 1 if its sides differ so
-/// much that their units must differ.
+/// Height over width of a picture of two coordinates: the ratio of the box's sides, or 1 if that is
+/// beyond most_unlike.
 double picture_ratio(const Box& box, std::size_t i, std::size_t j);
 
 /// A three-dimensional point in a picture's parallel projection. The unit is the box's longest
-/// side, or each side's own length if they differ as above. `depth` is larger for nearer points.
+/// side; each side has its own unit if the ratio of sides is beyond most_unlike. `depth` is larger
+/// for nearer points.
 struct Projected {
     double right = 0;
     double up = 0;
@@ -98,10 +99,10 @@ std::pair<Projected, Projected> projected_range(const Box& box);
 
 Drawing draw_points(const PointsPicture& picture, const PictureStyle& style, const RunContext& run);
 
-/// Whether points lie outside the unit cube, which is then only their default domain.
+/// Whether the domain is the unit cube, but points lie outside, so that it is only the default.
 bool without_domain(const PointSet& set);
 
-/// Draws each pair of the first coordinates in its own panel, for two or more coordinates.
+/// Draws each pair of the first coordinates in its own panel; needs two or more coordinates.
 Drawing draw_pairs(const PointsPicture& picture, const PictureStyle& style, const RunContext& run);
 
 /// Histograms of each coordinate in separate panels, at most 6. They share an x axis if their
@@ -109,7 +110,8 @@ Drawing draw_pairs(const PointsPicture& picture, const PictureStyle& style, cons
 Chart histogram_chart(const PointsPicture& picture);
 
 /// Histogram of the distances to the nearest neighbour; not periodic if the points have no domain.
-/// Also shows the density for independent points, unless a side of the domain is too short for it.
+/// Also shows the density for independent points, except if a side of the domain is too short for
+/// the formula.
 /// @throws Error(input) for a set with one point
 Chart distance_chart(std::span<const PointSet* const> sets, const std::vector<std::string>& names,
                      const RunContext& run);

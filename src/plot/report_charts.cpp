@@ -24,8 +24,8 @@ namespace {
 using Curve = Report::Curve;
 using Measurements = std::span<const Measurement>;
 
-constexpr double log_above = 12;    ///< radial power: higher peaks use a logarithmic axis
-constexpr double log_floor = 1e-4;  ///< lower end of that axis: smaller values are rounding errors
+constexpr double log_above = 12;    ///< radial power with higher peaks gets a logarithmic axis
+constexpr double log_floor = 1e-4;  ///< lower end of this axis: smaller values are rounding errors
 
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
@@ -37,7 +37,8 @@ std::string name_of_input(const Measurement& m, bool whole_path = false) {
     return name;
 }
 
-/// Distinct names for the inputs: file names without folders if these are distinct.
+/// Distinct names for the inputs: file names without folders if they suffice; otherwise whole
+/// paths.
 std::vector<std::string> names_of_inputs(Measurements ms) {
     std::vector<std::string> names;
     for (const Measurement& m : ms) names.push_back(name_of_input(m));
@@ -49,7 +50,7 @@ std::vector<std::string> names_of_inputs(Measurements ms) {
     return names;
 }
 
-/// Whether all measurements have the same property.
+/// Whether a property has the same value for all measurements.
 template <class Property>
 bool alike(Measurements ms, const Property& property) {
     return std::ranges::all_of(ms, [&](const Measurement& m) {
@@ -63,12 +64,13 @@ Curve plus(const Curve& a, const Curve& b, double sign) {
     return sum;
 }
 
-/// Key of another list in the group of a curve: "radial.cells" for "radial.power".
+/// Key of another list in a curve's group: "radial.cells" for the curve "radial.power".
 std::string beside(const CurveKey& curve, std::string_view name) {
     return std::string(curve.key.substr(0, curve.key.rfind('.') + 1)).append(name);
 }
 
-/// Sets the band of a series: its standard error, or the bounds from the report.
+/// Sets the band of a series: its standard error if known, or lower and upper bounds from the
+/// report.
 void add_band(Series& series, const Measurement& m, const CurveKey& curve) {
     if (m.standard_error) {
         const auto error = list_at(*m.standard_error, curve.key);
@@ -86,7 +88,7 @@ void add_band(Series& series, const Measurement& m, const CurveKey& curve) {
     series.high = *high;
 }
 
-/// One curve per measurement that has it.
+/// Series for each measurement that has this curve.
 std::vector<Series> series_of(Measurements ms, const CurveKey& curve) {
     const auto names = names_of_inputs(ms);
     std::vector<Series> found;
@@ -102,7 +104,7 @@ std::vector<Series> series_of(Measurements ms, const CurveKey& curve) {
     return found;
 }
 
-/// "n = 1024, d = 2", as far as common to all.
+/// "n = 1024, d = 2": the numbers that all measurements have in common.
 std::string size_of(Measurements ms) {
     const Measurement& first = ms[0];
     std::string text;
@@ -123,7 +125,7 @@ std::string noted(const std::string& subtitle, const std::string& more) {
     return subtitle.empty() ? more : more.empty() ? subtitle : subtitle + " · " + more;
 }
 
-/// Minimum and maximum of the finite numbers of all curves; infinite if there are none.
+/// Minimum and maximum of the finite numbers of all curves; (inf, -inf) if no number is finite.
 std::pair<double, double> range_of(const std::vector<Series>& all) {
     std::pair range{HUGE_VAL, -HUGE_VAL};
     for (const Series& series : all)
@@ -132,7 +134,7 @@ std::pair<double, double> range_of(const std::vector<Series>& all) {
     return range;
 }
 
-/// The band of white noise, if it is the same for all measurements.
+/// The band of white noise; empty if it differs between the measurements.
 std::vector<Series> noise_band(Measurements ms, const CurveKey& curve) {
     const std::string key = beside(curve, "cells");
     const auto cells = list_at(ms[0].results, key);
@@ -148,8 +150,9 @@ std::vector<Series> noise_band(Measurements ms, const CurveKey& curve) {
     return {band};
 }
 
-/// The anisotropy of independent points, if it is the same for all: -10 log10 of the number of
-/// averaged sets, in dB. For pair differences, the number of pairs per pixel counts, too.
+/// The anisotropy of independent points in dB: -10 log10 of the number of averaged sets, for pair
+/// differences times the expected number of pairs per pixel. Empty if it differs between the
+/// measurements.
 std::vector<Guide> noise_anisotropy(Measurements ms) {
     const auto expected_of = [](const Measurement& m) {
         const double pairs = number_at(m.results, "expected_differences").value_or(1);
@@ -160,8 +163,8 @@ std::vector<Guide> noise_anisotropy(Measurements ms) {
     return {{.name = fmt::format("white noise: {} dB", rounded(expected, 3)), .y = {expected}}};
 }
 
-/// Turns very small values into gaps: analyzers report them for an undefined anisotropy, if there
-/// is no power or no pair.
+/// Turns values of at most -100 dB into gaps: analyzers report these for an undefined anisotropy,
+/// without any power or pair.
 void make_gaps(std::vector<Series>& all) {
     constexpr double least = -100;
     for (Series& series : all) {
@@ -177,8 +180,8 @@ bool holds(const Report& report, std::string_view key) {
     return flag != nullptr && *flag;
 }
 
-/// Effective Nyquist frequency of a single measurement; also its oscillation, if enough frequencies
-/// were measured for it to be comparable.
+/// Effective Nyquist frequency of a single measurement, and its oscillation if enough frequencies
+/// were measured to compare it.
 std::string summary_of_spectrum(Measurements ms) {
     if (ms.size() > 1) return {};
     std::string text;
@@ -191,7 +194,7 @@ std::string summary_of_spectrum(Measurements ms) {
     return text;
 }
 
-/// Parameters of a spectrum, and its key numbers.
+/// Key numbers of a spectrum, its window and its weights.
 std::string notes_of_spectrum(Measurements ms) {
     std::string notes = summary_of_spectrum(ms);
     if (const std::string window = option_of(ms[0].options, "window");
@@ -204,7 +207,7 @@ std::string notes_of_spectrum(Measurements ms) {
 
 // ---------------------------------------------------------------- curves of any analyzer
 
-/// The analyzer of a report; nullptr if there is none of this name.
+/// The analyzer that made a report; nullptr if this program has no analyzer of that name.
 const Analyzer* analyzer_of(const Measurement& m) {
     const auto& all = analyzers::all();
     const auto at = std::ranges::find(all, m.analyzer, &Analyzer::name);
@@ -216,8 +219,8 @@ bool rises(const Curve& curve) {
            curve.end();
 }
 
-/// Curves of the analyzer's record that the report has. If `key` names another list over the same
-/// abscissas, that list is added.
+/// Curves of the analyzer's record that the report contains. If `key` names another list in the
+/// group of a curve, that list is added.
 std::vector<CurveKey> curves_in(const Measurement& m, std::string_view key = {}) {
     std::vector<CurveKey> found;
     const Analyzer* analyzer = analyzer_of(m);
@@ -236,7 +239,7 @@ std::vector<CurveKey> curves_in(const Measurement& m, std::string_view key = {})
     return found;
 }
 
-/// Whether the report has another list of the same length beside a curve.
+/// Whether a curve's group has a list `name` of the same length.
 bool has(const Report& results, const CurveKey& curve, std::string_view name) {
     const auto other = list_at(results, beside(curve, name));
     return other && other->size() == list_at(results, curve.over)->size();
@@ -248,7 +251,7 @@ bool is_bound(const CurveKey& curve, const Report& results) {
     return (name == "lower" || name == "upper") && has(results, curve, "value");
 }
 
-/// Values of independent points, if they are the same for all measurements.
+/// Reference lines: the curve's values for independent points.
 std::vector<Guide> references(Measurements ms, const CurveKey& curve) {
     if (last_part(curve.key) == "anisotropy_db") return noise_anisotropy(ms);
     if (curve.reference.empty()) return {};
@@ -281,7 +284,7 @@ void make_bars(ChartPanel& panel) {
     panel.log_x = panel.log_y = false;
 }
 
-/// "radius", with its unit if that is not the points' unit.
+/// "radius", with a unit if it is normalized.
 std::string abscissa_of(const Measurement& m, const CurveKey& curve) {
     if (!curve.over_title.empty()) return std::string(curve.over_title);
     const std::string x(last_part(curve.over));
@@ -289,7 +292,7 @@ std::string abscissa_of(const Measurement& m, const CurveKey& curve) {
     return x + (x == "frequency" ? " / n^(1/d)" : " / mean distance");
 }
 
-/// Sets up the panel of radial power, with the band of white noise.
+/// Sets up the panel of radial power: reference, band of white noise, axes.
 void make_power(ChartPanel& panel, Measurements ms, const CurveKey& curve) {
     panel.bands = noise_band(ms, curve);
     panel.guides = {{.y = {1}}};
@@ -301,8 +304,8 @@ void make_power(ChartPanel& panel, Measurements ms, const CurveKey& curve) {
     panel.log_y = top > log_above;
 }
 
-/// Sets up the panel of pair correlation; for a single measurement with a band of two standard
-/// deviations of a mean of independent sets.
+/// Sets up the panel of pair correlation. A single measurement gets a band of two standard
+/// deviations, those of the mean over as many sets of uniform points.
 void make_pair_correlation(ChartPanel& panel, Measurements ms, const CurveKey& curve) {
     panel.y_name = "pair correlation g";
     panel.guides = {{.name = ms.size() > 1 ? "uniform points" : "", .y = {1}}};
@@ -340,7 +343,7 @@ ChartPanel curve_panel(Measurements ms, const CurveKey& curve) {
     if (pairs) make_pair_correlation(panel, ms, curve);
     if (power || pairs) return panel;
     panel.log_x = curve.log;
-    // A range of more than a decade is only legible on a logarithmic axis.
+    // On a linear axis, a range of more than a decade would be illegible.
     const auto [low, high] = range_of(panel.series);
     panel.log_y = panel.log_x && (!panel.from_zero || high > 10 * low) && low > 0;
     for (Series& series : panel.series) series.marks = series.x.size() <= 40;
@@ -352,7 +355,8 @@ ChartPanel curve_panel(Measurements ms, const CurveKey& curve) {
 }
 
 bool wanted(Measurements ms, const CurveKey& curve, const std::string& key) {
-    // In one dimension a ring is two opposite frequencies, which have the same power.
+    // In one dimension anisotropy has no meaning: each ring has two opposite frequencies of equal
+    // power.
     const bool line = std::ranges::all_of(ms, [](const auto& m) { return m.dimension == 1; });
     if (key.empty())
         return !is_bound(curve, ms[0].results) &&
@@ -379,7 +383,8 @@ std::optional<Chart> curves_chart(Measurements ms, const std::string& key) {
 
 // ---------------------------------------------------------------- indices with intervals
 
-/// Adds the numbers of a group, except interval ends, to the panel with bars of the same kind.
+/// Adds the numbers of a group as bars with their intervals to the panel of the same kind, or to a
+/// new one.
 void add_bars(std::vector<ChartPanel>& panels, const std::string& output, const std::string& label,
               const Report& group, const std::string& kind) {
     ChartPanel* panel = nullptr;
@@ -407,7 +412,8 @@ void add_bars(std::vector<ChartPanel>& panels, const std::string& output, const 
     }
 }
 
-/// Keeps the categories in which the last series is largest, in their order, and mentions it.
+/// Keeps the 16 categories in which the last series is largest, in their order, and names their
+/// number on the x axis.
 void keep_largest(ChartPanel& panel) {
     constexpr std::size_t most = 16;
     const std::size_t all = panel.categories.size();
@@ -433,8 +439,8 @@ void keep_largest(ChartPanel& panel) {
     panel.x_name = fmt::format("the largest {} of {}", most, all);
 }
 
-/// Indices of inputs and of pairs of inputs, for each output. The key selects an output, a kind of
-/// index, or both: "y", "total", "y.total".
+/// Bars of the indices of inputs and of pairs of inputs, for each output. The key selects an
+/// output, a kind of index, or both: "y", "total", "y.total".
 Chart indices_chart(Measurements ms, const std::string& key) {
     constexpr std::size_t most_panels = 4;
     Chart chart = titled(capitalised(words_of(ms[0].analyzer)), ms);
@@ -471,7 +477,7 @@ std::string main_number(const Report& report) {
     return {};
 }
 
-/// Whether a word in a name is a count or a seed: 64, n64, seed3.
+/// Whether a word in a file name is a count or a seed: 64, n64, seed3.
 bool is_counter(std::string_view word) {
     constexpr std::array<std::string_view, 8> known = {"",  "n",    "m",   "s",
                                                        "r", "seed", "set", "run"};
@@ -502,7 +508,8 @@ std::string family_of(const Measurement& m) {
     return family;
 }
 
-/// Means with standard errors of sets of equal size; for errors, the root mean square.
+/// One value for each set size: the mean with its standard error, or the root mean square if
+/// `errors`.
 Series series_over_count(const std::string& name, bool errors,
                          const std::map<std::uint64_t, std::vector<double>>& at) {
     Series series{.name = name, .marks = true};
@@ -570,7 +577,7 @@ Chart number_histogram(Measurements ms, const std::string& key) {
     return chart;
 }
 
-/// Keys that can be drawn.
+/// Keys of the results that can be drawn.
 std::vector<std::string> drawable(Measurements ms) {
     std::vector<std::string> keys;
     for (const CurveKey& curve : curves_in(ms[0]))

@@ -23,17 +23,19 @@
 
 namespace stipple::plot {
 
-/// @param key result to draw; empty: the default for the analyzer
-/// @throws Error(input) for reports of different analyzers, or if nothing can be drawn: names the
-/// possible keys; Error(usage) for an unknown key
+/// Draws the measurements of one analyzer. @param key result to draw; empty: the default for the
+/// analyzer
+/// @throws Error(input) for reports of different analyzers, or if nothing can be drawn;
+/// Error(usage) for an unknown key, naming the possible ones
 Chart chart_of(std::span<const Measurement> measurements, const std::string& key = {});
 
-/// Value of an analyzer's option; empty if it has none.
+/// Value of an analyzer's option; empty if the analyzer has no such option.
 std::string option_of(const std::vector<std::pair<std::string, std::string>>& options,
                       std::string_view name);
 
-/// 2.5 % and 97.5 % quantiles of a ring's mean power, for white noise. @param cells frequencies in
-/// the ring @param sets number of sets averaged
+/// 2.5 % and 97.5 % quantiles of a ring's mean power for white noise.
+/// @param cells frequencies in the ring
+/// @param sets number of sets averaged
 std::pair<double, double> white_noise_band(double cells, double sets);
 
 }  // namespace stipple::plot

@@ -14,10 +14,11 @@
 namespace stipple::plot {
 namespace {
 
-constexpr std::size_t least_side = 9;  ///< smaller tables are more likely points
+constexpr std::size_t least_side = 9;  ///< a smaller table is more likely to hold points
 
-/// Whether the middle number can be the power at frequency zero, (sum of w)^2 / (sum of w^2): it is
-/// at least 1 and the largest power. A set of one point has power 1 everywhere.
+/// Whether the middle number can be the power at frequency zero, (sum of w)^2 / (sum of w^2) for
+/// weights w: at least 1, and the largest power. Power 1 is allowed only if all powers are 1, as
+/// for a single point.
 bool is_power(std::span<const double> v) {
     constexpr double rounding = 1e-6;
     const double centre = v[v.size() / 2];
@@ -28,7 +29,7 @@ bool is_power(std::span<const double> v) {
 
 bool is_side(std::size_t side) { return side % 2 == 1 && side >= least_side; }
 
-/// Whether the numbers are symmetric about the middle, and not negative.
+/// Whether the numbers are symmetric about the middle of the list, and not negative.
 bool is_symmetric(std::span<const double> v) {
     for (std::size_t i = 0; i < v.size() / 2; ++i) {
         const double other = v[v.size() - 1 - i];
@@ -39,7 +40,8 @@ bool is_symmetric(std::span<const double> v) {
 
 bool is_spectrum(std::span<const double> v) { return is_symmetric(v) && is_power(v); }
 
-/// The numbers of a cube, if there are as many square planes as each has rows; else empty.
+/// Concatenates square planes that form a cube; empty if their number differs from their rows or
+/// columns.
 std::vector<double> cube_of(std::span<const PointSet* const> sets) {
     std::vector<double> values;
     for (const PointSet* plane : sets) {
@@ -91,7 +93,7 @@ std::optional<SpectralTable> spectral_table(std::span<const PointSet* const> set
         !is_symmetric(first.flat()))
         return std::nullopt;
     Grid grid = grid_of(first, first.count());
-    // The density of pair differences is 0 at zero.
+    // Densities of pair differences are 0 at the zero difference.
     const bool differences =
         grid.values[grid.values.size() / 2] == 0 && std::ranges::max(grid.values) > 0;
     if (!differences && !is_power(grid.values)) return std::nullopt;
@@ -130,7 +132,7 @@ Chart power_chart(const Grid& power, const std::string& title) {
     radial.add("frequency", frequencies);
     radial.add("power",
                Report::Curve(power.values.end() - std::ssize(frequencies), power.values.end()));
-    radial.add("cells", Report::Integers(last, 2));  // f and -f
+    radial.add("cells", Report::Integers(last, 2));  // the frequencies f and -f
     const auto by_frequency = std::ranges::find_if(analyzers::all(), [](const Analyzer& analyzer) {
         return !analyzer.curves.empty() && analyzer.curves[0].key == "radial.power";
     });

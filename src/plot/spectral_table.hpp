@@ -13,8 +13,8 @@
 //
 //     grey = P / (1 + P)
 //
-// White noise (P = 1) is medium grey in every picture. Frequencies that a set lacks are darker,
-// those that it repeats lighter, and no peak is clipped. Frequency zero is black.
+// White noise (P = 1) is medium grey in every picture. Frequencies with less power are darker,
+// those with more are lighter, and no peak is clipped. Frequency zero is black.
 #pragma once
 
 #include <optional>
@@ -30,10 +30,10 @@ namespace stipple::plot {
 struct SpectralTable {
     std::size_t dimension = 2;
     bool differences = false;
-    Grid values;  ///< one row on the line; in space the plane fz = 0
+    Grid values;  ///< for d = 1 a single row; for d = 3 the plane fz = 0
 };
 
-/// The table in the sets of one file; nullopt if they are points.
+/// The table in the sets of one file; nullopt if the sets are points.
 std::optional<SpectralTable> spectral_table(std::span<const PointSet* const> sets);
 
 /// Names of a table's axes and values.
@@ -45,7 +45,8 @@ struct TableNames {
     bool bar = true;  ///< draws a bar that explains the shades
 };
 
-/// @throws Error(input) unless the table is square with an odd side and has no negative numbers
+/// Draws a table of the plane. @throws Error(input) unless the table is square with an odd side,
+/// and no number is negative or NaN
 Drawing draw_spectrum(const Grid& power, const std::string& title, const std::string& subtitle,
                       const PictureStyle& style, const TableNames& names = {});
 

@@ -26,14 +26,16 @@ struct Topic {
 
 Topic topic_of(const MeanRow& row) { return {row.measure, row.key, row.dimension}; }
 
-/// Whether a result is an error, whose distance from 0 matters.
+/// Whether a result is an error by its key, or because some mean is negative: then its distance
+/// from 0 matters.
 bool is_error(const Topic& topic, std::span<const MeanRow> means) {
     if (is_error_key(topic.key)) return true;
     return std::ranges::any_of(
         means, [&](const MeanRow& row) { return topic_of(row) == topic && row.mean < 0; });
 }
 
-/// Exponent of n with which a curve decreases; nullopt if that is not meaningful.
+/// Exponent of n in a power law fitted to the curve; nullopt for fewer than three values, or values
+/// that are not positive.
 std::optional<double> slope_of(const Series& series) {
     if (series.x.size() < 3) return std::nullopt;
     double n = 0, x = 0, y = 0, xx = 0, xy = 0;
@@ -82,14 +84,14 @@ std::vector<std::string> distinct(std::span<const MeanRow> means, const Text& te
 
 std::string unit_of(const Topic& topic) { return topic.measure.substr(0, topic.measure.find(':')); }
 
-/// "cube error"; if the key is "value", the measure's name.
+/// The key in words, "cube error"; for the key "value", the name of the measure's analyzer.
 std::string key_of(const Topic& topic) {
     std::string_view key = topic.key;
     if (last_part(key) == "value") key.remove_suffix(std::min<std::size_t>(6, key.size()));
     return words_of(key.empty() ? unit_of(topic) : std::string(key));
 }
 
-/// "centered (l2 discrepancy), d = 2": the key and whatever else distinguishes the topic.
+/// "centered (l2 discrepancy), d = 2": the key, and the properties in which the topics differ.
 std::string name_of(const Topic& topic, std::span<const Topic> all) {
     const auto differ = [&](const auto& property) {
         return std::ranges::any_of(
@@ -107,7 +109,7 @@ std::string name_of(const Topic& topic, std::span<const Topic> all) {
     return name;
 }
 
-/// The topics to draw: those that match the key.
+/// The topics that match the key; without a key, those called "value" or, without any, all.
 std::vector<Topic> topics_of(std::span<const MeanRow> means, const std::string& key) {
     const bool values = std::ranges::any_of(
         means, [](const MeanRow& row) { return last_part(row.key) == "value"; });
@@ -122,7 +124,7 @@ std::vector<Topic> topics_of(std::span<const MeanRow> means, const std::string& 
     return topics;
 }
 
-/// Generators have the same colour in all panels.
+/// Panel of a topic with a curve for each generator, which has the same colour in all panels.
 ChartPanel panel_of(const Topic& topic, const std::string& name, std::span<const MeanRow> means) {
     const bool errors = is_error(topic, means);
     ChartPanel panel{
@@ -144,7 +146,7 @@ ChartPanel panel_of(const Topic& topic, const std::string& name, std::span<const
     return panel;
 }
 
-/// How many sets each mean has, and what the bands are.
+/// Subtitle: number of sets behind each mean, and confidence of the intervals.
 std::string notes_of(std::span<const MeanRow> means) {
     const auto [least, most] =
         std::ranges::minmax(means, {}, [](const MeanRow& row) { return row.sets; });

@@ -2,8 +2,8 @@
 //
 // Charts of studies: a panel for each result with a curve for each generator over the number of
 // points. Curves show means of the sets with their intervals as bands, or root mean squares of
-// results that are errors. Legends have the slopes of straight lines fitted to the logarithms of
-// both by least squares, if there are at least three counts and all values are positive.
+// results that are errors. Legends give slopes: those of least-squares lines through the logarithms
+// of count and value, if there are at least three counts and all values are positive.
 #pragma once
 
 #include <span>
@@ -17,11 +17,11 @@ namespace stipple::plot {
 
 struct StudyChart {
     Chart chart;
-    std::vector<std::string> left_out;  ///< results that did not fit
+    std::vector<std::string> left_out;  ///< names of results beyond the limit of four panels
 };
 
-/// @param key a result's name, or a part of it between dots; empty: results called "value", or else
-/// all
+/// Draws a study's means. @param key a result's name, or a part of it between dots; empty: results
+/// called "value" or, without any, all results
 /// @throws Error(usage) for an unknown key; Error(input) if there are no numbers
 StudyChart study_chart(std::span<const MeanRow> means, const std::string& key = {});
 

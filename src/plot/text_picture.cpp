@@ -17,8 +17,8 @@
 namespace stipple::plot {
 namespace {
 
-constexpr std::size_t frame_columns = 3;  ///< beside the field, in addition to the numbers
-constexpr std::size_t frame_rows = 6;     ///< title, names, frame and numbers, and the prompt
+constexpr std::size_t frame_columns = 3;  ///< columns beside the field, in addition to the numbers
+constexpr std::size_t frame_rows = 6;     ///< title, names, frame, numbers and shell prompt
 constexpr std::size_t least_columns = 8;
 constexpr std::size_t least_rows = 4;
 
@@ -26,14 +26,14 @@ std::size_t inner(std::size_t room, std::size_t taken, std::size_t least) {
     return room > taken + least ? room - taken : least;
 }
 
-/// Columns left beside the numbers.
+/// Columns of the field, beside the frame and the numbers.
 std::size_t columns_for(const TextRoom& room, const TextFrame& frame) {
     const std::size_t numbers =
         std::max(code_points(frame.low_y).size(), code_points(frame.high_y).size());
     return inner(room.columns, frame_columns + numbers, least_columns);
 }
 
-/// A field for a picture with this height over width; dots are as high as wide.
+/// A field for a picture with this ratio of height to width; a dot is as high as wide.
 DotMatrix field_for(const TextRoom& room, const TextFrame& frame, double ratio) {
     const std::size_t columns = columns_for(room, frame);
     const std::size_t rows = inner(room.rows, frame_rows, least_rows);
@@ -45,7 +45,7 @@ DotMatrix field_for(const TextRoom& room, const TextFrame& frame, double ratio) 
     return {std::clamp(narrow, least_columns, columns), rows};
 }
 
-/// Points in the plane of two coordinates; two-dimensional points have equal scales.
+/// Draws coordinates i and j of the points; both have equal scales for two-dimensional points.
 std::string plane_as_text(const PointsPicture& picture, const TextRoom& room, std::size_t i = 0,
                           std::size_t j = 1) {
     const Box box = shown_box(picture.sets);
@@ -74,7 +74,7 @@ std::string plane_as_text(const PointsPicture& picture, const TextRoom& room, st
 }
 
 std::string pairs_as_text(const PointsPicture& picture, const TextRoom& room) {
-    constexpr std::size_t least = 24;  // per pair
+    constexpr std::size_t least = 24;  // columns for a pair
     const std::size_t d = picture.sets[0]->dimension();
     const std::size_t shown = std::min(d, std::max<std::size_t>(3, 1 + room.columns / least));
     TextRoom part = room;
@@ -109,7 +109,7 @@ std::string space_as_text(const PointsPicture& picture, const TextRoom& room) {
                          .coloured = room.coloured});
 }
 
-/// @param base start of the bars, as a fraction of the height
+/// Draws bars. @param base relative height at which the bars start
 void draw_bars(DotMatrix& dots, const Bars& bars, const Axis& x, const Axis& y, double base = 0) {
     for (std::size_t i = 0; i < bars.heights.size(); ++i) {
         const double top = std::min(y.share(bars.heights[i]), 1.0);
@@ -130,8 +130,8 @@ std::string letter_of(std::size_t curve) {
     return std::string(1, letters[curve % letters.size()]);
 }
 
-/// Legend: letters and names of curves, or squares and names of bars; empty if the panel above has
-/// the same.
+/// Legend: letters and names of curves, or squares and names of bars; empty if needs_legend() is
+/// false.
 std::string legend_as_text(const Chart& chart, std::size_t number, const TextRoom& room) {
     if (!needs_legend(chart, number)) return {};
     const ChartPanel& panel = chart.panels[number];
@@ -163,7 +163,7 @@ void draw_curve(DotMatrix& dots, const Series& series, const Axis& x, const Axis
     }
 }
 
-/// Draws the bars of series i in a panel with categories.
+/// Draws series i as bars, one in each category.
 void draw_columns(DotMatrix& dots, const ChartPanel& panel, std::size_t i, const Axis& x,
                   const Axis& y) {
     const Series& series = panel.series[i];
@@ -174,7 +174,7 @@ void draw_columns(DotMatrix& dots, const ChartPanel& panel, std::size_t i, const
     }
 }
 
-/// Letters of the curves, beside the rows where they end.
+/// Letters of the curves for each row of the field, at the heights where the curves end.
 std::vector<std::string> ends_of(const ChartPanel& panel, const DotMatrix& dots, const Axis& y,
                                  bool coloured) {
     const std::size_t rows = dots.height() / 4;
@@ -241,7 +241,7 @@ std::string panel_as_text(const Chart& chart, std::size_t number, const PictureS
 }  // namespace
 
 std::string chart_as_text(const Chart& chart, PictureStyle style, const TextRoom& room) {
-    style.tight = true;  // so that the numbers at the ends are those of the data
+    style.tight = true;  // makes the numbers at the ends those of the data
     const std::string title = printable(style.title.value_or(chart.title));
     std::string text = title.empty() ? "" : title + "\n";
     TextRoom part = room;
@@ -265,7 +265,7 @@ std::string points_as_text(const PointsPicture& picture, const TextRoom& room) {
 }
 
 TextRoom shared_room(const TextRoom& room, std::size_t pictures) {
-    constexpr std::size_t least = 32;  // columns per picture
+    constexpr std::size_t least = 32;  // columns for a picture
     TextRoom part = room;
     const std::size_t beside =
         std::clamp<std::size_t>(room.columns / least, 1, std::max<std::size_t>(pictures, 1));

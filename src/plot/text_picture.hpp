@@ -13,19 +13,19 @@
 
 namespace stipple::plot {
 
-/// Available characters, at least 1 each; a picture that needs more is larger.
+/// Available characters, at least 1 in each direction. Pictures that need more exceed them.
 struct TextRoom {
     std::size_t columns = 80;
     std::size_t rows = 24;
-    bool coloured = false;  ///< with terminal colour codes
+    bool coloured = false;  ///< uses terminal colour codes
 };
 
 /// One coordinate: a histogram. Two: the plane. Three: a view from a fixed direction. More: as many
 /// of the first pairs as fit into the columns.
 std::string points_as_text(const PointsPicture& picture, const TextRoom& room);
 
-/// All curves and bars, one panel below the other. If there are several curves, each has a letter
-/// on the right, where it ends.
+/// All curves and bars, one panel below the other. Each of several curves has a letter at its end,
+/// on the right.
 std::string chart_as_text(const Chart& chart, PictureStyle style, const TextRoom& room);
 
 /// A spectrum in five shades of grey.
@@ -37,10 +37,10 @@ std::string local_discrepancy_as_text(const PointSet& points, const WorstBoxes& 
                                       const std::string& title, double largest,
                                       const TextRoom& room, const RunContext& run);
 
-/// Room for each of several pictures that share a room.
+/// Characters for each of several pictures side by side, in as many columns as fit.
 TextRoom shared_room(const TextRoom& room, std::size_t pictures);
 
-/// Joins pictures made for such a room side by side.
+/// Joins pictures side by side; starts a new row where room.columns is exceeded.
 std::string side_by_side(const std::vector<std::string>& pictures, const TextRoom& room);
 
 }  // namespace stipple::plot

@@ -50,7 +50,7 @@ std::string DotMatrix::row(std::size_t row, bool coloured) const {
 }
 
 std::string in_colour(const std::string& text, std::size_t pen, bool coloured) {
-    constexpr std::array codes = {36, 33, 32, 35, 34, 31};  // in an order of contrast
+    constexpr std::array codes = {36, 33, 32, 35, 34, 31};  // terminal colours, ordered by contrast
     return coloured ? fmt::format("\x1b[{}m{}\x1b[0m", codes[pen % codes.size()], text) : text;
 }
 

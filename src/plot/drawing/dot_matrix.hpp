@@ -14,23 +14,24 @@ namespace stipple::plot {
 
 class DotMatrix {
   public:
-    /// An empty field of this many characters.
+    /// Creates an empty field of columns x rows characters.
     DotMatrix(std::size_t columns, std::size_t rows);
 
     [[nodiscard]] std::size_t width() const { return 2 * columns_; }  ///< in dots
     [[nodiscard]] std::size_t height() const { return 4 * rows_; }    ///< in dots
 
-    /// Selects the set or curve of the following dots; a character has the colour of its last dot.
+    /// Selects the pen (set or curve) of the following dots; a character has the colour of the dot
+    /// drawn last.
     void take_pen(std::size_t pen) { pen_ = pen; }
 
-    /// Sets the dot at a relative position, to the right and upwards; ignores positions outside [0,
-    /// 1].
+    /// Sets the dot at a relative position in [0, 1] x [0, 1], to the right and upwards; ignores
+    /// other positions.
     void set(double right, double up);
 
-    /// Draws a straight line between two positions.
+    /// Draws a straight line between two relative positions.
     void draw(double right0, double up0, double right1, double up1);
 
-    /// The characters of a row, counted from the top; if `coloured`, with terminal colour codes.
+    /// The characters of a row, where row 0 is the top; if `coloured`, with terminal colour codes.
     [[nodiscard]] std::string row(std::size_t row, bool coloured = false) const;
 
   private:
@@ -44,10 +45,10 @@ class DotMatrix {
 /// A text in the colour of a pen; unchanged unless `coloured`.
 std::string in_colour(const std::string& text, std::size_t pen, bool coloured);
 
-/// Number of letters in a line of text, without colour codes.
+/// Number of characters in a line of text, without colour codes.
 std::size_t shown_width(std::string_view line);
 
-/// Decoration of the field: a title above, the axes' ranges below and on the left.
+/// Decoration of a field: a title above, names and ranges of the axes below and on the left.
 struct TextFrame {
     std::string title = {};
     std::string low_x = {}, high_x = {}, name_x = {};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A picture as a list of shapes. A unit is one pixel on an ordinary screen; x to the right, y
-// downwards. Output as SVG (svg_bytes, svg_element), PDF, or pixels (png_bytes_of).
+// A picture as a list of shapes. A unit is one pixel on an ordinary screen; x is to the right, y
+// downwards. Drawings are written as SVG (svg_bytes, svg_element), PDF, or pixels (png_bytes_of).
 //
 // Promise the same drawing gives the same bytes.
 #pragma once
@@ -23,7 +23,7 @@ struct Colour {
     bool operator==(const Colour&) const = default;
 };
 
-/// a + share (b - a).
+/// Blends two colours: a + share (b - a).
 inline Colour mixed(Colour a, Colour b, double share) {
     const auto mix = [share](std::uint8_t from, std::uint8_t to) {
         return static_cast<std::uint8_t>(std::lround(from + share * (to - from)));
@@ -50,7 +50,7 @@ struct Area {
 
 enum class Dash { none, dashed, dotted };
 
-/// A polyline. If crisp, it is aligned to whole pixels, for lines along the axes.
+/// A polyline. If `crisp`, it is aligned to whole pixels, for lines parallel to the axes.
 struct Line {
     std::vector<Position> vertices = {};
     Colour colour = {};
@@ -76,8 +76,8 @@ struct Disks {
 
 enum class Anchor { start, middle, end };
 
-/// A line of text; `at` is on its baseline. If `upward`, it reads from bottom to top, for the left
-/// axis.
+/// A line of text; `at` is its anchor on the baseline. If `upward`, it reads from bottom to top,
+/// for the left axis.
 struct Label {
     std::string text;
     Position at;
@@ -99,13 +99,13 @@ struct PixelImage {
 /// Clips the following shapes to an area, up to the next ClipWindow.
 struct ClipWindow {
     Area area = {};
-    bool open = false;  ///< no clipping
+    bool open = false;  ///< ends clipping
 };
 
 /// Puts the following shapes into a group of a page's SVG, up to the next SvgGroup; ignored in
 /// files.
 struct SvgGroup {
-    std::string attributes;  ///< of the group element: class="box star"; empty: no group
+    std::string attributes;  ///< attributes of the group element, class="box star"; empty: no group
 };
 
 using Shape = std::variant<Line, Patch, Disks, Label, PixelImage, ClipWindow, SvgGroup>;
@@ -114,7 +114,7 @@ struct Drawing {
     double width = 0;
     double height = 0;
     Colour background = {255, 255, 255};
-    std::string title;  ///< for screen readers, and the file's text chunk
+    std::string title;  ///< title in the file's metadata, also for screen readers
     std::vector<Shape> shapes = {};
 
     /// Constructed in place: GCC 12 warns that a moved variant is uninitialized.
@@ -137,7 +137,7 @@ struct Drawing {
 /// Metadata in a picture's file besides its title: keyword and text.
 using PictureNotes = std::vector<std::pair<std::string, std::string>>;
 
-/// SVG 1.1; text remains text. One unit is `scale` pixels.
+/// An SVG 1.1 file; text remains text. One unit is `scale` pixels.
 std::string svg_bytes(const Drawing& drawing, double scale, const PictureNotes& notes = {});
 
 /// An SVG element for a page: the first drawing's colours on light pages, the second one's on dark
@@ -150,10 +150,10 @@ std::string short_number(double x);
 /// One page of PDF 1.4 with embedded fonts; one unit is `scale` times 3/4 of a point.
 std::string pdf_bytes(const Drawing& drawing, double scale, const PictureNotes& notes = {});
 
-/// PNG of pixels; if `grey`, with one channel, for equal red, green and blue.
+/// A PNG file of pixels. If `grey`, writes only one channel; red, green and blue must be equal.
 std::string png_bytes_of(const PixelImage& image, bool grey, const PictureNotes& notes = {});
 
-/// PNG; one unit is `scale` pixels. @throws Error(limit) if it is too large
+/// A PNG file of a drawing; one unit is `scale` pixels. @throws Error(limit) if it is too large
 std::string png_bytes_of(const Drawing& drawing, double scale, const PictureNotes& notes = {});
 
 // Colours. Series use the palette of M. Okabe and K. Ito, which colour-blind readers can

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Letters as TrueType outlines. The outline of a stroke is one closed line: along its left side,
-// around its end, back along the other side, and around its beginning. At left turns it passes
-// through the centre of the pen, at right turns around the pen. It may cross itself, which the
-// nonzero winding rule allows.
+// around its end, back along the other side, and around its beginning. At left turns the outline
+// passes through the centre of the pen, at right turns it follows an arc around the pen. It may
+// cross itself, which the nonzero winding rule allows.
 //
 // Source  Apple, TrueType Reference Manual, chapter 6 (glyf, head, hhea, hmtx, loca, maxp).
 #include "plot/drawing/font_file.hpp"
@@ -43,8 +43,8 @@ Position unit_vector(Position from, Position to) {
     return {(to.x - from.x) / length, (to.y - from.y) / length};
 }
 
-/// Adds the corner's outline: an arc around the pen from the left side of one direction to that of
-/// the next.
+/// Adds the outline at a corner of a stroke: an arc around the pen, from the left side of direction
+/// `before` to that of `after`.
 void add_corner(Outline& outline, Position corner, Position before, Position after, double radius) {
     constexpr double step = std::numbers::pi / 6;
     const auto add = [&](double dx, double dy) {
@@ -70,7 +70,7 @@ Outline stroke_outline(std::vector<Position> stroke, double radius) {
     stroke.erase(std::unique(stroke.begin(), stroke.end()), stroke.end());
     const std::size_t n = stroke.size();
     if (n < 2) return {};
-    std::vector<Position> way = stroke;  // forwards and backwards
+    std::vector<Position> way = stroke;  // the stroke forwards and backwards
     for (std::size_t i = n - 1; i-- > 1;) way.push_back(stroke[i]);
     Outline outline;
     for (std::size_t i = 0; i < way.size(); ++i) {
@@ -146,7 +146,7 @@ struct Table {
     std::string bytes;
 };
 
-/// A directory of the tables followed by their bytes; tables must be sorted by name.
+/// Font file: a directory of the tables, followed by their bytes. Tables must be sorted by name.
 std::string file_of(const std::vector<Table>& tables) {
     const int count = static_cast<int>(tables.size());
     std::string out;
@@ -170,9 +170,9 @@ std::string file_of(const std::vector<Table>& tables) {
 std::string head_table(const Extent& all) {
     std::string head;
     for (const std::int64_t word : {0x00010000LL, 0x00010000LL, 0LL, 0x5F0F3CF5LL})
-        put_number(head, word, 4);  // versions, an unused checksum, the magic number
+        put_number(head, word, 4);  // versions, a checksum (not used), the magic number
     put_words(head, {0x0003, font_em});
-    put_number(head, 0, 8);  // no dates: equal letters give equal bytes
+    put_number(head, 0, 8);  // no dates, so that equal letters give equal bytes
     put_number(head, 0, 8);
     put_words(head, {all.left, all.low, all.right, all.high, 0, 8, 2, 1, 0});
     return head;
@@ -187,7 +187,7 @@ int font_advance(char32_t letter) {
 std::string font_file(std::u32string_view letters, bool bold) {
     constexpr int ascent = 900;
     constexpr int descent = -250;
-    std::u32string all = U"\uFFFD";  // drawn as a box
+    std::u32string all = U"\uFFFD";  // glyph 0, drawn as a box
     all += letters;
     std::string glyf, loca, hmtx;
     Extent whole;

@@ -8,10 +8,10 @@
 
 namespace stipple::plot {
 
-/// Escapes text between tags; UTF-8 without control characters.
+/// Escapes text between tags; the result is valid UTF-8 without control characters.
 std::string xml_text(std::string_view text);
 
-/// Escapes text for attributes in double quotes, too.
+/// As xml_text(), and escapes double quotes, for attributes.
 std::string html_text(std::string_view text);
 
 /// Base64 encoding (RFC 4648).

@@ -35,8 +35,8 @@ constexpr std::string_view accents =
     "`'^~:o ,`'^:`'^: ~`'^~: /`'^:'  `'^~:o ,`'^:`'^: ~`'^~: /`'^:' :";
 static_assert(accents.size() == bare_letters.size());
 
-/// Path of an accent: above, centred at 0; or for ',' and '/' from the baseline, below and through
-/// the letter.
+/// Path of an accent, centred at x = 0. Its y is relative to the top of the letter, or to the
+/// baseline for ',' (below the letter) and '/' (through it).
 const char* path_of(char accent) {
     switch (accent) {
         case '`':
@@ -66,7 +66,7 @@ const std::vector<Glyph>& glyphs() {
             if (line.empty()) continue;
             const Letter letter = first_letter(line);
             std::istringstream rest{std::string(line.substr(letter.size))};
-            rest.exceptions(std::ios::badbit);  // out of memory is not the end of the text
+            rest.exceptions(std::ios::badbit);  // throws if out of memory
             Glyph glyph{.letter = letter.point};
             rest >> glyph.advance >> std::ws;
             std::getline(rest, glyph.path);
@@ -83,8 +83,8 @@ const Glyph& plain_glyph(char32_t letter) {
     return it != glyphs().end() && it->letter == letter ? *it : unknown;
 }
 
-/// Adds a rational quadratic curve with weight sqrt(1/2): a quarter of an ellipse if the tangents
-/// are perpendicular.
+/// Adds a rational quadratic Bezier curve with weight sqrt(1/2): a quarter of an ellipse if the
+/// tangents are perpendicular.
 void add_curve(std::vector<Position>& stroke, Position corner, Position end) {
     constexpr int steps = 8;
     const Position start = stroke.back();
@@ -172,7 +172,7 @@ std::vector<std::string> wrapped(std::string_view text, double size, double widt
     for (std::size_t first = 0; first < letters.size();) {
         double used = 0;
         std::size_t end = first;
-        std::size_t good = first;  // after the last possible break
+        std::size_t good = first;  // position after the last possible break
         for (; end < letters.size(); ++end) {
             used += advance_of(letters[end]);
             if (used > room && letters[end] != U' ' && end > first) break;

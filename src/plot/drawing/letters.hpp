@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Letters as pen strokes, for pictures drawn without a font.
+// Letters as pen strokes, for PNG pictures and for the fonts in PDF files.
 //
 // Units   an em is 28 units of the glyph grid; y upwards from the baseline; capitals are 20 high.
 #pragma once
@@ -20,24 +20,24 @@ inline constexpr double em_units = 28;
 inline constexpr double raised_size = 0.6;
 inline constexpr double raised_by = 8.5;
 
-/// The plain letter of a superscript: 2 for ²; nullopt for other letters.
+/// The plain letter for a superscript: 2 for ²; nullopt if the letter is not a superscript.
 std::optional<char32_t> lowered(char32_t letter);
 
 /// Advance of a letter in grid units, as in Helvetica.
 double advance_of(char32_t letter);
 
-/// Strokes of a letter; a box for unknown letters.
+/// Strokes of a letter, as polylines in grid units; a box for unknown letters.
 std::vector<std::vector<Position>> strokes_of(char32_t letter);
 
 /// Width of a line of text at this font size.
 double text_width(std::string_view text, double size);
 
-/// Wraps text to lines of at most this width, at blanks and after other signs; long words are
-/// broken anywhere.
+/// Wraps text to lines of at most this width, after blanks and signs such as - and /; longer words
+/// are broken anywhere.
 std::vector<std::string> wrapped(std::string_view text, double size, double width);
 
-/// Adds a label with several lines, the last of them at the label's position; lines of upward
-/// labels are to the left of each other.
+/// Adds a label with several lines, the last of them at the label's position; the others are above
+/// or, if upward, to the left.
 void add_lines(Drawing& drawing, const Label& label, const std::vector<std::string>& lines,
                double leading);
 

@@ -15,12 +15,12 @@ namespace {
 
 constexpr double mark = 4;        ///< length of tick marks at numbers
 constexpr double small_mark = 2;  ///< of tick marks between numbers
-constexpr double gap = 10;        ///< minimum between neighbouring numbers
+constexpr double gap = 10;        ///< minimum space between neighbouring numbers
 constexpr double capital = 0.714 * number_size;
 
 constexpr double number_row = number_size + 2;
 constexpr double name_row = name_size + 2;
-constexpr double farthest = 1e5;  ///< limit for coordinates, in units; anything beyond is invisible
+constexpr double farthest = 1e5;  ///< limit for positions, in units; anything beyond is invisible
 
 /// The width of a text's widest line.
 double block_width(const std::string& text) {
@@ -44,13 +44,13 @@ void add_text(Drawing& drawing, const Label& label) {
 /// Position of the middle of a number's text, in units from the axis's start. The text may extend
 /// slightly beyond the ends, unless another frame is next to it.
 double middle_of(const Axis& axis, const Tick& tick, double length) {
-    constexpr double beyond = 20;  // less than the margins of pictures
+    constexpr double beyond = 20;  // units; less than the margins of pictures
     const double at = axis.share(tick.value) * length;
     const double inside = block_width(tick.text) / 2 - (axis.tight ? 0 : beyond);
     return length > 2 * inside ? std::clamp(at, inside, length - inside) : at;
 }
 
-/// Whether neighbouring numbers do not touch.
+/// Whether all neighbouring numbers have enough space between them.
 bool fit(const Axis& axis, const Ticks& ticks, double length) {
     double end = -1e9;
     for (const Tick& tick : ticks.numbers) {
@@ -62,7 +62,7 @@ bool fit(const Axis& axis, const Ticks& ticks, double length) {
     return true;
 }
 
-/// "frequency (×10³)"
+/// Name of the axis, with the factor of its numbers: "frequency (×10³)".
 std::string full_name(const Axis& axis, const Ticks& ticks) {
     if (ticks.exponent == 0) return axis.name;
     const std::string factor = fmt::format("×{}", power_of_ten(ticks.exponent));
@@ -80,13 +80,13 @@ std::vector<std::string> rows_of_name(const Axis& axis, const Ticks& ticks, doub
     return wrapped(full_name(axis, ticks), name_size, length + 6);
 }
 
-/// Space for the rows of the name, plus some space before them.
+/// Height of the name's rows, plus `space` before them; 0 if no name is drawn.
 double room_of_name(const Axis& axis, const Ticks& ticks, double length, double space) {
     const auto rows = static_cast<double>(rows_of_name(axis, ticks, length).size());
     return axis.numbers && rows > 0 ? name_row * rows + space : 0;
 }
 
-/// Words as tick labels; only every second, third, ... if there is not enough space.
+/// Words as tick labels; only every second, third, ... word if there is not enough space.
 Ticks ticks_of_words(const Axis& axis, double length, bool upright) {
     constexpr double widest = 110;
     const double pitch = length / (axis.high - axis.low);  // distance between words
@@ -108,7 +108,7 @@ Ticks ticks_of_words(const Axis& axis, double length, bool upright) {
 void draw_sides(Drawing& drawing, const Area& area, Colour colour, bool closed) {
     const double right = area.right();
     const double bottom = area.bottom();
-    // One unit longer, to fill the corners.
+    // Lines are one unit longer, to fill the corners.
     drawing.line({area.left, area.top}, {area.left, bottom + 1}, colour);
     drawing.line({area.left, bottom}, {right + 1, bottom}, colour);
     if (!closed) return;
@@ -132,7 +132,7 @@ Ticks Axis::ticks(double length, bool upright) const {
 
 double Axis::share(double value) const {
     if (!log) return (value - low) / (high - low);
-    const auto up_from_low = [this](double x) {  // the quotient distinguishes nearby numbers
+    const auto up_from_low = [this](double x) {  // the quotient preserves small differences
         const double ratio = x / low;
         return std::isfinite(ratio) ? std::log(ratio) : std::log(x) - std::log(low);
     };

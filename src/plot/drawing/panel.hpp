@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A frame with two axes that maps data to positions in a drawing; and a colour bar that explains
-// the colours of a picture.
+// A frame with two axes, which maps data to positions in a drawing, and a colour bar, which
+// explains the colours of a picture.
 #pragma once
 
 #include <functional>
@@ -22,21 +22,21 @@ struct Axis {
     bool log = false;
     bool binary = false;                  ///< logarithmic, with numbers at powers of two
     bool whole = false;                   ///< only integers as numbers
-    std::vector<std::string> words = {};  ///< replace the numbers from first_word on
+    std::vector<std::string> words = {};  ///< texts of the numbers first_word, first_word + 1, ...
     double first_word = 1;
     std::string name = {};  ///< empty: no name
-    bool numbers = true;    ///< false: tick marks only; the panel below has the numbers
-    bool tight = false;     ///< keeps numbers within the frame, since another one is next to it
+    bool numbers = true;    ///< false: only tick marks, since another panel has the numbers
+    bool tight = false;     ///< keeps numbers within the frame, beside which is another one
 
-    /// Ticks that fit into this length; `upright` for numbers one above the other.
+    /// Ticks that fit into this length. `upright`: the axis is vertical, with numbers one above the
+    /// other.
     [[nodiscard]] Ticks ticks(double length, bool upright) const;
 
     /// Relative position of a value between low (0) and high (1).
     [[nodiscard]] double share(double value) const;
 
-    /// Ensures that the ends of [low, high] differ in `digits` digits, and are positive if
-    /// logarithmic. The name mentions a range that had to be widened. @throws Error(input) beyond
-    /// the limits of axes
+    /// Ensures that low and high are finite, differ in the first `digits` digits, and are positive
+    /// if logarithmic. If a range is too narrow, widens it and says so in the name.
     void make_valid(int digits = shown_digits);
 };
 
@@ -72,7 +72,7 @@ class Panel {
     Ticks y_ticks_;
 };
 
-inline constexpr double colour_bar_room = 62;  ///< width to the right of the picture
+inline constexpr double colour_bar_room = 62;  ///< width of the bar with its numbers
 
 /// Draws colours from the bottom (0) to the top (1); the ticks have values in this range.
 void draw_colour_bar(Drawing& drawing, const Area& area, const std::string& name,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A drawing as a PDF page. Text remains text, in an embedded font that contains only the used
-// glyphs, and has a table of their characters for searching and copying.
+// A drawing as a PDF page. Text remains text, in embedded fonts that contain only the used glyphs,
+// with a table of their characters for searching and copying.
 //
 // Source  ISO 32000-1:2008, Document management, Portable document format 1.7 (as far as 1.4 goes).
 #include <fmt/format.h>
@@ -39,24 +39,24 @@ std::string stream_of(const std::string& keys, const std::string& bytes) {
            content + "\nendstream";
 }
 
-/// A letter in UTF-16, as hexadecimal digits.
+/// A letter encoded in UTF-16, as hexadecimal digits.
 std::string utf16_of(char32_t letter) {
     if (letter < 0x10000) return fmt::format("{:04X}", static_cast<std::uint32_t>(letter));
     return fmt::format("{:04X}{:04X}", 0xD800 + ((letter - 0x10000) >> 10),
                        0xDC00 + ((letter - 0x10000) & 0x3FF));
 }
 
-/// A text for the document's information.
+/// A text as a string of the PDF's information dictionary.
 std::string text_string(const std::string& text) {
     std::string out = "<FEFF";
     for (const char32_t letter : code_points(text)) out += utf16_of(letter);
     return out + ">";
 }
 
-/// Letters used on a page, regular (0) or bold (1); glyph i is letter i - 1.
+/// Letters used on a page: regular (0) and bold (1). Glyph i > 0 of a font is its letter i - 1.
 using Fonts = std::array<std::u32string, 2>;
 
-/// The table that maps glyphs to Unicode.
+/// The table that maps glyphs to Unicode (ToUnicode CMap).
 std::string unicode_map(const std::u32string& letters) {
     constexpr std::size_t most = 100;  // entries in a block
     std::string map =
@@ -74,11 +74,12 @@ std::string unicode_map(const std::u32string& letters) {
     return map + "endcmap CMapName currentdict/CMap defineresource pop end end";
 }
 
-/// Appends the objects of a font; returns the number of the first one, which represents it.
+/// Appends the objects of a font; returns the number of the first one, by which the page refers to
+/// the font.
 std::size_t add_font(std::vector<std::string>& objects, const std::u32string& letters, bool bold) {
     const std::size_t number = objects.size() + 1;
     std::string bytes = font_file(letters, bold);
-    std::uint64_t tag = fingerprint(bytes);  // subset names begin with six letters
+    std::uint64_t tag = fingerprint(bytes);  // names of font subsets begin with six letters
     std::string name;
     for (int k = 0; k < 6; ++k, tag /= 26) name += static_cast<char>('A' + tag % 26);
     name += bold ? "+Stipple-Bold" : "+Stipple";
@@ -102,7 +103,7 @@ std::size_t add_font(std::vector<std::string>& objects, const std::u32string& le
     return number;
 }
 
-/// Writes shapes as content operators; y points downwards.
+/// Writes shapes as operators of a content stream; y is downwards.
 class Content {
   public:
     void operator()(const Line& line) {
@@ -190,7 +191,7 @@ class Content {
     }
     [[nodiscard]] const std::vector<std::string>& images() const { return images_; }
     [[nodiscard]] const Fonts& fonts() const { return fonts_; }
-    /// Opacities by name.
+    /// Opacities of graphics states, by the states' names.
     [[nodiscard]] const std::map<std::string, std::string>& opacities() const { return opacities_; }
 
   private:
@@ -226,7 +227,8 @@ class Content {
     std::map<std::string, std::string> opacities_ = {{"G100", "1"}};
 };
 
-/// A PDF file of objects; the first must be the catalogue and the last the information.
+/// A PDF file with these objects: the first must be the catalogue, the last the information
+/// dictionary.
 std::string file_of(const std::vector<std::string>& objects) {
     std::string out = "%PDF-1.4\n%\xE2\xE3\xCF\xD3\n";
     std::string places = "0000000000 65535 f \n";

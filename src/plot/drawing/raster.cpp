@@ -18,7 +18,7 @@
 namespace stipple::plot {
 namespace {
 
-/// Pixels from (left, top) up to, but not including, (right, bottom).
+/// Rectangle of pixels from (left, top) up to, but not including, (right, bottom).
 struct Pixels {
     int left = 0;
     int top = 0;
@@ -42,7 +42,8 @@ double squared_distance(Position p, Position a, Position b) {
     return x * x + y * y;
 }
 
-/// The strokes of a dashed line; `on` and `off` are in units of the drawing.
+/// The dashes of a line; `on` and `off` are the lengths of dashes and gaps, in units of the
+/// drawing.
 std::vector<std::vector<Position>> dashes_of(const std::vector<Position>& vertices, double on,
                                              double off) {
     std::vector<std::vector<Position>> dashes;
@@ -88,7 +89,7 @@ class Rasterizer {
             stroke(line.vertices, line.width * scale_);
         } else {
             const bool dashed = line.dash == Dash::dashed;
-            // Round ends lengthen dashes and shorten gaps by the line's width.
+            // Dashes are shorter here, since their round ends lengthen them by the line's width.
             const double on = dashed ? std::max(6 - line.width, 1.0) : 0.5;
             for (const auto& dash : dashes_of(line.vertices, on, (dashed ? 10.0 : 4.5) - on))
                 stroke(dash, line.width * scale_);
@@ -176,7 +177,7 @@ class Rasterizer {
                 std::min(area.right, window_.right), std::min(area.bottom, window_.bottom)};
     }
 
-    /// A line along an axis, aligned to whole pixels.
+    /// Draws a line parallel to an axis, aligned to whole pixels.
     void crisp(const Line& line) {
         const double wide = std::max(1.0, std::round(line.width * scale_));
         const Position a{line.vertices[0].x * scale_, line.vertices[0].y * scale_};
@@ -203,7 +204,7 @@ class Rasterizer {
         const Position a{from.x * scale_, from.y * scale_};
         const Position b{to.x * scale_, to.y * scale_};
         const double reach = wide / 2 + 0.5;
-        // A line thinner than a pixel covers only that fraction of it.
+        // A line thinner than a pixel covers only a fraction of it, its width.
         const double most = std::min(1.0, wide);
         const Pixels area = visible({pixel(std::floor(std::min(a.x, b.x) - reach)),
                                      pixel(std::floor(std::min(a.y, b.y) - reach)),
@@ -278,10 +279,11 @@ class Rasterizer {
         touched_ = {};
     }
 
-    /// Mean colour of the image's pixels from (x, y) on; at least the one that contains (x, y).
+    /// Mean colour of the image's pixels in a rectangle of step_x x step_y from (x, y); at least
+    /// one pixel.
     static Colour mean_colour(const PixelImage& raster, double x, double y, double step_x,
                               double step_y) {
-        // If an image pixel is larger than the step, the middle of the step selects it.
+        // If an image pixel is larger than the step, takes the one at the middle of the step.
         const auto range = [](double from, double step, std::size_t size) {
             const double first = step <= 1 ? from + step / 2 : from;
             const double last = step <= 1 ? first : from + step - 1e-9;

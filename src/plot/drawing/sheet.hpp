@@ -10,9 +10,9 @@
 
 namespace stipple::plot {
 
-/// Number of columns for `parts` drawings that are about square. With `ratio`, the sheet's width
-/// over height, the columns that make the drawings largest. Without (0): one row for up to three,
-/// then rows of two, three or four.
+/// Number of columns for `parts` drawings that are about square. If `ratio` is the sheet's width
+/// over height, chooses the number that makes the drawings largest. If it is 0: one row for up to
+/// three drawings, otherwise two, three or four columns.
 std::size_t sheet_columns(std::size_t parts, double ratio = 0);
 
 /// Adds parts in rows below `top`, from the left, and enlarges the drawing as needed.

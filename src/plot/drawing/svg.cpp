@@ -21,7 +21,7 @@ constexpr const char* font = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans'
 
 std::string hex(Colour c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
 
-/// fill="#0072b2", plus the colour on dark pages if that differs.
+/// Attribute such as fill="#0072b2", plus the colour on dark pages if it differs.
 std::string paint(const char* property, Colour light, Colour dark) {
     std::string text = fmt::format(" {}=\"{}\"", property, hex(light));
     if (light != dark)
@@ -29,14 +29,14 @@ std::string paint(const char* property, Colour light, Colour dark) {
     return text;
 }
 
-/// Writes shapes in order.
+/// Writes shapes in order, as elements of SVG.
 class Writer {
   public:
     explicit Writer(bool page) : page_(page) {}
 
     void operator()(const Line& line, const Line& dark) {
         if (line.vertices.size() < 2) return;
-        // Lines of odd width are sharp if they run along the middle of pixels.
+        // Lines of odd width are sharp only along the middle of pixels.
         const bool half = line.crisp && std::lround(line.width) % 2 == 1;
         add_path(line.vertices, half);
         out_ += fmt::format("\" fill=\"none\"{} stroke-width=\"{}\"",
@@ -87,7 +87,8 @@ class Writer {
         out_ += fmt::format(">{}</text>\n", xml_text(label.text));
     }
 
-    /// Embeds the light pixels only; if dark ones differ, the page's style sheet inverts them.
+    /// Embeds only the light drawing's pixels. If the dark drawing's pixels differ, the page's
+    /// style sheet inverts the light ones on dark pages.
     void operator()(const PixelImage& raster, const PixelImage& dark) {
         const Area& a = raster.area;
         const bool grey = std::ranges::all_of(
@@ -104,7 +105,8 @@ class Writer {
         close(in_group_);
         close(in_window_);
         if (window.open) return;
-        // Named by its area, so that equal names in different drawings mean the same.
+        // The clip path is named by its area, so that equal names in different drawings mean equal
+        // areas.
         const Area& a = window.area;
         const std::string name =
             fmt::format("w{}-{}-{}-{}", short_number(a.left), short_number(a.top),

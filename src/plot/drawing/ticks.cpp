@@ -50,7 +50,7 @@ Step step_at_least(double least) {
     return step;
 }
 
-/// Range of multiples of the step in [low, high], in units of the step.
+/// First and last multiple of the step in [low, high], in units of the step.
 std::pair<double, double> multiples(double low, double high, double step) {
     constexpr double slack = 1e-9;
     return {std::ceil(low / step - slack), std::floor(high / step + slack)};
@@ -63,15 +63,16 @@ struct Numbered {
     [[nodiscard]] bool operator()(double k) const { return std::fmod(k - from, stride) == 0; }
 };
 
-/// Labels at most `most` of the integers first..last, but at least two if possible; multiples of
-/// the stride if two of these exist.
+/// Selects at most `most` of the integers first..last, but at least two if possible: multiples of a
+/// stride if two of these exist, otherwise `first` and every stride from it.
 Numbered spread(double first, double last, std::size_t most) {
     const double stride = std::floor((last - first) / static_cast<double>(most)) + 1;
     const double from = std::ceil(first / stride) * stride;
     return {from + stride <= last ? from : first, stride};
 }
 
-/// Ticks at powers of ten; every second, third, ... only, so that at most `most` have numbers.
+/// Adds ticks at powers of ten. If there are more than `most`, only every second, third, ... has a
+/// number.
 void add_decades(double low, double high, std::size_t most, Ticks& ticks) {
     const int first = static_cast<int>(std::ceil(std::log10(low) - 1e-9));
     const int last = static_cast<int>(std::floor(std::log10(high) + 1e-9));
@@ -93,7 +94,7 @@ void add_decades(double low, double high, std::size_t most, Ticks& ticks) {
         }
 }
 
-/// Ticks between powers of ten, if fewer than two of these are visible.
+/// Replaces the ticks by ones at digits times powers of ten, for ranges with few powers of ten.
 void add_digits(double low, double high, std::size_t most, Ticks& ticks) {
     ticks.minor.clear();
     const auto digits =
@@ -170,7 +171,7 @@ Ticks linear_ticks(double low, double high, std::size_t most, bool whole) {
         ++step.number;
         std::tie(first, last) = multiples(low, high, step.value());
     }
-    // A single number shows no scale: use the next finer step.
+    // A single number shows no scale: uses the next finer step.
     if (first >= last && !(whole && step.value() <= 1)) {
         --step.number;
         std::tie(first, last) = multiples(low, high, step.value());
