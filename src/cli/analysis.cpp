@@ -28,7 +28,7 @@ namespace {
 /// Option of an analyzer that names a file to write beside its report.
 struct FileOption {
     const char* option;
-    const char* extension;  ///< if the file has only one format; otherwise empty
+    const char* extension;  ///< extension of its only format; empty: any name
 };
 constexpr std::array<FileOption, 3> file_options = {
     {{"grid", ".npy"}, {"image", ".png"}, {"wisdom", ""}}};
@@ -39,7 +39,7 @@ constexpr std::size_t large = std::size_t{1} << 18;
 constexpr std::size_t together = std::size_t{1} << 20;  // coordinates of all collected sets
 constexpr std::size_t most_waiting = std::size_t{1} << 12;
 
-/// Updates the counts, times and sources of a mean for another set.
+/// Adds another set's time, source and count to a mean.
 void add_to(Measurement& mean, const Measurement& m) {
     mean.seconds += m.seconds;
     if (mean.source != m.source) mean.source += ", " + m.source;
@@ -49,7 +49,7 @@ void add_to(Measurement& mean, const Measurement& m) {
     if (mean.count != largest) mean.largest_count = largest;
 }
 
-/// Options for drawing a grid.
+/// Options for the picture of a grid.
 PowerPicture picture_of(const Report& results, const Values& options) {
     PowerPicture picture;
     if (const auto* reach = results.find("max_distance"))
@@ -63,7 +63,7 @@ PowerPicture picture_of(const Report& results, const Values& options) {
     return picture;
 }
 
-/// Shortest and longest of the box's positive side lengths; both 0 if there are none.
+/// Shortest and longest of the box's positive side lengths; both 0 if all sides are 0.
 std::pair<double, double> sides_of(const Box& box) {
     std::vector<double> sides;
     for (std::size_t k = 0; k < box.dimension(); ++k)
@@ -188,7 +188,7 @@ void Analysis::add(PointSet points, SetOrigin origin) {
     warn_of_prefixes(points.provenance);
     warn_of_ranges(points);
     const std::size_t numbers = points.flat().size();
-    // The first set of a kind may determine options for the others.
+    // The first set of a kind may determine options for the others, so it is measured alone.
     const bool decides =
         request_.averaged() && analyzer_.follow && is_first(origin.kind, points.dimension());
     if (numbers >= large || decides) measure_waiting();
@@ -229,7 +229,7 @@ void Analysis::measure_waiting() {
     const std::vector<Waiting> sets = std::exchange(waiting_, {});
     const RunContext& run = session_.run();
     const std::size_t threads = run.thread_count();
-    // The last sets, fewer than threads, are measured one by one with all threads.
+    // Remaining sets, fewer than threads, are measured one by one with all threads.
     const std::size_t spread = threads > 1 ? sets.size() - sets.size() % threads : 0;
     std::vector<Outcome> outcomes(spread);
     // After a stop request, analyses that have begun may still return a result.
@@ -286,12 +286,12 @@ Measurement Analysis::measured(const Waiting& set, const RunContext& run) const 
             throw Error(e.kind(), fmt::format("{}: {}", analyzer_.name, what), e.hint());
         }
     });
-    // Domain of the inputs, not of all columns.
+    // For a table, stores the domain of its input columns, not of all columns.
     if (analyzer_.traits.table) m.domain = set.points.provenance.domain;
     return m;
 }
 
-/// The run, with the set's name in front of warnings if there are several sets.
+/// The run, with warnings that begin with the set's name if there are several sets.
 RunContext Analysis::naming_set(const SetOrigin& origin, const RunContext& run) const {
     RunContext named = run;
     if (!origin.several) return named;
@@ -305,7 +305,8 @@ RunContext Analysis::naming_set(const SetOrigin& origin, const RunContext& run) 
 
 // ---------------------------------------------------------------- means
 
-/// Key of a kind's group; sets of different dimensions are never of the same kind.
+/// Key of a group of sets that are averaged together: same kind and dimension, or all sets with
+/// --pool.
 std::string Analysis::group_name(const std::string& kind, std::size_t dimension) const {
     return request_.pool ? "" : fmt::format("{} {}", dimension, kind);
 }
@@ -314,13 +315,13 @@ bool Analysis::is_first(const std::string& kind, std::size_t dimension) const {
     return !group_indices_.contains(group_name(kind, dimension));
 }
 
-/// Options for the next set: those of its group if earlier sets of its kind exist.
+/// Options for a set: those of its group if earlier sets determined them, otherwise those given.
 Values Analysis::options_for(const std::string& kind, std::size_t dimension) const {
     const auto it = group_indices_.find(group_name(kind, dimension));
     return it == group_indices_.end() ? asked_ : groups_[it->second].options;
 }
 
-/// Index of a kind's group, which is created if necessary.
+/// Index of the group for a kind, which is created if necessary.
 std::size_t Analysis::group_of(const std::string& kind, std::size_t dimension) {
     const auto [it, is_new] = group_indices_.emplace(group_name(kind, dimension), groups_.size());
     if (is_new) groups_.push_back({asked_});
@@ -391,13 +392,14 @@ void Analysis::save_grid(const Report& results, std::size_t number, bool several
     }
 }
 
-/// Writes a file that is moved to its path together with the report.
+/// Writes a file that appears together with the report.
 void Analysis::save_beside(const std::string& path, const std::string& bytes) {
     files_.add(path, session_.run().stop).write(bytes);
 }
 
 std::optional<std::string> Analysis::broken(const Check& check, const Report& results) const {
-    // Results on which averaged sets disagree are missing from the mean; a condition on one fails.
+    // A result that is missing from the mean differs between the averaged sets; a condition on it
+    // fails.
     if (request_.averaged() && !results.find(check.key) && find_result(analyzer_, check.key))
         return "not the same for all sets";
     if (check.holds(results)) return std::nullopt;
@@ -406,7 +408,8 @@ std::optional<std::string> Analysis::broken(const Check& check, const Report& re
 
 namespace {
 
-/// Whether a result equals the mean, apart from rounding.
+/// Whether a result equals that in `means`, apart from rounding; true if it is not a number or
+/// list.
 bool is_mean(const Report& means, const Report& results, const std::string& key) {
     const auto alike = [](double a, double b) {
         return a == b || !(std::abs(a - b) > 1e-9 * std::abs(b));
@@ -419,7 +422,8 @@ bool is_mean(const Report& means, const Report& results, const std::string& key)
     return !was || !is || alike(*was, *is);
 }
 
-/// Standard errors of plain means only, without results that were combined in another way.
+/// Standard errors of the results that are plain means, without those that were combined in another
+/// way.
 Report errors_of_means(const Report& errors, const Report& means, const Report& results,
                        const std::string& group = {}) {
     Report kept;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// One analyzer of an `analyze` call: receives sets one after the other, and keeps their
-// measurements or the means of these.
+// One analyzer of an `analyze` command: receives sets one after the other, and keeps their
+// measurements or means of the measurements.
 #pragma once
 
 #include <cstdint>
@@ -27,14 +27,14 @@ namespace stipple::cli {
 struct SetOrigin {
     std::string source;                      ///< file, or spec of a generator
     std::optional<std::size_t> number = {};  ///< index, if the source has several sets
-    std::string kind = {};  ///< sets of the same kind are averaged; empty if not yet known
+    std::string kind = {};  ///< sets of equal kind are averaged; empty if not yet known
     std::vector<std::string> columns = {};  ///< names of the coordinates, if known
     bool several = false;                   ///< whether there are other sets
 };
 
-/// Key for averaging: how the set was made, except for the seed, as far as known; otherwise the
-/// number of points.
-/// @param count of this set, or of the first one in its file
+/// Key for averaging: how the set was made, except for its seed; if that is unknown, the number of
+/// points.
+/// @param count points of this set, or of the first set in its file
 std::string kind_of(const Provenance& made, std::uint64_t count);
 
 class Analysis {
@@ -45,28 +45,30 @@ class Analysis {
              Session& session, io::Outputs& files, bool one_of_several);
 
     [[nodiscard]] const Analyzer& analyzer() const { return analyzer_; }
-    /// Options as given.
+    /// Options of the analyzer as given.
     [[nodiscard]] const Values& options() const { return asked_; }
     /// Text of an option of the analyzer; nullopt if not given.
     [[nodiscard]] std::optional<std::string> text_of(std::string_view name) const;
     [[nodiscard]] std::vector<Measurement>& measurements() { return measurements_; }
 
-    /// @throws Error(usage) if the analyzer would ignore the domain, or if the
-    /// name of a file has the extension of another format or is given twice
+    /// Checks the options, and warns of questionable ones. @throws Error(usage) if the analyzer
+    /// would ignore --domain, or if the name of a file has the extension of another format or is
+    /// given twice
     void check_arguments(const std::string& output) const;
 
     /// Adds a set, and measures the collected ones if there are many. Large sets are measured
     /// immediately, with all threads and all memory.
     void add(PointSet points, SetOrigin origin);
 
-    /// Measures a set that arrives in blocks, and sets its kind.
+    /// Measures a set that arrives in blocks. Sets origin.kind if averaging needs it and it is
+    /// empty.
     void add(const Arrival& arrival, const NextRows& next, SetOrigin& origin,
              const Provenance& made, const RunContext& run);
 
     /// Adds an existing measurement.
     void keep(Measurement m, const SetOrigin& origin);
 
-    /// Runs work() on a set of the domain, and measures its time.
+    /// Runs work() on a set in the domain, and records its result and time.
     [[nodiscard]] Measurement timed(const SetOrigin& origin, const DomainPtr& domain,
                                     const Values& options,
                                     const std::function<Found()>& work) const;
@@ -76,10 +78,10 @@ class Analysis {
     /// only sets that have begun and succeed are kept.
     void measure_waiting();
 
-    /// Computes the means, and writes the files that belong beside the report.
+    /// Computes the means, and writes the files beside the report.
     void finish();
 
-    /// Number of means.
+    /// Number of groups, each with one mean.
     [[nodiscard]] std::size_t kinds() const { return groups_.size(); }
 
     /// Clears the index of the last set, which was the only one of its source.
@@ -95,7 +97,7 @@ class Analysis {
         SetOrigin origin;
     };
 
-    /// Outcome for a set measured in parallel with others; empty if a stop came first.
+    /// Outcome for a set measured in parallel with others; empty if stopped before it began.
     struct Outcome {
         std::optional<Measurement> measurement;
         std::exception_ptr error;
@@ -105,9 +107,9 @@ class Analysis {
 
     /// Sets of one kind, to be averaged.
     struct Group {
-        Values options;  ///< given options, with those determined by the first set
+        Values options;  ///< given options, completed by those that the first set determines
         ReportAverage average = {};
-        std::vector<Report> singles = {};  ///< averaged reports, if needed
+        std::vector<Report> singles = {};  ///< reports of single sets, if combined
     };
 
     void check_domain() const;

@@ -42,7 +42,7 @@ std::vector<std::string> result_keys(const Analyzer& analyzer) {
     return keys;
 }
 
-/// Index of a set; nullopt if it is the only one.
+/// Index of a set among `of` sets; nullopt if it is the only one.
 std::optional<std::size_t> number_of(std::size_t set, std::size_t of) {
     return of > 1 ? std::optional(set) : std::nullopt;
 }
@@ -88,10 +88,10 @@ class AnalyzeCall {
 
   private:
     [[nodiscard]] bool several_analyzers() const { return request_.analyzers.size() > 1; }
-    /// First analysis, often the only one.
+    /// The first analysis; the only one, except for several analyzers.
     [[nodiscard]] Analysis& only() const { return *analyses_.front(); }
 
-    /// Column of weights from the options; empty if none.
+    /// Name of the column of weights, from the analyzer's option; empty if not given.
     [[nodiscard]] std::string strengths() const {
         for (const auto& analysis : analyses_) {
             const auto column = analysis->text_of(analysis->analyzer().strengths);
@@ -107,7 +107,7 @@ class AnalyzeCall {
         return !several_analyzers() && only().analyzer().accumulate && !request_.rescale;
     }
 
-    /// @throws Error(usage) for options that do not apply to the given sources of points
+    /// Checks that --weights applies to the sources of points. @throws Error(usage)
     void require_sources() const {
         if (strengths().empty()) return;
         if (!request_.generate.empty())
@@ -145,7 +145,7 @@ class AnalyzeCall {
         }
     }
 
-    /// Measures all previous sets before an error of this input is thrown.
+    /// Runs work(). If it throws, first measures all earlier sets, whose errors are reported first.
     template <class Work>
     void before_errors(const Work& work) {
         try {
@@ -156,7 +156,7 @@ class AnalyzeCall {
         }
     }
 
-    /// Files may contain sets of several kinds without the user knowing.
+    /// Warns of several means, since users may not know that files contain sets of several kinds.
     void warn_of_kinds() const {
         if (inputs_.empty() || only().kinds() < 2) return;
         session_.warn(
@@ -281,7 +281,7 @@ class AnalyzeCall {
                 .from = [=](std::uint64_t first) { return generated->stream(0, run, first); }};
     }
 
-    /// This rank's run; only rank 0 reports progress and warnings.
+    /// The run of this rank; only rank 0 reports progress and warnings.
     [[nodiscard]] RunContext own_run() const {
         RunContext run = session_.run();
         run.threads = threads_of(ranks_, run);
@@ -318,8 +318,8 @@ class AnalyzeCall {
         const Analysis* analysis;
     };
 
-    /// Adds a condition. Its key may start with an analyzer's name, and must if there are several.
-    /// The name alone stands for the analyzer's value.
+    /// Adds a condition. Its key may begin with an analyzer's name, and must if there are several
+    /// analyzers. The name alone means the result `value`.
     void add_check(const std::string& text) {
         if (text == bare_check) return add_bare_check();
         Check check = parse_check(text);
@@ -346,7 +346,8 @@ class AnalyzeCall {
                        check.key);
     }
 
-    /// Adds the condition of --check without a text: the set is valid.
+    /// Adds valid == true, the condition of --check without a text, for each analyzer with that
+    /// result.
     void add_bare_check() {
         const std::size_t before = checks_.size();
         for (const auto& analysis : analyses_)
@@ -403,8 +404,8 @@ class AnalyzeCall {
 
     [[nodiscard]] bool interrupted() const { return session_.run().stop.stop_requested(); }
 
-    /// Prints the results that analyses returned after a stop request: the best found so far. Not
-    /// for means, which would lack sets, nor for files.
+    /// Prints the results that analyses returned after a stop request: the best found so far.
+    /// Means, which would lack sets, and files are not written: throws instead.
     int print_what_is_known() {
         if (request_.averaged() || path_ != "-" || ranks_.size() > 1) session_.run().check_stop();
         print();

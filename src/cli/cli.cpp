@@ -23,7 +23,7 @@ int exit_code(ErrorKind kind) {
     return codes.at(static_cast<std::size_t>(kind));
 }
 
-/// @throws Error(usage) if the verb needs a unit and none is named
+/// Checks that a unit is named if the verb needs one. @throws Error(usage)
 void require_unit(const Arguments& arguments) {
     const VerbInfo& info = info_of(*arguments.verb);
     const Kind* kind = units_for(info.name);
@@ -57,7 +57,8 @@ int dispatch(const Arguments& arguments) {
     return code;
 }
 
-/// Prints the final error in one line, unless another process does. Returns the exit code.
+/// Prints the error that ends the program in one line, except if another process does. Returns the
+/// exit code.
 int end_with(std::string_view verb, const Error& error) {
     const Error cause = shared_failure(error);
     const std::string what = cause.what();

@@ -21,11 +21,11 @@ namespace stipple::cli {
 
 namespace {
 
-/// Options for reading an input, and its format; nullptr: from the file's name or bytes.
+/// Options for reading an input, and its format; null: detected from the file's name or bytes.
 std::pair<ReadOptions, const Format*> reading_of(const std::string& path, const Sources& from) {
     ReadOptions options{.source = path, .columns = from.columns};
     const bool raw = from.from == "f32" || from.from == "f64";
-    // The option of both files is that of the output for `convert`.
+    // For `convert`, --dtype is the type of the output.
     const auto type = from.dtype_in || from.verb == Verb::convert ? from.dtype_in : from.dtype;
     options.single = type.value_or(from.from == "f32");
     options.densities = from.densities;
@@ -47,7 +47,7 @@ std::vector<std::string> named_files(const Sources& from) {
     return from.inputs;
 }
 
-/// Opens one file to be read in blocks.
+/// Opens one file to be read in blocks. @param strengths column of weights; empty: none
 std::unique_ptr<io::PointStream> open_file(const std::string& path, const Sources& from,
                                            const std::string& strengths, const RunContext& run) {
     auto [options, format] = reading_of(path, from);
@@ -55,8 +55,8 @@ std::unique_ptr<io::PointStream> open_file(const std::string& path, const Source
     return io::open_points(path, options, run, format);
 }
 
-/// Records the domain of the table's inputs, from --parameters, --bounds or --domain; the analyzer
-/// identifies the input columns.
+/// Records the domain of a table's input columns, from --parameters, --bounds or --domain; the
+/// analyzer knows which columns these are.
 void take_told(PointSet& table, const Sources& from) {
     if (from.rescale) fail(ErrorKind::usage, "--rescale: these are rows of a table, not points");
     if (!!from.parameters + from.bounds.has_value() + from.domain.has_value() > 1)
@@ -122,7 +122,7 @@ DomainPtr input_domain(const Provenance& provenance, std::size_t dimension, cons
         return unit_cube(dimension);
     try {
         return parse_domain(domain, dimension, run);
-    } catch (const Error& e) {  // the file is at fault, not the command line
+    } catch (const Error& e) {  // the domain is from the file, not from the command line
         if (e.kind() != ErrorKind::usage) throw;
         throw Error(ErrorKind::input, fmt::format("its domain {}: {}", shown(domain), e.what()),
                     e.hint());
@@ -130,7 +130,7 @@ DomainPtr input_domain(const Provenance& provenance, std::size_t dimension, cons
 }
 
 Error named_error(const Error& e, const std::string& input, const std::string& hint) {
-    // The contents of a file can exceed a limit, too; standard input needs no name.
+    // An exceeded limit is an error of the file, too. Standard input needs no name.
     const bool of_file =
         e.kind() == ErrorKind::input || (e.kind() == ErrorKind::limit && input != "-");
     if (!of_file) return e;
@@ -215,8 +215,8 @@ struct Bounds {
         return to_cube ? unit_cube(box.dimension()) : box_domain(box);
     }
 
-    /// Checks that rows are in the box and, if `to_cube`, maps them. Rows may have more numbers than
-    /// the box has coordinates.
+    /// Checks that rows are in the box and, if `to_cube`, maps them to the unit cube. Rows may have
+    /// more numbers than the box has coordinates.
     /// @param first index of the first point, for messages
     /// @throws Error(input) for points outside
     void take(std::span<double> rows, std::size_t width, std::uint64_t first) const {
@@ -244,7 +244,7 @@ void take_domain(PointSet& set, const Sources& from) {
     if (from.domain) set.domain = parse_domain(*from.domain, set.dimension());
 }
 
-/// @throws Error(input) if the bounding box is too wide for float64
+/// Checks that the box around the points, with margins, fits float64. @throws Error(input)
 /// @param input named in the message; empty if the caller adds the name
 void require_width(const PointSet& points, const std::string& input = {}) {
     constexpr double most = 1e307;  // leaves room for margins
@@ -257,8 +257,8 @@ void require_width(const PointSet& points, const std::string& input = {}) {
                  format_number(box.low[k]), format_number(box.high[k]));
 }
 
-/// Checks points for an analyzer of the unit cube: points of another domain may be in the cube
-/// without being a sample of it. @throws Error(input) if the set has another domain
+/// Checks points for an analyzer of the unit cube: even points in the cube may be a sample of
+/// another domain. @throws Error(input) if the set has another domain
 PointSet of_the_cube(PointSet points, const Analyzer& analyzer) {
     const std::string domain = points.domain->spec();
     const auto outside = [](double x) { return !(x >= 0 && x <= 1); };
@@ -278,7 +278,7 @@ PointSet rescaled(PointSet points) {
     return around.taken(std::move(points));
 }
 
-/// --bounds, for an analyzer of points of d coordinates.
+/// The box of --bounds for points of d coordinates; nullopt if not given.
 std::optional<Bounds> bounds_of(const Sources& from, const Analyzer& analyzer, std::size_t d) {
     if (!from.bounds) return std::nullopt;
     return Bounds{parse_box(*from.bounds, d), analyzer.traits.unit_cube || from.rescale};
@@ -351,7 +351,7 @@ namespace {
 std::uint64_t drawn_seed(std::uint64_t largest) {
     std::random_device device;
     const std::uint64_t bits = (static_cast<std::uint64_t>(device()) << 32) | device();
-    // At most 53 bits, so that programs that read numbers as doubles preserve the seed.
+    // At most 53 bits, since some programs read numbers as doubles.
     return bits % (std::min(largest, (std::uint64_t{1} << 53) - 1) + 1);
 }
 

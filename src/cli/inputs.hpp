@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Input points of a verb: from files, with --from, -d, --column, --dtype, --domain, --bounds and
-// --rescale, or from a generator, with --generate.
+// Input points of a verb: from files (with --from, -d, --column, --dtype, --domain, --bounds and
+// --rescale), or from a generator (--generate).
 #pragma once
 
 #include <memory>
@@ -17,14 +17,14 @@
 
 namespace stipple::cli {
 
-/// Inputs from the command line, by default standard input unless --generate is given; files joined
-/// by --concat are one input. @throws Error(usage) if standard input is named twice
+/// Inputs on the command line; without any, standard input if --generate is not given, either.
+/// Files joined by --concat are one input. @throws Error(usage) if standard input is named twice
 std::vector<std::string> input_names(const Sources& from);
 
 /// The input of a verb that takes exactly one. @throws Error(usage) if there are more
 std::string only_input(const Sources& from, const std::string& hint = {});
 
-/// Sets of an input, with their domain; with --concat, all files as one set.
+/// Reads all sets of an input, with their domains; with --concat, all files as one set.
 std::vector<PointSet> read_input(const std::string& path, const Sources& from,
                                  const RunContext& run);
 
@@ -32,13 +32,13 @@ std::vector<PointSet> read_input(const std::string& path, const Sources& from,
 std::vector<PointSet> read_input(std::string_view bytes, const std::string& path,
                                  const Sources& from, const RunContext& run);
 
-/// Opens an input to be read in blocks; its domain is input_domain().
+/// Opens an input to be read in blocks; input_domain() returns its domain.
 /// @param strengths name of a column of weights, read after the coordinates; empty if none
 std::unique_ptr<io::PointStream> open_input(const std::string& path, const Sources& from,
                                             const RunContext& run,
                                             const std::string& strengths = {});
 
-/// Reads all sets of a stream, with their domain.
+/// Reads all sets of a stream, with their domains.
 std::vector<PointSet> read_all(io::PointStream& stream, const Sources& from, const RunContext& run);
 
 /// Removes rows with a missing number (NaN), such as failed runs; notes and returns how many.
@@ -49,11 +49,12 @@ std::size_t leave_out_gaps(PointSet& set, const std::string& input, const RunCon
 DomainPtr input_domain(const Provenance& provenance, std::size_t dimension, const Sources& from,
                        const RunContext& run);
 
-/// An error in points with the name of their input in front, if not there yet.
+/// The same error, with the name of the input in front if the error is about the points and does
+/// not name it yet.
 /// @param hint replaces the error's own hint; empty: keeps it
 Error named_error(const Error& e, const std::string& input, const std::string& hint);
 
-/// Runs work() on an input; errors in its points name the input.
+/// Runs work() on an input; errors are those of named_error().
 template <class Work>
 auto naming(const std::string& input, const Work& work, const std::string& hint = {}) {
     try {
@@ -63,19 +64,19 @@ auto naming(const std::string& input, const Work& work, const std::string& hint 
     }
 }
 
-/// Points of a file in their own coordinates, in the domain of --domain; or their bounding box
-/// mapped to the unit cube for --rescale. @throws Error(input) if that box is too wide for float64
+/// Applies --domain and --rescale, which maps the points' bounding box to the unit cube, to points
+/// of a file. @throws Error(input) if that box is too wide for float64
 PointSet placed(PointSet points, const std::string& input, const Sources& from);
 
-/// Applies --domain, --bounds and --rescale. Analyzers of the unit cube get points mapped to it;
-/// others measure in the original coordinates, with distances and integrals in the box.
+/// Applies --domain, --bounds and --rescale. The box of --bounds is mapped to the unit cube for
+/// analyzers of the cube and with --rescale; otherwise it becomes the domain.
 PointSet prepared(PointSet points, const Analyzer& analyzer, const Sources& from);
 
-/// Domain and number of a stream's points, prepared like prepared().
+/// Domain and number of a stream's points, after the same options as prepared() applies.
 Arrival arrival_of(const io::PointStream& stream, bool weighted, const Analyzer& analyzer,
                    const Sources& from, const RunContext& run);
 
-/// Rows from `next`, mapped as --bounds requires. @param first index of the first point
+/// Rows from `next`, checked and mapped as --bounds requires. @param first index of the first point
 NextRows within_bounds(NextRows next, const Arrival& arrival, std::uint64_t first,
                        const Analyzer& analyzer, const Sources& from);
 
@@ -83,19 +84,20 @@ NextRows within_bounds(NextRows next, const Arrival& arrival, std::uint64_t firs
 SharedSet shared_files(const Sources& from, const Analyzer& analyzer, const std::string& strengths,
                        Ranks& ranks, const RunContext& run);
 
-/// The seed of --seed, or a random one, at most `largest`, which is reported.
+/// The seed of --seed; for --seed random, a random one up to `largest`, which is reported.
 std::uint64_t seed_of(const Request& request, std::uint64_t largest, Session& session);
 
 /// Largest seed that the generator accepts.
 std::uint64_t largest_seed(const Generator& generator, const Values& values);
 
-/// The seed of --seed, or a random one, which the generators of --generate accept.
+/// As seed_of(); a random seed is one that all generators of --generate accept.
 std::uint64_t seed_for_generators(const Sources& from, Session& session);
 
-/// Sets requested by -n, -d, --start, --sets, --warp and --parameters; without seed and bounds.
+/// Sets requested by -n, -d, --start, --sets, --warp and --parameters; the caller sets seed and
+/// bounds.
 SetsToMake sets_asked(const Generator& generator, Values options, const Sources& from);
 
-/// Sets of a --generate spec, with -n, -d, --start and --warp.
+/// Sets of a --generate spec, with the options of sets_asked().
 GeneratedSets generated_sets(const std::string& spec, std::uint64_t seed, const Sources& from,
                              const RunContext& run);
 

@@ -27,7 +27,7 @@ std::optional<std::uint64_t> started_by_mpirun() {
     return environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"});
 }
 
-/// Ranks that this process has joined; nullptr before.
+/// Ranks that this process has joined; null before it joins.
 std::unique_ptr<Ranks>& joined() {
     static std::unique_ptr<Ranks> ranks;
     return ranks;

@@ -13,7 +13,7 @@ namespace stipple::cli {
 /// Number of processes that an MPI launcher started; 1 without a launcher.
 std::uint64_t launched_ranks();
 
-/// Whether mpirun started this process. It then has a terminal of its own even if the output is
+/// Whether mpirun started this process, which then writes to a terminal even if mpirun's output is
 /// redirected to a file.
 bool is_launched();
 
@@ -21,12 +21,13 @@ bool is_launched();
 /// a verb that ranks share. Processes of other verbs report their own errors.
 bool is_mute(std::string_view verb);
 
-/// Joins the other processes, until leave_ranks().
-/// @throws Error(usage) if there are others but MPI does not connect them or is not built in
+/// Joins the other processes that the launcher started, until leave_ranks().
+/// @throws Error(usage) if there are several processes, but MPI does not connect them or is not
+/// built in
 Ranks& launched(std::string_view verb, const RunContext& run);
 
-/// The error that ends this process: its own, which the other ranks receive, or that of a rank that
-/// failed before.
+/// The error to report for this process: its own, which is then sent to the other ranks, or that of
+/// a rank that failed earlier.
 Error shared_failure(const Error& error);
 
 /// Leaves the ranks. Call it after all messages: a launcher ends all processes when one fails.

@@ -44,10 +44,10 @@
 namespace stipple::cli {
 namespace {
 
-constexpr std::size_t most_overlaid = 7;  ///< sets in one frame, one per colour
-constexpr std::size_t most_frames = 12;   ///< frames on one sheet
+constexpr std::size_t most_overlaid = 7;  ///< limit for sets in one frame: one per colour
+constexpr std::size_t most_frames = 12;   ///< limit for frames on one sheet
 
-/// Extra width of the last frame of a row, for the bar of colours.
+/// Extra width of the last frame in a row, for the colour bar.
 constexpr double room_of_bar = plot::colour_bar_room - plot::picture_margin / 2;
 
 Medium medium_of(std::optional<Medium> named, const std::string& path) {
@@ -73,12 +73,12 @@ struct Loaded {
     std::string source;
     std::optional<std::size_t> number;  ///< index in the file, if it has several sets
     bool npy;                           ///< read from NPY, so possibly a table saved by --grid
-    std::string title;                  ///< from the provenance or the source
+    std::string title;                  ///< made from the provenance or the source
     std::size_t left_out = 0;           ///< number of rows with missing numbers
 };
 
-/// Title for a picture of points: "halton", "sobol, disk"; without a generator the file's name, or
-/// "points".
+/// Title for a picture of points: "halton", "sobol, disk"; if the generator is unknown, the file's
+/// name or "points".
 std::string title_of_points(const Provenance& from, const std::string& source) {
     if (from.generator.empty())
         return source == "-" || source.empty() ? "points" : source.substr(source.rfind('/') + 1);
@@ -89,7 +89,7 @@ std::string title_of_points(const Provenance& from, const std::string& source) {
 }
 
 bool seed_matters(const Generator& generator, const Provenance& from) {
-    // Scrambles, such as "owen" or "owen:depth=3", are random, unlike warps.
+    // Scrambles, such as "owen" or "owen:depth=3", depend on the seed, unlike warps.
     for (const std::string& warp : from.warps)
         if (scramble_named(warp.substr(0, warp.find_first_of(":@"))) != nullptr) return true;
     try {
@@ -97,11 +97,11 @@ bool seed_matters(const Generator& generator, const Provenance& from) {
         for (const auto& [name, text] : from.options) generator.options.set(values, name, text);
         return uses_seed(generator, values);
     } catch (const Error&) {
-        return generator.traits.seeded;  // options of another version of stipple
+        return generator.traits.seeded;  // the options are those of another version of stipple
     }
 }
 
-/// Options that differ from their defaults, such as "scramble=owen".
+/// Options that differ from their defaults, such as "scramble=owen", except long ones.
 std::vector<std::string> options_in(const Provenance& from, const Generator& generator) {
     std::vector<std::string> changed;
     const auto defaults = typed_settings(generator.options.defaults(), generator.options);
@@ -128,8 +128,8 @@ std::string full_title(const Loaded& set) {
                        set.title.substr(from.generator.size()));
 }
 
-/// "1024 points, seed 3, scramble=owen": with the options that differ from defaults, and the seed
-/// if it affects the points.
+/// "1024 points, seed 3, scramble=owen": the count, the seed if it affects the points, and the
+/// options that differ from their defaults.
 std::string subtitle_of(const Loaded& set) {
     const Provenance& from = set.points.provenance;
     const std::size_t n = set.points.count();
@@ -150,7 +150,7 @@ std::string number_of(const Loaded& set) {
     return set.number ? fmt::format(" (set {})", *set.number) : "";
 }
 
-/// Key of the side of a cell, if a grid shows distances.
+/// Key of the result with the side of a cell, for grids over distances.
 constexpr const char* pixel_key = "pixel";
 
 /// One `plot` call: the sets or reports read, and their picture.
@@ -210,7 +210,7 @@ class Plot {
             if (height) room_.rows = *height;
             return;
         }
-        // Text keeps its size in small pictures, and grows in large ones.
+        // Text has its usual size in small pictures, and grows with large ones.
         constexpr double usual = 800;
         const double wide = static_cast<double>(width.value_or(0));
         const double high = static_cast<double>(height.value_or(0));
@@ -276,7 +276,7 @@ class Plot {
         }
     }
 
-    /// Adds the rows of a study. If there are several studies, the names of generators start with
+    /// Adds the rows of a study. If there are several studies, prefixes the generators' names with
     /// the file's name.
     void add_study(std::vector<MeanRow> means, const std::string& input) {
         if (means.empty()) fail(ErrorKind::input, "{}: the study has no rows", input);
@@ -286,7 +286,7 @@ class Plot {
         std::ranges::move(means, std::back_inserter(means_));
     }
 
-    /// Keeps only the set of --set, numbered from 0 as in the files.
+    /// Keeps only the set or report of --set, counted from 0 over all inputs.
     void pick_set() {
         if (!means_.empty()) return;
         const std::size_t there = std::max(sets_.size(), reports_.size());
@@ -301,8 +301,8 @@ class Plot {
         reports_.empty() ? pick(sets_) : pick(reports_);
     }
 
-    /// Applies --labels and --axes where names are needed before drawing: in sets of points and
-    /// generators of studies.
+    /// Applies --labels to sets and generators of studies, and --axes to coordinates, before
+    /// anything is drawn.
     void rename_sources() {
         for (Loaded& set : sets_) rename_columns(set);
         if (labels_.empty()) return;
@@ -481,7 +481,7 @@ class Plot {
         std::function<plot::Drawing(std::size_t part, const plot::PictureStyle&, bool last_in_row)>;
     using WritePart = std::function<std::string(std::size_t part, const plot::TextRoom&)>;
 
-    /// Arranges parts in rows and columns below the title of --title.
+    /// Arranges parts in rows and columns below the text of --title.
     /// @param more additional width of the last part in each row
     std::string on_sheet(std::size_t parts, double more, const DrawPart& draw) {
         const std::size_t columns = columns_of(parts);
@@ -512,12 +512,13 @@ class Plot {
         return plot::sheet_columns(parts, both ? style_.width / style_.height : 0);
     }
 
-    /// Chooses the scale so that a sheet of this size, in units, fits the requested size.
+    /// Chooses the scale for a sheet of this size, in units, so that it fits the requested size in
+    /// pixels.
     void fit_to(double width, double height) {
         const double across = style_.width * style_.scale;
         const double upward = style_.height * style_.scale;
         if (!(across > 0 || upward > 0)) return;
-        constexpr double least = 0.6;  // the smallest at which letters are legible
+        constexpr double least = 0.6;  // smallest scale with legible letters
         const double scale = std::min(across > 0 ? across / width : HUGE_VAL,
                                       upward > 0 ? upward / height : HUGE_VAL);
         style_.scale = std::max(least, scale);
@@ -525,7 +526,7 @@ class Plot {
         style_.height = upward / style_.scale;
     }
 
-    /// @throws Error(usage) if frames of that width, in so many rows, are too small to draw points
+    /// Checks that frames are large enough for points. @throws Error(usage)
     void require_room(double columns, double width, double more, double rows, double top) const {
         constexpr double least_width = 150;
         constexpr double least_height = 200;
@@ -545,7 +546,7 @@ class Plot {
         return (title.empty() ? "" : printable(title) + "\n") + plot::side_by_side(written, room_);
     }
 
-    /// @throws Error(usage) if a logarithmic axis is requested for a picture that cannot have one
+    /// Rejects a logarithmic axis for a picture that cannot have one. @throws Error(usage)
     void refuse_scales(const char* what) const {
         for (const auto& [name, log] :
              {std::pair{"x-scale", style_.log_x}, {"y-scale", style_.log_y}})
@@ -563,7 +564,7 @@ class Plot {
 
     std::string finished(plot::Drawing drawing) {
         plot::fill_height(drawing, style_.height);
-        constexpr double pixel_bytes = 14;  // colours, marks, and two copies on the way to libpng
+        constexpr double pixel_bytes = 14;  // colours, coverage, and two copies for libpng
         if (medium_ == Medium::png)
             session_.run().need_memory(
                 pixel_bytes * drawing.width * drawing.height * style_.scale * style_.scale,
@@ -574,7 +575,7 @@ class Plot {
                                         : plot::png_bytes_of(drawing, style_.scale, notes);
     }
 
-    /// The table saved by --grid, if the input is one.
+    /// The table of the input, if --grid saved it.
     [[nodiscard]] std::optional<plot::SpectralTable> saved_table() const {
         std::vector<const PointSet*> sets;
         for (const Loaded& set : sets_) {
@@ -584,7 +585,8 @@ class Plot {
         return plot::spectral_table(sets);
     }
 
-    /// Axis names for a table of differences. @param pixel side of a pixel, if known
+    /// Axis names for a table of differences. @param pixel side of a pixel in mean distances, if
+    /// known
     [[nodiscard]] plot::TableNames names_of(std::optional<double> pixel) const {
         if (!pixel) return renamed({.x = "Δx (pixels)", .y = "Δy (pixels)", .shade = "density"});
         return renamed({.x = "Δx / mean distance",
@@ -593,7 +595,7 @@ class Plot {
                         .cell = *pixel});
     }
 
-    /// Replaces the names by those of --axes.
+    /// Replaces the axis names by those of --axes, if given.
     [[nodiscard]] plot::TableNames renamed(plot::TableNames names) const {
         if (axes_.empty()) return names;
         if (axes_.size() != 2)
@@ -631,7 +633,7 @@ class Plot {
         return pixel ? names_of(pixel) : renamed({});
     }
 
-    /// Draws each table in a frame, with one bar for all shades at the end of each row.
+    /// Draws each table in a frame, with a bar for the shades at the end of each row.
     std::string sheet_of_tables(const std::vector<Measurement>& found) {
         const std::vector<std::size_t> firsts = firsts_of_inputs();
         if (medium_ == Medium::text)
@@ -659,7 +661,7 @@ class Plot {
         return finished(plot::draw_spectrum(table, title, subtitle, style_, names));
     }
 
-    /// Measurements with a table, one for each input.
+    /// Measurements with a plane table, one for each input.
     std::vector<Measurement> analyzed_tables() {
         auto found = analyzed();
         if (found.size() > most_frames) {
@@ -676,7 +678,8 @@ class Plot {
         return found;
     }
 
-    /// Draws each set in a frame, all with the same colours and a bar at the end of each row.
+    /// Draws the local discrepancy of each set in a frame, with one colour scale for all and a bar
+    /// at the end of each row.
     std::string local_discrepancies() {
         refuse_options(request_, "overlay,draw", "is not for the local discrepancy");
         refuse_scales("a local discrepancy");
@@ -722,7 +725,7 @@ class Plot {
         return drawn(chart);
     }
 
-    /// Measurements with default options: one for each input, the mean of its sets.
+    /// Measures with default options: one measurement for each input, the mean over its sets.
     std::vector<Measurement> analyzed() {
         const Analyzer& analyzer = *charted_;
         const Values options = analyzer.options.defaults();
@@ -835,7 +838,7 @@ class Plot {
         return text;
     }
 
-    /// Notes with the command that draws this picture, without options that do not affect it.
+    /// Metadata of the picture: version, command, and the provenance of a single generated set.
     [[nodiscard]] plot::PictureNotes notes_of() const {
         Json note = {{"tool", "stipple"}, {"version", STIPPLE_VERSION}, {"command", command()}};
         if (sets_.size() == 1 && !sets_[0].points.provenance.generator.empty())
@@ -849,8 +852,8 @@ class Plot {
     std::string path_;
     Medium medium_;
     const std::string& chart_;
-    const Analyzer* charted_ = nullptr;  ///< whose results --chart shows
-    std::string grid_title_;             ///< empty: they are a curve
+    const Analyzer* charted_ = nullptr;  ///< analyzer whose results --chart shows
+    std::string grid_title_;             ///< title if the results are a grid; empty for a curve
     const std::vector<std::string>& labels_;
     const std::vector<std::string>& axes_;
     plot::PictureStyle style_;

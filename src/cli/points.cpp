@@ -22,7 +22,8 @@
 namespace stipple::cli {
 namespace {
 
-/// Command that reproduces these bytes, without options that do not affect them.
+/// Command for the provenance: makes these points in this format, without options that do not
+/// affect them.
 std::string command_of(const GenerateRequest& request, const SetsToMake& job,
                        const Target& target) {
     const Generator& generator = *job.generator;
@@ -40,8 +41,8 @@ std::string command_of(const GenerateRequest& request, const SetsToMake& job,
     return text;
 }
 
-/// Files for --vector-output with the lattice in the provenance, using the results of its search if
-/// there was one.
+/// Files for --vector-output: the lattice in the provenance, from the results of its search if it
+/// was searched for.
 std::vector<SideFile> vector_files(const Provenance& meta, const ConvertRequest& request,
                                    const RunContext& run) {
     const Generator* generator = generator_named(meta.generator);
@@ -68,9 +69,11 @@ std::vector<SideFile> vector_files(const Provenance& meta, const ConvertRequest&
     return sets.side_files();
 }
 
-/// Positions of a warp's coordinates (or of its image, if `back`) among the columns, matched by the
-/// names in its domain. Used if a table has them in another order or among other columns.
-/// @throws Error(input) if the table has only some of them, or with `back` any other names
+/// Positions among the columns of the coordinates that a warp takes (those of its image if `back`),
+/// matched by the names in its domain. Empty if no column has such a name, or if the columns are
+/// exactly these, in order.
+/// @throws Error(input) if only some of the names are columns or, with `back`, if other columns
+/// exist
 std::vector<std::size_t> coordinates_by_name(const Spec& spec,
                                              const std::vector<std::string>& columns, bool back,
                                              const RunContext& run) {
@@ -191,7 +194,8 @@ int GenerateRequest::perform(Session& session) const {
 
 namespace {
 
-/// The warp or scramble of the request, with its parameters. @throws Error(usage)
+/// Spec of the requested warp or scramble, with settings and coordinates. @param scrambled null for
+/// a warp @throws Error(usage)
 Spec spec_of(const WarpRequest& request, const Scramble* scrambled) {
     settings_of(scrambled ? scrambled->options : find_warp(request.unit).options, request);
     Spec spec{.name = request.unit, .coordinates = {}, .settings = request.settings};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The verb `report`: sets in, one page about them out.
+// The verb `report`: sets in, one page about all of them out.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,13 +33,13 @@ struct PendingSet {
     PointSet points;
     page::Set set;
     page::Input input;
-    /// All generated sets; this is the first of them.
+    /// All sets of the generator, of which this one is the first; null if it is the only one.
     std::shared_ptr<const GeneratedSets> others = {};
 };
 
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
-/// Possible keys of a measure's results.
+/// Known keys of a measure's results.
 std::vector<std::string> keys_of(const std::string& measure, const Analyzer& analyzer) {
     std::vector<std::string> keys;
     for (const ResultKey& result : analyzer.results)
@@ -51,7 +51,7 @@ std::vector<std::string> keys_of(const std::string& measure, const Analyzer& ana
     return keys;
 }
 
-/// Parses a condition and completes its key: a measure alone stands for its value.
+/// Parses a condition and completes its key: a measure's name alone means its result `value`.
 /// @throws Error(usage) for a key that no page has, or a condition that never holds
 Check condition_of(const std::string& text, const std::string& option) {
     Check check = parse_check(text, option);
@@ -121,7 +121,7 @@ class Reporter {
         for (std::size_t i = 0; i < pending_.size(); ++i) whole.sets.push_back(finished(i));
         whole.title = title_of(whole.sets);
         const bool fine = judge(whole.sets);
-        if (fine)  // if something failed, that message is enough
+        if (fine)  // after a failed condition, its message is enough
             for (const page::Set& set : whole.sets) warn_of_nothing(set);
         session_.run().check_stop();
         if (output.write(json_ ? page::to_json(whole) : page::to_html(whole))) output.commit();
@@ -167,7 +167,7 @@ class Reporter {
         }
     }
 
-    /// The file as an argument of 'stipple analyze'.
+    /// The file, with its reading options, as arguments of 'stipple analyze'.
     [[nodiscard]] std::string words_of_file(const std::string& input) const {
         return shell_word(input) +
                typed_options(request_, {"from", "dimension", "column", "input-dtype", "dtype",
@@ -188,14 +188,16 @@ class Reporter {
         pending_.push_back(std::move(next));
     }
 
-    /// Options shared by all generated sets, as typed for the first set of each generator.
+    /// Options shared by all generated sets, for the command that makes the first set of a
+    /// generator.
     [[nodiscard]] std::string of_generated() const {
         return typed_options(request_,
                              {"count", "dimension", "start", "warp", "parameters", "unit-cube"}) +
                (request_.seed ? fmt::format(" --seed {}", seed_) : "");
     }
 
-    /// @throws Error if the sets cannot be on one page
+    /// Checks that the sets can be on one page: at most most_sets, all of one dimension. @throws
+    /// Error(usage), Error(input)
     void check_sets() const {
         if (pending_.size() > page::most_sets)
             fail_with_hint(ErrorKind::usage, "'stipple study' compares more, as tables",
@@ -255,7 +257,7 @@ class Reporter {
         return whole;
     }
 
-    /// Report without grids and long lists: the values for conditions and means.
+    /// A report without grids and long lists, which suffices for conditions and means.
     static Report without_curves(const Report& report) {
         constexpr std::size_t few = 64;
         Report kept;
@@ -269,7 +271,7 @@ class Reporter {
         return kept;
     }
 
-    /// Warns if nothing could be measured of a set of the inputs, which is usually a mistake.
+    /// Warns if no measure could be applied to a set from a file, which is usually a mistake.
     void warn_of_nothing(const page::Set& set) const {
         const auto inputs = input_names(request_);
         if (std::ranges::find(inputs, set.source) == inputs.end() ||
@@ -282,7 +284,8 @@ class Reporter {
             set.name, set.measures.front().left_out));
     }
 
-    /// Whether all conditions certainly hold; a missing value counts as a failure.
+    /// Whether all conditions certainly hold; a missing value fails its condition. Reports
+    /// failures.
     bool judge(const std::vector<page::Set>& sets) const {
         bool fine = true;
         for (const Check& check : conditions_) {
@@ -326,7 +329,8 @@ class Reporter {
         return measure.results ? "no result" : fmt::format("not known ({})", measure.left_out);
     }
 
-    /// @throws Error(usage) if the measure does not have the key
+    /// Checks that a measured set has the key, or that the measure was left out. @throws
+    /// Error(usage)
     static void require_known(const Check& check, const std::vector<page::Set>& sets) {
         const std::string& key = check.key;
         std::string hint;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The verb `reproduce`: makes a file's points again from its own provenance. The command in the
-// provenance has the options as typed; the provenance's options also have computed values, such as
-// a radius.
+// The verb `reproduce`: makes the points of a file again from its provenance, and compares. The
+// points are made by the command in the provenance, which has the options as typed; the options in
+// the provenance also include computed values, such as a radius.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -43,12 +43,12 @@ struct Original {
     std::string path;                   ///< path that can be opened repeatedly
     std::shared_ptr<Spool> spool = {};  ///< owns the copy of a pipe
     Provenance meta = {};
-    const Format* format = nullptr;         ///< if not determined by the file's name and bytes
+    const Format* format = nullptr;         ///< null: from the file's name and bytes
     std::optional<std::size_t> width = {};  ///< numbers per point, if not determined by the bytes
     std::size_t sets = 0;                   ///< sets in the file; 0: determined by the bytes
-    std::string picture = {};  ///< option of the generator that wrote it, if it is a picture
+    std::string picture = {};  ///< for a picture by a generator: the option that names it
     bool drawn = false;        ///< SVG or PLY, which cannot be read back
-    std::string plotted = {};  ///< command that drew it, if it is a picture of points
+    std::string plotted = {};  ///< for a picture by `stipple plot`: the command that drew it
 };
 
 [[noreturn]] void refuse_without_provenance(const Original& original) {
@@ -65,9 +65,9 @@ bool is_study(std::string_view front) {
     return line.starts_with("table,generator,") || line.starts_with("table,dimension,");
 }
 
-/// @throws Error(input) for stipple's files without points, such as reports, with a hint about what
-/// can be made again from them
-/// @param front first bytes of the file, at least a few hundred if it has so many
+/// Rejects stipple's files without points, such as reports. @throws Error(input) with a hint about
+/// what can be made again from the file
+/// @param front first bytes of the file; the first 1000 are searched
 void refuse_without_points(const std::string& name, std::string_view front) {
     const auto top = front.substr(0, 1000);
     const auto has = [top](std::string_view words) {
@@ -101,7 +101,7 @@ void refuse_without_points(const std::string& name, std::string_view front) {
         if (is_it) fail_with_hint(ErrorKind::input, hint, "{}: {}", name, what);
 }
 
-/// A pipe's bytes in a temporary file.
+/// Copies a pipe to a temporary file.
 std::shared_ptr<Spool> spooled(const std::string& pipe, const RunContext& run) {
     auto spool = std::make_shared<Spool>();
     spool->write(io::read_bytes(pipe, run));
@@ -109,7 +109,7 @@ std::shared_ptr<Spool> spooled(const std::string& pipe, const RunContext& run) {
     return spool;
 }
 
-/// Reads the provenance from a picture by `stipple plot`; false if it is not one.
+/// Reads the provenance from a picture by `stipple plot`; returns false for other files.
 bool take_plot(Original& original, std::string_view picture) {
     const Json note = try_parse_json(io::picture_note(picture).value_or(""));
     if (!note.is_object() || note.contains("format") || !note.contains("command")) return false;
@@ -121,7 +121,8 @@ bool take_plot(Original& original, std::string_view picture) {
     return true;
 }
 
-/// Reads the provenance of files that are not read as points; false if it is not such a file.
+/// Reads provenance from a picture, a ply or svg file, or a sidecar file; returns false if there is
+/// none of these.
 bool take_carried(Original& original, std::string_view front, const RunContext& run) {
     std::optional<io::CarriedMeta> carried;
     const std::string beside = io::meta_path(original.path);
@@ -146,7 +147,7 @@ bool take_carried(Original& original, std::string_view front, const RunContext& 
     return true;
 }
 
-/// Opens its points, read by one thread: the others make the points again.
+/// Opens the points of a file. One thread reads them, while the others make the points again.
 /// @param options columns to read
 std::unique_ptr<io::PointStream> open_original(const Original& original, ReadOptions options,
                                                const RunContext& run) {
@@ -159,8 +160,7 @@ std::unique_ptr<io::PointStream> open_original(const Original& original, ReadOpt
     return io::open_points(original.path, options, reading, original.format);
 }
 
-/// @throws Error(input) for a file without points or without a record of how they were made; the
-/// message names its type and what can be made again from it
+/// Reads the provenance of a file. @throws Error(input) if the file has no points or no provenance
 Original read_original(const std::string& input, const RunContext& run) {
     const auto status = status_of(input);
     const bool pipe =
@@ -174,7 +174,7 @@ Original read_original(const std::string& input, const RunContext& run) {
     refuse_without_points(original.name, feed.front());
     const bool carried = take_carried(original, feed.front(), run);
     if (!carried && io::format_of_extension(original.path) == &io::format_named("bin"))
-        refuse_without_provenance(original);  // the format cannot store one
+        refuse_without_provenance(original);  // bin cannot store provenance
     if (!carried) original.meta = open_original(original, {}, run)->provenance();
     if (original.meta.generator.empty()) refuse_without_provenance(original);
     return original;
@@ -223,7 +223,8 @@ Arguments arguments_of(const Provenance& meta, const std::string& name) {
     return typed;
 }
 
-/// Replaces --parameters by the warp in the provenance, which has the contents of that file.
+/// Replaces --parameters by the warp in the provenance, which contains the parameter file's
+/// contents.
 void take_parameters(Arguments& typed, const Provenance& meta) {
     if (!typed.has("parameters")) return;
     const auto before = static_cast<std::size_t>(std::ranges::count_if(
@@ -238,7 +239,8 @@ void take_parameters(Arguments& typed, const Provenance& meta) {
         typed.common.emplace_back("dimension", std::to_string(meta.dimension));
 }
 
-/// Arguments of the provenance's command.
+/// Arguments of the command in the provenance, or reconstructed ones if it is not a `generate`
+/// command.
 Arguments typed_for(const Original& original) {
     const auto words = shell_words(original.meta.command);
     if (words.size() < 3 || words[1] != "generate")
@@ -254,7 +256,7 @@ Arguments typed_for(const Original& original) {
 struct Recipe {
     GenerateRequest request;
     SetsToMake job;
-    std::vector<std::string> steps;  ///< warps of later runs
+    std::vector<std::string> steps;  ///< warps that later commands applied
 };
 
 /// Runs work() on the provenance; its usage errors become errors of the file.
@@ -277,7 +279,7 @@ Recipe recipe_of(const Original& original, Session& session) {
     Recipe recipe;
     if (!meta.flaw.empty()) fail(ErrorKind::usage, "{}", meta.flaw);
     Arguments typed = typed_for(original);
-    // The options in the provenance are checked as on a command line.
+    // Checks the options in the provenance as those of a command line.
     Values known = generator.options.defaults();
     for (const auto& [name, text] : meta.options) generator.options.set(known, name, text);
     // Options that only write side files do not affect the points.
@@ -316,7 +318,7 @@ std::uint64_t stream_version_of(const std::string& name) {
     return scramble ? scramble->stream_version : std::max(of(warps::all()), of(generators::all()));
 }
 
-/// Sentence about the first unit whose stream version has changed; empty if none has.
+/// Sentence about the first unit whose stream version has changed since; empty if all are the same.
 std::string changed_rules(const Provenance& meta) {
     std::vector<std::string> units = {find_generator(meta.generator).name};
     for (std::string warp : meta.warps) {
@@ -338,8 +340,8 @@ std::string changed_rules(const Provenance& meta) {
     return {};
 }
 
-/// Files that the recipe may read: only those named on the command line. Inputs are identified by
-/// their fingerprints, so they may have been renamed.
+/// Rules for the files that the recipe may read: only those of this command line. Inputs are
+/// identified by their fingerprints, so that they may have been renamed.
 std::unique_ptr<FileRules> rules_for(const Original& original, const ReproduceRequest& request,
                                      const RunContext& run) {
     std::map<std::string, std::string> readable = {{original.path, original.path}};
@@ -371,7 +373,7 @@ std::unique_ptr<FileRules> rules_for(const Original& original, const ReproduceRe
 
 // ---------------------------------------------------------------- the verdict
 
-/// Result, for people and for programs.
+/// Result of the comparison, as a sentence and as JSON.
 struct Verdict {
     bool identical = false;
     std::string sentence;
@@ -392,7 +394,7 @@ class Reproducer {
   public:
     Reproducer(const Original& original, Recipe recipe, Session& session)
         : original_(original), recipe_(std::move(recipe)), session_(session), run_(session.run()) {
-        run_.warn = nullptr;  // these warnings were shown when the points were first made
+        run_.warn = nullptr;  // warnings were shown when the points were first made
         written_.precision = original.meta.precision;
         written_.single = original.meta.single;
     }
@@ -403,7 +405,7 @@ class Reproducer {
         return original_.drawn ? compare_bytes() : compare_points();
     }
 
-    /// Writes the points to a file.
+    /// Makes the points again and writes them to a file.
     void write(const std::string& path) {
         Arguments typed = recipe_.request;
         typed.common.emplace_back("output", path);
@@ -425,7 +427,7 @@ class Reproducer {
     Verdict compare_points() {
         const auto stream = open_original(original_, {.all_columns = true}, run_);
         written_.columns = columns_behind(stream->dimension());
-        // The reader of raw numbers cannot tell how many sets there are.
+        // Raw numbers do not show where a set ends.
         const bool raw = original_.format != nullptr && original_.format->name == "bin";
         const std::size_t sets = raw ? original_.sets : stream->sets().value_or(0);
         if (sets == 1) recipe_.job.sets = 1;
@@ -448,7 +450,7 @@ class Reproducer {
         return names;
     }
 
-    /// Extra columns after the coordinates, deduced from the numbers per point.
+    /// Extra columns after the coordinates, deduced from `width`, the numbers per point.
     [[nodiscard]] Columns columns_behind(std::size_t width) const {
         const std::size_t d = original_.meta.dimension;
         if (width == d + 2) return {.pdf = true, .weight = true};
@@ -467,7 +469,7 @@ class Reproducer {
         return true;
     }
 
-    /// Warns of options in the provenance that would have other values today, although the points
+    /// Warns of computed options in the provenance that have other values now, although the points
     /// may be equal.
     void tell_differences(const Provenance& made) const {
         if (!recipe_.steps.empty() || made.options.empty()) return;
@@ -478,7 +480,7 @@ class Reproducer {
                                 original_.name, option.first, option.second, STIPPLE_VERSION));
     }
 
-    /// Message if the points are equal but the provenance is wrong; empty if it is right.
+    /// Message if the provenance contradicts the points, which are equal; empty if it is right.
     [[nodiscard]] std::string contradiction(const Provenance& made) const {
         const Provenance& told = original_.meta;
         const auto text = [](std::uint64_t number) { return std::to_string(number); };
@@ -586,7 +588,7 @@ class Reproducer {
     Recipe recipe_;
     Session& session_;
     RunContext run_;
-    Target written_;  ///< format of the numbers in the file
+    Target written_;  ///< float32, precision and extra columns of the file
 };
 
 int say(const Original& original, const Verdict& verdict, const std::string& changed,
@@ -615,7 +617,8 @@ int say(const Original& original, const Verdict& verdict, const std::string& cha
     return verdict.identical ? 0 : 1;
 }
 
-/// Makes the points of a picture by `plot` again; there are no numbers to compare.
+/// Handles a picture by `plot`, which has no numbers to compare: writes its points to `output`.
+/// @throws Error(input) without `output`
 int remake_plotted(const Original& original, Reproducer& reproducer,
                    const std::optional<std::string>& output) {
     const Provenance& meta = original.meta;

@@ -39,14 +39,14 @@ std::uint64_t allocated_bytes() {
 }
 
 std::stop_source& interrupts() {
-    // Never destroyed, since signals may arrive after statics are.
+    // Never destroyed, since signals may arrive after the destruction of statics.
     static auto* const source = new std::stop_source;
     return *source;
 }
 
 pthread_t main_thread;  // NOLINT: read by the signal handler
 
-/// Time of the first signal in milliseconds; 0 if there was none.
+/// Time of the first signal in milliseconds; 0 before it.
 volatile std::sig_atomic_t interrupted_at = 0;
 
 std::sig_atomic_t milliseconds() {
@@ -57,7 +57,8 @@ std::sig_atomic_t milliseconds() {
 }
 
 /// Requests a stop; lock-free, because this stop source has no callbacks. A second signal ends the
-/// program, except within 200 ms: then it is the first one, sent to both the process and its group.
+/// program, except within 200 ms: then it is the same signal, sent to both the process and its
+/// group.
 extern "C" void on_interrupt(int signal) {
     constexpr std::sig_atomic_t at_once = 200;
     if (interrupted_at == 0) {
@@ -67,7 +68,7 @@ extern "C" void on_interrupt(int signal) {
         std::raise(signal);  // delivered when the handler returns
     }
     interrupts().request_stop();
-    // Only the main thread may be in a blocking call, which must be woken.
+    // Wakes the main thread, the only one that may be in a blocking call.
     if (!pthread_equal(pthread_self(), main_thread)) pthread_kill(main_thread, signal);
 }
 
@@ -133,7 +134,7 @@ Session::Session(const Request& request)
     run_.threads = request.threads;
     run_.max_memory = request.max_memory ? *request.max_memory
                                          : static_cast<std::uint64_t>(0.8 * memory_of_machine());
-    limit_whole_files(run_.max_memory / 3);  // processing a file takes twice its bytes
+    limit_whole_files(run_.max_memory / 3);  // leaves twice the file's bytes for processing it
     run_.memory_in_use = [before = allocated_bytes()] {
         const std::uint64_t now = allocated_bytes();
         return now - std::min(before, now);

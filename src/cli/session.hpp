@@ -46,8 +46,8 @@ class Session {
 
     [[nodiscard]] const RunContext& run() const { return run_; }
 
-    /// Prints a note to stderr, unless --quiet. It is delayed until the work is done or takes long,
-    /// so that an error is printed without notes.
+    /// Prints a note to stderr, unless --quiet: when the work is done, or 100 notes have collected,
+    /// so that a short list is not printed before an error.
     void warn(const std::string& sentence);
 
     /// Like warn(), without "note: ": for messages that an option asks for.

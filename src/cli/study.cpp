@@ -27,10 +27,9 @@
 namespace stipple::cli {
 namespace {
 
-constexpr std::uint64_t most_units = 10'000'000;  // above it, --yes is needed
+constexpr std::uint64_t most_units = 10'000'000;  // limit for studies without --yes
 
-/// The request completed by the configuration file; typed options take precedence. Errors of
-/// settings in the file name it and the key.
+/// The request, completed by the configuration file; typed options take precedence.
 StudyRequest with_config(const StudyRequest& typed, const RunContext& run) {
     const std::string& path = *typed.config;
     if (path == "-" && launched_ranks() > 1)
@@ -45,7 +44,8 @@ StudyRequest with_config(const StudyRequest& typed, const RunContext& run) {
     return request;
 }
 
-/// Rethrows an error; if its option is from the configuration, the message names the file and key.
+/// Throws an error again. If its option is from the configuration file, the message names the file
+/// and the key.
 [[noreturn]] void refuse_setting(const Error& e, const StudyRequest& typed) {
     const std::string_view what = e.what();
     const auto end = what.find(": ");
@@ -83,7 +83,7 @@ SummaryOptions summary_options(const StudyRequest& asked, std::uint64_t seed) {
     return options;
 }
 
-/// Extension, such as ".csv" of study.csv; empty if there is none, and for devices.
+/// Extension of a path, such as ".csv"; empty for devices and names without extension.
 std::string extension_of(const std::string& path) {
     if (path == "-" || path.starts_with("/dev/")) return "";
     return std::filesystem::path(path).extension().string();
@@ -199,7 +199,8 @@ class Study {
         }
     }
 
-    /// @throws Error(limit) for a huge study without --yes: one of months is probably a mistake
+    /// Rejects a huge study without --yes, which is probably a mistake. @throws Error(limit) with
+    /// its number of rows and time
     void refuse_too_much() const {
         if (request_.yes || sweep_.units() <= most_units) return;
         const StudyRow row = row_of(sweep_, sweep_.unit(0));
@@ -209,7 +210,7 @@ class Study {
             threads_of(ranks_, session_.run()) * static_cast<unsigned>(ranks_.size());
         const SweepRequest& r = sweep_.request();
         std::string takes = "about " + format_bytes(units * bytes);
-        constexpr std::uint64_t most_cells = 1'000'000;  // quick to estimate
+        constexpr std::uint64_t most_cells = 1'000'000;  // limit for a quick estimate
         if (sweep_.cells() <= most_cells)
             takes +=
                 fmt::format(" and {} on {} {}", long_time(WorkQueue(sweep_).seconds_left() / cores),

@@ -12,7 +12,7 @@
 namespace stipple::cli {
 namespace {
 
-/// Length of a list marker at the front of a line: "- ", "* " or "12. "; 0 if there is none.
+/// Length of the list marker at the front of a line: "- ", "* " or "12. "; 0 for other lines.
 std::size_t mark_of_item(std::string_view line) {
     if (line.starts_with("- ") || line.starts_with("* ")) return 2;
     const auto digits = std::min(line.find_first_not_of("0123456789"), line.size());
@@ -50,7 +50,7 @@ std::size_t text_columns() {
 std::string filled(std::string_view text, std::size_t columns, std::size_t indent) {
     std::string out;
     std::size_t used = indent;
-    bool blank = false;  // before the next word
+    bool blank = false;  // a blank precedes the next word
     for (std::size_t at = 0; (at = text.find_first_not_of(" \n", at)) != text.npos;) {
         std::size_t end = std::min(text.find_first_of(" \n|", at), text.size());
         if (end < text.size() && text[end] == '|') ++end;  // a line may end after it

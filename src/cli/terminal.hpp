@@ -23,18 +23,18 @@ bool colours_wanted();
 /// Columns of running text: the terminal's, up to a readable maximum.
 std::size_t text_columns();
 
-/// Wraps text to `columns` letters, at blanks, line ends and after '|'. All lines except the first
-/// are indented by `indent` blanks; the first is assumed to be indented already. No newline at the
-/// end.
+/// Wraps text to `columns` letters, at blanks and line ends and after '|'. Indents all lines except
+/// the first by `indent` blanks; the first is assumed to be indented already. Adds no newline at
+/// the end.
 std::string filled(std::string_view text, std::size_t columns, std::size_t indent = 0);
 
-/// A tag with wrapped text beside it, which starts at column `indent`; on the next line if the tag
-/// is longer. Ends with a newline.
+/// A tag with wrapped text beside it, from column `indent`. If the tag is too long, the text is on
+/// the next line. Ends with a newline.
 std::string beside(std::string_view tag, std::string_view text, std::size_t columns,
                    std::size_t indent);
 
-/// Wraps each paragraph and list item of a text; lines indented by four blanks, headings and tables
-/// are unchanged.
+/// Wraps each paragraph and list item of a text. Does not change lines indented by four blanks,
+/// headings and tables.
 std::string filled_page(std::string_view text, std::size_t columns);
 
 }  // namespace stipple::cli

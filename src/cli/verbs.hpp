@@ -21,44 +21,46 @@ int run(int argc, char** argv);
 /// Reads the parameter file of the request, and performs it; returns the exit code.
 int work_on(Request& request, Session& session);
 
-/// Candidates for the last of the words, with explanations, one per line; "@files" where a file
-/// name is possible. Called by the scripts of `completions`.
+/// Candidates for the last word, one per line with its explanation; "@files" if a file name is
+/// possible. Called by the scripts of `completions`.
 std::string complete(std::vector<std::string> words);
 
-/// Text of --help for the program, a verb, or a unit of a verb; made from the records.
+/// Text of --help for the program, a verb, or a unit of a verb; made from the units' records.
 std::string help_text(const Arguments& arguments);
 
 /// Versions of stipple and the libraries it is linked with.
 std::string version_text();
 
-/// The sets requested of `generate`.
+/// The sets that a `generate` command requests.
 SetsToMake sets_to_make(const GenerateRequest& request, Session& session);
 
 /// Output as requested by -o, -f, --dtype, --precision, --meta and --no-header.
 Target target_of(const Writing& request);
 
-/// Path of a verb's single output file. @throws Error(usage) for a name with {set} or {seed}
+/// Path of the output of a verb that writes one file. @throws Error(usage) for a name with {set} or
+/// {seed}
 std::string output_of(const Request& request);
 
-/// Whether the path is standard output, and that is a terminal.
+/// Whether the path is "-" and standard output is a terminal; always false under mpirun.
 bool is_terminal(const std::string& path);
 
 /// A word quoted for a shell if necessary.
 std::string shell_word(const std::string& word);
 
-/// The texts of these common options as typed, in this order, quoted for a shell.
+/// The common options with these names as typed, in the order of `names`, quoted for a shell.
 std::string typed_options(const Arguments& arguments,
                           std::initializer_list<std::string_view> names);
 
 /// " --name value", quoted for a shell.
 std::string typed_option(const std::string& name, const std::string& value, bool flag);
 
-/// A verb's inputs and common options as typed, quoted for a shell; without those in `left_out`,
-/// and those that never affect a result.
+/// A verb's inputs and common options as typed, quoted for a shell; without the options in
+/// `left_out` and those that never affect a result.
 std::string command_text(const Arguments& arguments,
                          std::initializer_list<std::string_view> left_out = {});
 
-/// Stores the mean of an analyzer's results on several sets in a measurement.
+/// Stores in a measurement the mean of an analyzer's results over sets, with standard errors if
+/// there are several.
 void take_mean(Measurement& m, const ReportAverage& average, std::span<const Report> sets,
                const Analyzer& analyzer, const Values& options);
 

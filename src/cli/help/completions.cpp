@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Completions of a command line. The shells' scripts call `stipple complete WORDS...`, which prints
-// one candidate per line from the records, or @files where a file name is possible.
+// one candidate per line, from the units' records, or @files if a file name is possible.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -61,7 +61,8 @@ Candidates values_of(const Option& option) {
     return words_of(option.choices);
 }
 
-/// Candidates for the end of a spec, or of a list of specs such as "halton,sobol:scramble=ow".
+/// Candidates for the end of a partly typed spec or, if `list`, list of specs such as
+/// "halton,sobol:scramble=ow".
 Candidates in_spec(const std::vector<UnitInfo>& units, const std::string& current, bool list) {
     const auto cut = current.find_last_of(",;:=");
     if (cut == std::string::npos) return with_summaries(units);
@@ -103,7 +104,7 @@ Candidates values_of(const CommonOption& common, const std::string& current) {
     return values_of(common.option);
 }
 
-/// Candidates for arguments that are not units: words, or files.
+/// Candidates for a verb's arguments that are not units: words, or files.
 Candidates operands_of(Verb verb) {
     Candidates found;
     switch (verb) {
@@ -136,7 +137,7 @@ Candidates option_names(Verb verb, const UnitInfo* unit) {
     return found;
 }
 
-/// Candidates for the value of the preceding option; nullopt if that is not an option, or a flag.
+/// Candidates for the value of the option `before`; nullopt if it is a flag or no option.
 std::optional<Candidates> values_behind(const std::string& before, const std::string& current,
                                         Verb verb, const UnitInfo* unit) {
     if (const CommonOption* common = find_common(before, verb)) {
@@ -150,7 +151,7 @@ std::optional<Candidates> values_behind(const std::string& before, const std::st
 }
 
 /// Candidates for the last of the words.
-/// @param current typed part of that word
+/// @param current typed part of the last word
 /// @param before preceding option, which may need a value
 Candidates candidates(const std::vector<std::string>& words, const std::string& before,
                       const std::string& current) {

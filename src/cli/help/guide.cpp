@@ -27,7 +27,7 @@ std::string_view text_of(std::string_view name) {
         ->text;
 }
 
-/// Whether the text contains `word`, not next to a letter, digit or underscore.
+/// Whether the text contains `word` as a whole word: not next to a letter, digit or underscore.
 bool has_word(std::string_view text, std::string_view word) {
     const auto joins = [&](std::size_t at) {
         return at < text.size() &&

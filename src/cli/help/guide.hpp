@@ -20,15 +20,14 @@ const std::vector<GuidePage>& guide();
 /// A topic of `stipple help TOPIC`.
 struct Topic {
     std::string name;
-    std::string summary;  ///< heading of the page
-    std::string text;     ///< the page; its indented `stipple` lines can be run in their order
+    std::string summary;  ///< the page's heading
+    std::string text;     ///< the whole page; its indented `stipple` lines can be run in order
 };
 
 const std::vector<Topic>& topics();
 
-/// Equivalents for another package (scipy) or for one of its names (latinhypercube, qmc.Halton),
-/// from the page coming-from; all rows for the package's own name. Ignores case; empty if nothing
-/// is found.
+/// Equivalents of a name in another package (latinhypercube, qmc.Halton), from the page
+/// coming-from; for a package (scipy), all its rows. Ignores case; empty if nothing is found.
 std::string coming_from(std::string_view name);
 
 /// Page of a verb: heading, command, paragraphs, and "## Examples".

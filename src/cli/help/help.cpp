@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// --help, the verb `help`, and the manual: the same pages, from the records.
+// Pages for --help, the verb `help` and the manual, made from the units' records.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 namespace stipple::cli {
 namespace {
 
-/// Escapes text for roff: backslashes and dashes literally, no line as a request.
+/// Escapes text for roff, so that it appears literally and no line is taken as a request.
 std::string escaped(std::string_view text) {
     std::string out(text);
     for (const auto& [plain, roff] : {std::pair{"\\", "\\e"},
@@ -75,7 +75,7 @@ class HelpPage {
                            : fmt::format("\n{}:\n", name);
     }
 
-    /// Only in the manual.
+    /// Starts a subsection; call it only for the manual.
     void subsection(const std::string& name) { text_ += fmt::format(".SS {}\n", escaped(name)); }
 
     void paragraph(const std::string& text) {
@@ -91,7 +91,7 @@ class HelpPage {
 
     /// Adds an option, verb or result with its explanation.
     void entry(const std::string& tag, const std::string& help) {
-        constexpr std::size_t tags = 28;  // columns
+        constexpr std::size_t tags = 28;  // columns for the tag
         text_ += for_man() ? fmt::format(".TP\n.B {}\n{}\n", escaped(trim(tag)), escaped(help))
                            : beside("  " + tag, help, columns_, tags);
     }
@@ -102,7 +102,7 @@ class HelpPage {
         text_ += for_man() ? ".nf\n" + escaped(ended) + ".fi\n" : ended;
     }
 
-    /// Refers to the pages of all verbs and topics except this one; only in the manual.
+    /// Refers to the pages of all verbs and topics except `but`; does nothing outside the manual.
     void see_also(const std::string& but) {
         if (!for_man()) return;
         std::vector<std::string> pages;
@@ -145,7 +145,7 @@ void add_results(HelpPage& page, const UnitInfo& unit) {
     for (const ResultKey& result : unit.results) page.entry(result.key, result.help);
 }
 
-/// Facts about a unit, without its options, as sentences.
+/// Sentences about a unit: source, remarks, strata, other names.
 std::vector<std::string> facts_of(const UnitInfo& unit) {
     std::vector<std::string> facts = {"Source: " + unit.source + ".",
                                       capitalised(join(unit.remarks, "; ")) + "."};
@@ -214,8 +214,8 @@ HelpPage page_of_verb(const VerbInfo& info, HelpPage::Style style) {
     return page;
 }
 
-/// Points of a generator with default options, or their image under a warp; nullopt if an option
-/// without a default is needed.
+/// Points of a generator with quick options, or their image under warps; nullopt if they cannot be
+/// made so.
 std::optional<PointSet> sample_of(const char* generator, std::uint64_t count, std::size_t dimension,
                                   std::vector<Spec> warps) {
     const Generator& made_by = find_generator(generator);
@@ -231,8 +231,8 @@ std::optional<PointSet> sample_of(const char* generator, std::uint64_t count, st
     }
 }
 
-/// Points of a generator, or the image of a warp, drawn with characters; empty if the unit
-/// has no such picture.
+/// Picture of a generator's points or a warp's image, drawn with characters; empty for other units,
+/// and if an option is required.
 std::string picture_in_letters(Verb verb, const UnitInfo& unit) {
     std::optional<PointSet> points;
     if (verb == Verb::generate) points = sample_of(unit.name.c_str(), 256, 2, {});
@@ -313,7 +313,7 @@ std::string help_of_unit(const std::string& name) {
         const UnitInfo* unit = find_unit(kind, name);
         if (unit == nullptr) continue;
         if (const VerbInfo* info = find_verb(kind.verb)) return page_of_unit(*info, *unit).text();
-        // Formats have a topic instead, csv for example.
+        // Formats, such as csv, have no verb, but a common topic.
         if (const Topic* topic = find_topic(kind.name))
             return filled_page(topic->text, text_columns());
     }
@@ -345,7 +345,7 @@ std::string manual_page(const std::string& name) {
     refuse_name(name);
 }
 
-/// Writes all manual pages into a folder, with the file names that man expects.
+/// Writes all manual pages into a folder, under the names that man expects.
 void write_manual(const std::string& folder) {
     write_text(folder + "/stipple.1", manual_page(""));
     for (const VerbInfo& info : verbs())

@@ -14,9 +14,9 @@
 namespace stipple::cli {
 namespace {
 
-/// One or two lines per unit, by families.
+/// Lists each unit in one or two lines, by families.
 std::string list_text(const std::vector<Kind>& kinds) {
-    constexpr std::size_t names = 24;  // width in columns, with surrounding blanks
+    constexpr std::size_t names = 24;  // columns for a name with its blanks
     const std::size_t columns = text_columns();
     std::string text;
     for (const Kind& kind : kinds) {

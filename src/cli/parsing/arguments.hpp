@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The command line as data: verbs, options that all units share, and the parsed arguments.
+// The command line as data: verbs, options common to all units, and the parsed arguments.
 #pragma once
 
 #include <functional>
@@ -40,13 +40,13 @@ struct Arguments;
 struct Request;
 class Session;
 
-/// When progress is shown on stderr: on terminals, or as the option says.
+/// When progress is shown on stderr; `automatic`: only on terminals.
 enum class ProgressMode { automatic, always, never };
 
 struct VerbInfo : VerbPage {
     Verb verb;
     std::string name;
-    std::unique_ptr<Request> (*fill)(const Arguments&);  ///< for request_of()
+    std::unique_ptr<Request> (*fill)(const Arguments&);  ///< makes the request; see request_of()
 };
 
 const std::vector<VerbInfo>& verbs();
@@ -56,14 +56,14 @@ const VerbInfo* find_verb(std::string_view name);
 
 const VerbInfo& info_of(Verb verb);
 
-/// An option that verbs accept for every unit.
+/// An option that some verbs accept, whatever the unit.
 struct CommonOption {
     std::string names;     ///< such as "-n,--count", with the long name last
     std::string value;     ///< placeholder; empty for a flag
     std::string fallback;  ///< default as shown in help; may be empty
     Option option;         ///< long name, type, range and help
     Verb verbs;            ///< verbs that accept it
-    /// Stores a text in the request of one of these verbs. @throws Error(usage)
+    /// Parses a text and stores it in the request of one of these verbs. @throws Error(usage)
     std::function<void(Request&, const CommonOption&, const std::string& text)> store;
     bool repeatable = false;
 };
@@ -82,10 +82,10 @@ inline constexpr std::string_view bare_check = "valid";
 
 struct Arguments {
     std::optional<Verb> verb;
-    std::string unit;                     ///< empty if none
-    std::vector<std::string> specs = {};  ///< analyzers, if several are named
+    std::string unit;                     ///< empty if no unit is named
+    std::vector<std::string> specs = {};  ///< specs of analyzers, if several are named
     std::vector<std::string> inputs;
-    std::vector<std::pair<std::string, std::string>> common;    ///< long name and text
+    std::vector<std::pair<std::string, std::string>> common;    ///< long names and texts, as typed
     std::vector<std::pair<std::string, std::string>> settings;  ///< the unit's own options
     bool help = false;
     bool version = false;
@@ -94,17 +94,18 @@ struct Arguments {
     [[nodiscard]] bool has(std::string_view name) const;
 };
 
-/// @throws Error(usage) "--NAME: WHY" for the first of these common options that is given
+/// Rejects common options. @throws Error(usage) "--NAME: WHY" for the first of them that is given
 /// @param names separated by commas
 void refuse_options(const Arguments& arguments, std::string_view names, std::string_view why);
 
-/// Values of the unit's options. @throws Error(usage)
+/// Parses the texts of the unit's own options. @throws Error(usage)
 Values settings_of(const Schema& schema, const Arguments& arguments);
 
-/// @throws Error(usage) naming the unknown word and the most similar known one
+/// Parses the words of a command line. @throws Error(usage) naming an unknown word and the nearest
+/// known one
 Arguments parse_arguments(int argc, const char* const* argv);
 
-/// Word that names a unit of the kind, alone or in a spec; nullptr if there is none.
+/// First word that names a unit of the kind, alone or in a spec; nullptr if no word does.
 const std::string* word_of_unit(const std::vector<std::string>& words, const Kind& kind, Verb verb);
 
 }  // namespace stipple::cli

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The options that all units of a verb share, as data: names, help, the field of the request that
-// each one sets, and which of them go together.
+// Table of the options that all units of a verb share: names, help, the field of the request that
+// each one sets, and which options need or exclude others.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,11 +40,11 @@ std::uint64_t byte_count(const Option& option, const std::string& text) {
     return *bytes;
 }
 
-// Each take() stores a text in a field of its type.
+// Overloads of take() parse a text and store it in a field, by the field's type.
 
 void take(std::string& field, const CommonOption&, const std::string& text) { field = text; }
 
-/// Flags, choices and whole numbers. Of a choice, the field gets the index; --no-X stores false.
+/// For flags, choices and whole numbers. A choice is stored as its index, a flag --no-X as false.
 template <class Field>
 requires std::is_enum_v<Field> || std::is_integral_v<Field>
 void take(Field& field, const CommonOption& common, const std::string& text) {
@@ -96,7 +96,7 @@ void take(std::vector<std::uint64_t>& field, const CommonOption& common, const s
     field = parse_counts(text, "--" + common.option.name, 1, high);
 }
 
-/// Specs, names between commas, or texts of an option that is repeated.
+/// For lists: appends specs, names between commas, or the text of a repeatable option.
 void take(std::vector<std::string>& field, const CommonOption& common, const std::string& text) {
     if (common.value == "SPECS")
         std::ranges::move(split_specs(text, "--" + common.option.name), std::back_inserter(field));
@@ -119,8 +119,8 @@ void take(std::optional<Field>& field, const CommonOption& common, const std::st
 
 struct Row : CommonOption {
     /// @param placeholder type of the value; empty for a flag; alternatives separated by |
-    /// @param field of the requests of these verbs
-    /// @param high above 0: the largest number
+    /// @param field member of these verbs' requests that stores the value
+    /// @param high largest number, if above 0
     template <class VerbRequest, class Field>
     Row(std::string_view all_names, std::string_view placeholder, const char* shown_default,
         const char* help, Verb of_verbs, Field VerbRequest::*field, double low = 0, double high = 0)
@@ -133,7 +133,7 @@ struct Row : CommonOption {
                      (std::is_same_v<Field, std::vector<std::string>> && !list);
     }
 
-    /// An option that the parser replaces by another one.
+    /// An option without a field: the parser replaces it by another option.
     Row(std::string_view all_names, std::string_view placeholder, const char* shown_default,
         const char* help, Verb of_verbs, std::nullptr_t, double low = 0, double high = 0);
 };
@@ -428,7 +428,7 @@ const std::vector<Row> rows = {
     {"--progress", "auto|always|never", "auto", "a bar on stderr, after 0.5 s on a terminal",
      workers, &Request::progress}};
 
-/// Whether `options` need or exclude another one.
+/// Each of `options` needs or excludes the option `other`.
 struct Rule {
     Verb verbs;
     std::string_view options;  ///< separated by commas
@@ -466,7 +466,7 @@ void check_rules(const Arguments& arguments) {
     };
     for (const auto& [verbs, options, relation, other, why] : table::rules) {
         const bool needs = relation == table::Rule::need;
-        // With --config, the option that another one requires may be in that file.
+        // With --config, a required option may be in the configuration file.
         if (!includes(verbs, *arguments.verb) || given(other) == needs ||
             (needs && given("config")))
             continue;

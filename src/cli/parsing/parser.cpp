@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Parses a command line into Arguments. The only source that includes CLI11, whose headers are slow
-// to compile.
+// Parses a command line into Arguments. This is the only source that includes CLI11, whose headers
+// are slow to compile.
 #include <fmt/format.h>
 
 #include <CLI/App.hpp>
@@ -19,10 +19,12 @@
 namespace stipple::cli {
 namespace {
 
-using Text = std::pair<std::string, std::string>;  ///< long name and text
+using Text = std::pair<std::string, std::string>;  ///< long name of an option, and its text
 using Texts = std::vector<Text>;
 
-/// @param names such as "-n,--count" @param texts receives the texts
+/// Adds an option to a parser.
+/// @param names such as "-n,--count"
+/// @param texts receives name and text each time the option is given
 void add(CLI::App& app, const std::string& names, const Option& option, bool repeatable,
          Texts& texts) {
     if (option.type == "flag") {
@@ -48,7 +50,8 @@ void add(CLI::App& app, const std::string& names, const Option& option, bool rep
     fail(ErrorKind::usage, "{}", text);
 }
 
-/// Parses the words after a verb, without its unit; returns those that were not understood.
+/// Parses the words after a verb, except the unit's name; returns the words that were not
+/// understood.
 /// @param own options of the unit
 std::vector<std::string> take_words(std::vector<std::string> words, const std::vector<Option>& own,
                                     bool takes_inputs, Arguments& arguments) {
@@ -85,7 +88,7 @@ std::vector<std::string> take_words(std::vector<std::string> words, const std::v
     fail_with_hint(ErrorKind::usage, hint, "unknown {} '{}'", what, word);
 }
 
-/// `--check` consumes the next word only if that is a condition, not a file.
+/// Gives each `--check` without a condition its default: the next word may be a file.
 void complete_checks(std::vector<std::string>& words) {
     const auto condition = [](const std::string& word) {
         return !word.starts_with('-') && word.find_first_of("<>=") != std::string::npos;
@@ -97,7 +100,7 @@ void complete_checks(std::vector<std::string>& words) {
     }
 }
 
-/// @throws Error(usage) for words that were not understood
+/// Reports the first word that was not understood, with the nearest known one. @throws Error(usage)
 void check_rest(const std::vector<std::string>& rest, const VerbInfo& verb,
                 const std::vector<Option>& own, bool lacks_unit) {
     if (rest.empty()) return;
@@ -113,7 +116,8 @@ void check_rest(const std::vector<std::string>& rest, const VerbInfo& verb,
     fail(ErrorKind::usage, "unexpected argument '{}'", rest.front());
 }
 
-/// Specs of several analyzers, "star-discrepancy,periodogram:window=hann"; empty if there is one.
+/// Specs in a list of several analyzers, "star-discrepancy,periodogram:window=hann"; empty for a
+/// single one.
 std::vector<std::string> several_specs(const std::string& word, Verb verb) {
     if (verb != Verb::analyze || word.find('@') != std::string::npos) return {};
     auto specs = split_specs(word, "analyze");
@@ -121,7 +125,8 @@ std::vector<std::string> several_specs(const std::string& word, Verb verb) {
     return specs;
 }
 
-/// @throws Error(usage) if an option of one of several analyzers is not in its spec
+/// Rejects an option outside the specs that belongs to one of several analyzers. @throws
+/// Error(usage)
 void refuse_loose_options(const std::vector<std::string>& rest, const Arguments& arguments,
                           const Kind& kind) {
     for (const std::string& word : rest)
@@ -137,7 +142,8 @@ void refuse_loose_options(const std::vector<std::string>& rest, const Arguments&
         }
 }
 
-/// @throws Error(usage) for an analyzer in the position of an input, unless such a file exists
+/// Rejects the name of a second analyzer among the inputs, except if a file has that name. @throws
+/// Error(usage)
 void refuse_second_unit(const Arguments& arguments, const Kind& kind) {
     for (const std::string& word : arguments.inputs) {
         const std::string name = word.substr(0, word.find_first_of(",:"));
@@ -212,7 +218,7 @@ const std::string* word_of_unit(const std::vector<std::string>& words, const Kin
     for (std::size_t i = 0; i < words.size(); ++i) {
         const CommonOption* common = find_common(words[i], verb);
         if (common != nullptr && common->option.type != "flag")
-            ++i;  // skips the value
+            ++i;  // skips the option's value
         else if (find_unit(kind, words[i].substr(0, words[i].find_first_of("@:,;"))) != nullptr)
             return &words[i];
     }
@@ -224,7 +230,7 @@ Arguments parse_arguments(int argc, const char* const* argv) {
     const VerbInfo* info = words.empty() ? nullptr : find_verb(words.front());
     if (info == nullptr) return parse_without_verb(words);
     words.erase(words.begin());
-    const auto mark = std::ranges::find(words, "--");  // everything after it is an input
+    const auto mark = std::ranges::find(words, "--");  // all words after "--" are inputs
     std::vector<std::string> inputs(mark, words.end());
     words.erase(mark, words.end());
     const Verb verb = info->verb;
@@ -243,7 +249,7 @@ Arguments parse_arguments(int argc, const char* const* argv) {
         }
         const auto word = words.begin() + (named - words.data());
         if (unit == nullptr) {
-            *word = spec.name;  // for the message
+            *word = spec.name;  // the message of check_rest() names the unit only
         } else {
             if (arguments.specs.empty()) own = own_options(verb, *unit);
             arguments.unit = unit->name;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Typed requests: the options of each verb, parsed and checked. The table in options.cpp binds every
-// option to its field.
+// Typed requests: the options of each verb, parsed and checked. The table in options.cpp connects
+// each option to its field.
 #pragma once
 
 #include <cstdint>
@@ -22,25 +22,26 @@
 
 namespace stipple::cli {
 
-/// A given seed, or one to be drawn.
+/// A given seed, or the request for a random one.
 struct Seed {
     std::uint64_t value = 1;
     bool random = false;
 };
 
-/// The words of a verb, with the options that all verbs that work share.
+/// The arguments of a verb, and the fields of options that several verbs share.
 struct Request : Arguments {
     virtual ~Request() = default;
 
-    /// Completes the fields that other ones determine.
+    /// Sets the fields that are determined by other fields.
     virtual void settle() {}
 
-    /// Does what the verb does; returns the exit code. Defined in the verb's source.
+    /// Performs the command; returns the exit code. Defined in the verb's source.
     virtual int perform(Session& session) const = 0;
 
     std::optional<std::string> output = {};
     std::optional<std::string> parameters_file = {};
-    /// Domain that the parameter file describes, after read_parameter_file(); nullptr without one.
+    /// Domain that the parameter file describes; null without a file, and before
+    /// read_parameter_file().
     DomainPtr parameters = {};
     std::optional<Seed> seed = {};
     unsigned threads = 0;
@@ -51,7 +52,7 @@ struct Request : Arguments {
 
 /// Points from files or from --generate.
 struct Sources : Request {
-    std::vector<std::string> generate = {};  ///< specs
+    std::vector<std::string> generate = {};  ///< specs of generators
     std::optional<std::uint64_t> count = {};
     std::optional<std::uint64_t> dimension = {};
     std::uint64_t start = 0;
@@ -63,11 +64,11 @@ struct Sources : Request {
     bool rescale = false;
     bool concat = false;
     std::vector<std::string> columns = {};
-    std::string from = {};              ///< name of a format; empty: from the file
+    std::string from = {};              ///< format, f32 or f64; empty: detected
     std::optional<bool> dtype_in = {};  ///< whether numbers are float32
     std::optional<bool> dtype = {};
 
-    // From the verb and its units.
+    // Set by the verb and its units, not by options.
     bool densities = false;  ///< reads the column pdf or weight
     bool gaps = false;       ///< reads rows with missing numbers, to be left out
     bool tables = false;     ///< reads rows of tables, not points
@@ -172,7 +173,7 @@ struct StudyRequest : Request, SweepRequest, SummaryOptions {
 
 struct ReproduceRequest : Request {
     bool json = false;
-    std::vector<std::string> files = {};  ///< of --input
+    std::vector<std::string> files = {};  ///< the files of --input
 
     int perform(Session& session) const override;
 };
@@ -196,11 +197,12 @@ struct CompletionsRequest : Request {
     int perform(Session& session) const override;
 };
 
-/// Parses the texts of all options of the arguments' verb and checks that they go together.
+/// Makes the request of the arguments' verb: parses the texts of its options, and checks their
+/// combination.
 /// @throws Error(usage)
 std::unique_ptr<Request> request_of(const Arguments& arguments);
 
-/// The same for the struct of the arguments' verb.
+/// As request_of(), with the type of the arguments' verb.
 template <class VerbRequest>
 VerbRequest request_as(const Arguments& arguments) {
     return dynamic_cast<VerbRequest&>(*request_of(arguments));
