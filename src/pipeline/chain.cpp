@@ -430,7 +430,7 @@ std::vector<std::string> WarpChain::names(std::vector<std::string> before, bool 
         const auto& from = back ? step.others : step.rest;
         const auto& to = back ? step.rest : step.others;
         for (std::size_t i = 0; i < from.size(); ++i) after[to[i]] = std::move(before[from[i]]);
-        const auto own = step.domain->names();  // their number is that of cube coordinates
+        const auto own = step.domain->names();  // as many as cube coordinates
         const auto& places = back ? step.coordinates : step.at;
         for (std::size_t k = 0; k < own.size(); ++k) after[places[k]] = own[k];
         before = std::move(after);
@@ -516,7 +516,8 @@ std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const st
                                                               const RunContext& run) {
     std::vector<std::pair<std::string, std::string>> all;
     for (const std::string& file : files) {
-        // A pipe can be read only once. A missing file is reported later, by its reader.
+        // Does not read a pipe, which would use up its bytes. A missing file is reported later, by
+        // its reader.
         const bool kept = is_regular_file(status_of(file));
         all.emplace_back(
             file, kept ? format_fingerprint(file_fingerprint(file, run)) : std::string(not_kept));

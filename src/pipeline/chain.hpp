@@ -76,8 +76,8 @@ class WarpChain {
     /// Whether a set must have the requested number of images, even though some points have none.
     [[nodiscard]] bool refills() const;
 
-    /// Outcomes of each coordinate of the points. The axis is continuous if there are none, or if
-    /// they depend on other coordinates.
+    /// Discrete outcomes (such as levels) to which each coordinate of the points is mapped. An axis
+    /// is continuous if it has no such outcomes, or if they depend on other coordinates.
     [[nodiscard]] std::vector<OutcomeAxis> outcome_axes() const;
 
     /// Whether the image of a point depends on all points of its set; rows must then be those of a
@@ -97,9 +97,9 @@ class WarpChain {
     [[nodiscard]] std::vector<double> inverse(std::vector<double> rows) const;
 
     /// Returns the names of the coordinates of the images or, with `back`, of the preimages.
-    /// Coordinates that a warp maps are named by its domain, others as in `before`; those without a
-    /// name get the usual one. Empty if all names are the usual ones.
-    /// @param before names before the mapping; empty: the usual ones
+    /// Coordinates that a warp maps are named by its domain, others as in `before`; the remaining
+    /// ones get default names. Empty if all names are default names.
+    /// @param before names before the mapping; empty: default names
     [[nodiscard]] std::vector<std::string> names(std::vector<std::string> before, bool back) const;
 
     /// Level names of categorical coordinates in the images, from the warps' domains.
@@ -113,7 +113,7 @@ class WarpChain {
 
     /// Returns the images of all points; they are on domain() and keep the provenance. Warns of
     /// points without an image, and multiplies the efficiency in the provenance by the fraction of
-    /// the others.
+    /// points that have one.
     /// @param start index of the first point
     /// @throws Error(input) for points of another dimension, and if none has an image; as mapped()
     [[nodiscard]] PointSet image(const PointSet& points, const RunContext& run,
@@ -124,7 +124,7 @@ class WarpChain {
     /// @throws Error(input) for points of another dimension; as mapped()
     [[nodiscard]] PointSet preimage(const PointSet& points, const RunContext& run) const;
 
-    /// Warns if points were dropped, of which `kept` of `count` remain.
+    /// Warns if points were dropped, so that only `kept` of `count` points remain.
     /// @throws Error(input) if none remains
     void tell_kept(std::uint64_t count, std::uint64_t kept, const RunContext& run) const;
 
@@ -144,7 +144,7 @@ class WarpChain {
     struct Step {
         DomainPtr domain = {};  ///< of the step's output; null for a randomization
         std::unique_ptr<Mapping> mapping = {};
-        Mapping::SetStep set_step = {};  ///< of the mapping, before it
+        Mapping::SetStep set_step = {};  ///< applied to whole sets before the mapping
         bool refills = false;            ///< the points that the mapping drops are replaced
         Randomization randomization = {};
         std::vector<std::size_t> coordinates = {};  ///< taken from the input row
@@ -195,7 +195,7 @@ class WarpChain {
     static constexpr std::uint64_t told = none - 1;
 };
 
-/// Returns some columns of rows, as rows of their own.
+/// Returns the selected columns of all rows, as shorter rows.
 std::vector<double> gather(std::span<const double> rows, std::size_t width,
                            std::span<const std::size_t> columns);
 

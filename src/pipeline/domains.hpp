@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Product domains, whose coordinates belong to several factors: reading them from text, their
-// factors, and densities on them.
+// Product domains, whose coordinates belong to several factors: parsing, factors, and densities.
 #pragma once
 
 #include <cstddef>

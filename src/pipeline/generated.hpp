@@ -30,8 +30,8 @@ struct Shard {
 struct SetsToMake {
     const Generator* generator = nullptr;
     Values options = {};
-    /// Its seed is for the first set; later sets have seed + 1, ... With warps, its bounds may be
-    /// given for only those coordinates that no warp takes.
+    /// request.seed is the seed of the first set; later sets have seed + 1, ... With warps,
+    /// request.bounds may have ranges for only those coordinates that no warp takes.
     Request request = {};
     std::uint64_t sets = 1;
     std::vector<Spec> warps = {};
@@ -39,12 +39,13 @@ struct SetsToMake {
     std::string command = {};  ///< command line, for the provenance
 };
 
-/// The box of a text "lo..hi,...", with one range for all coordinates, or one for each of the points
-/// or of those that the warps leave. It may decide the dimension. @throws Error(usage)
+/// Parses a box "lo..hi,...": one range for all coordinates, one for each coordinate of the points,
+/// or one for each coordinate that no warp takes. The number of ranges may determine the dimension.
+/// @throws Error(usage)
 Box bounds_for(const SetsToMake& asked, std::string_view text);
 
-/// Generates all points of a request in memory, without notes to the user, scaling to the bounds
-/// and provenance.
+/// Generates all points of a request in memory. Unlike generate(), does not note anything, scale to
+/// the bounds, or record provenance.
 PointSet make_points(const Generator& generator, const Request& request, const Values& options,
                      const RunContext& run);
 
@@ -59,7 +60,7 @@ struct Scaling {
 
 class GeneratedSets {
   public:
-    /// Gives the generator's notes on the request as warnings.
+    /// Completes the job. Warns with the generator's notes on the request.
     /// @throws Error(usage)
     GeneratedSets(SetsToMake asked, const RunContext& run);
 
@@ -102,7 +103,7 @@ class GeneratedSets {
 
   private:
     /// The warps and scrambles for one set.
-    /// @param made number of its points, if the plan does not know it
+    /// @param made number of the set's points, if it differs from the plan's
     [[nodiscard]] std::shared_ptr<const WarpChain> chain_for(
         std::uint64_t set, const RunContext& run, std::optional<std::uint64_t> made = {}) const;
     [[nodiscard]] std::shared_ptr<const WarpChain> make_chain(const ChainSet& set,
@@ -126,7 +127,7 @@ class GeneratedSets {
     /// @throws Error(input) if almost no point has an image
     [[nodiscard]] Images next_images(std::uint64_t set, const RunContext& run) const;
     /// Generates a slightly larger set, so that enough points have an image. If the generator has
-    /// no sets of other sizes, returns the images that there are.
+    /// no larger sets, returns fewer images than requested.
     /// @param first points of a set of the requested size, before warps
     [[nodiscard]] Images images_of_more(std::uint64_t set, const PointSet& first,
                                         const RunContext& run) const;
@@ -144,9 +145,9 @@ class GeneratedSets {
     Plan plan_;
     std::shared_ptr<const WarpChain> chain_;
     DomainPtr domain_;
-    std::optional<Scaling> scaling_;  ///< to the bounds; nullopt: none, or made by the generator
+    std::optional<Scaling> scaling_;  ///< nullopt: no bounds, or applied by the generator
     std::vector<std::pair<std::string, std::string>> inputs_;
-    mutable std::shared_ptr<Sequence> sequence_;  ///< the last one made
+    mutable std::shared_ptr<Sequence> sequence_;  ///< the sequence made last
 };
 
 }  // namespace stipple

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Generation and analysis of point sets by function calls, with what the command line adds: checks,
-// defaults and provenance.
+// Generation and analysis of point sets by function calls, with the checks, defaults and provenance
+// of the command line.
 #pragma once
 
 #include <cstdint>
@@ -40,8 +40,8 @@ void require_in_cube(const PointSet& points, std::span<const std::size_t> coordi
 /// Calls require_in_cube() for all coordinates, with way_to_cube() as the hint.
 void require_unit_cube(const PointSet& points);
 
-/// Analyzes a set. Checks first that the analyzer accepts its dimension and, if it requires this,
-/// that all points are in the closed unit cube.
+/// Analyzes a set. First checks that the analyzer accepts the dimension and, if it is one for the
+/// unit cube, that all points are in the closed cube.
 /// @throws Error(input)
 Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& options,
                const RunContext& run);

@@ -79,7 +79,8 @@ class MpiRanks : public Ranks {
         const std::lock_guard lock(mpi_);
         if (failed_) return error;
         hear_failure();
-        if (!heard_ && error.kind() == ErrorKind::cancelled) return error;  // all are cancelled
+        if (!heard_ && error.kind() == ErrorKind::cancelled)
+            return error;  // all ranks are cancelled
         failed_ = true;
         if (heard_) return *heard_;
         const Error told(error.kind(), fmt::format("rank {} on {}: {}", rank_, host_, error.what()),
@@ -161,14 +162,15 @@ class MpiRanks : public Ranks {
     }
 
   private:
-    static constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30;  // MPI counts in int
-    static constexpr int message_tag = 0;                                // for send()
-    static constexpr int data_tag = 1;                                   // for give()
+    static constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30;  // MPI counts bytes in int
+    static constexpr int message_tag = 0;  // tag of messages by send()
+    static constexpr int data_tag = 1;     // tag of bytes by give()
     static constexpr int failure_tag = 2;
 
-    /// Starts an MPI operation and waits until it has finished. After some checks it sleeps between
-    /// them, as other ranks may need the core.
-    /// @throws Error of another rank that failed and may never take part
+    /// Starts an MPI operation and waits until it has finished. After many checks, sleeps between
+    /// them, since other ranks may need the core.
+    /// @throws the Error of another rank if that failed, since it may never take part in the
+    /// operation
     template <class Start>
     void complete(const Start& start) {
         MPI_Request request = MPI_REQUEST_NULL;
@@ -234,7 +236,7 @@ class MpiRanks : public Ranks {
         }
     }
 
-    /// A message that may not be sent completely.
+    /// A message that MPI may still be sending.
     struct Outgoing {
         std::string bytes;
         MPI_Request request = MPI_REQUEST_NULL;
@@ -248,7 +250,7 @@ class MpiRanks : public Ranks {
     std::string host_;
     std::mutex mpi_;              ///< held during each MPI call
     std::optional<Error> heard_;  ///< error that ended another rank
-    bool failed_ = false;         ///< the others know of the failure, or failed first
+    bool failed_ = false;         ///< all ranks end, and know the error
     std::list<Outgoing> outgoing_;
     // Buffers of exchange(), members because MPI may use them even after an error has ended the
     // call.

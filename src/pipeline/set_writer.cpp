@@ -58,7 +58,7 @@ bool write_rows(const OpenSet& open, const SetStream& stream, const Layout& layo
     };
     // Memory must hold two batches of rows and the text of one, which limits the number of threads.
     constexpr double blocks = 8;
-    constexpr double bytes = 48;  // per number
+    constexpr double bytes = 48;  // bytes of memory for each number
     const double share = blocks * bytes * static_cast<double>(block * d);
     const double threads = std::clamp(static_cast<double>(run.memory_left()) / (4 * share), 1.0,
                                       static_cast<double>(run.thread_count()));

@@ -21,13 +21,13 @@ namespace stipple {
 struct Columns {
     bool pdf = false;       ///< the density of each point
     bool weight = false;    ///< 1 / density: the mean of f times weight estimates the integral of f
-    bool anywhere = false;  ///< points may be outside the domain: density 0
+    bool anywhere = false;  ///< points may be outside the domain, where the density is 0
 
     [[nodiscard]] bool any() const { return pdf || weight; }
     [[nodiscard]] std::vector<std::string> names() const;
 };
 
-/// Where points go, and how they are written.
+/// Destination of points, and the form in which they are written.
 struct Target {
     std::string path = "-";          ///< may hold {set} and {seed}: a file for each set
     const Format* format = nullptr;  ///< null: format_of() decides
@@ -50,8 +50,8 @@ const Format& format_of(const Target& target);
 /// Returns the target with those density columns added that the file of these points had.
 Target with_own_columns(Target target, const PointSet& points);
 
-/// Returns the rows with their extra columns.
-/// @param densities of the points, if they have their own; otherwise empty
+/// Returns rows with the extra columns appended to each.
+/// @param densities densities stored with the points; empty: computed from the warps or the domain
 /// @throws Error(input) if a number is infinite
 std::vector<double> with_columns(std::span<const double> rows, std::span<const double> densities,
                                  const Columns& columns, const SetStream& stream);

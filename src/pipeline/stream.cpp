@@ -12,8 +12,8 @@
 namespace stipple {
 namespace {
 
-/// Reduces the metadata of several sets to what is common: removes options that differ, such as a
-/// radius computed for each set.
+/// Reduces the metadata of several sets to their common part: removes options that differ, such as
+/// a radius computed for each set.
 void keep_common(Provenance& common, const Provenance& other) {
     std::erase_if(common.options, [&](const auto& option) {
         return std::ranges::find(other.options, option) == other.options.end();
@@ -22,8 +22,8 @@ void keep_common(Provenance& common, const Provenance& other) {
 
 using SetAt = std::function<const PointSet&(std::size_t set)>;
 
-/// @param at returns a set
-/// @param one_at_a_time each set replaces the one before in memory
+/// Stream of sets that at(set) returns.
+/// @param one_at_a_time memory holds one set: each one replaces the previous set
 SetStream in_memory(std::size_t sets, const SetAt& at, bool one_at_a_time, const WarpChain* chain) {
     const auto open = [at](std::size_t set, const RunContext&) {
         const PointSet& points = at(set);
@@ -74,12 +74,12 @@ NextRows rows_of(const PointSet& points, std::uint64_t first) {
 
 bool in_batches(const NextRows& next, std::size_t batch, std::size_t width, const RunContext& run,
                 const std::function<bool(std::span<const double>)>& take) {
-    constexpr std::size_t few = 65536;  // numbers that are made sooner than a thread starts
+    constexpr std::size_t few = 65536;  // numbers made sooner than a thread starts
     std::vector<double> rows(batch * width);
     std::vector<double> ahead(rows.size());
     const auto policy = run.thread_count() > 1 && rows.size() > few
                             ? std::launch::async | std::launch::deferred
-                            : std::launch::deferred;  // always allowed: threads may run out
+                            : std::launch::deferred;  // always allowed, since threads may run out
     for (std::size_t count = next(rows); count > 0; rows.swap(ahead)) {
         run.check_stop();
         auto fetched = std::async(policy, [&] { return next(ahead); });

@@ -35,7 +35,7 @@ bool in_batches(const NextRows& next, std::size_t batch, std::size_t width, cons
 struct OpenSet {
     NextRows next;
     std::uint64_t count = 0;                 ///< points; 0 if known only at the end
-    std::span<const double> densities = {};  ///< of the points, if stored with them; else empty
+    std::span<const double> densities = {};  ///< densities stored with the points; may be empty
     std::vector<SideFile> side_files = {};   ///< files written with the points
 };
 
@@ -43,20 +43,20 @@ struct OpenSet {
 struct SetsHead {
     Provenance provenance;
     Counts counts = {};              ///< points of each set; 0 if known only at the end
-    std::optional<Box> extent = {};  ///< what a picture must show; nullopt: the domain
+    std::optional<Box> extent = {};  ///< area that a picture must show; nullopt: the domain
 };
 
 /// One set after the other, with everything that a sink needs.
 struct SetStream {
     std::size_t sets = 1;
-    DomainPtr domain;                  ///< of the points
+    DomainPtr domain;                  ///< domain of the points
     const WarpChain* chain = nullptr;  ///< warps of the rows, for their density; may be null
     /// Opens a set. Called once for each set, in order.
     std::function<OpenSet(std::size_t set, const RunContext&)> open = {};
     /// Returns the metadata of a file with the sets [first, last). Called before these are opened.
     std::function<SetsHead(std::size_t first, std::size_t last)> head = {};
-    std::function<std::uint64_t(std::size_t set)> seed = {};  ///< for {seed} in file names
-    bool one_at_a_time = false;  ///< memory holds one set; head and open replace it
+    std::function<std::uint64_t(std::size_t set)> seed = {};  ///< of a set, for file names
+    bool one_at_a_time = false;  ///< memory holds one set, replaced by head() and open()
     bool side_files = false;     ///< some sets have side files
     bool starts = false;         ///< a set's first point can be skipped by --start
 
@@ -65,7 +65,7 @@ struct SetStream {
 };
 
 /// Stream of sets in memory, which must outlive it.
-/// @param chain warps that made the sets, for their density if they have none of their own; may be
+/// @param chain warps that made the sets, to compute densities that the sets do not store; may be
 /// null
 SetStream stream_of(const std::vector<PointSet>& sets, const WarpChain* chain = nullptr);
 

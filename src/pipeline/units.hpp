@@ -29,9 +29,9 @@ const Analyzer& find_analyzer(std::string_view name);
 const Generator* generator_named(std::string_view name);
 const Scramble* scramble_named(std::string_view name);
 
-/// Domain that a parameter file describes; its spec is also that of the warp, and holds the contents
-/// of the file. @throws Error(input) naming the place in the file; Error(io); Error(usage) if this
-/// program has no such warp
+/// Domain that a parameter file describes. Its spec contains the contents of the file, and is also
+/// the spec of the warp onto it. @throws Error(input) naming the position in the file; Error(io);
+/// Error(usage) if this program has no warp for parameters
 DomainPtr read_parameters(const std::string& path, const RunContext& run = {});
 
 /// The same warp, but with images in the unit cube.

@@ -157,7 +157,7 @@ NextRows warped_rows(io::PointStream& stream, const Warping& warping, std::size_
             came = std::uint64_t{0},
             kept = std::uint64_t{0}](std::span<double> rows) mutable -> std::size_t {
         const std::size_t d = stream.dimension();
-        for (;;) {  // until some have an image
+        for (;;) {  // until a batch has an image
             taken.resize(rows.size() / wide * d);
             const std::size_t count = stream.read(taken);
             if (count == 0) break;
