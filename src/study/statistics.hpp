@@ -39,7 +39,7 @@ struct SampleSummary {
     double mean = not_known;
     double median = not_known;
     double deviation = not_known;       ///< standard deviation of the sample
-    double standard_error = not_known;  ///< of the mean
+    double standard_error = not_known;  ///< standard error of the mean
 };
 
 SampleSummary summarize(std::span<const double> sample);

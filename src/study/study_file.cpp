@@ -48,7 +48,7 @@ int opened(const std::string& path) {
     return descriptor;
 }
 
-/// Writes all bytes, even if signals interrupt this.
+/// Writes all bytes; continues if a signal interrupts a write.
 void write_all(int descriptor, std::string_view bytes, const std::string& path) {
     while (!bytes.empty()) {
         const auto written = ::write(descriptor, bytes.data(), bytes.size());
@@ -235,7 +235,7 @@ class StudyFile::TableReader {
     std::uint64_t line_ = 0;
     std::optional<StudyRow> like_;  ///< columns of the unit being read
     std::uint64_t unit_ = 0;
-    std::vector<std::string> keys_;    ///< of the unit's rows
+    std::vector<std::string> keys_;    ///< keys of the unit's rows
     std::optional<StudyRow> failure_;  ///< row of the unit, if it failed
     std::uint64_t begin_ = 0;          ///< position of the unit, in bytes
     std::uint64_t end_ = 0;            ///< position after the last row
@@ -345,9 +345,9 @@ void StudyFile::refuse_other() const {
                    "{}: --resume: the study there is another one{}", path_, differs);
 }
 
-/// Returns the finished study that this one extends, if the table begins with its rows; else
-/// nullopt.
-/// @throws Error(input) if they are the rows of any other study
+/// Returns the finished study that this one extends, if the table begins with rows of another
+/// study; otherwise nullopt.
+/// @throws Error(input) if this study does not extend the other one
 std::optional<Sweep> StudyFile::smaller_study(const RunContext& run) const {
     SweepRequest request = sweep_.request();
     for (auto* list : {&request.generators, &request.measures}) list->clear();
@@ -374,8 +374,8 @@ std::optional<Sweep> StudyFile::smaller_study(const RunContext& run) const {
     }
     if (fingerprint.empty()) return std::nullopt;
     request.seeds = last_seed - request.first_seed + 1;
-    // The fingerprint also covers what rows do not show: keys, limits, and whether sets are
-    // missing.
+    // The fingerprint also covers settings that rows do not show (keys, limits), and sets without
+    // rows.
     std::optional<Sweep> sweep;
     try {
         sweep.emplace(std::move(request));

@@ -41,7 +41,7 @@ std::string journal_of(const std::string& table);
 struct StudyFailures {
     std::uint64_t units = 0;
     std::uint64_t first_unit = 0;
-    StudyRow first = {};     ///< row of that unit
+    StudyRow first = {};     ///< row of the first unit that failed
     bool met_limit = false;  ///< some unit exceeded the limit of memory or time
 };
 
@@ -49,7 +49,7 @@ class StudyFile {
   public:
     using Listener = std::function<void(const StudyRow&)>;
 
-    /// What to do if the file holds a study: throw an error, resume it, or replace it.
+    /// Action if the file holds a study: throw an error, resume it, or replace it.
     enum class Start { fresh, resume, anew };
 
     /// @param listener called with every row in the order of the study, including rows found in the
@@ -64,7 +64,7 @@ class StudyFile {
     StudyFile& operator=(const StudyFile&) = delete;
     ~StudyFile();
 
-    /// Units that are in the file, in order.
+    /// Ranges of the units in the file, in order.
     [[nodiscard]] std::vector<UnitRange> done() const;
     [[nodiscard]] std::uint64_t units_written() const { return written_; }
     [[nodiscard]] const StudyFailures& failures() const { return failures_; }
@@ -125,7 +125,7 @@ class StudyFile {
     std::map<std::uint64_t, Stored> index_;     ///< by their first unit
     std::map<std::uint64_t, Segment> waiting_;  ///< early segments of a stream, by first unit
     std::uint64_t size_ = 0;                    ///< bytes of the table
-    std::uint64_t written_ = 0;                 ///< number of units
+    std::uint64_t written_ = 0;                 ///< number of units in the file
     bool mixed_ = false;         ///< some rows have the fingerprint of a smaller study
     std::exception_ptr broken_;  ///< a write failed: nothing may follow the gap
     StudyFailures failures_;

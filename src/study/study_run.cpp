@@ -21,7 +21,7 @@ using Work = std::vector<UnitRange>;
 
 // Kinds of messages: their first byte.
 constexpr char ask_message = 'A';   // request of a thread for work
-constexpr char work_message = 'W';  // its answer; empty after the last piece
+constexpr char work_message = 'W';  // answer: a piece; empty after the last one
 constexpr char done_message = 'D';  // results of a piece
 constexpr char bye_message = 'B';   // the sender has finished
 constexpr char halt_message = 'H';  // the receiver is to stop at once
@@ -208,14 +208,14 @@ class Leader {
     /// Flushes rows to the disk every second, so that a power cut loses at most those of the last
     /// second.
     void keep_safe() {
-        constexpr double apart = 1;  // second
+        constexpr double apart = 1;  // seconds between syncs
         if (!run_.seconds || run_.seconds() < synced_ + apart) return;
         synced_ = run_.seconds();
         file_.sync();
     }
 
     void show_progress() {
-        constexpr double apart = 0.1;  // seconds
+        constexpr double apart = 0.1;  // seconds between updates
         if (!run_.progress || !run_.seconds || run_.seconds() < shown_ + apart) return;
         shown_ = run_.seconds();
         const std::lock_guard lock(mutex_);

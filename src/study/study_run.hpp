@@ -18,8 +18,8 @@
 
 namespace stipple {
 
-/// Runs the units that are missing from the file, on rank 0; run.progress gets the fraction of the
-/// time that has elapsed. Returns false if the reader of the pipe has closed it.
+/// Runs the units that are missing from the file, on rank 0; run.progress receives the elapsed
+/// fraction of the estimated time. Returns false if the reader of the pipe has closed it.
 /// @throws Error(cancelled), with all finished units in the file; Error(io)
 bool run_study(const UnitRunner& runner, StudyFile& file, Ranks& ranks, const RunContext& run);
 

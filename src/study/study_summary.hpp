@@ -39,10 +39,10 @@ struct MeanRow {
     double median = not_known;
     double standard_deviation = not_known;
     double rms = not_known;      ///< root mean square
-    double rms_low = not_known;  ///< only for errors, and if some values are negative
+    double rms_low = not_known;  ///< known for errors, or if some values are negative
     double rms_high = not_known;
     double confidence = not_known;  ///< level of the intervals
-    double t_low = not_known;       ///< of the mean, by Student's t
+    double t_low = not_known;       ///< Student's t interval of the mean
     double t_high = not_known;
     double bootstrap_low = not_known;
     double bootstrap_high = not_known;
@@ -53,7 +53,7 @@ struct SummaryOptions {
     bool paired = false;  ///< compare seed by seed instead of by Welch's test
     double confidence = 0.95;
     std::uint64_t resamples = 2000;  ///< 0: no bootstrap intervals
-    std::uint64_t seed = 1;          ///< of the bootstrap
+    std::uint64_t seed = 1;          ///< seed of the bootstrap
 };
 
 class StudySummary {
@@ -93,7 +93,7 @@ class StudySummary {
         MeanTest test = {};
         double p_holm = 1;
     };
-    /// Dimension, count, measure and key: values of one topic are compared.
+    /// Dimension, count, measure and key: only values of the same topic are compared.
     using Topic = std::tuple<std::uint64_t, std::uint64_t, std::string, std::string>;
     using Cell = std::tuple<std::string, std::uint64_t, std::uint64_t, std::string>;
 

@@ -27,12 +27,12 @@ struct StudyRow {
     std::uint64_t seed = 0;
     std::string measure = {};  ///< spec
     std::string measure_options = {};
-    std::string domain = {};  ///< of the measured points
-    std::string key = {};     ///< of the result
+    std::string domain = {};  ///< domain of the measured points
+    std::string key = {};     ///< key of the result
     std::optional<double> value = {};
-    std::string status = "ok";  ///< or failed
-    std::string reason = {};    ///< of a failure
-    std::string study = {};     ///< fingerprint
+    std::string status = "ok";  ///< "ok" or "failed"
+    std::string reason = {};    ///< reason of a failure
+    std::string study = {};     ///< fingerprint of the study
     std::optional<double> generate_seconds = {};
     std::optional<double> seconds = {};
 
@@ -52,7 +52,7 @@ struct UnitResult {
     double generate_seconds = 0;
     double seconds = 0;
     std::string failure = {};    ///< reason, on one line; empty if it succeeded
-    bool out_of_memory = false;  ///< it needs more than this worker has
+    bool out_of_memory = false;  ///< needs more memory than this worker has
 };
 
 /// Results of consecutive units.
@@ -61,7 +61,7 @@ struct Segment {
     std::vector<UnitResult> results = {};  ///< one per unit
 };
 
-/// Columns that are the same in all rows of a unit.
+/// Row with the columns that are the same in all rows of a unit; the others are unset.
 StudyRow row_of(const Sweep& sweep, const Unit& unit);
 
 /// A row for each number of the unit, or one row with its failure.

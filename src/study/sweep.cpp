@@ -46,7 +46,8 @@ void refuse_twice(const std::vector<Chosen<Unit>>& list, std::string_view who) {
                 fail(ErrorKind::usage, "{}: '{}' is given twice", who, list[i].spec);
 }
 
-/// @throws Error(usage) for keys that no measure has, and for measures that have none of the keys
+/// Checks the keys to keep. @throws Error(usage) for a key that no measure has, and for a measure
+/// that has none of the keys
 void check_keys(const std::vector<std::string>& wanted,
                 const std::vector<Chosen<Analyzer>>& measures) {
     const auto has = [](const Chosen<Analyzer>& measure, const std::string& key) {

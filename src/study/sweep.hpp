@@ -43,8 +43,8 @@ template <class Unit>
 struct Chosen {
     const Unit* unit = nullptr;
     Values values = {};
-    std::string spec = {};                                          ///< without defaults
-    std::vector<std::pair<std::string, std::string>> options = {};  ///< with defaults
+    std::string spec = {};  ///< without options at their defaults
+    std::vector<std::pair<std::string, std::string>> options = {};  ///< all options
 };
 
 /// Sets that differ only in the seed.
@@ -94,8 +94,8 @@ class Sweep {
     [[nodiscard]] Cell cell(std::uint64_t index) const;
     [[nodiscard]] Unit unit(std::uint64_t index) const;
     [[nodiscard]] std::uint64_t units_per_cell() const { return request_.seeds * measures_.size(); }
-    /// Names something in the sweep `part` that is missing from this one, such as "seed 5"; empty
-    /// if nothing is.
+    /// Name of something in the sweep `part` that is missing from this one, such as "seed 5"; empty
+    /// if nothing is missing.
     [[nodiscard]] std::string missing_from(const Sweep& part) const;
     /// Index of a unit; nullopt if the study does not contain it.
     [[nodiscard]] std::optional<std::uint64_t> index_of(std::string_view generator,
@@ -124,7 +124,7 @@ class Sweep {
     std::vector<Chosen<Analyzer>> measures_;
     std::vector<Spec> warps_;
     std::string warp_names_;
-    std::size_t scrambles_ = 0;  ///< number of those before the first warp
+    std::size_t scrambles_ = 0;  ///< number of scrambles before the first warp
     bool random_warps_ = false;
     std::uint64_t units_ = 0;
     std::vector<std::pair<std::string, std::string>> settings_;

@@ -255,7 +255,7 @@ WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext&
     const bool shares_memory = run.max_memory < whole_memory_;
     WorkDone done;
     MadeSet set;
-    std::map<std::size_t, UnitResult> results;  // of the set, by index of the measure
+    std::map<std::size_t, UnitResult> results;  // results for this set, by index of the measure
     std::optional<std::pair<std::uint64_t, std::uint64_t>> made;  // cell and seed of the set
     for (const UnitRange& range : ranges)
         for (std::uint64_t index = range.first; index < range.last; ++index) {
@@ -265,7 +265,7 @@ WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext&
             const std::pair wanted{unit.cell, sweep_.seeded(cell.generator) ? unit.seed_index : 0};
             if (made != wanted) {
                 results.clear();
-                set = {};  // frees it first, to need memory for one only
+                set = {};  // frees the previous set before the next one is made
                 const std::uint64_t seed = sweep_.request().first_seed + unit.seed_index;
                 attempt(set.result, set.result.generate_seconds, sweep_.request().time_limit, quiet,
                         [&](const RunContext& limited) { make(set, sweep_, cell, seed, limited); });
@@ -293,7 +293,7 @@ WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext&
 
 std::optional<Error> UnitRunner::refusal_of(std::size_t measure, std::size_t dimension,
                                             std::size_t count, const RunContext& run) const {
-    constexpr double soon = 0.2;  // seconds
+    constexpr double soon = 0.2;  // seconds allowed for a trial
     PointSet points = some_points(dimension, count);
     const auto warps = sweep_.later_warps();
     try {

@@ -28,25 +28,28 @@ namespace stipple {
 struct WorkDone {
     std::vector<Segment> segments = {};
     std::vector<UnitRange> too_large = {};  ///< units that need more memory than this worker had
-    double seconds = 0;                     ///< of making and measuring sets
+    double seconds = 0;                     ///< spent on making and measuring sets
 };
 
 class UnitRunner {
   public:
-    /// @param run with the memory limit of a unit that runs alone
+    /// Finds out which measures accept warped points. @param run has the memory limit of a unit
+    /// that runs alone
     /// @throws Error(cancelled)
     UnitRunner(const Sweep& sweep, const RunContext& run);
 
     [[nodiscard]] const Sweep& sweep() const { return sweep_; }
 
-    /// @param run with the memory limit of this worker; gets no progress and no warnings
+    /// Runs units. @param run has the memory limit of this worker; receives no progress and no
+    /// warnings
     /// @throws Error(cancelled)
     [[nodiscard]] WorkDone run(const std::vector<UnitRange>& ranges, const RunContext& run) const;
 
     /// One sentence for the user for each measure that gets the points before the warps.
     [[nodiscard]] std::vector<std::string> before_warps() const;
 
-    /// @throws Error(usage) for options of a measure that are wrong for every set of the study
+    /// Checks the measures' options. @throws Error(usage) for options that are wrong for every set
+    /// of the study
     void require_options(const RunContext& run) const;
 
   private:
@@ -58,7 +61,8 @@ class UnitRunner {
 
     const Sweep& sweep_;
     std::uint64_t whole_memory_;
-    /// Pairs of a dimension and a measure that gets points before the warps.
+    /// Pairs (dimension, index of a measure) for which the measure gets the points before the
+    /// warps.
     std::set<std::pair<std::size_t, std::size_t>> before_warps_;
 };
 

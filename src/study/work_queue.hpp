@@ -30,10 +30,10 @@ namespace stipple {
 /// @param done in order, without overlaps
 std::vector<UnitRange> missing(std::span<const UnitRange> done, UnitRange range);
 
-/// Modelled seconds on one core.
+/// Modelled seconds on one core for a set.
 struct SetCost {
     double make = 0;
-    double measure = 0;  ///< by all measures
+    double measure = 0;  ///< seconds for all measures
     [[nodiscard]] double all() const { return make + measure; }
 };
 
@@ -83,9 +83,9 @@ class WorkQueue {
     double grain_ = 0;  ///< seconds that a piece should take
     std::vector<CellWork> work_;
     CellWork all_;                      ///< `finished` and `spent` of all cells
-    std::vector<std::uint64_t> cells_;  ///< not pulled completely; the next one is the last
+    std::vector<std::uint64_t> cells_;  ///< not pulled completely; the last one is next
     std::uint64_t pieces_left_ = 0;
-    std::uint64_t finished_ = 0;  ///< number of pieces
+    std::uint64_t finished_ = 0;  ///< number of finished pieces
 };
 
 }  // namespace stipple
