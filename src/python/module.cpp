@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // stipple._stipple: the library's functions, wrapped by the Python package stipple. Points arrive
-// as arrays (n, d) already checked there, settings as pairs of texts, domains as specs.
+// as arrays (n, d) that the package has checked, settings as pairs of texts, domains as specs.
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 

@@ -28,7 +28,7 @@ namespace py = pybind11;
 struct How {
     unsigned threads = 0;
     double max_memory = 0;  ///< memory limit in bytes; 0: none
-    py::object progress;    ///< called with the fraction done; or None
+    py::object progress;    ///< function called with the fraction done, or None
 };
 
 /// Issues the notes of the computation as Python warnings.

@@ -26,7 +26,7 @@ class Worker {
         thread_.join();
     }
 
-    /// @param work must not throw; empty: ends the thread
+    /// Starts work() on the thread. @param work must not throw; empty: ends the thread
     void begin(std::function<void()> work) {
         const std::lock_guard lock(mutex_);
         work_ = std::move(work);
