@@ -64,8 +64,9 @@ auto naming(const std::string& input, const Work& work, const std::string& hint 
     }
 }
 
-/// Applies --domain and --rescale, which maps the points' bounding box to the unit cube, to points
-/// of a file. @throws Error(input) if that box is too wide for float64
+/// Applies --domain and --rescale to points of a file; --rescale maps their bounding box to the
+/// unit cube.
+/// @throws Error(input) if that box is too wide for float64
 PointSet placed(PointSet points, const std::string& input, const Sources& from);
 
 /// Applies --domain, --bounds and --rescale. The box of --bounds is mapped to the unit cube for

@@ -194,8 +194,9 @@ int GenerateRequest::perform(Session& session) const {
 
 namespace {
 
-/// Spec of the requested warp or scramble, with settings and coordinates. @param scrambled null for
-/// a warp @throws Error(usage)
+/// Spec of the requested warp or scramble, with settings and coordinates.
+/// @param scrambled null for a warp
+/// @throws Error(usage)
 Spec spec_of(const WarpRequest& request, const Scramble* scrambled) {
     settings_of(scrambled ? scrambled->options : find_warp(request.unit).options, request);
     Spec spec{.name = request.unit, .coordinates = {}, .settings = request.settings};

@@ -46,8 +46,8 @@ class Session {
 
     [[nodiscard]] const RunContext& run() const { return run_; }
 
-    /// Prints a note to stderr, unless --quiet: when the work is done, or 100 notes have collected,
-    /// so that a short list is not printed before an error.
+    /// Prints a note to stderr, unless --quiet. Notes are delayed until the work is done or 100
+    /// have collected, so that an error is usually printed without notes.
     void warn(const std::string& sentence);
 
     /// Like warn(), without "note: ": for messages that an option asks for.

@@ -21,7 +21,8 @@ namespace stipple::io {
 /// A file that appears only when it is complete, or standard output for "-". Devices and pipes are
 /// written in place; for a symbolic link, its target is replaced. Names ending in .gz or .zst get
 /// compressed bytes. Until commit() the bytes are in an unnamed file, which vanishes with the
-/// process, or in a file .stipple-PID-N.part beside it if the file system has no unnamed files.
+/// process, or in a file .stipple-PID-N.part in the same folder if the file system has no unnamed
+/// files.
 class Output {
   public:
     /// If a signal interrupts a write (handler installed without SA_RESTART) and `stop` was

@@ -79,8 +79,7 @@ class MpiRanks : public Ranks {
         const std::lock_guard lock(mpi_);
         if (failed_) return error;
         hear_failure();
-        if (!heard_ && error.kind() == ErrorKind::cancelled)
-            return error;  // all ranks are cancelled
+        if (!heard_ && error.kind() == ErrorKind::cancelled) return error;  // all are cancelled
         failed_ = true;
         if (heard_) return *heard_;
         const Error told(error.kind(), fmt::format("rank {} on {}: {}", rank_, host_, error.what()),

@@ -23,7 +23,7 @@
 namespace stipple::plot {
 
 inline constexpr std::size_t most_pair_coordinates = 8;
-inline constexpr double density_share = 0.75;  ///< points per square unit of the frame
+inline constexpr double density_share = 0.75;  ///< least points per square unit for a density
 
 /// Limit for the ratio of a box's sides. Beyond it, coordinates are assumed to have different units
 /// and are scaled separately.

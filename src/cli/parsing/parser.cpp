@@ -88,7 +88,7 @@ std::vector<std::string> take_words(std::vector<std::string> words, const std::v
     fail_with_hint(ErrorKind::usage, hint, "unknown {} '{}'", what, word);
 }
 
-/// Gives each `--check` without a condition its default: the next word may be a file.
+/// Gives each `--check` without a condition the default one, since the next word may be a file.
 void complete_checks(std::vector<std::string>& words) {
     const auto condition = [](const std::string& word) {
         return !word.starts_with('-') && word.find_first_of("<>=") != std::string::npos;

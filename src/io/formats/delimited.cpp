@@ -174,7 +174,7 @@ class RowReader {
     /// Upper bound for the number of rows in [p, last).
     [[nodiscard]] std::uint64_t most_rows(const char* p, const char* last) const {
         const auto lines = 1 + static_cast<std::uint64_t>(std::count(p, last, text_.newline()));
-        const std::uint64_t least_bytes =  // least bytes of a row with its line end
+        const std::uint64_t least_bytes =  // minimum bytes of a row with its line end
             columns_.width() + (dialect_.gaps ? 0 : columns_.dimension);
         return std::min(lines, 1 + static_cast<std::uint64_t>(last - p) / least_bytes);
     }

@@ -26,7 +26,7 @@ struct Axis {
     double first_word = 1;
     std::string name = {};  ///< empty: no name
     bool numbers = true;    ///< false: only tick marks, since another panel has the numbers
-    bool tight = false;     ///< keeps numbers within the frame, beside which is another one
+    bool tight = false;     ///< keeps numbers within the frame, for frames side by side
 
     /// Ticks that fit into this length. `upright`: the axis is vertical, with numbers one above the
     /// other.
