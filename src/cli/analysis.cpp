@@ -33,8 +33,8 @@ struct FileOption {
 constexpr std::array<FileOption, 3> file_options = {
     {{"grid", ".npy"}, {"image", ".png"}, {"wisdom", ""}}};
 
-// Small sets are collected and measured in parallel, a few megabytes at a time.
-// Coordinates of a set that is measured immediately.
+// Small sets are collected and measured in parallel, a few megabytes at a time. Sets with at least
+// `large` coordinates are measured immediately.
 constexpr std::size_t large = std::size_t{1} << 18;
 constexpr std::size_t together = std::size_t{1} << 20;  // coordinates of all collected sets
 constexpr std::size_t most_waiting = std::size_t{1} << 12;

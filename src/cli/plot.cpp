@@ -224,7 +224,7 @@ class Plot {
         style_.height = high / style_.scale;
     }
 
-    /// @throws Error(usage) for a number outside [low, high]
+    /// Checks an option's number. @throws Error(usage) if it is outside [low, high]
     static void require_range(const char* option, const std::optional<std::uint64_t>& value,
                               std::uint64_t low, std::uint64_t high) {
         if (value && (*value < low || *value > high))

@@ -22,7 +22,7 @@ struct Columns {
 
     std::vector<std::size_t> role;
     std::size_t dimension = 0;
-    std::vector<std::string> names = {};  ///< of the coordinates, in order; may be empty
+    std::vector<std::string> names = {};  ///< names of the coordinates, in order; may be empty
     /// Level names of each coordinate; empty for numeric coordinates.
     std::vector<std::vector<std::string>> words = {};
     /// Name of the density column after the coordinates; "pdf,weight" if the file has both: then

@@ -35,7 +35,8 @@ std::vector<PointSet> read_points(const std::string& path, const ReadOptions& op
 PointSet read_given(std::string_view option, const std::string& path, const ReadOptions& options,
                     const RunContext& run);
 
-/// @throws Error(usage) naming the option if the path is standard input, which cannot be read twice
+/// Checks that the path is not standard input, which cannot be read twice. @throws Error(usage)
+/// naming the option
 void require_file(std::string_view option, const std::string& path);
 
 }  // namespace stipple::io

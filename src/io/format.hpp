@@ -141,7 +141,7 @@ const std::vector<Format>& all();
 /// The format called `name`. @throws Error(usage) suggesting the nearest name
 const Format& format_named(std::string_view name);
 
-/// Lower-case extension of a file name, ".csv"; that of a compression is removed first.
+/// Lower-case extension of a file name, ".csv"; an extension .gz or .zst is removed first.
 std::string extension_of(std::string_view path);
 
 /// Checks the extension of an output's name; accepts names without extension. @throws Error(usage)

@@ -266,7 +266,8 @@ void Outputs::commit() {
     std::uint64_t count = 0;
     std::vector<std::string> some;  // names of files already in place
     some.reserve(named);
-    // Puts one file in place and returns true; false if `put` has no more files.
+    // Calls put() to put one file in place. Returns false if put() returns no path: no files
+    // remain.
     const auto place = [&](const auto& put) {
         try {
             std::optional<std::string> path = put();

@@ -35,10 +35,11 @@ class SourceText {
     /// Line number of a position, from 1.
     [[nodiscard]] std::size_t line_of(const char* at) const;
 
-    /// @throws Error(input) "FILE:LINE:COLUMN: what"; columns are bytes counted from 1.
+    /// Reports an error at a position. @throws Error(input) "FILE:LINE:COLUMN: what"; columns are
+    /// bytes counted from 1.
     [[noreturn]] void refuse(const char* at, const std::string& what, std::string hint = {}) const;
 
-    /// @throws Error(input) "FILE: what"
+    /// Reports an error of the whole text. @throws Error(input) "FILE: what"
     [[noreturn]] void refuse_whole(const std::string& what, std::string hint = {}) const;
 
   private:

@@ -25,7 +25,8 @@ namespace stipple {
 
 class DensityMoments {
   public:
-    /// @param values in row-major order from y = 0; the W x H pixels cover [0, sides]
+    /// Tabulates the integrals of a density. @param values in row-major order from y = 0; the W x H
+    /// pixels cover [0, sides]
     DensityMoments(std::size_t width, std::size_t height, std::span<const double> values,
                    Vec2 sides);
 

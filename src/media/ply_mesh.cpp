@@ -109,13 +109,13 @@ class Body {
         property_ = &property;
         row_ = row;
     }
-    /// "x of vertex 3 of 8".
+    /// Describes the position: "x of vertex 3 of 8".
     [[nodiscard]] std::string what() const {
         return fmt::format("{} of {} {} of {}", property_->name, element_->name, row_ + 1,
                            element_->count);
     }
 
-    /// Reads the next number. @throws Error(input) if there is none
+    /// Reads the next number. @throws Error(input) at the end of the data
     virtual double next(const RawType& type) = 0;
     /// Reports an error at the last number.
     [[noreturn]] virtual void refuse(const std::string& what) = 0;
@@ -253,7 +253,7 @@ class Assembly {
     std::vector<std::uint32_t> polygon_;
 };
 
-/// @throws Error(input) if the header does not describe a mesh
+/// Checks the header. @throws Error(input) if it does not describe a mesh
 void check(const Header& header, TokenFile& file) {
     const auto has = [&](std::string_view element, std::string_view property, bool list) {
         for (const Element& e : header.elements)

@@ -35,7 +35,8 @@ struct PngPicture {
 
 inline constexpr std::string_view png_magic = "\x89PNG\r\n\x1a\n";
 
-/// @throws Error(input) "SOURCE: error" if the bytes are not a complete PNG picture; Error(limit)
+/// Decodes a picture. @throws Error(input) "SOURCE: error" if the bytes are not a complete PNG
+/// picture; Error(limit)
 PngPicture read_png(std::string_view bytes, const std::string& source, const RunContext& run);
 
 /// Properties of a picture without colour profile.

@@ -77,10 +77,10 @@ class TokenFile {
     /// Skips the rest of the next token's line, up to a comment.
     void skip_line();
 
-    /// @throws Error(input) "FILE:LINE:COLUMN: what"
+    /// Reports an error at a token. @throws Error(input) "FILE:LINE:COLUMN: what"
     [[noreturn]] void refuse(const Token& at, const std::string& what) const;
 
-    /// @throws Error(input) "FILE: what"
+    /// Reports an error of the whole file. @throws Error(input) "FILE: what"
     [[noreturn]] void refuse_whole(const std::string& what) const;
 
   private:

@@ -142,12 +142,12 @@ class WarpChain {
     /// A mapping (warp), a randomization (scramble), or neither: then it only sets the domain of
     /// coordinates that the chain does not change.
     struct Step {
-        DomainPtr domain = {};  ///< of the step's output; null for a randomization
+        DomainPtr domain = {};  ///< domain of the step's output; null for a randomization
         std::unique_ptr<Mapping> mapping = {};
         Mapping::SetStep set_step = {};  ///< applied to whole sets before the mapping
         bool refills = false;            ///< the points that the mapping drops are replaced
         Randomization randomization = {};
-        std::vector<std::size_t> coordinates = {};  ///< taken from the input row
+        std::vector<std::size_t> coordinates = {};  ///< coordinates taken from the input row
         std::vector<std::size_t> rest = {};         ///< other coordinates of the input row
         std::vector<std::size_t> at = {};           ///< positions of its numbers in the output row
         std::vector<std::size_t> others = {};       ///< positions of `rest` in the output row
@@ -156,8 +156,8 @@ class WarpChain {
         std::size_t width_out = 0;            ///< numbers in the output row
     };
 
-    /// Applies the steps [from, to) to rows. If step `from` reorders whole sets, reorder() must
-    /// have been called for it.
+    /// Applies the steps [from, to) to rows. If step `from` reorders whole sets, apply_set_step()
+    /// must have been called for it.
     [[nodiscard]] std::vector<double> through(std::vector<double> rows, std::uint64_t first,
                                               std::size_t from, std::size_t to) const;
 

@@ -104,8 +104,8 @@ Layout layout_of(SetsHead head, const SetStream& stream, const Target& target) {
     return layout;
 }
 
-/// Text of a provenance file beside the points, if their format has no place for it; otherwise
-/// empty.
+/// Text of a provenance file beside the points, if requested and if their format cannot hold it;
+/// otherwise empty.
 std::string meta_beside(const Layout& layout, const std::string& path, const Target& target,
                         const RunContext& run) {
     if (!target.meta || !target.format->traits.meta_beside || target.sink) return {};
@@ -120,8 +120,8 @@ std::string meta_beside(const Layout& layout, const std::string& path, const Tar
            "\n";
 }
 
-/// @throws Error(usage) if two sets would be written to one file: sets read from files may have the
-/// same seed
+/// Checks that no two sets would be written to one file: sets from files may have the same seed.
+/// @throws Error(usage)
 void check_seeds(const SetStream& stream, const Target& target) {
     if (target.path.find("{set}") != std::string::npos) return;
     std::unordered_map<std::uint64_t, std::size_t> taken;

@@ -90,7 +90,7 @@ FileFacts facts_of(const std::string& path, const io::Opener& open) {
     return facts;
 }
 
-/// Checks that all ranks read the same bytes: a name may stand for different files on different
+/// Checks that all ranks read the same bytes: a name may mean different files on different
 /// machines.
 /// @throws Error(input)
 void check_same_bytes(const std::vector<std::string>& paths, std::vector<Unpacker>& told,

@@ -55,7 +55,7 @@ struct SetStream {
     std::function<OpenSet(std::size_t set, const RunContext&)> open = {};
     /// Returns the metadata of a file with the sets [first, last). Called before these are opened.
     std::function<SetsHead(std::size_t first, std::size_t last)> head = {};
-    std::function<std::uint64_t(std::size_t set)> seed = {};  ///< of a set, for file names
+    std::function<std::uint64_t(std::size_t set)> seed = {};  ///< seed of a set, for file names
     bool one_at_a_time = false;  ///< memory holds one set, replaced by head() and open()
     bool side_files = false;     ///< some sets have side files
     bool starts = false;         ///< a set's first point can be skipped by --start

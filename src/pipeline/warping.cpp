@@ -76,7 +76,8 @@ void refuse_second_set(io::PointStream& stream) {
 
 /// A warp or its inverse, for points on a given domain.
 struct Warping {
-    /// @param densities whether the points have densities of their own
+    /// Makes the chain and checks the target. @param densities whether the points have densities of
+    /// their own
     Warping(const Spec& spec, bool back, const DomainPtr& on, const Target& target,
             const RunContext& run, const ChainSet& set = {}, bool densities = false)
         : inverse(back), taken(named_or_all(spec, on->dimension())) {

@@ -60,7 +60,7 @@ struct PointsPicture {
     bool cells = false;  ///< draws the Voronoi cells of a single plane set, in its domain's box
     bool pairs = false;  ///< draws three coordinates as pairs
     std::size_t most_disks = 20'000;  ///< limit beyond which pixels replace disks
-    std::size_t most_coordinates = most_pair_coordinates;  ///< how many of them are drawn in pairs
+    std::size_t most_coordinates = most_pair_coordinates;  ///< limit for coordinates drawn in pairs
 };
 
 /// Polylines along the boundary of a planar domain, in its coordinates; empty for other dimensions

@@ -432,7 +432,7 @@ void keep_largest(ChartPanel& panel) {
         return kept;
     };
     for (Series& series : panel.series) {
-        series.x.resize(most);  // 1, 2, ...
+        series.x.resize(most);  // keeps x = 1, 2, ...
         for (Curve* values : {&series.y, &series.low, &series.high}) *values = picked(*values);
     }
     panel.categories = picked(panel.categories);

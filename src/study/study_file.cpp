@@ -312,8 +312,8 @@ void StudyFile::lock_journal() {
         fail(ErrorKind::io, "{}: another study is writing to it", path_);
 }
 
-/// Returns false if the journal is damaged.
-/// @throws Error(input) if it is another study's
+/// Whether the journal is that of this study; false if it is damaged.
+/// @throws Error(input) if the journal is that of another study
 bool StudyFile::journal_is_ours() const {
     const Json head = head_of_journal(path_);
     if (head.is_object() && head["study"] != sweep_.fingerprint()) refuse_other();

@@ -122,7 +122,7 @@ class StudyFile {
     int output_ = -1;
     int journal_ = -1;
     std::mutex mutex_;                          // guards the members down to failures_
-    std::map<std::uint64_t, Stored> index_;     ///< by their first unit
+    std::map<std::uint64_t, Stored> index_;     ///< stored units, by the first unit of each run
     std::map<std::uint64_t, Segment> waiting_;  ///< early segments of a stream, by first unit
     std::uint64_t size_ = 0;                    ///< bytes of the table
     std::uint64_t written_ = 0;                 ///< number of units in the file

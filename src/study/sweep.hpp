@@ -74,7 +74,7 @@ bool names_result(const std::string& result, std::string_view wanted);
 
 class Sweep {
   public:
-    /// @throws Error(usage) for unknown units and options
+    /// Resolves the units of a request. @throws Error(usage) for unknown units and options
     explicit Sweep(SweepRequest request);
 
     [[nodiscard]] const SweepRequest& request() const { return request_; }

@@ -76,11 +76,11 @@ WorkQueue::Piece WorkQueue::piece_of(std::uint64_t index) const {
 
 void WorkQueue::sort() {
     constexpr double longest = 1;      // seconds of a piece
-    constexpr double shortest = 2e-3;  // shorter ones cost more to hand out
+    constexpr double shortest = 2e-3;  // shorter pieces are not worth handing out
     constexpr double pieces_of_worker = 32;
     grain_ = std::clamp(seconds_left() / (pieces_of_worker * workers_), shortest, longest);
     pieces_left_ = 0;
-    std::vector<double> seconds(work_.size());  // of a piece, if longer than grain_; else 0
+    std::vector<double> seconds(work_.size());  // of a cell's piece if above grain_; else 0
     for (const std::uint64_t cell : cells_) {
         const Piece piece = piece_of(cell);
         const std::uint64_t units = sweep_.units_per_cell() - work_[cell].pulled;

@@ -121,7 +121,7 @@ class Reader {
         if (!accept(c)) refuse(expected);
     }
 
-    /// [[0,1],...], [[[0,1],...],...] or [{"x":0,"y":1},...]
+    /// Reads a bare list: [[0,1],...], [[[0,1],...],...] or [{"x":0,"y":1},...].
     void read_bare() {
         const char* const begin = p_;
         std::size_t depth = 0;

@@ -53,7 +53,7 @@ struct Sheet {
     double radius = 0;
 };
 
-/// @throws Error(input) if a side is too long for float64
+/// Checks the lengths of the box's sides. @throws Error(input) if one is too long for float64
 const Box& finite(const Box& box) {
     for (std::size_t k = 0; k < box.dimension(); ++k)
         if (!std::isfinite(box.extent(k)))
@@ -70,7 +70,7 @@ Box box_of(const Layout& layout) {
     return {std::vector<double>(d, 0.0), std::vector<double>(d, 1.0)};
 }
 
-/// @param alike whether all coordinates have the same scale
+/// Panel of coordinates i and j. @param alike whether all coordinates have the same scale
 Panel panel_of(const Box& box, std::size_t i, std::size_t j, bool alike) {
     const auto columns = static_cast<double>(box.dimension() - 1);
     const double side = (longer_side - (columns - 1) * margin) / columns;

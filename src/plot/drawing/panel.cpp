@@ -14,7 +14,7 @@ namespace stipple::plot {
 namespace {
 
 constexpr double mark = 4;        ///< length of tick marks at numbers
-constexpr double small_mark = 2;  ///< of tick marks between numbers
+constexpr double small_mark = 2;  ///< length of tick marks between numbers
 constexpr double gap = 10;        ///< minimum space between neighbouring numbers
 constexpr double capital = 0.714 * number_size;
 

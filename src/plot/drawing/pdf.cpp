@@ -58,7 +58,7 @@ using Fonts = std::array<std::u32string, 2>;
 
 /// The table that maps glyphs to Unicode (ToUnicode CMap).
 std::string unicode_map(const std::u32string& letters) {
-    constexpr std::size_t most = 100;  // entries in a block
+    constexpr std::size_t most = 100;  // limit for entries in a block
     std::string map =
         "/CIDInit/ProcSet findresource begin 12 dict begin begincmap"
         "/CIDSystemInfo<</Registry(Adobe)/Ordering(UCS)/Supplement 0>>def"

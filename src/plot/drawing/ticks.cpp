@@ -191,7 +191,7 @@ Ticks linear_ticks(double low, double high, std::size_t most, bool whole) {
 }
 
 Ticks binary_ticks(double low, double high, std::size_t most) {
-    constexpr int plain = 16;  // 65536
+    constexpr int plain = 16;  // up to 2^16, numbers are written out
     const double first = std::ceil(std::log2(low) - 1e-9);
     const double last = std::floor(std::log2(high) + 1e-9);
     const Numbered numbered = spread(first, last, most);
