@@ -16,8 +16,8 @@ constexpr Param<double> length_option(std::string_view name, double fallback,
     return {.name = name, .fallback = fallback, .low = 1e-150, .high = 1e150, .help = help};
 }
 
-/// @throws Error(usage) if a coordinate x of a centre is so large that rounding destroys the shape
-/// of size `reach`
+/// Checks a coordinate x of a centre. @throws Error(usage) if it is so large that rounding destroys
+/// the shape of size `reach`
 void refuse_far(double x, double reach);
 
 /// Expands an option with one number for all coordinates, or one for each, to d numbers.
@@ -31,7 +31,7 @@ std::vector<double> one_for_each(const Param<Numbers>& option, std::vector<doubl
 std::vector<double> checked_weights(const Param<Numbers>& option, std::vector<double> weights,
                                     bool normalize);
 
-/// Cumulative sums of such weights; the last is exactly 1.
+/// Cumulative sums of weights that sum to 1; the last is exactly 1.
 std::vector<double> sums_to_1(const std::vector<double>& weights);
 
 }  // namespace stipple::warps

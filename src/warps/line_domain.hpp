@@ -40,23 +40,24 @@ class LineDistribution {
 
     /// Inverse of the quantile: the number in [0, 1] that maps to x; rounding may leave [0, 1].
     [[nodiscard]] virtual double inverse(double x) const = 0;
-    [[nodiscard]] virtual double density(double x) const = 0;           ///< for pictures
-    [[nodiscard]] virtual std::pair<double, double> range() const = 0;  ///< for pictures
+    [[nodiscard]] virtual double density(double x) const = 0;
+    /// Interval shown in pictures; also the support, unless contains() is overridden.
+    [[nodiscard]] virtual std::pair<double, double> range() const = 0;
     [[nodiscard]] virtual bool contains(double x) const {
         return x >= range().first && x <= range().second;
     }
     [[nodiscard]] virtual double measure() const {  ///< length of the whole range
         return range().second - range().first;
     }
-    /// NaN or infinite if they do not exist or are unknown.
+    /// Moments; NaN or infinite if they do not exist or are unknown.
     [[nodiscard]] virtual LineMoments moments() const = 0;
 
     /// Whether inverse() is the distribution function, so that the probability of an interval of
     /// the cube is its length.
     [[nodiscard]] virtual bool even() const { return true; }
 
-    /// Whether it is discrete, with cube_coordinate() in the middle of a cell whose length is the
-    /// outcome's probability.
+    /// Whether the distribution is discrete. cube_coordinate() is then in the middle of a cell
+    /// whose length is the outcome's probability.
     [[nodiscard]] virtual bool has_outcomes() const { return false; }
 
     /// Coordinate in the cube, and the probability between two such coordinates; needed if not
@@ -66,7 +67,7 @@ class LineDistribution {
         return {high - low, 0};
     }
 
-    /// Where the density is not 0: disjoint intervals and their total length.
+    /// Support of the density: disjoint intervals, and their total length.
     struct Positive {
         std::vector<std::pair<double, double>> intervals;
         double length;

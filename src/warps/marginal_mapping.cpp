@@ -29,8 +29,8 @@ class MarginalLine final : public LineDistribution {
         if (!has_density(ends_.second)) high = high == 0 ? -least : std::nextafter(high, -infinity);
     }
 
-    /// If the density is 0 or infinite at an end, rounding does not reach that end; if it is
-    /// infinite, no number does.
+    /// xi = 0 and 1 map to finite ends, unless the density is infinite there. Rounding of other xi
+    /// reaches an end only if the density is finite and above 0 there.
     void forward_all(std::span<double> numbers) const {
         if (law_->discrete()) return law_->quantiles(numbers);
         std::array<double, 256> u;
@@ -94,7 +94,7 @@ class MarginalLine final : public LineDistribution {
         return {{range()}, measure()};
     }
 
-    /// Discrete: to_cube gives the middle of an outcome's cell.
+    /// False for discrete distributions, for which to_cube gives the middle of an outcome's cell.
     bool even() const override { return !law_->discrete(); }
     bool has_outcomes() const override { return law_->discrete(); }
     double cube_coordinate(double x) const override {
@@ -123,7 +123,7 @@ class MarginalLine final : public LineDistribution {
         if (std::isfinite(law_->density(x))) return x;
         return tail == Tail::lower ? inside_.first : inside_.second;
     }
-    /// The distribution function just below an outcome, and at it.
+    /// The distribution function just below an outcome, and at the outcome.
     std::pair<double, double> cell(double x) const {
         return {law_->probability(std::nextafter(x, -infinity)), law_->probability(x)};
     }
@@ -138,7 +138,8 @@ class MarginalLine final : public LineDistribution {
     MarginalPtr law_;
     std::pair<double, double> ends_;
     std::pair<bool, bool> endless_;
-    std::pair<double, double> inside_;  ///< the ends, or the nearest numbers inside
+    /// The ends; the next double inside if an end or its density is infinite, or this density 0.
+    std::pair<double, double> inside_;
 };
 
 }  // namespace

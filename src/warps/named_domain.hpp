@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Base of the warps' domains, which stores their spec and dimensions; and the mapping onto a domain
-// that implements both directions itself: to_cube(), and
+// Base of the warps' domains, which stores their spec and dimensions. Also the mapping onto a
+// domain that implements both directions itself, by to_cube() and
 //
 //     void from_cube(std::span<const double> cube, std::span<double> image) const;   // many points
 #pragma once

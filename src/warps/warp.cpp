@@ -66,7 +66,7 @@ class Oriented final : public Mapping {
     std::vector<Place> places_;
 };
 
-/// Reorders and reflects the unit coordinates: `order` gives for each position k for xi_k or -k for
+/// Reorders and reflects the unit coordinates. `order` has for each position k for xi_k, or -k for
 /// 1 - xi_k. @throws Error(usage) unless it names each coordinate once
 std::unique_ptr<Mapping> oriented(std::unique_ptr<Mapping> mapping, std::span<const double> order) {
     const std::size_t d = mapping->cube_dimension();

@@ -29,7 +29,7 @@ class Mapping {
     virtual ~Mapping() = default;
 
     /// The space of the images, which have domain()->dimension() numbers per point. Its density is
-    /// the one that the warp is meant to have; biased methods have another.
+    /// the intended one; images of biased methods follow another.
     [[nodiscard]] const DomainPtr& domain() const { return domain_; }
 
     /// Unit coordinates per point.
@@ -44,20 +44,19 @@ class Mapping {
     /// Whether some points may have no image.
     [[nodiscard]] virtual bool drops() const { return false; }
 
-    /// Outcomes of each unit coordinate. Empty if all are continuous, or if outcomes depend on
+    /// Outcomes of each unit coordinate; empty if all are continuous, or if outcomes depend on
     /// other coordinates.
     [[nodiscard]] virtual std::vector<OutcomeAxis> outcome_axes() const { return {}; }
 
-    /// Changes all points of a set in place: count x cube_dimension() numbers.
-    /// @throws Error(input) for points that it cannot take; Error(limit), Error(cancelled)
+    /// Changes all points of a set in place: count x cube_dimension() numbers. @throws Error(input)
+    /// for unsuitable points; Error(limit), Error(cancelled)
     using SetStep = std::function<void(std::span<double> cube, const RunContext& run)>;
 
-    /// Step that needs the whole set and comes before forward(); empty if points are mapped one by
-    /// one.
+    /// Step that needs the whole set and precedes forward(); empty if points are mapped one by one.
     [[nodiscard]] virtual SetStep set_step() const { return {}; }
 
-    /// Whether the image of a row of the cube is infinite and replaced by a finite one. Called only
-    /// if the domain's measure is infinite.
+    /// Whether the image of a row of the cube would be infinite and is replaced by a finite one.
+    /// Called only if the domain's measure is infinite.
     [[nodiscard]] virtual bool infinite(std::span<const double> /*row*/) const { return false; }
 
     /// Inverse, into the closed unit cube: the domain's to_cube(), unless a method has its own.
@@ -80,7 +79,7 @@ class Mapping {
 
     /// @throws Error(usage) if there is no inverse
     void check_way_back() const;
-    /// As check_way_back(), and checks that the domain contains all points.
+    /// Like check_way_back(), and checks that the domain contains all points.
     void expect_inside(std::span<const double> image) const;
     [[noreturn]] void refuse_outside(std::span<const double> point) const;
 
@@ -106,10 +105,10 @@ struct WarpRequest {
 
 struct WarpTraits {
     bool invertible = true;
-    bool drops = false;      ///< some options drop points
-    bool refills = false;    ///< a set gets as many images as requested, instead of those dropped
-    bool biased = false;     ///< some options are deliberately wrong; their help says so
-    bool tabulated = false;  ///< the points' density is a table's, near the domain's
+    bool drops = false;            ///< some options drop points
+    bool refills = false;          ///< replaces dropped points: sets are as large as requested
+    bool biased = false;           ///< some options are deliberately wrong; their help says so
+    bool tabulated = false;        ///< points follow a table's density, which is near the domain's
     bool needs_whole_set = false;  ///< some options have a Mapping::set_step()
     bool discrete = false;         ///< points are outcomes with probabilities, and have no density
 };
@@ -119,12 +118,12 @@ struct Warp {
     std::string summary;
     std::string source;
     std::string family = {};  ///< "blue noise"; set by the registry from the folder
-    /// Search words that lead to this unit but are not names of it: its kind, parts or uses.
+    /// Search words that are not names of this unit: its kind, parts or uses.
     std::vector<std::string> related = {};
     std::string strata;  ///< images of the strata, and whether xi or 1 - xi is used
     WarpTraits traits = {};
     Schema options;
-    std::vector<std::string> aliases = {};  ///< other names, as users of the field may type
+    std::vector<std::string> aliases = {};  ///< other names that users may type
 
     /// Incremented when the images for the same options and seed change (see
     /// tests/contract/golden.txt).

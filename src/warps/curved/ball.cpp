@@ -62,8 +62,8 @@ class BallDomain final : public NamedDomain {
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         std::ranges::copy(shares(sphere_.unit(point)), cube.begin());
     }
-    /// Integrates, over z, the area that the ball's disk has between the box's sides. The integral
-    /// is split where the disk touches a side or a corner.
+    /// Integral over z of the area of the ball's cross-section within the box's sides. The integral
+    /// is split where the cross-section touches a side or a corner.
     std::optional<Estimate> box_mass(const Box& box) const override {
         std::array<double, 3> low{};
         std::array<double, 3> high{};

@@ -118,7 +118,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     if (center.size() != 2)
         fail(ErrorKind::usage, "--center: expected 2 numbers, x,y; {} given", center.size());
     for (const double x : center) refuse_far(x, r);
-    const Placement at{{center[0] + 0.0, center[1] + 0.0}, r};  // -0 would appear in the points
+    const Placement at{{center[0] + 0.0, center[1] + 0.0}, r};  // + 0.0 avoids -0 in the points
     const auto circle = std::make_shared<CircleDomain>(at, want.spec({radius.name, middle.name}));
     if (want.options[method] == "angle") return row_mapping(circle, ByAngle{at});
     return row_mapping(circle, BySquare{at});

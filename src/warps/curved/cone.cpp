@@ -14,9 +14,9 @@
 //         longitudes.
 // Cost    O(1) a point; on one core about 6 ns forward, 35 ns inverse.
 // Promise density 1 / (solid angle). Directions lie in the cone up to the rounding stated at
-//         contains(). A round trip returns the same direction within 1e-14; about z also x and y
-//         within a relative 1e-14, and the same xi within 1e-14, except that the axis returns xi1 =
-//         0. The same bits on every machine.
+//         contains(). A round trip returns the same direction within 1e-14. If the axis is z, it
+//         also returns x and y within a relative 1e-14 and the same xi within 1e-14, except that
+//         the axis returns xi1 = 0. The same bits on every machine.
 // Source  L. Devroye, Non-Uniform Random Variate Generation (1986), chapter V.4,
 //         doi:10.1007/978-1-4613-8643-8 (Archimedes' theorem).
 
@@ -42,14 +42,15 @@ constexpr Param<double> half_angle{.name = "half-angle",
 /// Spherical cap: the directions within an angle of an axis.
 struct Cap {
     Frame frame;
-    CosSin rim;   ///< of the angle from the axis to the rim
+    CosSin rim;   ///< of the angle between the axis and the rim
     CosSin half;  ///< of half that angle
 
     /// 1 - cos and 1 + cos of the angle from the axis to the rim.
     double rim_minus() const { return rim.cos > 0.5 ? 2 * half.sin * half.sin : 1 - rim.cos; }
     double rim_plus() const { return rim.cos < -0.5 ? 2 * half.cos * half.cos : 1 + rim.cos; }
 
-    /// Cube coordinates of a direction: fraction of the solid angle within, and longitude in turns.
+    /// Cube coordinates of a direction: fraction of the cap's solid angle nearer to the axis, and
+    /// longitude in turns.
     std::array<double, 2> shares(std::span<const double> point) const {
         const Vector3 v = frame.in(vector_of(point));
         const double least = one_minus_abs_cos(v);
@@ -69,18 +70,19 @@ class ConeDomain final : public NamedDomain {
     double measure() const override { return 2 * std::numbers::pi * cap_.rim_minus(); }
 
     /// Allows 8 epsilon beyond the rim and in the length, the rounding error of generated
-    /// directions. For thin cones about z: 8 epsilon of the rim's distance from the axis.
+    /// directions. A thin cone about z allows only 8 epsilon times the rim's distance from the axis
+    /// beyond the rim.
     bool contains(std::span<const double> point) const override {
         const auto [x, y, z] = cap_.frame.in(vector_of(point));
         const double rr = x * x + y * y;
         if (!(std::abs(std::sqrt(rr + z * z) - 1) <= slack)) return false;
-        // Distances on the sphere from the pole nearer to the rim.
+        // Straight-line distances from the pole nearer to the rim.
         if (cap_.half.sin <= cap_.half.cos)
             return std::sqrt(rr + (z - 1) * (z - 1)) <= 2 * cap_.half.sin + rim_slack_;
         return std::sqrt(rr + (z + 1) * (z + 1)) >= 2 * cap_.half.cos - slack;
     }
 
-    /// From the lowest to the highest point of the cap along each axis.
+    /// Extends from the lowest to the highest point of the cap along each coordinate axis.
     Box bounding_box() const override {
         const auto [cos_rim, sin_rim] = cap_.rim;
         Box box;
@@ -122,7 +124,7 @@ struct ByHeight {
     Cap cap;
 
     Vector3 forward(const std::array<double, 2>& xi) const {
-        const double below = cap.rim_minus() * xi[0];  // 1 - cos
+        const double below = cap.rim_minus() * xi[0];  // 1 - cos theta
         const double above = cap.rim_plus() + cap.rim_minus() * (1 - xi[0]);
         return cap.frame.out(polar_direction(below, above, xi[1]));
     }

@@ -137,7 +137,8 @@ struct Whole {
     Vector3 forward(const std::array<double, 2>& xi) const {
         const double below = xi[0];
         const double above = 1 - below;
-        const double end = std::min(below, above);  // area up to the nearer cap's centre
+        // Fraction of the area between the point and the nearer cap's centre.
+        const double end = std::min(below, above);
         const double ratio = std::sqrt(std::min(end / cap, 1.0));
         const double z = std::max(0.0, std::min((below - cap) / side, 1.0)) - 0.5;
         return shape.place({shape.radius * ratio, shape.height * z, xi[1]});

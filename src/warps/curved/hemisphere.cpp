@@ -15,8 +15,8 @@
 //         axis is z. xi are used directly, not as 1 - xi. Strata become rectangles of heights and
 //         longitudes; --disk concentric keeps neighbours adjacent.
 // Cost    O(1) a point; on one core about 6 ns forward, 35 ns inverse; cosine-power 11 and 70.
-// Promise a round trip returns the same direction within 1e-14; about z also the same xi within
-//         1e-14, except that the axis returns xi1 = 0. The same bits on every machine.
+// Promise a round trip returns the same direction within 1e-14; if the axis is z, also the same xi
+//         within 1e-14, except that the axis returns xi1 = 0. The same bits on every machine.
 // Beware  given directions near the horizon have an inverse xi0 rounded next to 1, which maps to a
 //         height of the square root of that error: 1e-8.
 // Source  P. Shirley, K. Chiu, J. Graphics Tools 2(3) (1997) 45-52,
@@ -141,8 +141,7 @@ struct CosineConcentric {
         const double zz = z * z / (rr + z * z);
         const double size = rr < z * z ? std::sqrt(rr) : 1 - zz / (1 + std::sqrt(1 - zz));
         const double eighths = 8 * turns_of(std::abs(along), std::abs(across));
-        // 1 itself would be on the horizon; rounding may produce it next to the horizon, in the
-        // corners.
+        // Keeps xi below 1 for directions above the horizon, since xi = 1 would map onto it.
         const double last = size < 1 ? one_minus_ulp : 1;
         const double first = std::min(0.5 + 0.5 * std::copysign(size, along), last);
         const double second = std::min(0.5 + 0.5 * std::copysign(size * eighths, across), last);

@@ -35,8 +35,8 @@ class LobeDomain final : public NamedDomain {
 
     double measure() const override { return (Lobe::hemisphere ? 2 : 4) * std::numbers::pi; }
 
-    /// Unit vectors up to 8 epsilon, and as much below the horizon of a hemisphere: the rounding
-    /// error of generated directions.
+    /// Accepts vectors whose length differs from 1 by at most 8 epsilon, down to 8 epsilon below
+    /// the horizon of a hemisphere: the rounding error of generated directions.
     bool contains(std::span<const double> point) const override {
         constexpr double slack = 8 * std::numeric_limits<double>::epsilon();
         const Vector3 v{point[0], point[1], point[2]};
@@ -64,8 +64,8 @@ class LobeDomain final : public NamedDomain {
         const Vector3 local = frame_.in({point[0], point[1], point[2]});
         put_clamped<2>({lobe_.fraction(local), turns_of(local[0], local[1])}, cube);
     }
-    /// The horizon of a hemisphere; for other lobes, circles around nearly all and around nearly
-    /// none of the probability, so that integration does not miss peaks.
+    /// Returns the horizon of a hemisphere; for other lobes, circles about the axis that contain
+    /// between 1 % and almost all of the probability, so that integration does not miss peaks.
     std::optional<SphereShape> sphere_shape() const override {
         if constexpr (Lobe::hemisphere)
             return SphereShape{.circles = {{frame_.z, 0}},

@@ -185,7 +185,7 @@ class MeshDomain final : public NamedDomain {
         double least = std::numeric_limits<double>::infinity();
         std::uint32_t first = 0;
         std::vector<std::pair<std::uint32_t, Pair>> around;  // triangles around the point
-        // Of adjacent triangles, takes the one whose forward map comes nearest to the point.
+        // Chooses, among adjacent triangles, the one whose forward map is nearest to the point.
         tree_.visit(at, reach, [&](std::uint32_t i, const Foot& foot) {
             if (dimension() == with_normal &&
                 !(largest(minus(normal(i), vector_of(point.subspan(3)))) <= 1e-12))
@@ -215,7 +215,8 @@ class MeshDomain final : public NamedDomain {
         return around[Rng(digits_of(at, 0), 1).below(0, around.size())].second;
     }
 
-    /// Rows at the triangle's corners. Rows of its points are linear in between.
+    /// Rows of numbers at the triangle's corners; those of its other points are interpolated
+    /// linearly.
     std::array<std::vector<double>, 3> rows_at_corners(std::size_t i) const {
         const auto corners = mesh_.corners(i);
         const auto& [a, b, c] = corners;

@@ -13,7 +13,7 @@ Vector3 vector_of(const Param<Numbers>& option, const std::vector<double>& numbe
     if (numbers.size() != 3)
         fail(ErrorKind::usage, "--{}: expected 3 numbers, x,y,z; {} given", option.name,
              numbers.size());
-    return {numbers[0] + 0.0, numbers[1] + 0.0, numbers[2] + 0.0};  // -0 would appear in the points
+    return {numbers[0] + 0.0, numbers[1] + 0.0, numbers[2] + 0.0};  // + 0.0 avoids -0 in the points
 }
 
 Vector3 center_of(const Values& options, double reach) {

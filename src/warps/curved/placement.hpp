@@ -21,18 +21,20 @@ constexpr Param<Numbers> center_option{
 constexpr Param<Numbers> axis_option{
     {.name = "axis", .fallback = "0,0,1", .help = "Axis: x,y,z, of any length above 0"}};
 
-/// The centre of a shape of size `reach`. @throws Error(usage) unless it is three numbers, or if it
-/// is so far away that rounding destroys the shape
+/// Returns --center. @throws Error(usage) if it is not three numbers, or so far from 0 that
+/// rounding destroys a shape of size `reach`
 Vector3 center_of(const Values& options, double reach);
 
-/// The frame about --axis. @throws Error(usage) unless it is three numbers, not all 0
+/// Returns a frame whose z axis is --axis. @throws Error(usage) if this is not three numbers, or
+/// 0,0,0
 Frame frame_of(const Values& options);
 
-/// Three numbers of an option. @throws Error(usage) naming it.
+/// Converts an option's three numbers to a vector. @throws Error(usage) for another count of
+/// numbers
 Vector3 vector_of(const Param<Numbers>& option, const std::vector<double>& numbers);
 
-/// The box around everything within `beyond` of a cylinder about `middle`. The cylinder extends by
-/// `along` to both sides in a direction, and has the radius `across`.
+/// Bounding box of all points within the distance `beyond` of a cylinder with centre `middle`, axis
+/// `direction`, length 2 `along` and radius `across`.
 Box box_about(const Vector3& middle, const Vector3& direction, double beyond, double along,
               double across);
 
@@ -54,8 +56,8 @@ struct Sphere {
 
     [[nodiscard]] Box bounding_box() const { return box_about(center, {}, radius, 0, 0); }
 
-    /// Rounding error of a point's position, relative to the radius: 8 epsilon (R + largest |c|) /
-    /// R.
+    /// Rounding error of a point's position, relative to the radius: 8 epsilon (1 + largest |c| /
+    /// R).
     [[nodiscard]] double rounding() const;
 };
 

@@ -14,7 +14,7 @@
 // Shape   2 unit coordinates, rejection 3; 3 coordinates.
 // Strata  xi0 increases from 0 at the north pole to 1 at the south pole; xi1 turns from x towards
 //         y. xi are used directly, not as 1 - xi. Strata become rectangles of heights and
-//         longitudes. With rejection, strata become the cones of those that remain.
+//         longitudes. With rejection, the kept part of each stratum is projected from the centre.
 // Cost    O(1) a point; on one core about 7 ns forward, 40 ns inverse.
 // Promise density 1 / (4 pi R^2), except for naive-lat-long: 1 / (2 pi^2 R r), r the distance from
 //         the axis, infinite at the poles. Points lie on the sphere up to the rounding stated at

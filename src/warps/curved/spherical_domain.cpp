@@ -14,8 +14,8 @@ double corner_volume(const Vector3& a, const Vector3& b, const Vector3& c) {
     const Vector3 ab = minus(b, a);
     const Vector3 bc = minus(c, b);
     const Vector3 ca = minus(a, c);
-    // At the corner between the two shorter edges: longer differences have lost digits of short
-    // ones.
+    // Uses the corner between the two shorter edges, since the longest difference has lost digits
+    // of the short ones.
     const double longest = std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)});
     if (dot(bc, bc) == longest) return dot(a, cross(ca, ab));
     if (dot(ca, ca) == longest) return dot(b, cross(ab, bc));
@@ -66,15 +66,17 @@ double SphericalDomain::edge_top(std::size_t i, const Vector3& up) const {
     const Vector3& from = corners_[i];
     const Vector3& to = corners_[(i + 1) % corners_.size()];
     const Vector3& normal = inward_[i];
-    const Vector3 highest = minus(up, times(normal, dot(normal, up)));  // of the great circle
-    // Checks whether the edge passes this point between its ends.
+    // Of the edge's great circle.
+    const Vector3 highest = minus(up, times(normal, dot(normal, up)));
+    // Whether that point is on the edge, between its ends.
     const bool passes = turn_ * dot(cross(from, highest), normal) > 0 &&
                         turn_ * dot(cross(highest, to), normal) > 0;
     return passes ? length(highest) : std::max(dot(from, up), dot(to, up));
 }
 
 std::array<double, 3> SphericalDomain::axial(const Vector3& w) const {
-    std::array<double, 3> along{};  // sums of (w . n) times the integrals of (w . v)^0, ^1, ^2
+    // Sums over edges: w . n times the integrals of (w . v)^0, ^1, ^2.
+    std::array<double, 3> along{};
     for (std::size_t i = 0; i < corners_.size(); ++i) {
         const Vector3& from = corners_[i];
         const Vector3& to = corners_[(i + 1) % corners_.size()];

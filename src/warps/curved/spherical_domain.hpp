@@ -11,7 +11,7 @@
 // Moments on a polygon of area A by Stokes's theorem, from moments about an axis w. Edges e have
 // inward unit normals n_e:
 //
-//     T_k(w) = integral of (w . v)^k over it,    T_0 = A,
+//     T_k(w) = integral of (w . v)^k over the polygon,    T_0 = A,
 //     (k + 1) T_k(w) = (k - 1) w . w T_(k-2)(w) + sum_e w . n_e integral of (w . v)^(k-1) along e
 //
 // Source  J. Arvo, "Applications of irradiance tensors to the simulation of non-Lambertian

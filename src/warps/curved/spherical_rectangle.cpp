@@ -72,7 +72,8 @@ struct Rectangle {
         return {towards(x0, y0), towards(x1, y0), towards(x1, y1), towards(x0, y1)};
     }
 
-    /// Inward unit normals of the planes through the origin and the edges after these corners.
+    /// Inward unit normals of the planes through the origin and the edges. Edge i starts at corner
+    /// i of corners().
     std::vector<Vector3> inward() const {
         const auto normal = [this](double x, double y, double height) {
             return normalized(frame.out({x, y, height}));
@@ -107,7 +108,8 @@ class Urena {
         w1_ = std::sqrt(seen_.y1 * seen_.y1 + z * z);
         before_ = half_up_to(seen_.x0);
         behind_ = half_up_to(-seen_.x1);
-        // Sum of two triangles, unless they are so large that their diagonal is not an arc.
+        // Two triangles, if small: their sum loses no digits. The diagonal of a large rectangle may
+        // be near 180 degrees, where triangles are ill-conditioned.
         const auto c = seen_.corners();
         half_ = half_area_turns(c[0], c[1], c[2]) + half_area_turns(c[0], c[2], c[3]);
         if (half_ > 0.01) half_ = half_up_to(seen_.x1) - before_;
@@ -127,7 +129,7 @@ class Urena {
         const double root =
             h.sin * g.sin * sine_of_sum(h, g, low_, high_) * sine_of_sum(g, h, low_, high_);
         double across = 2 * std::sqrt(std::max(root, 0.0));
-        const bool before = along * seen_.z < across * seen_.x0;  // by rounding
+        const bool before = along * seen_.z < across * seen_.x0;  // true only by rounding
         const bool behind = along * seen_.z > across * seen_.x1;
         along = before ? seen_.x0 : behind ? seen_.x1 : along;
         across = before || behind ? seen_.z : across;
@@ -169,16 +171,17 @@ class Urena {
         const double g0 = x > 0 ? r0 + x : w0_ * w0_ / (r0 - x);
         const double g1 = x > 0 ? r1 + x : w1_ * w1_ / (r1 - x);
         if (m >= 0) return turns_of(w0_ * w0_ * (w1_ * w1_) + g0 * g1 * m, g0 * g1 * n);
-        // If the foot of z is within y: (w0 w1)^2 = m^2 + n^2, so that g0 g1 + m is not a
-        // difference.
+        // For m < 0, w0 w1 + m would lose digits. It equals n^2 / (w0 w1 - m), since (w0 w1)^2 =
+        // m^2 + n^2.
         const double more0 = x * (g0 + w0_) / (r0 + w0_);  // g0 - w0
         const double more1 = x * (g1 + w1_) / (r1 + w1_);
         const double sum = (more0 * g1 + w0_ * more1) + n * n / (w0_ * w1_ - m);
         return turns_of(m * sum + n * n, g0 * g1 * n);
     }
 
-    /// H from G, or G from H: pi - low - high minus the other. Near pi, where the foot of z is
-    /// almost in the rectangle, the angles have lost the digits of their sines.
+    /// Computes H from G, or G from H: their sum is pi - low - high. Used for angles above pi / 2.
+    /// Near pi, where the foot of z is almost in the rectangle, the sines of such angles have lost
+    /// digits.
     CosSin rest_of(const CosSin& p) const {
         return {p.sin * both_.sin - p.cos * both_.cos, p.sin * both_.cos + p.cos * both_.sin};
     }
@@ -208,7 +211,7 @@ class Urena {
     }
 
     Rectangle seen_;
-    double from_x_ = 0;  ///< the map uses xi0, or 1 - xi0 if x is flipped
+    double from_x_ = 0;  ///< the map uses from_x_ + sign_x_ xi0: xi0, or 1 - xi0 if x is flipped
     double sign_x_ = 1;
     double from_y_ = 0;  ///< likewise for xi1 and y
     double sign_y_ = 1;
@@ -219,7 +222,7 @@ class Urena {
     double w1_ = 0;
     CosSin low_{};   ///< pi - kappa0
     CosSin high_{};  ///< kappa1
-    CosSin both_{};  ///< sum of both
+    CosSin both_{};  ///< low_ + high_
 };
 
 /// @throws Error(usage) unless these are the edges of a rectangle

@@ -77,15 +77,17 @@ class Arvo {
     std::array<double, 2> inverse(std::span<const double> point) const {
         const Vector3 way = minus(vector_of(point), b_);
         const Vector3 plane = cross(b_, way);
-        // cos q and sin q times a common length, where the plane through b and w meets the edge ac.
+        // x, y: cos q and sin q times a common length, for the point c' where the plane through b
+        // and w meets the edge ac.
         const double x = 0 - turn_ * dot(plane, to_c_);
         const double y = std::max(0.0, 0 - turn_ * dot(plane, ab_));
-        if (x * x + y * y == 0) return {0, 0};  // b itself
+        if (x * x + y * y == 0) return {0, 0};  // the direction is b
         const auto [share, arc] = at(x, y);
         const Vector3& whole = share < 1 ? arc : bc_;
         const double part = dot(way, way) / dot(whole, whole);
         if (part < 1) return {share, part};
-        // On the edge ac, w itself is c'; the plane is ill-conditioned if a is next to b.
+        // The direction is on the edge ac and thus c' itself. Does not use the plane, which is
+        // ill-conditioned if a is next to b.
         const Vector3 off = minus(vector_of(point), a_);
         return {at(dot(vector_of(point), a_), std::max(0.0, dot(off, to_c_))).share, 1};
     }
@@ -98,14 +100,14 @@ class Arvo {
     }
 
     struct Foot {
-        double share;  ///< of the area, next to the edge ab
-        Vector3 arc;   ///< the chord from b to c'
+        double share;  ///< fraction of the area, next to the edge ab
+        Vector3 arc;   ///< chord from b to c'
     };
 
     /// @param x, y cos q and sin q times a common length
     Foot at(double x, double y) const {
         const double size = std::sqrt(x * x + y * y);
-        const double c = x >= 0 ? size + x : y;  // cos(q/2) and sin(q/2), times a length
+        const double c = x >= 0 ? size + x : y;  // cos(q/2) and sin(q/2), times a common length
         const double s = x >= 0 ? y : size - x;
         return {turns_of(c + along_ * s, across_ * s) / half_area_, arc_from_b(c, s)};
     }
@@ -123,8 +125,8 @@ class Arvo {
     Vector3 ab_;
     Vector3 bc_;
     double half_area_;
-    Vector3 to_c_{};  ///< unit tangent at a
-    double sin_ = 0;  ///< sine and cosine of half the arc ac, times 2
+    Vector3 to_c_{};  ///< unit tangent at a, towards c
+    double sin_ = 0;  ///< 2 sin(ac/2), and below 2 cos(ac/2)
     double cos_ = 0;
     double along_ = 0;
     double across_ = 0;

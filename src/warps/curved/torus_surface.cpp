@@ -70,8 +70,7 @@ struct Torus {
         return 16 * std::numeric_limits<double>::epsilon() * (major + minor + largest(center));
     }
 
-    /// Coordinates of a point in the half plane through the axis: an angle around the tube, and a
-    /// side.
+    /// Position of a point around the tube and about the axis.
     struct Section {
         double inner;   ///< angle around the tube from its innermost point, in [0, 1/2] turns
         bool below;     ///< z < 0
@@ -95,7 +94,7 @@ struct Torus {
         return (major - minor) / major * angle + minor / major * less_sine(angle, s);
     }
 
-    /// Markley's initial value for the angle in [0, pi] with mean anomaly M in [0, pi].
+    /// Markley's initial value for the angle E in [0, pi], given the mean anomaly M in [0, pi].
     double first_angle(double mean) const {
         constexpr double pi = std::numbers::pi;
         const double e = minor / major;
@@ -113,14 +112,16 @@ struct Torus {
         return std::min((2 * r * w + mean * below) / (below * d), pi);
     }
 
-    /// Cosine and sine of half the angle with mean anomaly M in [0, pi]. @param angle initial value
+    /// Cosine and sine of E / 2, given the mean anomaly M in [0, pi]. @param angle initial value of
+    /// E
     CosSin half_angle(double mean, double angle) const {
         const double e = minor / major;
         const double lacks = (major - minor) / major;
         const auto [c, s] = cos_sin_turns(0.25 * std::numbers::inv_pi * angle);
         const double sine = 2 * s * c;
         const double excess = lacks * angle + e * less_sine(angle, sine) - mean;
-        // Kepler's equation expanded about the angle: excess plus first (x + a x^2 + b x^3 + ...).
+        // Expands Kepler's equation in a step x from the angle: excess + (x + a x^2 + b x^3 + ...)
+        // / inverse = 0.
         const double inverse = 1 / std::max(lacks + 2 * e * s * s, least);
         const double sines = e * sine * inverse;
         const double cosines = e * (1 - 2 * s * s) * inverse;
@@ -131,7 +132,8 @@ struct Torus {
         const double rest = near * (b - near * (sines * (1 / 24.0) + near * cosines * (1 / 120.0)));
         const double miss = near * (1 + near * (a + rest)) - wanted;
         const double step = near - miss * (1 - 2 * a * near);
-        // Advances by half of the step, which is below 1e-3, with power series.
+        // Advances E / 2 by half the step. Short power series suffice, since the step is below
+        // 1e-3.
         const double h = 0.5 * step;
         const double hh = h * h;
         const double sine_h = h * (1 - hh * (1 / 6.0) * (1 - hh * (1 / 20.0)));

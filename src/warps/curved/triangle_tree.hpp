@@ -7,7 +7,8 @@
 // Promise finds all triangles within the distance, and only these; in unspecified order.
 #pragma once
 
-#define BOOST_ALLOW_DEPRECATED_HEADERS  // Boost.Geometry includes some, which print notes
+// Boost.Geometry includes headers that print deprecation notes.
+#define BOOST_ALLOW_DEPRECATED_HEADERS
 
 #include <array>
 #include <boost/geometry/geometries/box.hpp>

@@ -104,8 +104,8 @@ class Fisher {
     double kappa_;
     double near_factor_ = -1;  ///< expm1(-2 kappa)
     double far_factor_ = 0;    ///< expm1(2 kappa), if it is used
-    double turn_ = 0.5;        ///< the xi of 90 degrees; 2: never reached
-    double last_ = 2;          ///< 1 - cos at xi = 1
+    double turn_ = 0.5;  ///< xi0 at 90 degrees; 2 if the formula for larger angles is not used
+    double last_ = 2;    ///< 1 - cos theta at xi0 = 1
 };
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {

@@ -13,8 +13,9 @@
 // Strata  inversion: xi is used directly, and outcomes are in order, so that n strata give each
 //         outcome n p_i times, rounded up or down. alias: strata are preserved only within a slot.
 // Cost    O(1) a coordinate on average, with a guide table or aliases; about 5 ns on one core.
-// Promise an outcome of probability 0 never occurs, for any xi. The inverse of inversion is the
-//         middle of the outcome's interval; alias has none. The same bits on every machine.
+// Promise an outcome of probability 0 never occurs, for any xi. With inversion, the inverse returns
+//         the middle of the outcome's interval; alias has no inverse. The same bits on every
+//         machine.
 // Source  A. J. Walker, ACM Trans. Math. Software 3 (1977) 253-256, doi:10.1145/355744.355749;
 //         M. D. Vose, IEEE Trans. Software Eng. 17 (1991) 972-975, doi:10.1109/32.92917 (aliases).
 
@@ -69,7 +70,7 @@ struct Outcomes : LineDistribution {
         const std::size_t i = find(x);
         return 0.5 * (sums.begin(i) + sums.end(i));
     }
-    /// All outcomes have cells of the same size in the cube.
+    /// False, since all outcomes have cells of the same size in the cube.
     bool even() const override { return false; }
     double cube_coordinate(double x) const override {
         return (static_cast<double>(find(x)) + 0.5) / static_cast<double>(count());
@@ -149,7 +150,7 @@ std::vector<double> values_of(const Values& options, std::size_t m) {
     if (values.size() != m)
         fail(ErrorKind::usage, "--values: {} number{} for {} probabilit{}; expected as many",
              values.size(), values.size() == 1 ? "" : "s", m, m == 1 ? "y" : "ies");
-    for (double& x : values) x += 0.0;  // -0 would appear in the points
+    for (double& x : values) x += 0.0;  // + 0.0 avoids -0 in the points
     return values;
 }
 

@@ -59,7 +59,8 @@ LineRange range_of(const Values& options) {
     return out;
 }
 
-/// Cells have nearly equal mass, according to the table; probability() returns the true one.
+/// The domain's cells have nearly equal mass, according to the table; probability() returns the
+/// exact one.
 class ByFormula final : public LineDistribution {
   public:
     ByFormula(Expression formula, const LineRange& ends, double within, const RunContext& run)
@@ -118,7 +119,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
         fail(ErrorKind::usage, "--density: no formula given; expected one in x, such as 'exp(-x)'");
     const LineRange ends = range_of(want.options);
     Expression f(density.name, want.options[density], 1);
-    Values plain = want.options;  // blanks removed: a spec is one word
+    Values plain = want.options;  // without blanks, since a spec is one word
     plain.put(density.name, f.text());
     const auto law =
         std::make_shared<const ByFormula>(std::move(f), ends, want.options[tolerance], want.run);

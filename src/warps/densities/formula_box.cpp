@@ -13,8 +13,8 @@
 namespace stipple::warps {
 namespace {
 
-// Quadrature is nested, one coordinate inside another, so three dimensions afford less. The initial
-// intervals are numerous enough to detect narrow peaks.
+// Quadrature is nested, one coordinate inside another; so in three dimensions each coordinate has
+// fewer intervals. The initial intervals are numerous enough to detect narrow peaks.
 Effort effort_for(std::size_t dimension) {
     if (dimension <= 1) return {1e-12, 5000, 1023};
     if (dimension == 2) return {1e-9, 150, 25};
@@ -30,11 +30,11 @@ Effort effort_in_cell(std::size_t dimension, double share) {
     return {1e-6, 80, std::max<std::size_t>(first, 3)};
 }
 
-/// Integral estimated by the mean over an evenly distributed sequence of places. The error is six
-/// times the standard error, from the means of consecutive stretches.
+/// Estimates the integral by the mean over an evenly distributed sequence of points. The error is
+/// six times the standard error, from the means of consecutive batches.
 Estimate mean_integral(const Expression& f, const Box& box) {
     constexpr std::size_t stretches = 32;
-    constexpr std::size_t places = 4096;  // in each stretch
+    constexpr std::size_t places = 4096;  // in each batch
     constexpr double steps[3][3] = {{0.6180339887498949},
                                     {0.7548776662466927, 0.5698402909980532},
                                     {0.8191725133961645, 0.6710436067037893, 0.5497004779019703}};
@@ -180,7 +180,7 @@ Support FormulaBox::support() const {
         while (k < d && ++at[k] == steps) at[k++] = 0;
         more = k < d;
     }
-    // A gap exists if the measure is smaller than the whole by more than rounding.
+    // Reports a gap if the measure is below the box's volume by more than rounding.
     const double whole = measure();
     if (positive.value >= (1 - 1e-9) * whole)
         return {.measure = Estimate{whole, 0}, .boxes = {box_}};

@@ -23,7 +23,7 @@ class FormulaBox final : public NamedDomain {
     Box bounding_box() const override { return box_; }
     double density(std::span<const double> point) const override;
 
-    /// Relative position in the box.
+    /// Relative position in the box, from 0 to 1.
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         place_->to_cube(point, cube);
     }
@@ -38,7 +38,7 @@ class FormulaBox final : public NamedDomain {
     /// three dimensions.
     std::optional<Moments> moments() const override;
 
-    /// Searched on a grid of cells; the measure by quadrature.
+    /// Finds gaps on a grid of cells, and the measure of the rest by quadrature.
     Support support() const override;
 
     const Expression& formula() const { return f_; }

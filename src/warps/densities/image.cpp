@@ -194,8 +194,8 @@ class BilinearDomain final : public SquareDomain {
             return 0.25 * width * height * (corners[0] + corners[1] + corners[2] + corners[3]);
         }
 
-        /// Computed from the integrals of s^i t^j over the unit square. For each corner these are
-        /// products of the integrals of (1 - s) s^i or of s^(i + 1).
+        /// Moments from the integrals of s^i t^j over the unit square. Each corner contributes
+        /// products of one-dimensional integrals, of (1 - s) s^i or of s^(i + 1).
         [[nodiscard]] Moments moments() const {
             const double sum = corners[0] + corners[1] + corners[2] + corners[3];
             const auto mean = [&](std::size_t i, std::size_t j) {

@@ -194,7 +194,7 @@ class MixtureDomain final : public NamedDomain {
     double middle(std::size_t k) const { return box_.low[k] + 0.5 * box_.extent(k); }
     double scale(std::size_t k) const { return box_.extent(k) > 0 ? 0.25 * box_.extent(k) : 1; }
 
-    /// Position in space of a cell's edge in the cube.
+    /// Coordinate k in space of an edge at u in the cube.
     double edge(double u, std::size_t k) const {
         if (u <= 0 || u >= 1)
             return std::copysign(std::numeric_limits<double>::infinity(), u - 0.5);
@@ -278,7 +278,7 @@ class Mixture final : public Mapping {
         std::vector<std::uint8_t> keep;
     };
 
-    /// The row of the cube that component c receives.
+    /// Computes the row of the cube that component c receives.
     void stretch(std::size_t c, std::span<const double> row, std::span<double> to) const {
         std::ranges::copy(row, to.begin());
         const double u = (row[0] - shares_.begin(c)) / shares_.width(c);

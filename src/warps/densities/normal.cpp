@@ -112,7 +112,7 @@ class NormalDomain final : public NamedDomain {
         return true;
     }
 
-    /// 4 standard deviations to each side.
+    /// Extends 4 standard deviations to each side of the mean.
     Box bounding_box() const override {
         Box box;
         for (std::size_t k = 0; k < dimension(); ++k) {
@@ -257,7 +257,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     if (want.options[mean].size() > 1) d = want.options[mean].size();
     Shape shape{.mean = one_for_each(mean, want.options[mean], d),
                 .factor = correlated ? factor_of(matrix, d) : deviations_of(want.options, d)};
-    for (double& m : shape.mean) m += 0.0;  // -0 would appear in the points
+    for (double& m : shape.mean) m += 0.0;  // + 0.0 avoids -0 in the points
     return domain_mapping<NormalDomain>(std::move(shape), want.spec());
 }
 

@@ -52,7 +52,8 @@ constexpr Param<double> exponent{
 constexpr Param<Numbers> range{
     {.name = "range", .fallback = "0,1", .help = "The interval: a,b with a < b"}};
 
-/// Inverse of x^p; logarithms if the interval is on one side of 0 and x^p hardly varies on it.
+/// How to invert x^p; with logarithms if the interval is on one side of 0 and x^p hardly varies on
+/// it.
 enum class Root { none, square, cube, other, logarithm };
 
 /// y^(1/p) for y >= 0, computed in the cheapest way; cube roots also for y < 0.
@@ -73,7 +74,7 @@ struct Interval {
     double size;  ///< the larger of |a| and |b|
 };
 
-/// y^p for y in [0, 1], computed likewise.
+/// y^p for y in [0, 1], computed in the cheapest way.
 template <Root root>
 double powered(double y, double p) {
     if constexpr (root == Root::none) return y;
@@ -96,8 +97,8 @@ struct PowerLaw : LineDistribution, Interval {
     LineMoments moments() const override;
 
   private:
-    /// E (x / unit)^n times a constant, for an interval on one side of 0; `other` is the end that
-    /// is not 1.
+    /// E |x / unit|^n times a constant, where s = p + n, for an interval on one side of 0. Its ends
+    /// are 1 and `other` times `unit`.
     static double one_sided_sum(double s, double other) {
         if (other == 0) return 1 / s;
         const double log = logarithm(other);
@@ -109,7 +110,7 @@ struct PowerLaw : LineDistribution, Interval {
     LineMoments narrow_moments() const;
 };
 
-/// By quadrature, for ends so close to each other that powers would lose digits.
+/// Uses quadrature, for ends so close to each other that powers would lose digits.
 LineMoments PowerLaw::narrow_moments() const {
     const double middle = 0.5 * (a + b);
     const auto sum = [&](std::size_t n, double about) {
@@ -128,7 +129,7 @@ LineMoments PowerLaw::moments() const {
     const double near = std::min(std::abs(a), std::abs(b));
     if (!around_0 && near > 0.5 * size && std::abs(p) * logarithm(size / near) < 1)
         return narrow_moments();
-    const double heavier = around_0 || p > 0 ? size : near;  // the end with the larger density
+    const double heavier = around_0 || p > 0 ? size : near;  // the end with the larger |x|^p
     const double other = (p > 0 ? near : size) / heavier;
     const double sign = b <= 0 ? -1 : 1;
     std::array<double, 4> sums;

@@ -119,7 +119,7 @@ LineTable table_from(const Values& options, const RunContext& run) {
         const auto& row = rows_given[i];
         const auto& next = rows_given[i + 1];
         if (!(row[0] < next[0])) continue;        // a jump
-        pieces.push_back({.x_low = row[0] + 0.0,  // -0 would appear in the points
+        pieces.push_back({.x_low = row[0] + 0.0,  // + 0.0 avoids -0 in the points
                           .x_high = next[0] + 0.0,
                           .f_low = row[1],
                           .f_high = linear ? next[1] : row[1]});

@@ -47,7 +47,8 @@ struct Tent final : LineDistribution {
 
     double r;
     double c;
-    double most = 1 - 2 * epsilon * (1 + std::abs(c) / r);  ///< stays inside when rounded near c
+    /// Bound of |x - c| / r, so that rounding near c does not leave the box.
+    double most = 1 - 2 * epsilon * (1 + std::abs(c) / r);
 
     /// Only u = 0 and 1 map to the rim, where the density is 0.
     double forward(double u) const {
@@ -82,7 +83,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     std::vector<std::shared_ptr<const Tent>> axes;
     for (std::size_t k = 0; k < (same ? 1 : want.given); ++k) {
         const double r = radii[k];
-        const double c = centers[k] + 0.0;  // -0 would appear in the points
+        const double c = centers[k] + 0.0;  // + 0.0 avoids -0 in the points
         if (!(r >= 1e-150 && r <= 1e150))
             fail(ErrorKind::usage, "--radius: {} is outside [1e-150, 1e+150]", r);
         if (!(r > 64 * epsilon * std::abs(c)))

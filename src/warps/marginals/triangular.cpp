@@ -2,8 +2,8 @@
 //
 // Unit cube onto an interval, each coordinate independently, by inversion:
 //
-//     x = low + sqrt(xi (high - low) (mode - low))             up to the mode, and beyond
-//     x = high - sqrt((1 - xi) (high - low) (high - mode)),
+//     x = low + sqrt(xi (high - low) (mode - low))             up to the mode,
+//     x = high - sqrt((1 - xi) (high - low) (high - mode))     beyond it;
 //     density 2 / (high - low) at the mode, decreasing linearly to 0 at both ends.
 //
 // Shape   any number of coordinates; each parameter is one number for all of them, or one for each.

@@ -40,7 +40,7 @@ constexpr Param<Numbers> axes{
 constexpr auto rotation =
     rotation_option("Angle of the first axis, from the x axis towards the y axis");
 
-/// The ellipse with semi-axes a and b, the longer one 1.
+/// The ellipse with semi-axes a and b, scaled so that the longer one is 1.
 template <class Disk>
 struct Ellipse {
     double a;

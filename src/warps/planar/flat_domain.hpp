@@ -29,7 +29,7 @@ class FlatDomain : public NamedDomain {
     double measure() const final { return is_triangle() ? 0.5 * frame_.area() : frame_.area(); }
 
     /// Allows a distance of 16 epsilon (largest coordinate) (longest edge / smallest height) from
-    /// it and its plane, the rounding error of generated points.
+    /// the shape and from its plane, the rounding error of generated points.
     bool contains(std::span<const double> point) const final {
         const auto [s, t] = frame_.coordinates(space_point(point));
         const double slack = frame_.slack();
@@ -47,7 +47,7 @@ class FlatDomain : public NamedDomain {
         return box;
     }
 
-    /// Only for shapes in the plane.
+    /// Valid only for shapes in the plane.
     std::optional<Estimate> box_mass(const Box& box) const final {
         return area_share(box, *this, [&](const Polygon& window) {
             Polygon shape;
@@ -64,7 +64,8 @@ class FlatDomain : public NamedDomain {
 
     Table corners_;
     EdgeFrame frame_;
-    std::array<double, 3> heights_;  ///< along s, along t, and of corner 0 above the diagonal
+    /// Of the parallelogram along s and t, and of corner 0 above the diagonal.
+    std::array<double, 3> heights_;
 };
 
 }  // namespace stipple::warps

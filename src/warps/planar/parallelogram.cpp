@@ -38,7 +38,7 @@ class ParallelogramDomain final : public FlatDomain {
   public:
     using FlatDomain::FlatDomain;
 
-    /// The coordinates along the edges.
+    /// Writes the coordinates along the edges.
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         const auto [s, t] = frame().coordinates(space_point(point));
         put_clamped<2>({s, t}, cube);
@@ -69,7 +69,7 @@ Vector3 corner_of(const Values& options, std::size_t d) {
     if (at.size() != d)
         fail(ErrorKind::usage, "--corner: expected {} numbers, as many as the edges have; {} given",
              d, at.size());
-    for (double& x : at) x += 0.0;  // -0 would appear in the points
+    for (double& x : at) x += 0.0;  // + 0.0 avoids -0 in the points
     return space_point(at);
 }
 

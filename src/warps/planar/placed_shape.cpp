@@ -26,7 +26,7 @@ Placement place(const std::vector<double>& center, double size, double degrees, 
                  finest);
     const double turn = turn_of_degrees(degrees);
     const auto [c, s] = cos_sin_turns(turn);
-    return {.center = {center[0] + 0.0, center[1] + 0.0},  // -0 would appear in the points
+    return {.center = {center[0] + 0.0, center[1] + 0.0},  // + 0.0 avoids -0 in the points
             .size = size,
             .turn = turn,
             .cos = c,

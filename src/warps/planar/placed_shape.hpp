@@ -40,11 +40,11 @@
 
 namespace stipple::warps {
 
-/// The option that all these shapes have.
+/// Option of all these shapes.
 inline constexpr Param<Numbers> shape_center{
     {.name = "center", .fallback = "0,0", .help = "Centre of the shape: x,y"}};
 
-/// The option of shapes that can be rotated.
+/// Option of shapes that can be rotated.
 constexpr Param<double> rotation_option(std::string_view help) {
     return {.name = "rotation", .low = -360, .high = 360, .unit = "degrees", .help = help};
 }
@@ -52,8 +52,9 @@ constexpr Param<double> rotation_option(std::string_view help) {
 /// Lengths below this fraction of a shape's coordinates are lost in rounding.
 inline constexpr double lost_in_rounding = 64 * std::numeric_limits<double>::epsilon();
 
-/// Places a shape of size R at `center`, rotated by `degrees`. `finest` is the smallest length that
-/// must not be lost in rounding, and `what` is its name: "a radius". @throws Error(usage)
+/// Places a shape of size R at `center`, rotated by `degrees`. @throws Error(usage) if rounding
+/// would lose `finest`, the shape's smallest length; the message calls it `what`, for example "a
+/// radius"
 Placement place(const std::vector<double>& center, double size, double degrees, double finest,
                 std::string_view what);
 

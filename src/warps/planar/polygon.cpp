@@ -141,7 +141,8 @@ bool is_flat(const Ring& ring) {
     return std::ranges::all_of(ring, [&](PlanePoint p) { return turn(ring[1], p) == 0; });
 }
 
-/// Edges of the options' rings, checked to bound a polygon, except for its area. @throws Error
+/// Edges of the options' rings, which are checked to bound a polygon; only its area is not checked.
+/// @throws Error
 std::vector<RingSegment> edges_of(const Values& options, const Source& source,
                                   const RunContext& run) {
     auto rings = options.given(file) ? read_rings(options[file], source, run)

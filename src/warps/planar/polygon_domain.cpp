@@ -23,7 +23,7 @@ double x_at(const UpwardEdge& edge, double y) {
            (edge.high.x - edge.low.x) * ((y - edge.low.y) / (edge.high.y - edge.low.y));
 }
 
-/// The inside between two edges, from one height to another.
+/// Part of the inside between two edges, from one height to another.
 struct Trapezoid {
     UpwardEdge left;
     UpwardEdge right;
@@ -31,7 +31,7 @@ struct Trapezoid {
     std::size_t top;
 };
 
-/// Sweep of a row upwards: keeps the edges that the row meets, and collects the trapezoids between
+/// Sweeps a row upwards: keeps the edges that the row meets, and collects the trapezoids between
 /// them.
 class TrapezoidSweep {
   public:
@@ -70,7 +70,7 @@ class TrapezoidSweep {
         std::set<std::size_t, ToRight>::iterator place = {};
         bool met = false;
         bool left = false;           ///< the edge's right side is inside
-        std::size_t partner = none;  ///< the other side of an open trapezoid
+        std::size_t partner = none;  ///< the edge on the other side of an open trapezoid
         std::size_t bottom = 0;      ///< start of that trapezoid
     };
 
@@ -117,7 +117,7 @@ class TrapezoidSweep {
     std::set<std::size_t, ToRight> row_;
     std::vector<std::vector<std::size_t>> starts_;  ///< edges that start at each height
     std::vector<std::vector<std::size_t>> ends_;
-    std::vector<std::size_t> loose_;  ///< edges without a partner
+    std::vector<std::size_t> loose_;  ///< edges that may need a new partner
     std::vector<Trapezoid> found_;
 };
 
@@ -129,8 +129,8 @@ double height_share(double f, double w0, double w1) {
     return f * (w0 + w1) / (w0 + root + null);
 }
 
-/// The number in [0, 1] nearest to `share` that forward() maps into the piece [low, high) of the
-/// whole; `share` may be on the piece's edge.
+/// The number in [0, 1] nearest to `share` that forward() maps into the piece [low, high) of
+/// `whole`, even if `share` is on the piece's edge.
 double share_within(double share, double whole, double low, double high) {
     double x = std::clamp(share, 0.0, 1.0);
     while (x < 1 && x * whole < low) x = std::nextafter(x, 1);
@@ -307,8 +307,8 @@ void PolygonDomain::from_cube(std::span<const double> cube, std::span<double> im
     }
 }
 
-/// Computes from the slab's end that is nearer to u. Without branches, which would be mispredicted
-/// half of the time.
+/// Measures areas from the bottom of the polygon if u < 1/2, else from its top. Avoids branches,
+/// which would be mispredicted half of the time.
 PlanePoint PolygonDomain::forward(double u, double v) const {
     const Slab& slab = slabs_[areas_.at(u * area_)];
     const bool up = u < 0.5;

@@ -51,7 +51,7 @@ class PolygonDomain final : public NamedDomain {
 
     double measure() const override { return area_; }
 
-    /// Tolerance for rounding of generated points: 16 epsilon (largest coordinate).
+    /// Tolerance for the rounding of generated points: 16 epsilon (largest coordinate).
     double slack() const { return slack_; }
 
     /// Whether the point is inside, or within slack() of the boundary.
@@ -66,7 +66,7 @@ class PolygonDomain final : public NamedDomain {
     void from_cube(std::span<const double> cube, std::span<double> image) const;
 
   private:
-    /// The inside between two consecutive edges of a band, from left to right.
+    /// Part of the inside between two consecutive edges of a band.
     struct Part {
         double left_bottom;
         double left_top;
@@ -103,7 +103,7 @@ class PolygonDomain final : public NamedDomain {
         double area = 0;
         double area_below = 0;
         double area_above = 0;
-        double share_bottom = 0;  ///< widths relative to the larger one
+        double share_bottom = 0;  ///< width_bottom and width_top, divided by the larger one
         double share_top = 0;
 
         double height() const { return top - bottom; }

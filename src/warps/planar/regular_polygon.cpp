@@ -88,7 +88,7 @@ class RegularPolygon {
         return x * nx + y * ny - apothem_;
     }
 
-    /// Isotropic by symmetry: second moments always, third moments vanish for 4 or more sides.
+    /// By symmetry second moments are isotropic, and third moments vanish for 4 or more sides.
     PlaneMoments moments() const {
         const double across = (2 + (*vertices_)[1].x) / 12;
         const double third = n_ == 3 ? 0.025 : 0;
