@@ -13,7 +13,7 @@
 namespace stipple::analyzers {
 namespace {
 
-/// Odd prime nearest to x by ratio, at most `cap`, which is at least 3.
+/// The odd prime nearest to x by ratio, at most `cap`; `cap` is at least 3.
 std::size_t odd_prime_near(double x, std::size_t cap) {
     auto below = std::min(cap, std::max<std::size_t>(3, static_cast<std::size_t>(x)));
     while (!is_prime(below)) --below;
@@ -22,7 +22,7 @@ std::size_t odd_prime_near(double x, std::size_t cap) {
     return nearer && above <= cap ? above : below;
 }
 
-/// Number of points for which a default grid is made.
+/// Number of points whose default grid is used for n points.
 std::uint64_t rounded_count(std::uint64_t n) {
     std::uint64_t rounded = n;
     for (const std::uint64_t count : grid_counts)
@@ -36,7 +36,7 @@ struct Stretch {
     double high;
 };
 
-/// Intervals of cell `place` of `m`; the first cell of a shifted axis has two.
+/// Intervals of cell `place` of the `m` cells of an axis; the first cell of a shifted axis has two.
 std::vector<Stretch> stretches(std::size_t place, std::size_t m, bool shifted) {
     const auto cells = static_cast<double>(m);
     const auto first = static_cast<double>(place);
@@ -46,7 +46,7 @@ std::vector<Stretch> stretches(std::size_t place, std::size_t m, bool shifted) {
     return {{0, 0.5 / cells}, {(cells - 0.5) / cells, 1}};
 }
 
-/// Boxes that make up a cell.
+/// Boxes that make up a cell: more than one if a shifted cell wraps around.
 std::vector<Box> pieces_of(std::size_t cell, const CellGrid& grid, bool shifted) {
     const std::size_t axes = grid.size();
     std::vector<Box> pieces{{std::vector<double>(axes), std::vector<double>(axes)}};
@@ -87,7 +87,7 @@ CellGrid default_grid(std::uint64_t n, std::size_t axes) {
     const double target =
         std::min(2 * real_power(static_cast<double>(count), 0.4), static_cast<double>(cap));
     std::size_t cut = 1;     // number of axes to cut
-    std::size_t others = 1;  // 3^(cut - 1), reserved for the axes that follow
+    std::size_t others = 1;  // 3^(cut - 1) cells, reserved for the axes after the first
     while (cut < std::min(axes, most_cut_axes) && static_cast<double>(9 * others) <= target) {
         ++cut;
         others *= 3;
@@ -146,7 +146,7 @@ std::vector<Estimate> cell_masses(const Domain& domain, const CellGrid& grid, bo
     });
     Estimate sum;
     for (const Estimate& mass : masses) sum += mass;
-    // Exact probabilities still have a rounding error each.
+    // Even exact probabilities have a rounding error each.
     const double rounding =
         std::numeric_limits<double>::epsilon() * (64 + 4 * static_cast<double>(masses.size()));
     if (std::abs(sum.value - 1) > sum.error + rounding)

@@ -14,17 +14,17 @@
 
 namespace stipple::analyzers {
 
-using CellGrid = std::vector<std::size_t>;  ///< cells along each axis
+using CellGrid = std::vector<std::size_t>;  ///< number of cells along each axis
 
-/// Points that a group of cells expects at least.
+/// Smallest expected number of points in a group of cells.
 inline constexpr std::uint64_t fewest_expected = 5;
 inline constexpr std::uint64_t most_cells = 100'000'000;
 
-/// Above the first of these numbers of points, the default grid is that of the largest one not
-/// above the count.
+/// For more points than the first of these numbers, the default grid is that of the largest number
+/// not above the count.
 inline constexpr std::uint64_t grid_counts[] = {1U << 20, 1U << 24, 1U << 28};
 
-/// Largest number of axes that a default grid cuts.
+/// Largest number of axes cut by a default grid.
 inline constexpr std::size_t most_cut_axes = 8;
 
 /// Default grid: odd primes with a product near 2 n^(2/5), at most n / 5. @throws Error(input) for
@@ -36,13 +36,13 @@ CellGrid asked_grid(const std::vector<std::int64_t>& extents, std::size_t axes);
 
 std::uint64_t cell_count(const CellGrid& grid);
 
-/// Index of the cell of a point of the closed cube; ignores coordinates beyond the grid's. A
+/// Index of the cell of a point of the closed cube; ignores coordinates after those of the grid. A
 /// shifted grid is moved by half a cell along every axis that it cuts, on the torus: cell 0 begins
 /// half a cell before 0.
 std::size_t cell_of(std::span<const double> cube, const CellGrid& grid, bool shifted);
 
-/// Probabilities of all cells, whose sum is checked to be 1.
-/// @throws Error(limit) if the domain's probabilities contradict each other
+/// Probabilities of all cells, which must sum to 1. @throws Error(limit) if the domain's
+/// probabilities contradict each other
 std::vector<Estimate> cell_masses(const Domain& domain, const CellGrid& grid, bool shifted,
                                   const RunContext& run);
 

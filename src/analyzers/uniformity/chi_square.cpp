@@ -11,11 +11,11 @@
 // (p_lower takes into account that counts are integers, see pearson.hpp: five points in each of
 // three cells are not rare.)
 //
-// If p < level and the upper tail is the smaller one: non-uniform, the counts differ too much from
-// what is expected. If the lower tail is: stratified, they differ less than those of random points.
-// Otherwise: uniform. A point in a cell of probability 0 is impossible: non-uniform, p = 0. So is a
-// point in a known gap of the density, if its distance from the gap's edges exceeds the rounding of
-// single precision.
+// The verdict is uniform if p >= level. Otherwise, if the upper tail is the smaller one, it is
+// non-uniform: the counts differ too much from the expected ones. If the lower tail is the smaller
+// one, it is stratified: the counts differ less than those of random points. A point in a cell of
+// probability 0 is impossible: non-uniform, p = 0. So is a point in a known gap of the density, if
+// its distance from the gap's edges exceeds the rounding of single precision.
 //
 // The default grid has the largest product of odd primes near 2 n^(2/5) (Mann and Wald's rate), at
 // most n / 5, on as many of the first axes as get 3 cells each. The primes are odd because strata
@@ -29,10 +29,10 @@
 // (Sidak) is at least the true probability. It decides the verdict, which is non-uniform if either
 // grid alone is non-uniform at that level.
 //
-// Several sets: with sum, the sum of their statistics has the sum of their degrees of freedom;
-// sidak takes 1 - (1 - p)^R of the smallest p; for fisher, -2 sum ln p is chi-square with 2 R
-// degrees of freedom. The upper and the lower tails are combined separately. The sum's lower tail
-// is at least the product of those of the sets.
+// The tails of R sets are combined in one of three ways. sum: the sum of their statistics has the
+// sum of their degrees of freedom. sidak: 1 - (1 - p)^R of the smallest p. fisher: -2 sum ln p is
+// chi-square with 2 R degrees of freedom. The upper and the lower tails are combined separately.
+// The sum's lower tail is at least the product of those of the sets.
 //
 // Probabilities that are known only within errors leave the statistic in a range (pearson.hpp). If
 // the ends of the range have different verdicts, the analyzer fails.
@@ -94,7 +94,7 @@ constexpr Param<Choice> combination{
 
 constexpr std::uint64_t held_points = grid_counts[0];  ///< points kept until the grid is known
 
-/// Gaps of a domain's density: no point can be there, whatever the probability of the cell.
+/// Gaps of a domain's density: regions without points, whatever the probability of the cell.
 class Gaps {
   public:
     explicit Gaps(DomainPtr domain) : domain_(std::move(domain)) {
@@ -106,7 +106,7 @@ class Gaps {
                                std::max(std::abs(around.low[k]), std::abs(around.high[k])));
     }
 
-    /// Number of these points that are in gaps.
+    /// Number of rows that are in gaps.
     [[nodiscard]] std::uint64_t count(std::span<const double> rows, const RunContext& run) const {
         if (support_.whole) return 0;
         const std::size_t d = domain_->dimension();
@@ -164,7 +164,7 @@ class Tally {
         if (with_shifted) shifted_.resize(total);
     }
 
-    /// Counts points of the cube with `width` numbers each, of which the grid uses the first.
+    /// Counts points of the cube with `width` numbers each, of which the grid uses the first ones.
     void add(std::span<const double> cubes, std::size_t width) {
         for (std::size_t i = 0; i < cubes.size(); i += width)
             ++counts_[cell_of(cubes.subspan(i, width), grid_, false)];
@@ -181,7 +181,7 @@ class Tally {
         }
     }
 
-    /// Smallest number of points for which this is the grid.
+    /// Smallest number of points for which this grid is used.
     [[nodiscard]] std::uint64_t from() const { return from_; }
     [[nodiscard]] const CellGrid& grid() const { return grid_; }
 
@@ -199,8 +199,8 @@ class Tally {
     std::vector<std::uint64_t> shifted_;
 };
 
-/// Tails of a statistic, and of the smallest and largest value that it may have within the errors
-/// of the cells' probabilities.
+/// Tails of a statistic, and of the smallest and largest values possible within the errors of the
+/// cells' probabilities.
 struct Judged {
     Tails found;
     Tails least;
@@ -221,7 +221,7 @@ Report& add_tails(Report& report, const Tails& tails) {
         .add("p_method", tails.exact ? "exact" : "corrected");
 }
 
-/// Adds the tails on one grid or two, and the verdict. @throws Error(limit) if the errors of the
+/// Adds the tails on one or two grids, and the verdict. @throws Error(limit) if the errors of the
 /// cells' probabilities could change the verdict
 void conclude(Report& report, const Judged& plain, const std::optional<Judged>& second,
               const Values& options) {
@@ -243,7 +243,7 @@ void conclude(Report& report, const Judged& plain, const std::optional<Judged>& 
     add_verdict(report, verdict, p, options[expect_uniformity_option]);
 }
 
-/// Tails of a fit; the upper tail is 0 if there are points where none can be.
+/// Tails of a fit; the upper tail is 0 if a point is in a cell of probability 0.
 Judged judge(const Fit& fit) {
     const Tails never{.upper = 0, .lower = 1};
     if (fit.impossible > 0) return {never, never, never};
@@ -315,7 +315,8 @@ class Counter final : public SharedAccumulator {
     }
 
   private:
-    /// Counts points, given as rows and as coordinates of the cube, or keeps them.
+    /// Counts points, given as rows and as coordinates of the cube; keeps the latter until the grid
+    /// is known.
     void take(std::span<const double> rows, std::span<const double> cubes, const RunContext& run) {
         in_gaps_ += gaps_.count(rows, run);
         for (Tally& tally : tallies_) tally.add(cubes, axes_);
@@ -369,7 +370,7 @@ class Counter final : public SharedAccumulator {
     Values options_;
     std::size_t axes_;
     std::uint64_t first_ = 0;  ///< index of the first point to arrive
-    std::size_t width_ = 0;    ///< number of cube coordinates that are kept per point
+    std::size_t width_ = 0;    ///< number of cube coordinates kept per point
     std::uint64_t n_ = 0;
     std::uint64_t in_gaps_ = 0;
     std::vector<Tally> tallies_;
@@ -386,7 +387,8 @@ void refine(Report& mean, std::size_t sets, const Values& options) {
              mean.number("smallest_detectable_effect") * std::sqrt(shrink));
 }
 
-/// Tails over several sets: the sum of their statistics has the sum of their degrees of freedom.
+/// Tails over several sets by the combination `sum`: the sum of their statistics has the sum of
+/// their degrees of freedom.
 Judged summed(const Report& mean, std::span<const Report> sets, const std::string& prefix) {
     const Tails never{.upper = 0, .lower = 1};
     if (mean.number(prefix + "impossible_points") > 0) return {never, never, never};
@@ -402,7 +404,7 @@ Judged summed(const Report& mean, std::span<const Report> sets, const std::strin
                  });
 }
 
-/// Tails of a set, from its own report.
+/// Tails of a single set, computed from its report.
 Judged judged_set(const Report& set, const std::string& prefix) {
     const Tails found{set.number(prefix + "p_upper"), set.number(prefix + "p_lower")};
     const double error = set.number(prefix + "statistic_error");
@@ -419,7 +421,7 @@ Judged judged_set(const Report& set, const std::string& prefix) {
     return judged;
 }
 
-/// Combined tails of several sets.
+/// Tails over several sets by the combination `sidak` or `fisher`.
 Judged combined(std::span<const Report> sets, const std::string& prefix, const std::string& how) {
     Judged one;
     for (const auto which : {&Judged::found, &Judged::least, &Judged::greatest}) {

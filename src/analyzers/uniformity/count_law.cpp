@@ -10,9 +10,9 @@
 // and the weights 1 / (m + e_i)! of the groups are convolved, one after another, over the pairs
 // (sum e_i, sum e_i^2).
 //
-// Unequal groups: counts are enumerated group by group, as long as they leave room for the others.
-// Each is binomial among the remaining points. If groups that expect E and F hold T together, they
-// add at least
+// Unequal groups: counts are enumerated group by group, as long as the statistic can stay small
+// enough. Each count is binomial among the remaining points. If groups with expectations E and F
+// contain T points together, they add at least
 //
 //     (O - E)^2 / E + (T - O - F)^2 / F  =  (O - c)^2 (1 / E + 1 / F) + (T - E - F)^2 / (E + F),
 //
@@ -40,7 +40,7 @@ constexpr double most_steps = 2e6;
 constexpr double tie = 1e-12;  ///< tolerance for statistics that differ only by rounding
 
 /// Sums over the counts m + e of equal groups, with weights m! m^e / (m + e)!, indexed by the sum
-/// of e and the sum of e^2.
+/// of e and by the sum of e^2.
 class EqualCounts {
   public:
     /// @param squares largest sum of e^2
@@ -55,8 +55,8 @@ class EqualCounts {
             weights_[k] = weights_[k + 1] * ((count - static_cast<double>(zero - k - 1)) / count);
     }
 
-    /// Sum over all counts of `groups` groups whose e add up to `rest`, which is less than
-    /// `groups`.
+    /// Sum of the weights of all counts of `groups` groups whose e add up to `rest`, which is less
+    /// than `groups`.
     double sum(std::int64_t groups, std::int64_t rest) {
         if (rest > squares_) return 0;  // the sum of squares of integers is at least their sum
         reach_ = root(groups * squares_) + 1;
@@ -79,7 +79,7 @@ class EqualCounts {
         return static_cast<std::size_t>((sum + reach_) * (squares_ + 1) + squares);
     }
 
-    /// Adds one of `left` remaining groups; drops sums from which `rest` cannot be reached.
+    /// Adds a group when `left` groups remain; drops sums from which `rest` cannot be reached.
     [[nodiscard]] std::vector<double> with_group(const std::vector<double>& from, std::int64_t left,
                                                  std::int64_t rest) const {
         std::vector<double> to(table_size());
@@ -102,8 +102,8 @@ class EqualCounts {
     std::vector<double> weights_;
 };
 
-/// Probability that `count` of n points are where `expected` are expected. The powers of n, k and n
-/// - k are separated from n! / (k! (n - k)!), so that nothing cancels.
+/// Binomial probability of `count` among n points if `expected` are expected. The powers of n, k
+/// and n - k are separated from n! / (k! (n - k)!), so that nothing cancels.
 double binomial_chance(double count, double n, double expected) {
     const auto off = [](double found, double right) {
         const double e = (found - right) / right;
@@ -113,7 +113,7 @@ double binomial_chance(double count, double n, double expected) {
                        off(count, expected) - off(n - count, n - expected));
 }
 
-/// Counts of unequal groups, the one with the largest expectation last.
+/// Enumerates the counts of unequal groups, the one with the largest expectation last.
 class UnequalCounts {
   public:
     explicit UnequalCounts(std::span<const double> expected)
@@ -124,7 +124,7 @@ class UnequalCounts {
             behind_[k] = behind_[k + 1] + expected_[k + 1];
     }
 
-    /// Upper bound of the number of counts with such a small statistic.
+    /// Upper bound of the number of counts with at most this statistic.
     [[nodiscard]] double most(double statistic) const {
         double count = 1;
         for (std::size_t k = 0; k + 1 < expected_.size(); ++k)
@@ -160,7 +160,7 @@ class UnequalCounts {
 
   private:
     std::vector<double> expected_;
-    std::vector<double> behind_;  ///< expected in all later groups
+    std::vector<double> behind_;  ///< sum of the expectations of later groups
 };
 
 }  // namespace

@@ -23,24 +23,24 @@ namespace stipple::analyzers {
 /// @throws Error(input) if the domain's coordinates do not preserve probability
 void require_even(const Domain& domain, std::string_view analyzer);
 
-/// Moves outcomes of discrete distributions, which are at the middles of their cells, to random
-/// places in these. Points that follow the density are uniform then. The random numbers depend only
-/// on the points' indices.
+/// Moves outcomes of discrete distributions from the middles of their cells to random positions in
+/// the cells. Points that follow the density are then uniform. The random numbers depend only on
+/// the points' indices.
 ///
 /// Source  L. Rueschendorf, J. Statist. Plann. Inference 139 (2009) 3921-3927,
 ///         doi:10.1016/j.jspi.2009.05.030 (distributional transform).
 void spread_outcomes(const Domain& domain, std::span<double> cubes, std::uint64_t first,
                      const RunContext& run);
 
-/// Adds "axes" with the names of the cube's axes, unless these are x1, x2, ....
+/// Adds the names of the cube's axes as "axes", unless they are x1, x2, ....
 void tell_axes(const Domain& domain, Report& report);
 
-/// Coordinates of points in the cube; the first has the index `first`. Points outside the domain
-/// are counted, and their coordinates are meaningless.
+/// Coordinates of points in the cube; the first point has the index `first`. Adds points outside
+/// the domain to `outside`; their coordinates are meaningless.
 std::vector<double> cube_rows(const Domain& domain, std::span<const double> rows,
                               std::uint64_t first, Outside& outside, const RunContext& run);
 
-// Common parts of tests of points: the significance level, and the verdict of their reports.
+// Options and verdicts shared by the tests of uniformity.
 
 inline constexpr Param<double> level_option{
     .name = "level",
@@ -57,8 +57,8 @@ inline constexpr Param<Choice> expect_uniformity_option{
 
 inline constexpr std::string_view uniformity_verdicts = "uniform|non-uniform|stratified";
 
-/// Verdict from the tails on one grid or two: the smaller tail, and whether the p-value is below
-/// the level.
+/// Verdict from the tails on one or two grids: depends on which tail is smaller, and on whether the
+/// p-value is below the level.
 inline std::string verdict_of(const Tails& plain, const Tails* second, double level) {
     const auto clumped = [&](const Tails& tails) {
         return tails.upper < tails.lower && p_value_of(tails, second ? &tails : nullptr) < level;
@@ -67,7 +67,8 @@ inline std::string verdict_of(const Tails& plain, const Tails* second, double le
     return clumped(plain) || (second && clumped(*second)) ? "non-uniform" : "stratified";
 }
 
-/// Adds the verdict for a p-value, and complains if it is not the wanted one; "" accepts any.
+/// Adds the verdict with its p-value. If it is not the wanted one, marks the report as failed; an
+/// empty `wanted` accepts any verdict.
 inline void add_verdict(Report& report, const std::string& verdict, double p,
                         const std::string& wanted) {
     report.add("verdict", verdict);

@@ -82,7 +82,7 @@ double theta_sum(double z, double offset, const F& term) {
         const double q = pi * (k + offset);
         const double weight = exponential(-q * q / (2 * z * z));
         if (weight == 0) break;
-        // k and -k - 1 (offset 1/2), or k and -k (offset 0), give the same.
+        // The terms for k and -k - 1 (offset 1/2), or for k and -k (offset 0), are equal.
         sum += (offset > 0 || k > 0 ? 2 : 1) * weight * term(q * q);
     }
     return sum;
@@ -110,7 +110,7 @@ double kolmogorov_exact(std::uint64_t n, double x, const RunContext& run) {
         if (bits == 0) break;
         power = squared(power, run);
     }
-    const double factor = log_excess(count) - count;  // ln n! / n^n
+    const double factor = log_excess(count) - count;  // ln(n! / n^n)
     return std::min(1.0, row[k - 1] * exponential(exponent * std::numbers::ln2 + factor));
 }
 

@@ -59,10 +59,10 @@ constexpr Param<std::int64_t> exact_points{
         "Largest number of points per set that are kept and sorted; larger sets are counted in "
         "cells [default: 2^26 / d]"};
 
-/// Coordinates to keep at most, and cells of all axes together.
+/// Largest number of coordinates to keep, and of cells of all axes together.
 constexpr std::uint64_t most_numbers = std::uint64_t{1} << 26;
 
-/// Lower bound of D, and by how much D may exceed it.
+/// Lower bound of D, and the largest amount by which D may exceed it.
 struct Distance {
     double statistic = 0;
     double error = 0;
@@ -105,7 +105,7 @@ void conclude(Report& report, const Tails& all, const Values& options) {
     add_verdict(report, verdict, all.two_sided(), options[expect_uniformity_option]);
 }
 
-/// Keeps the coordinates of the cube while they are few, and counts them in cells if they are many.
+/// Keeps the cube coordinates of small sets; counts those of large sets in cells.
 class Collector final : public SharedAccumulator {
   public:
     Collector(const Arrival& arrival, const Values& options, const RunContext& run)
@@ -205,7 +205,7 @@ class Collector final : public SharedAccumulator {
             return distance_of(std::span(counts_).subspan(axis * cells_, cells_),
                                static_cast<double>(n_));
         for (std::uint64_t i = 0; i < n_; ++i)
-            sorted[i] = {buffer_[i * axes_ + axis] + 0.0, 0};  // turns -0 into 0
+            sorted[i] = {buffer_[i * axes_ + axis] + 0.0, 0};  // maps -0 to 0
         radix_sort(sorted, run);
         return {.statistic = statistic_of(sorted)};
     }
@@ -213,13 +213,13 @@ class Collector final : public SharedAccumulator {
     DomainPtr domain_;
     Values options_;
     std::size_t axes_;
-    std::uint64_t most_;   ///< number of points to keep
-    std::uint64_t cells_;  ///< number per axis
+    std::uint64_t most_;   ///< largest number of points to keep
+    std::uint64_t cells_;  ///< number of cells per axis
     std::uint64_t first_ = 0;
     std::uint64_t n_ = 0;
     Outside outside_;
-    std::vector<double> buffer_;  ///< coordinates of the cube, point by point
-    /// Numbers of points in cells, axis after axis; empty while points are kept.
+    std::vector<double> buffer_;  ///< cube coordinates, point by point
+    /// Numbers of points in the cells, axis after axis; empty while points are kept.
     std::vector<std::uint64_t> counts_;
 };
 

@@ -80,7 +80,8 @@ void MomentSums::add(std::span<const double> rows, const RunContext& run) {
     count_ += count;
 }
 
-/// Appends a node, and adds up pairs at the end as long as there are any.
+/// Appends a node, and merges the last two nodes as long as they are siblings in the binary tree of
+/// batches.
 void MomentSums::take(Node node) {
     nodes_.push_back(std::move(node));
     while (nodes_.size() > 1) {
@@ -120,7 +121,7 @@ void MomentSums::merge(Unpacker& from) {
     }
 }
 
-/// Central moments of a column, from those about c: m_p = E (x - c - e)^p, e = mean - c.
+/// Central moments of column k, from those about c: m_p = E (x - c - e)^p, e = mean - c.
 void MomentSums::column(const Node& all, std::size_t k, SampleAndErrors& out) const {
     const auto n = static_cast<double>(count_);
     double raw[powers + 1] = {1};
@@ -154,7 +155,7 @@ void MomentSums::column(const Node& all, std::size_t k, SampleAndErrors& out) co
         flat ? 0 : root(g6 - 3 * g1 * g5 - 6 * g4 + 2.25 * g1 * g1 * g4 + 8.75 * g1 * g1 + 9));
 }
 
-/// Covariance of two columns, and E (x - mean)^2 (y - mean)^2 for its error.
+/// Covariance of two columns. Its error follows from E (x - mean)^2 (y - mean)^2.
 void MomentSums::cross(const Node& all, std::size_t i, std::size_t j, SampleAndErrors& out) const {
     const auto n = static_cast<double>(count_);
     const std::size_t at = pair(i, j);

@@ -7,8 +7,8 @@
 //
 // A batch is summed by blocks; the blocks' sums are added in order with compensation for rounding
 // (Neumaier). Sums of batches are added in pairs, pairs of pairs and so on, like a binary counter:
-// batches 2i and 2i + 1, then 4i to 4i + 3, .... Those that are left without a pair are added from
-// the end.
+// batches 2i and 2i + 1, then 4i to 4i + 3, .... Sums left without a partner are added from the
+// end.
 //
 // Shape   memory: one set of sums for each binary digit of the number of batches.
 // Promise the same for any number of threads, and for any distribution of the batches: the sums of
@@ -30,7 +30,7 @@ namespace stipple::analyzers {
 /// Moments of a sample: one number per column, and a matrix of covariances, row by row.
 struct SampleMoments {
     std::vector<double> mean;
-    std::vector<double> variance;  ///< unbiased
+    std::vector<double> variance;  ///< unbiased variance
     std::vector<double> skewness;  ///< m3 / m2^(3/2); 0 if all numbers are equal
     std::vector<double> covariance;
 };
@@ -43,17 +43,18 @@ struct SampleAndErrors {
 
 class MomentSums {
   public:
-    /// Sums for columns, about these numbers; `first` is the number of the first batch.
+    /// Makes sums of powers of x - about, one number per column; `first` is the number of the first
+    /// batch.
     explicit MomentSums(std::vector<double> about, std::uint64_t first = 0);
 
-    /// Takes the next batch.
+    /// Adds the next batch.
     void add(std::span<const double> rows, const RunContext& run);
 
     void pack(Packer& to) const;
-    /// Adds the sums of the batches directly after its own.
+    /// Adds the sums of the batches directly after those of this object.
     void merge(Unpacker& from);
 
-    /// Moments of at least two rows. @throws Error(limit) if powers exceed the largest double
+    /// Moments of at least two rows. @throws Error(limit) if a power exceeds the largest double
     [[nodiscard]] SampleAndErrors moments() const;
 
   private:
@@ -62,7 +63,7 @@ class MomentSums {
         std::uint64_t first = 0;  ///< a multiple of 2^level
         std::uint64_t level = 0;
         std::vector<double> sums = {};
-        std::vector<double> carries = {};  ///< compensation for rounding
+        std::vector<double> carries = {};  ///< compensation of each sum for rounding
 
         [[nodiscard]] double sum(std::size_t i) const { return sums[i] + carries[i]; }
         void add(std::span<const double> more);

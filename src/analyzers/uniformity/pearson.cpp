@@ -19,8 +19,8 @@ namespace {
 /// Largest number of unequal groups whose counts may be enumerated.
 constexpr std::size_t most_unequal = 8;
 
-/// Number of equal cells in a group, so that its expectation is at least 5. @throws Error(input) if
-/// that leaves fewer than two groups
+/// Number of equal cells to pool so that a group's expectation is at least 5. @throws Error(input)
+/// if that leaves fewer than two groups
 std::uint64_t group_size(std::uint64_t n, std::uint64_t total) {
     const std::uint64_t size = (fewest_expected * total + n - 1) / n;
     if (size > total / 2) {
@@ -43,12 +43,13 @@ double most_even_chance(std::uint64_t n, std::uint64_t groups) {
     return std::min(1.0, exponential(ways + counts - static_cast<double>(n) * logarithm(k)));
 }
 
-/// q_1, q_2, ... of groups, in the order of their expectations; stops below 1e-30.
+/// Collects q_1, q_2, ... of pearson.hpp for groups in ascending order of their expectations; stops
+/// below 1e-30.
 class ModalProbabilities {
   public:
     explicit ModalProbabilities(std::uint64_t n) : whole_(static_cast<double>(n)), rest_(whole_) {}
 
-    /// Adds a group, but not the last one, whose count follows from the others.
+    /// Adds a group. Not called for the last one, whose count follows from the others.
     void add(double expected) {
         if (!found_.empty() && found_.back() < 1e-30) return;
         rest_ -= expected;
@@ -60,12 +61,13 @@ class ModalProbabilities {
 
   private:
     double whole_;
-    double rest_;  ///< expected in later groups
+    double rest_;  ///< sum of the expectations of later groups
     double log_ = 0;
     std::vector<double> found_;
 };
 
-/// Cells with a probability above 0, the least probable first; counts the points in other cells.
+/// Cells with a probability above 0, the least probable first. Counts the points in other cells as
+/// impossible.
 std::vector<std::uint64_t> possible_cells(std::span<const std::uint64_t> counts,
                                           std::span<const Estimate> masses, Fit& found) {
     std::vector<std::uint64_t> cells;
@@ -80,7 +82,7 @@ std::vector<std::uint64_t> possible_cells(std::span<const std::uint64_t> counts,
     return cells;
 }
 
-/// Cells with their total expected and observed numbers of points.
+/// A group of cells, with its expected and observed numbers of points.
 struct Group {
     double expected = 0;
     double error = 0;  ///< error of `expected`
@@ -95,7 +97,8 @@ struct Group {
     }
 };
 
-/// Pools consecutive cells into groups that expect enough. @throws Error(input) for fewer than two
+/// Pools consecutive cells into groups that expect at least 5 points. @throws Error(input) for
+/// fewer than two groups
 std::vector<Group> pool(const std::vector<Group>& cells, std::uint64_t n) {
     std::vector<Group> groups;
     Group open;

@@ -6,13 +6,13 @@
 //
 // Cells of equal probability are grouped in their order, with as many in a group as needed to
 // expect 5 points; remaining cells go to the last group. Cells of unequal probability are first
-// sorted, the least probable first (equal ones by their number), and then pooled until a group
+// sorted, the least probable first (equal ones by their index), and then pooled until a group
 // expects 5; remaining cells go to the last group. So all groups expect at least 5, and cells that
-// do so alone stay single.
+// expect so many alone are not pooled.
 //
-// If expectations are known within errors d_i, X^2 is, too. It is the squared length of
-// (O - E) / sqrt(E), which changes by at most D = sqrt(sum d_i^2 / E_i), and the divisors E are
-// wrong by a factor of at most 1 + d_i / E_i:
+// If expectations are known within errors d_i, so is X^2. It is the squared length of (O - E) /
+// sqrt(E), which changes by at most D = sqrt(sum d_i^2 / E_i), and the divisors E are wrong by a
+// factor of at most 1 + d_i / E_i:
 //
 //     (X - D)^2 / (1 + r)  <=  right statistic  <=  (X + D)^2 / (1 - r),    r = max d_i / E_i
 //
@@ -46,14 +46,14 @@ struct Fit {
     double statistic = 0;
     std::uint64_t groups = 0;
     std::uint64_t pooled = 0;      ///< cells pooled with others
-    std::uint64_t impossible = 0;  ///< points in cells of probability 0
+    std::uint64_t impossible = 0;  ///< number of points in cells of probability 0
     double mass_error = 0;         ///< sum of the errors of the cells' probabilities
-    double statistic_error = 0;    ///< largest error of the statistic due to these
+    double statistic_error = 0;    ///< largest error of the statistic due to mass_error
     double most_even = 0;          ///< probability of the smallest possible statistic; 0: unknown
-    std::vector<double> modal_probabilities = {};  ///< q_1, q_2, ... as far as they matter
+    std::vector<double> modal_probabilities = {};  ///< q_1, q_2, ..., down to negligible ones
     std::uint64_t points = 0;
     std::vector<double> expected = {};  ///< expectations of groups, if few and unequal
-    bool equal = false;                 ///< whether all groups have the same expectation
+    bool equal = false;                 ///< all groups have the same expectation
 
     [[nodiscard]] double freedom() const { return static_cast<double>(groups - 1); }
 };
@@ -61,15 +61,15 @@ struct Fit {
 /// Fit for cells of equal probability. @throws Error(input) if they make fewer than two groups
 Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunContext& run);
 
-/// Fit for cells with these probabilities, one for each count. @throws Error(input)
+/// Fit for cells with the given probabilities, one for each count. @throws Error(input)
 Fit fit_masses(std::span<const std::uint64_t> counts, std::span<const Estimate> masses,
                std::uint64_t n, const RunContext& run);
 
-/// Probabilities of a statistic at least as large, and at most as large, if the hypothesis is true.
+/// Probabilities, under the hypothesis, of a statistic at least as large and at most as large.
 struct Tails {
     double upper = 1;
     double lower = 1;
-    bool exact = false;  ///< whether the lower tail is
+    bool exact = false;  ///< the lower tail is exact
 
     [[nodiscard]] double two_sided() const;
 };
@@ -77,14 +77,15 @@ struct Tails {
 /// Tails of chi-square with these degrees of freedom.
 Tails chi_square_tails(double statistic, double freedom);
 
-/// The same with a lower tail for integer counts, for a statistic on the groups of `fit`.
+/// Like chi_square_tails(), with the lower tail for integer counts; `statistic` is on the groups of
+/// `fit`.
 Tails count_tails(double statistic, const Fit& fit);
 
-/// Probability that the statistic of n independent points is at most `statistic`, for groups of
-/// equal probability, at most n of them; nullopt if it would take too long (count_law.cpp).
+/// Probability that the statistic of n independent points is at most `statistic`, for at most n
+/// groups of equal probability; nullopt if it would take too long (count_law.cpp).
 std::optional<double> exact_lower_tail(double statistic, std::uint64_t n, std::uint64_t groups);
 
-/// The same for two or more groups with these expected numbers of points, n together.
+/// Likewise for two or more groups with the given expected numbers of points, whose sum is n.
 std::optional<double> exact_lower_tail(double statistic, std::uint64_t n,
                                        std::span<const double> expected);
 
@@ -94,10 +95,10 @@ Tails sidak(std::span<const Tails> tests);
 /// Fisher's combination, for each tail: -2 sum ln p is chi-square with 2 T degrees of freedom.
 Tails fisher(std::span<const Tails> tests);
 
-/// 1 - (1 - p)^tests.
+/// 1 - (1 - p)^tests, without loss of digits for small p.
 double sidak(double p, double tests);
 
-/// Two-sided p-value of one test, or of the smaller p of two by Sidak.
+/// Two-sided p-value of one test; of two tests, Sidak's combination of the smaller p.
 double p_value_of(const Tails& plain, const Tails* second);
 
 }  // namespace stipple::analyzers

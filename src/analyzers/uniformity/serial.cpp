@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Whether points depend on the ones before them. Along each axis of the domain's cube, where the
+// Tests whether points depend on preceding ones. Along each axis of the domain's cube, where the
 // coordinate u of a point that follows the domain's density is uniform,
 //
 //     r_L = 12/(n - L) sum (u_i - 1/2)(u_(i+L) - 1/2),    mean 0, variance 1/(n - L)
@@ -53,7 +53,7 @@ constexpr Param<Choice> expect{.name = "expect",
                                .choices = "independent|dependent",
                                .help = "Fail (exit code 1) if the verdict differs"};
 
-/// Sums along one axis.
+/// Sums of serial products, and numbers of turns and crossings of 1/2, along one axis.
 struct AxisSums {
     std::vector<double> products;  ///< sums of (u_i - 1/2)(u_(i-L) - 1/2), for each lag
     std::uint64_t turns = 0;
@@ -67,8 +67,8 @@ struct AxisSums {
     }
 };
 
-/// Sums for rows [first, last) of `cubes`, each with those of the preceding rows that are in
-/// `cubes`.
+/// Adds rows [first, last) of `cubes` to the sums, together with the preceding rows of `cubes` at
+/// each lag.
 void sum_axis(std::span<const double> cubes, std::size_t axes, std::size_t axis, std::size_t first,
               std::size_t last, AxisSums& sums) {
     const auto u = [&](std::size_t i) { return cubes[i * axes + axis]; };
@@ -136,7 +136,7 @@ class Order final : public Accumulator {
     }
 
   private:
-    /// Adds rows [first, last) of tail_, in blocks whose sums are added in order.
+    /// Adds rows [first, last) of tail_ in blocks; adds the sums of the blocks in order.
     void add_rows(std::size_t first, std::size_t last, const RunContext& run) {
         const std::size_t axes = sums_.size();
         const std::size_t block = std::max<std::size_t>(1, 16384 / axes);
