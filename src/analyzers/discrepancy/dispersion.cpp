@@ -42,8 +42,8 @@ constexpr Param<bool> torus{
 /// Limit beyond any machine's memory; keys of points stay below 2^31.
 constexpr std::size_t max_count = std::size_t{1} << 29;
 
-/// Largest empty box. If the search is cut short, the upper bound is that of the discrepancy, which
-/// is at least the volume of any empty box.
+/// Largest empty box. If the search is cut short, the upper bound is that of the discrepancy over
+/// the same family of boxes, which is at least the volume of any empty box.
 SearchResult largest_empty_box(const BoxGrid& grid, const PointSet& points,
                                const SearchLimits& limits, const RunContext& run) {
     if (grid.dimension() != 2) return extreme::find_worst(grid, limits, run);

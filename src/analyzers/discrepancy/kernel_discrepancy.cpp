@@ -24,10 +24,10 @@
 //     stein       the density whose scores grad log p follow the coordinates in each row
 //
 // Shape   points n x d in [0, 1], in any domain, or with --target and stein anywhere; for stein n x
-//         2d, first d coordinates, then d scores.
-// Units   h is a length. By default sqrt(d / 6), the root mean square distance of two uniform
-//         points of the cube; with --target the median distance of all points, over all pairs or,
-//         if there are more than 2^22, over that many random pairs; for stein 1.
+//         2d: first d coordinates, then d scores.
+// Units   h is a length. The default is sqrt(d / 6), the root mean square distance of two uniform
+//         points of the cube. With --target it is the median distance of all points, over all pairs
+//         or, if there are more than 2^22 pairs, over that many random ones. For stein it is 1.
 // Cost    n^2 / 2 values of K, with m points of a target (n + m)^2 / 2; each takes 0.5 to 2 ns in
 //         few dimensions on one core. The periodic kernel in one or two dimensions: O(n log n) for
 //         n > 4096 (math/l2). Domains other than a cube: some 100 us more per point. O(n) memory.
@@ -86,7 +86,7 @@ constexpr Param<Choice> smoothness{.name = "smoothness",
 /// Limit beyond practical run times; sums over its pairs fit 128 bits.
 constexpr std::size_t max_count = std::size_t{1} << 26;
 
-/// Points to analyze, and how.
+/// Points to analyze, and the bandwidth of the kernel.
 struct Setting {
     kernels::Columns points;
     std::size_t dimension;
@@ -171,7 +171,8 @@ PointSet on_cube(const PointSet& points) {
     return cube;
 }
 
-/// Sets h as given by the user, or to `fallback` with the name of its rule.
+/// Sets h to the user's --bandwidth; without this option to `fallback`, whose rule is called
+/// `rule`.
 void set_bandwidth(Setting& setting, const Values& options, double fallback, const char* rule) {
     const bool given = options.given(bandwidth);
     setting.h = given ? options[bandwidth] : fallback;
@@ -191,7 +192,7 @@ kernels::KernelPtr kernel_of(const Setting& setting, const Values& options) {
     return kernels::matern(setting.dimension, *setting.h, order_of(options));
 }
 
-/// Largest error of the root of `squared`, which is off by at most `error`.
+/// Largest error of sqrt(squared), if `squared` is off by at most `error`.
 double error_of_root(double squared, double error) {
     if (squared > error) return std::sqrt(squared) - std::sqrt(squared - error);
     return std::sqrt(squared + error);

@@ -26,9 +26,9 @@
 // change nothing for those of 1 + k. Without weights symmetric is 2^d times average.)
 //
 // Shape   points n x d in [0, 1];  results >= 0, pure numbers, smaller is more even.
-// Cost    d <= 2: O(n log n) for all kinds together (about 0.4 s at n = 10^6 on one core).
-//         d > 2: O(n^2 d) for each kind; of many points O(n log^2 n) in three dimensions, and in
-//         four O(n log^3 n) for the kinds star, extreme, centered and modified.
+// Cost    d <= 2: O(n log n) for all kinds together (about 0.4 s at n = 10^6 on one core). d > 2:
+//         O(n^2 d) for each kind. For the kinds star, extreme, centered and modified of many
+//         points, O(n log^2 n) in three dimensions and O(n log^3 n) in four.
 // Promise the same for any number of threads. d <= 2: exact sums, rounded once at the end, of
 //         coordinates rounded to multiples of 2^-63. d > 2: `value` is off by at most `error`. This
 //         is below a relative 1e-12 (usually the rounding of the value) unless all but 2^-38 of the
@@ -105,7 +105,7 @@ Report in_plane(const PointSet& points, const std::vector<l2::Kind>& kinds,
     return results;
 }
 
-/// Largest error of the root of `squared`, which is off by at most `error`.
+/// Largest error of sqrt(squared), if `squared` is off by at most `error`.
 double error_of_root(double squared, double error) {
     const double value = std::sqrt(std::max(squared, 0.0));
     if (squared > error) return value - std::sqrt(squared - error) + 0x1p-51 * value;
@@ -123,7 +123,7 @@ void warn_of_pairs(std::size_t n, std::size_t d, l2::Kind which, const RunContex
                     l2::record_of(which).name, n, d, seconds / 60));
 }
 
-/// Reports the root of a square with its error; warns if few digits are certain.
+/// Reports the root of a square with its error; warns if few digits are reliable.
 Report off_by(const l2::Square& square, l2::Kind which, const char* method, const RunContext& run) {
     constexpr double few_digits = 1e-9;
     constexpr double smallest = std::numeric_limits<double>::min();
@@ -136,8 +136,8 @@ Report off_by(const l2::Square& square, l2::Kind which, const char* method, cons
     return result_of(square.squared, method).add("error", error);
 }
 
-/// Discrepancy of one kind in three or more dimensions. @throws Error(limit) if it has no finite
-/// value and is the only one requested (`alone`)
+/// Discrepancy of one kind in three or more dimensions. If its value is not finite, @throws
+/// Error(limit) if it is the only kind requested (`alone`).
 Report in_space(const PointSet& points, l2::Kind which, const l2::AxisWeights& weights, bool alone,
                 const RunContext& run) {
     const std::size_t n = points.count();

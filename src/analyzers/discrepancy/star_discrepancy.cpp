@@ -75,7 +75,7 @@ constexpr Param<Choice> boxes{.name = "boxes",
 /// Limit beyond any machine's memory; counts of points stay far from 2^31.
 constexpr std::size_t max_count = std::size_t{1} << 29;
 
-/// Result of a search, and its method.
+/// Result of a search, and the method used.
 struct Found {
     SearchResult result;
     const char* method = "branch-and-bound";
@@ -100,7 +100,7 @@ Family family_of(const Values& options) {
     return options[kind] == "extreme" ? Family::cube : Family::torus;
 }
 
-/// @throws Error(limit) naming a number of points that fits
+/// Checks memory. @throws Error(limit) naming a number of points that fits
 void need_room(const PointSet& points, Family family, const RunContext& run) {
     const std::size_t d = points.dimension();
     if (family >= Family::cube)
@@ -119,10 +119,10 @@ void need_room(const PointSet& points, Family family, const RunContext& run) {
                    points.count(), d, format_bytes(all), format_bytes(room));
 }
 
-/// Finds the worst box in two dimensions; only bounds if the sweep exceeds its part of the time
-/// limit.
+/// Finds the worst box in two dimensions. Returns only bounds if the sweep exceeds its share of the
+/// time limit.
 Found sweep_or_search(const BoxGrid& grid, const Limits& limits, const RunContext& run) {
-    constexpr double part = 0.7;  // the rest is for bounds
+    constexpr double part = 0.7;  // the remaining time is for bounds
     SearchLimits first = limits.search;
     first.deadline = limits.start + part * (first.deadline - limits.start);
     const SearchResult sweep = star::sweep_2d(grid, first, run);
@@ -149,7 +149,7 @@ Report measure(const star::Member& set, const Values& options, const RunContext&
              points.count());
     const Family family = family_of(options);
     need_room(points, family, run);
-    // Peers must stop together, which the search ensures.
+    // All processes must stop together. The search ensures that; the grid is built without stops.
     const BoxGrid grid = box_grid(points, family, set.peers != nullptr ? unstopped(run) : run);
     const Found found = search(grid, set, run);
     set.limits.judge(found.result, fmt::format("the {} discrepancy", options[kind]), points, run);
@@ -165,8 +165,8 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return star::families(points, options, limits, one, run);
 }
 
-/// Shares the search for the worst box among the peers. The sweeps in one and two dimensions take
-/// less time than sharing them.
+/// Divides the search for the worst box among processes. The sweeps in one and two dimensions are
+/// not divided, since that would take longer than the sweep.
 Report analyze_together(const PointSet& points, const Values& options, Peers& peers,
                         const RunContext& run) {
     if (star::wants_families(options) || options[kind] != "star")
@@ -179,7 +179,7 @@ Report analyze_together(const PointSet& points, const Values& options, Peers& pe
                    options, run);
 }
 
-/// Boxes and axes cannot be averaged; the worst projection is found anew from the means.
+/// Boxes and axes cannot be averaged; the worst projection is found again from the means.
 void refine(Report& mean, std::size_t sets, const Values&) {
     if (sets < 2) return;
     drop(mean, {"worst_box"});
@@ -270,10 +270,11 @@ Analyzer unit() {
                       "periodic-discrepancy"}},
             .analyze = analyze,
             .cost =
-                [](double n, double d) {  // exact searches of Halton's, Sobol's and random points
-                    if (d <= 2) return 3e-8 * std::pow(n, 1.33);
-                    return std::min(100.0, 5e-8 * std::pow(n, d <= 8 ? 1 + d / 4 : 2.2 + d / 10));
-                },
+                // Measured: exact searches of Halton, Sobol' and random points.
+            [](double n, double d) {
+                if (d <= 2) return 3e-8 * std::pow(n, 1.33);
+                return std::min(100.0, 5e-8 * std::pow(n, d <= 8 ? 1 + d / 4 : 2.2 + d / 10));
+            },
             .sharing = {.together = analyze_together},
             .refine = refine};
 }

@@ -14,7 +14,7 @@
 namespace stipple::discrepancy::star {
 namespace {
 
-/// Columns of every table. Unknown values are NaN.
+/// Columns common to all tables. Unknown values are NaN.
 struct Columns {
     explicit Columns(std::size_t rows) : value(rows), lower(rows), upper(rows) {}
 
@@ -38,8 +38,8 @@ struct Columns {
     Report::Curve upper;
 };
 
-/// Trivial bounds of any kind of discrepancy for any n points: the coordinates on a single axis
-/// have at least 1/(2n).
+/// Trivial bounds of any kind of discrepancy for any n points. The lower one, 1/(2n), holds even
+/// for the coordinates on a single axis.
 Report least_known(std::size_t count) {
     const double lower = 0.5 / static_cast<double>(count);
     Report known;
@@ -47,7 +47,7 @@ Report least_known(std::size_t count) {
     return known;
 }
 
-/// Measures the sets of a table.
+/// Measures the sets of a table, and collects their results.
 class Table {
   public:
     Table(std::size_t rows, double weight, const Limits& limits, const Measure& measure,
@@ -96,8 +96,8 @@ class Table {
     Columns columns;
 
   private:
-    /// Limits of the next set, of `together` that are measured at a time; and whether it is the
-    /// first.
+    /// Limits of the next set, if `together` sets are measured at a time; and whether it is the
+    /// first set.
     std::pair<Limits, bool> next_limits(double weight, double together) {
         const std::lock_guard lock(counting_);
         const bool first = left_ == weight_;
@@ -106,8 +106,8 @@ class Table {
         return {limits_.part(weight / weight_, of_time, run_), first};
     }
 
-    /// Run for the next row, measured alone. Its progress is the row's part of the table's, and its
-    /// notes begin with the number of points.
+    /// Context for the next row, if it is measured alone. Its progress is a fraction of the
+    /// table's, and its notes begin with the number of points.
     [[nodiscard]] RunContext progress_of(std::size_t count) const {
         const double rows = static_cast<double>(rows_);
         const double done = static_cast<double>(done_);
@@ -122,7 +122,7 @@ class Table {
     std::size_t rows_;
     const Limits& limits_;
     double weight_;
-    double left_;  ///< weight of the sets that have not begun
+    double left_;  ///< total weight of the sets not begun
     const Measure& measure_;
     const RunContext& run_;
     std::size_t done_ = 0;
@@ -177,13 +177,13 @@ PointSet projection(const PointSet& points, const Combination& along) {
     return flat;
 }
 
-/// Largest difference between the discrepancies of m points and of n among them: in every box, the
-/// fractions of points differ by at most (m - n) / m. A little more, for rounding.
+/// Largest difference between the discrepancies of m points and of n of these points: in every box,
+/// the fractions of points differ by at most (m - n) / m. Adds a margin for rounding.
 double step_between(std::size_t n, std::size_t m) {
     return static_cast<double>(m - n) / static_cast<double>(m) + 0x1p-50;
 }
 
-/// Tightens the bounds of each prefix by those of the neighbouring ones.
+/// Tightens the bounds of each prefix by those of its neighbours.
 void carry_bounds(const std::vector<std::size_t>& sizes, Columns& columns) {
     const auto carry = [&](std::size_t from, std::size_t to) {
         const auto [n, m] = std::minmax(sizes[from], sizes[to]);
@@ -225,7 +225,8 @@ Report of_prefixes(const PointSet& points, const std::vector<std::size_t>& sizes
     return result;
 }
 
-/// Adds bounds of the largest value of a table and, if it is certain, the value.
+/// Adds bounds of the table's largest value, and the value itself if the worst row is certain and
+/// exact.
 void add_largest(Report& table) {
     const auto& lower = table.curve("lower");
     const auto& upper = table.curve("upper");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Tables of discrepancies: of the prefixes of a sequence, by length, and of the projections of a
-// set to a few of its axes.
+// Tables of discrepancies: of the prefixes of a sequence by length, and of the projections of a set
+// to a few of its axes.
 #pragma once
 
 #include <functional>
@@ -45,7 +45,7 @@ inline constexpr Param<std::int64_t> projections{
 struct Member {
     const PointSet& points;
     const Limits& limits;
-    Peers* peers = nullptr;  ///< share the search; may be null
+    Peers* peers = nullptr;  ///< processes that share the search; may be null
 };
 
 /// Measures one set; reports `lower`, `upper` and, if it is known, `value`.
@@ -58,10 +58,10 @@ void mark_worst(Report& table);
 bool wants_families(const Values& options);
 
 /// Tables of several sets, measured in parallel. They do not depend on the number of threads unless
-/// the time ends the search. The limits apply to all sets together: work is divided by their
-/// numbers of points, and so is the remaining time among the sets not yet begun. Bounds of a prefix
-/// are also used for its neighbours, widened by the effect of the points between. Sets left out by
-/// a stop or the time limit have the bounds 1/(2n) and 1.
+/// a time limit ends the search. The limits apply to all sets together: work is divided in
+/// proportion to the numbers of points, and so is the remaining time among the sets not yet begun.
+/// Bounds of a prefix are also used for its neighbours, widened by the effect of the additional
+/// points. Sets not measured because of a stop or the time limit get the bounds 1/(2n) and 1.
 /// @throws Error(input) for prefixes and projections that these points do not have
 Report families(const PointSet& points, const Values& options, const Limits& limits,
                 const Measure& measure, const RunContext& run);
