@@ -10,10 +10,11 @@
 //
 //     t = m - R + 1.
 //
-// A projection to the coordinates u has its own R_u and t_u. R_u is the minimum of R_v over all v
-// inside u and of the digits for which boxes cut along all of u become unequal. So projections are
-// analyzed from the smallest on. The whole set then needs only boxes that are cut along more than
-// --projections coordinates, with fewer digits than those that already failed.
+// A projection to the coordinates u has its own R_u and t_u. R_u is the smaller one of two numbers:
+// the minimum of R_v over all proper subsets v of u, and the least number of digits for which boxes
+// cut along all of u become unequal. So projections are analyzed from the smallest on. The whole
+// set then needs only boxes that are cut along more than --projections coordinates, with fewer
+// digits than those that already failed.
 //
 // Shape   n = b^m points in [0, 1]^d; t in 0..m, smaller is more even; random points are near m.
 // Cost    at most C(R+d-1, d-1) divisions, each of n steps or, for a digital net, of R^2 m. 2^14
@@ -57,8 +58,8 @@ constexpr Param<std::int64_t> projections{
     .unit = "coordinates",
     .help = "Also compute t of all projections to at most this many coordinates"};
 
-/// Least number of digits along all of the coordinates that gives unequal boxes; `most` if no
-/// smaller number does. Equal boxes stay equal with fewer digits.
+/// Least number of digits for which boxes cut along all of these coordinates become unequal; `most`
+/// if no smaller number does. Boxes that are equal remain equal with fewer digits.
 std::size_t least_unequal(Probe& probe, const Combination& along, std::size_t most) {
     std::size_t equal = along.size() - 1;
     while (equal + 1 < most) {
@@ -71,9 +72,9 @@ std::size_t least_unequal(Probe& probe, const Combination& along, std::size_t mo
 /// R of all projections of one size, ordered by combination_number().
 using Unequal = std::vector<std::size_t>;
 
-/// Projections, all of one size, that have the t of the whole set.
+/// Projections, all of the same size, whose t is that of the whole set.
 struct Worst {
-    std::size_t unequal = 0;  ///< R of these projections
+    std::size_t unequal = 0;  ///< common R of these projections
     std::vector<Combination> along = {};
 };
 
@@ -82,7 +83,7 @@ class Search {
     Search(const Net& net, const std::optional<Matrices>& matrices)
         : net_(net), matrices_(matrices) {}
 
-    /// R of the projections of each size up to `largest`; for size 0, m + 1.
+    /// R of the projections of each size from 0 to `largest`; for size 0 it is m + 1.
     [[nodiscard]] std::vector<Unequal> projections(std::size_t largest,
                                                    const RunContext& run) const {
         double total = 0;
@@ -98,7 +99,7 @@ class Search {
         return found;
     }
 
-    /// Worst projections, given R of all projections up to some size.
+    /// Worst projections, given R of all projections up to some size; searches the larger ones.
     [[nodiscard]] Worst worst(const std::vector<Unequal>& known, const RunContext& run) const {
         const Worst small = worst_of(known);
         const auto levels = levels_above(known.size() - 1, small.unequal);
@@ -168,7 +169,7 @@ class Search {
     [[nodiscard]] Worst unequal(const Level& level, const RunContext& run) const {
         Worst found{.unequal = level.digits};
         std::mutex finding;
-        // The number of digits of the first coordinate distinguishes the ways.
+        // Each way to cut is the number of digits of the first coordinate.
         const std::size_t ways = level.digits - level.size + 1;
         for_each(level.size, ways, run,
                  [&](const Combination& along, std::size_t way, auto& probe) {
@@ -185,7 +186,8 @@ class Search {
 
     using Body = std::function<void(const Combination& along, std::size_t way, Probe& probe)>;
 
-    /// Calls body for all choices of `size` coordinates and for each of `ways`, on all threads.
+    /// Calls body for all choices of `size` coordinates and each of the `ways` to cut, on all
+    /// threads.
     void for_each(std::size_t size, std::size_t ways, const RunContext& run,
                   const Body& body) const {
         const std::uint64_t count = binomial(net_.dimension, size) * ways;
@@ -227,7 +229,8 @@ Net checked_net(const PointSet& points, std::int64_t b, const RunContext& run) {
     const std::size_t m = exact_logarithm(points.count(), static_cast<std::uint64_t>(b));
     const auto n = static_cast<double>(points.count());
     const auto d = static_cast<double>(points.dimension());
-    const double cuts = std::min(d, static_cast<double>(m)) + 2;  // memory of a counting thread
+    // Arrays of n indices per counting thread.
+    const double cuts = std::min(d, static_cast<double>(m)) + 2;
     run.need_memory(4 * n * (d + cuts * run.thread_count()), "the t-value");
     return equidistribution::net_of(points, static_cast<std::uint32_t>(b), m, run);
 }
