@@ -4,8 +4,8 @@
 //
 //     estimate = (1 / n) sum_i f(x_i) / p(x_i),        error = estimate - exact
 //
-// p is the domain's density (1 / measure if it is uniform), unless the set has another: from a
-// column pdf or weight = 1 / pdf, or from a deliberately biased warp in its provenance.
+// p is the domain's density (1 / measure if it is uniform), unless the points follow another one:
+// that of a column pdf or weight = 1 / pdf, or of a deliberately biased warp in their provenance.
 //
 // Integrands of the unit cube apply to any box, with any density: the function is stretched to the
 // box and its integral multiplied by the volume.
@@ -29,9 +29,9 @@
 // integral over the rest, the support. So is `exact`, by quadrature to exact_error if the support
 // is known as a few boxes of one or two dimensions; otherwise it is left out.
 //
-// If the density is constant, on any domain, both use the same points. If the domain has no such
-// coordinates (mixtures, formulas, supports with gaps), or the density is not its own, the variance
-// of uniform points is computed from the weights of the given points,
+// If the density is constant, on any domain, both estimates use the same points. If the domain has
+// no coordinates in which p is uniform (mixtures, formulas, supports with gaps), or the density is
+// not its own, the variance of uniform points is computed from the weights of the given points,
 //
 //     n / (n - 1) (measure mean(f^2 / p) - mean(f / p)^2),
 //
@@ -124,7 +124,7 @@ bool fits(const IntegrandKind& kind, const Domain& domain, const RegionView& vie
            domain.dimension() <= kind.max_dimension;
 }
 
-/// An integrand of --integrand, with its options.
+/// An integrand given by --integrand, with its options.
 struct Named {
     const IntegrandKind& kind;
     Values values;
@@ -145,7 +145,8 @@ Named named(const std::string& text) {
     }
 }
 
-/// Integral over the boxes of the support; nullopt without boxes or above two dimensions.
+/// Integral over the boxes of the support; nullopt if there are no boxes, or more than two
+/// dimensions.
 std::optional<Estimate> integral_over(const Support& support, const Domain& domain,
                                       const RegionView& view, const Task& task) {
     const std::size_t d = domain.dimension();
@@ -221,7 +222,7 @@ Task formula(const Domain& domain, const Values& options) {
     return task;
 }
 
-/// All integrands of the options. @throws Error(usage), Error(input)
+/// All integrands requested by the options. @throws Error(usage), Error(input)
 std::vector<Task> tasks_of(const Domain& domain, const RegionView& view, const Support& support,
                            const Values& options) {
     const bool typed = options.given(expression);
@@ -243,7 +244,7 @@ double density_of(const PointSet& points, std::size_t i) {
     return points.densities.empty() ? points.domain->density(points[i]) : points.densities[i];
 }
 
-/// A value that cannot be summed.
+/// A value that is not finite, and the point where it occurred.
 struct Fault {
     std::uint64_t point = std::numeric_limits<std::uint64_t>::max();
     std::size_t task = 0;
@@ -256,7 +257,7 @@ struct Fault {
     }
 };
 
-/// Sums over one block, or over all blocks.
+/// Sums over one block, or over all blocks of points.
 struct Sums {
     std::vector<Tally> weighted;  ///< f / p, for each task
     std::vector<Tally> uniform;   ///< measure x f at uniform points, or measure x f^2 / p
@@ -277,13 +278,14 @@ struct Sums {
 struct Uniform {
     enum How {
         none,
-        remade,       ///< uniform points from the same points of the cube
-        as_they_are,  ///< the given points; their density is constant
-        weighed,      ///< no uniform points; sums of measure x f^2 / p give their variance
+        remade,       ///< uniform points, made from the coordinates of the given points in the cube
+        as_they_are,  ///< the given points, whose density is constant
+        weighed,      ///< no uniform points; their variance follows from sums of measure x f^2 / p
     };
     How how = none;
-    double measure = 0;               ///< measure of the domain of these points
-    std::optional<Tally> found = {};  ///< estimate of an unknown measure, by the weights
+    double measure = 0;  ///< measure of the domain on which these points are uniform
+    /// An unknown measure, estimated from the weights of the points.
+    std::optional<Tally> found = {};
 };
 
 /// Sums the values of all integrands at points of the domain.
@@ -387,7 +389,7 @@ Sums sums_over(const PointSet& points, const RegionView& view, const std::vector
 // ---------------------------------------------------------------- results
 
 double ratio_of(double uniform, double importance) {
-    return uniform == importance ? 1 : uniform / importance;  // 0 / 0 if f is constant, too
+    return uniform == importance ? 1 : uniform / importance;  // avoids 0 / 0 if f is constant
 }
 
 /// Variance of measure x f at uniform points, from the mean of measure x f^2 / p.
@@ -395,7 +397,7 @@ double variance_by_weights(const Tally& importance, const Tally& squares) {
     const double n = static_cast<double>(importance.count());
     const double square = importance.mean() * importance.mean();
     const double off = squares.mean() - square;
-    return off > 1e-13 * square ? off * n / (n - 1) : 0;  // less is rounding
+    return off > 1e-13 * square ? off * n / (n - 1) : 0;  // smaller differences are due to rounding
 }
 
 Report comparison(const std::vector<Task>& tasks, const Sums& sums, bool weighed) {
@@ -416,14 +418,14 @@ Report comparison(const std::vector<Task>& tasks, const Sums& sums, bool weighed
     return all;
 }
 
-/// Measure of the region that the points cover, as an integral estimated by them.
+/// Measure of the region covered by the points, estimated as the integral of 1.
 Tally measure_of(const PointSet& points) {
     Tally inverse;
     for (std::size_t i = 0; i < points.count(); ++i) inverse.add(1 / density_of(points, i));
     return inverse;
 }
 
-/// Whether the densities of the points are those of the domain.
+/// Whether the densities of the points equal those of the domain.
 bool follows_domain(const PointSet& points) {
     for (std::size_t i = 0; i < points.densities.size(); ++i)
         if (std::abs(points.domain->density(points[i]) / points.densities[i] - 1) > 1e-12)
@@ -431,7 +433,7 @@ bool follows_domain(const PointSet& points) {
     return true;
 }
 
-/// Chooses how to sample uniformly. @throws Error(input) if there is nothing to compare with
+/// Chooses how to sample uniformly for --compare. @throws Error(input) if that is impossible
 Uniform uniform_for(const PointSet& points, const RegionView& view, const Support& support) {
     if (points.count() < 2) fail(ErrorKind::input, "--compare: needs at least 2 points, not 1");
     const Domain& domain = *points.domain;
@@ -452,7 +454,7 @@ Uniform uniform_for(const PointSet& points, const RegionView& view, const Suppor
     return {Uniform::as_they_are, measure};
 }
 
-/// Reports the part of the domain that the estimates apply to, unless it is all of it.
+/// Reports the support, to which the estimates apply, unless it is the whole domain.
 void tell_support(const Support& support, Report& report) {
     if (support.whole) return;
     Report part;
@@ -508,7 +510,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return report;
 }
 
-/// Adds the standard error, interval and root mean square error of several estimates.
+/// Adds the standard error, confidence interval and root mean square error over several sets.
 void replicate(Report& mean, const std::string& name, std::span<const Report> sets) {
     Tally estimates, squares;
     for (const Report& set : sets) {
@@ -525,7 +527,7 @@ void replicate(Report& mean, const std::string& name, std::span<const Report> se
     if (squares.count() > 0) mean.add("rms_error", std::sqrt(squares.mean()));
 }
 
-/// Adds the error of one set, whose spread is unknown.
+/// Adds the absolute error of a single set, whose spread is unknown.
 void combine_one(Report& mean) {
     for (auto& entry : mean.entries()) {
         auto* group = std::get_if<Report>(&entry.value);

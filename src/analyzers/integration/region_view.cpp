@@ -10,7 +10,7 @@
 namespace stipple::analyzers {
 namespace {
 
-/// Bounding box of a domain that fills it, which is so if both have the same volume; else nullopt.
+/// Bounding box of a domain that fills it; nullopt if their volumes differ.
 std::optional<Box> filled_box(const Domain& domain) {
     if (domain.cube_dimension() != domain.dimension()) return std::nullopt;
     Box box = domain.bounding_box();

@@ -20,7 +20,7 @@ class RegionView {
 
     [[nodiscard]] bool has(Region region) const;
 
-    /// Factor from the integral over the region to that over the domain.
+    /// Factor that converts the integral over the region to that over the domain.
     [[nodiscard]] double scale(Region region) const;
 
     /// Converts a point of the domain to the coordinates of the region.

@@ -56,7 +56,7 @@ class Tally {
     double sum_ = 0;
     double carry_ = 0;
     double center_ = 0;   ///< running mean
-    double squares_ = 0;  ///< sum of squared deviations from it
+    double squares_ = 0;  ///< sum of squared deviations from the running mean
 };
 
 }  // namespace stipple::analyzers
