@@ -146,7 +146,8 @@ constexpr Param<std::int64_t> slice{
 
 constexpr double floor_of_floats = 1e-13;
 constexpr std::uint64_t buffered_points = std::uint64_t{1} << 20;
-constexpr std::uint64_t most_points = std::uint64_t{1} << 30;  // count assumed for larger sets
+// Assumed number of points of larger sets.
+constexpr std::uint64_t most_points = std::uint64_t{1} << 30;
 
 std::size_t default_frequency(std::uint64_t count, std::size_t dimension) {
     constexpr double most[] = {0, 65536, 1024, 64};
@@ -160,14 +161,14 @@ double regular_nyquist(double count, std::size_t dimension) {
     return real_power(count, 1 / static_cast<double>(dimension)) / 2;
 }
 
-/// Adds everything that is derived from the power to the report.
+/// Adds all results that are derived from the power to the report.
 void summarize(Report& report, const Grid& power, std::size_t sets, const Values& options,
                const RunContext& run) {
     const Rings rings = rings_of(power, run);
     const double regular = report.number("regular_nyquist");
     const double unit = options[normalize] ? 2 * regular : 1;
     const double error = report.number("tolerance");
-    const double least = error * error;  // less may be rounding
+    const double least = error * error;  // smaller powers may be due to rounding
     const char* unit_name = options[normalize] ? "cycles a mean distance" : "cycles a unit length";
     Report::Curve frequency;
     Report::Curve anisotropy;
@@ -276,7 +277,7 @@ class Summation final : public SharedAccumulator {
     }
 
   private:
-    /// Limits the threads for small sets, which are done before other threads have woken up.
+    /// Limits the threads for small sets, which are done before other threads wake up.
     [[nodiscard]] RunContext fitting(const RunContext& run) const {
         if (nufft_ || direct_ || options_[method] == "direct") return run;
         const double values = fourier_sums_size(d_, frequency_for(std::max<std::uint64_t>(n_, 1)));
@@ -304,8 +305,8 @@ class Summation final : public SharedAccumulator {
                                              : default_frequency(count, d_);
     }
 
-    /// Points in the unit cube, with their strengths and window if these are not all 1; empty if
-    /// `rows` need no change.
+    /// Points of the unit cube, each followed by its strength times its window if these are not all
+    /// 1. Empty if `rows` can be used unchanged.
     std::vector<double> changed_points(std::span<const double> rows) {
         std::vector<double> points;
         const std::size_t given = d_ + (weighted_ ? 1 : 0);
@@ -344,8 +345,8 @@ class Summation final : public SharedAccumulator {
                        index, format_number(strength), format_number(least), format_number(most));
     }
 
-    /// Whether all points need no checks: they are in the unit cube, and the set is not all one
-    /// point.
+    /// Whether no point needs note(): all are in the unit cube, and the set is known to have two
+    /// distinct points.
     [[nodiscard]] bool note_all(std::span<const double> rows) const {
         return cube_ && !all_equal_ && all_inside(rows);
     }
@@ -397,7 +398,7 @@ class Summation final : public SharedAccumulator {
         buffer_ = {};
     }
 
-    /// Requires memory for a large set: sums over blocks take twice the grid.
+    /// Requires memory for the sums over blocks of a large set, which take twice the grid.
     void need_block_sums(const RunContext& run, const std::string& cause) const {
         if (announced_ > 0 && announced_ <= FourierSummation::block_of(*nufft_)) return;
         run.need_memory(nufft_->bytes() + 16 * std::pow(static_cast<double>(nufft_->side()), d_),
@@ -442,7 +443,7 @@ class Summation final : public SharedAccumulator {
     bool cube_;  ///< whether the domain is the unit cube
     bool weighted_;
     bool hann_;
-    std::size_t numbers_;   ///< numbers per point in the sums: coordinates, and perhaps a strength
+    std::size_t numbers_;   ///< numbers per point in the sums: coordinates, and a strength if used
     std::uint64_t at_ = 0;  ///< index of the first point to arrive
     std::size_t frequency_ = 0;
     std::uint64_t n_ = 0;
@@ -458,7 +459,7 @@ class Summation final : public SharedAccumulator {
     std::unique_ptr<DirectSummation> direct_;
 };
 
-/// Points per block of the sums, each with its own grid; small sets are not shared.
+/// Points per block of the sums, each of which has its own grid. Small sets are not shared.
 std::uint64_t grain(const Arrival& arrival, const Values& options) {
     if (options[method] == "direct")
         fail(ErrorKind::usage, "periodogram: ranks can share --method nufft only; use one process");
@@ -488,7 +489,7 @@ void combine(Report&, std::span<const Report> sets, const Values& options) {
                        "normalised frequencies");
 }
 
-/// Sets of other sizes use the first one's frequencies, so that they can be averaged.
+/// Fixes the first set's frequencies for sets of other sizes, so that spectra can be averaged.
 void follow(const Report& first, Values& options) {
     if (options.given(max_frequency)) return;
     options.put(max_frequency.name, static_cast<std::int64_t>(first.number("max_frequency")));

@@ -9,8 +9,8 @@
 namespace stipple::analyzers {
 namespace {
 
-/// Transform of the window at the frequency f of an axis: without a window 1 at 0, with hann 1/2 at
-/// 0 and -1/4 at 1 and -1; otherwise 0.
+/// Transform of the window on one axis, at the frequency f. Without a window it is 1 at 0; for hann
+/// 1/2 at 0 and -1/4 at 1 and -1; otherwise 0.
 double window_transform(std::int64_t f, bool hann) {
     if (!hann) return f == 0 ? 1 : 0;
     return f == 0 ? 0.5 : std::abs(f) == 1 ? -0.25 : 0;

@@ -20,8 +20,8 @@ struct Strengths {
     double squares = 0;
 };
 
-/// Accumulates the weights of points that arrive in blocks, possibly in several processes. Partial
-/// sums are merged in the order of the grids.
+/// Sums the weights of points that arrive in blocks, possibly in several processes. Partial sums
+/// are merged in the order of the grids.
 class StrengthSums {
   public:
     void add(double strength) {
@@ -45,7 +45,7 @@ class StrengthSums {
         sum_.pack(to);
         squares_.pack(to);
     }
-    /// Requires that this object's points are whole blocks.
+    /// The points of this object must be whole blocks.
     void merge(Unpacker& from) {
         if (points_ > 0) close();
         sum_.merge(from);
@@ -53,7 +53,8 @@ class StrengthSums {
     }
 
   private:
-    static constexpr std::uint64_t block = std::uint64_t{1} << 21;  ///< divides the blocks of grids
+    /// Divides the size of the grids' blocks.
+    static constexpr std::uint64_t block = std::uint64_t{1} << 21;
 
     void close() {
         sum_.add({&block_.sum, 1}, std::abs(block_.sum), {});
@@ -68,7 +69,7 @@ class StrengthSums {
     ScaledGridSum squares_;
 };
 
-/// Power at all frequencies from the sums at half of them; P(-f) = P(f) holds exactly.
+/// Power at all frequencies from the sums at half of the frequencies; P(-f) = P(f) holds exactly.
 /// @param hann whether the points were weighted by the Hann window
 Grid power_of(const FourierSums& sums, const Strengths& strengths, bool hann,
               const RunContext& run);
