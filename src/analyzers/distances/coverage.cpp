@@ -6,14 +6,14 @@
 //     radius = max over x of  min_i |x - x_i|.
 //
 // On the torus (the default) in 2-D it is the largest circumradius of a Delaunay triangle. With
-// straight distances the walls end the domain. The centre may then also be one of its corners, or a
-// place where the bounds of the points' cells meet the walls (empty_ball.hpp).
+// straight distances the walls end the domain. The centre may then also be one of the domain's
+// corners, or a place where the boundaries of Voronoi cells meet the walls (empty_ball.hpp).
 //
 //     mesh_ratio = radius / (minimum / 2),
 //
-// the covering radius divided by the packing radius, is smaller for more even points. It is at
-// least 1, and at most 2 for a maximal Poisson-disk set. It is left out if two points coincide, and
-// for a single point with straight distances.
+// the covering radius divided by the packing radius, is smaller for more even points: at least 1,
+// and at most 2 for a maximal Poisson-disk set. The report has no mesh_ratio if two points
+// coincide, or for a single point with straight distances.
 //
 // Shape   points n x d, d <= 32.
 // Cost    d <= 2: O(n log n) for sets that are not too uneven; 10^6 points in 2-D take 2.3 s on one

@@ -99,11 +99,11 @@ Plan plan_for(const PointSet& points, const Values& options) {
     return plan;
 }
 
-/// Counts of differences, row by row.
+/// Counts of differences in the pixels, row by row.
 using Counts = std::vector<std::uint64_t>;
 
-/// Largest number of blocks. Each has its own counts, which take at most 1 GiB in total, or 4
-/// images.
+/// Largest number of blocks. Each block has its own counts; those of all blocks take at most 1 GiB,
+/// or 4 images.
 std::uint64_t most_blocks(std::size_t pixels) {
     constexpr std::uint64_t most_counts = std::uint64_t{1} << 27;
     return std::clamp<std::uint64_t>(most_counts / (pixels * pixels), 4, 64);
@@ -120,7 +120,8 @@ class DifferenceCounter {
                                static_cast<double>(points.count()) + 64),
                   points.flat(), run) {}
 
-    /// Counts in few blocks, since each needs its own counts. Integers can be added in any order.
+    /// Uses few blocks, since each needs its own counts. Their order does not matter, since counts
+    /// are integers.
     [[nodiscard]] Counts count() const {
         const std::uint64_t n = points_.count();
         const std::uint64_t size = std::max<std::uint64_t>(1024, n / most_blocks(plan_.pixels) + 1);
@@ -142,7 +143,7 @@ class DifferenceCounter {
     }
 
   private:
-    /// Counts the difference of two points and its opposite.
+    /// Counts the difference of two points, and the opposite difference.
     void add(const double* p, const double* q, Counts& counts) const {
         const auto size = static_cast<double>(plan_.pixels);
         const double column = across(q[0] - p[0], 0) * scale_ + size / 2;

@@ -115,7 +115,7 @@ Distances distances_of(const PointSet& points, const std::string& asked) {
 Distances distances_in_box(const PointSet& points, const std::string& asked, const char* analyzer) {
     const std::optional<Box> box = box_of(*points.domain);
     if (!box) {
-        static_cast<void>(distances_of(points, asked));  // throws its own error for a torus
+        static_cast<void>(distances_of(points, asked));  // throws a more specific error for a torus
         fail(ErrorKind::input, "{} requires points of the unit cube or a box; the domain is {}",
              analyzer, points.domain->title());
     }

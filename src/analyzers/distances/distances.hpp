@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// How the distances between a set's points are measured: straight, or in their box with opposite
-// faces joined (torus); Euclidean, or in another norm.
+// Options for the distances between a set's points: straight, or in their box with opposite faces
+// joined (torus); Euclidean, or in another norm.
 #pragma once
 
 #include <optional>
@@ -24,7 +24,7 @@ inline constexpr Param<Choice> metric{
         "torus: distances wrap across opposite faces of the points' unit cube or box; euclidean: "
         "straight distances; default: torus, and euclidean on domains without faces"};
 
-/// The same option for measures that also make sense in other norms.
+/// The option --metric for analyzers that also support other norms.
 inline constexpr Param<Choice> metric_of_any_norm{
     .name = "metric",
     .choices = "torus|euclidean|manhattan|chebyshev|torus-manhattan|torus-chebyshev",
@@ -38,10 +38,10 @@ struct Distances {
     std::optional<Box> box;  ///< contains all points; nullopt if no such box is known
     Norm norm = Norm::euclidean;
 
-    /// Name as in the option --metric.
+    /// Name as a value of the option --metric.
     [[nodiscard]] std::string name() const;
 
-    /// Sides for a search tree to wrap around; empty for straight distances.
+    /// Periods for a search tree; empty for straight distances.
     [[nodiscard]] std::vector<double> sides() const;
 };
 
@@ -51,7 +51,7 @@ struct Distances {
 ///         for points (or a box) whose squared distances overflow float64
 Distances distances_of(const PointSet& points, const std::string& asked);
 
-/// Like distances_of(), for measures that need a box. @throws Error(input) also if there is none
+/// Like distances_of(), for analyzers that need a box. @throws Error(input) also if no box is known
 Distances distances_in_box(const PointSet& points, const std::string& asked, const char* analyzer);
 
 double shortest_side(const Box& box);
@@ -62,7 +62,7 @@ double mean_distance(const Box& box, std::size_t n);
 /// Whether all points coincide.
 bool all_equal(const PointSet& points);
 
-/// @throws Error(input) unless there are at least two distinct points
+/// Requires at least two distinct points. @throws Error(input)
 void require_places(const PointSet& points, const char* analyzer);
 
 /// Nearest other point of every point. A single point is its own neighbour on the torus, across the
@@ -70,7 +70,8 @@ void require_places(const PointSet& points, const char* analyzer);
 std::vector<Neighbor> nearest_neighbors(const PointSet& points, const Distances& distances,
                                         const RunContext& run);
 
-/// Two points with the smallest distance; of several such pairs, the one of lowest indices.
+/// Two points with the smallest distance; if several pairs have it, the one with the lowest
+/// indices.
 struct ClosestPair {
     std::size_t first;
     Neighbor second;

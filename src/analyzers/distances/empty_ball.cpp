@@ -19,7 +19,8 @@
 namespace stipple::analyzers {
 namespace {
 
-/// Coordinates in ascending order, by a sort that stops quickly on request.
+/// Sorts the coordinates, measured from `low`, in ascending order. A stop request ends the sort
+/// quickly.
 std::vector<double> sorted(const PointSet& points, double low, const RunContext& run) {
     std::vector<Placed> items(points.count());
     for (std::size_t i = 0; i < items.size(); ++i)
@@ -30,7 +31,7 @@ std::vector<double> sorted(const PointSet& points, double low, const RunContext&
     return x;
 }
 
-/// For d = 1: half the widest gap between neighbours, or the whole gap at a wall.
+/// For d = 1: half of the widest gap between neighbours, or a whole gap at a wall if this is wider.
 EmptyBall widest_gap(const PointSet& points, const Distances& distances, const RunContext& run) {
     const double low = distances.box->low[0];
     const double high = distances.box->high[0];
@@ -52,17 +53,17 @@ EmptyBall widest_gap(const PointSet& points, const Distances& distances, const R
     return best;
 }
 
-/// A box of the search, and bounds of the largest ball centred in it.
+/// A box of the search, with bounds of the radius of the largest ball centred in it.
 struct Part {
     std::vector<double> center;
     std::vector<double> half;
     double upper = std::numeric_limits<double>::infinity();
-    double lower = 0;  ///< radius of the largest ball found in it
+    double lower = 0;  ///< radius of the largest ball found so far
     std::vector<double> place = {};
 };
 
-/// Bound for a box around the origin, in units of the nearby distances, so that a fixed number can
-/// be the tolerance.
+/// Bounds are computed in coordinates about the box's centre, in units of the distances to nearby
+/// points, so that the tolerance can be a constant.
 using Bound = CoveringBound<0>;
 constexpr double bound_tolerance = 1e-13;
 
@@ -79,8 +80,8 @@ class Search {
           neighbors_(std::min(points.count(), 4 * (points.dimension() + 1))) {
         const auto d = static_cast<double>(points.dimension());
         const double ball = real_power(std::numbers::pi, d / 2) / exponential(log_gamma(d / 2 + 1));
-        // At this radius n balls have the volume of the box, so the covering radius is not smaller.
-        // Parts with a larger half diagonal are halved without a bound.
+        // If n balls of this radius were disjoint, they would fill the box; so the covering radius
+        // is not smaller. Parts with a larger half diagonal are halved without computing a bound.
         least_ = real_power(volume_of(box_) / ball / static_cast<double>(points.count()), 1 / d);
     }
 
@@ -117,14 +118,14 @@ class Search {
         return part;
     }
 
-    /// A part is done if its upper bound is at most this.
+    /// A part is not divided further if its upper bound is at most this.
     [[nodiscard]] double good_enough() const {
         const bool more = best_.radius > search_.enough;
         return more ? best_.radius * (1 + search_.tolerance) : search_.enough;
     }
 
-    /// Adds the points near the part's centre to `bound`, in their nearest copies. Returns the
-    /// unit.
+    /// Adds the points near the part's centre to `bound`, each as its nearest copy. Returns the
+    /// unit of length.
     double look_around(const Part& part, Bound& bound) const {
         const auto neighbors = tree_.nearest_several(part.center, neighbors_);
         const double unit =
@@ -170,7 +171,7 @@ class Search {
         offer(part, std::move(place));
     }
 
-    /// Takes over the results of a round, and halves the parts that are not done.
+    /// Merges the results of a round, and halves the parts that need it.
     void finish(std::vector<Part>& round) {
         judged_ += round.size();
         for (Part& part : round) {
@@ -189,7 +190,7 @@ class Search {
         if (judged_ > search_.max_boxes && !open_.empty()) give_up();
     }
 
-    /// Fraction of the whole box's volume.
+    /// Fraction of the whole box's volume taken by the part.
     [[nodiscard]] double share(const Part& part) const {
         double share = 1;
         for (std::size_t k = 0; k < part.half.size(); ++k)
@@ -221,7 +222,7 @@ class Search {
     const BallSearch& search_;
     const RunContext& run_;
     KdTree tree_;
-    std::size_t neighbors_;  ///< number of points for a bound
+    std::size_t neighbors_;  ///< number of nearby points used for a bound
     double least_;
     std::vector<Part> open_;
     EmptyBall best_{0, 0, {}};

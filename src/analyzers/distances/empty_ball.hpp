@@ -4,11 +4,11 @@
 //
 //     radius = max over x in the box of  min_i |x - x_i|.
 //
-// d = 1   half of the widest gap between points, or a whole gap at a wall.
-// d = 2   the maximum is at a corner of a point's Voronoi cell (math/neighbors/planar_sites.hpp). A
-//         cell is abandoned as soon as all its corners are nearer than the best corner so far.
-// d >= 3  branch and bound over boxes. The points near a box give an upper bound for the balls
-//         centred in it, and a place where the bound is attained up to the square of the box's size
+// d = 1   half of the widest gap between points, or a whole gap at a wall. d = 2   the maximum is
+// at a corner of a point's Voronoi cell (math/neighbors/planar_sites.hpp). A cell is abandoned as
+// soon as all its corners are nearer to the point than the best corner so far is to its own. d >= 3
+// branch and bound over boxes. The points near a box give an upper bound of the radius of balls
+// centred in it, and a centre whose ball attains the bound up to the square of the box's size
 //         (math/neighbors/covering_bound.hpp). A box is done if its bound is at most
 //         (1 + tolerance) times the largest distance found so far; others are halved.
 //
@@ -32,22 +32,22 @@ namespace stipple::analyzers {
 
 struct EmptyBall {
     double radius;
-    double upper;  ///< no ball is larger
+    double upper;  ///< no empty ball has a larger radius
     std::vector<double> center;
 };
 
 /// Limits of the branch and bound for d >= 3.
 struct BallSearch {
     double tolerance = 1e-6;
-    double enough = 0;  ///< while no ball is larger than this, only that is verified
+    double enough = 0;  ///< if no ball is larger than this, the search proves only that
     std::uint64_t max_boxes = 100'000'000;
 };
 
-/// Requires distances.box. @throws Error(limit, cancelled)
+/// Largest empty ball for any d; requires distances.box. @throws Error(limit, cancelled)
 EmptyBall largest_empty_ball(const PointSet& points, const Distances& distances,
                              const BallSearch& search, const RunContext& run);
 
-/// Branch and bound for any d.
+/// Uses branch and bound for any d.
 EmptyBall bounded_empty_ball(const PointSet& points, const Distances& distances,
                              const BallSearch& search, const RunContext& run);
 

@@ -19,11 +19,11 @@
 // contains the factor 1 - v / V of independent points. `dispersion` = variance / (mean (1 - v / V))
 // and the fit leave it out, so independent points have dispersion 1 at every radius.
 //
-// With straight distances balls would miss points beyond the box. So --windows balls are drawn at
-// random such that the largest is inside the box, with one centre for all radii, the same in any
-// run. Mean and variance are those of their counts, with equal weights; the variance would be
-// unbiased for independent windows. A point is in a window if its distance^2, as float64 computes
-// it, is at most R^2.
+// With straight distances, balls may extend beyond the box, where there are no points. So --windows
+// random centres are drawn, the same in every run, such that the largest ball is inside the box.
+// Each centre is used for all radii. Mean and variance are those of their counts, with equal
+// weights; the variance would be unbiased for independent windows. A point is in a window if its
+// distance^2, as float64 computes it, is at most R^2.
 //
 // Shape   n >= 2 points of the unit cube or a box, d = 1, 2, 3, on the torus unless --metric says
 //         otherwise; R up to a quarter of the shortest side, so that no two balls overlap twice.
@@ -37,11 +37,11 @@
 //         these moments is between two extremes: some pairs at a and the others at m + s^2 / (m -
 //         a), or some at b and the others at m - s^2 / (b - m). Never depends on the number of
 //         threads.
-// Beware  neighbouring radii share most of their pairs. So the standard error of the exponent, that
-//         of a fit with independent residuals, is too small: by a factor of 15 for 4096 independent
-//         points of the plane, whose exponent has a deviation of 0.09. --average gives the true
-//         one, over sets. A lattice's waves need many radii. The variance over M windows has a
-//         relative error of sqrt(2 / M) or more, as they overlap.
+// Beware  neighbouring radii share most of their pairs. So the standard error of the exponent,
+//         which assumes independent residuals, is too small: by a factor of 15 for 4096 independent
+//         points of the plane, whose exponent has a standard deviation of 0.09. --average gives the
+//         true standard error, over sets. A lattice's waves need many radii. The variance over M
+//         windows has a relative error of sqrt(2 / M) or more, as they overlap.
 // Source  S. Torquato, F. H. Stillinger, Phys. Rev. E 68 (2003) 041113,
 //         doi:10.1103/PhysRevE.68.041113 (variance by pairs, hyperuniformity).
 //         S. Karlin, W. J. Studden, "Tchebycheff Systems", Wiley 1966 (the two extreme sums are
@@ -101,8 +101,8 @@ constexpr Param<std::int64_t> window_count{
     .help =
         "Number of random windows with --metric euclidean; on the torus all positions are counted"};
 
-/// Number of bins within twice the smallest radius, limited by their number within twice the
-/// largest.
+/// Number of bins within twice the smallest radius. Bounds of their number within twice the largest
+/// radius take precedence.
 constexpr double bins_in_smallest = 400;
 constexpr double fewest_bins = 4096;
 constexpr double most_bins = 16384;
@@ -128,7 +128,7 @@ struct Ball {
     }
 };
 
-/// Radii are multiples of half a bin, so that no bin is cut.
+/// Radii and bins. Radii are multiples of half a bin, so that no bin is cut.
 struct Plan {
     double unit;                      ///< mean distance (V / n)^(1/d)
     double width;                     ///< width of a bin
@@ -169,20 +169,21 @@ Plan plan_for(const PointSet& points, const Box& box, const Values& options) {
     return plan;
 }
 
-/// A distance that represents some of a bin's pairs, and their number.
+/// A distance that represents some of a bin's pairs, and the number of these.
 struct Stand {
     double at;
     double pairs;
 };
 
-/// Representatives of a bin's pairs that bound sums: for a function with a nonnegative third
-/// derivative, the sum over all pairs is between those over `least` and over `most`.
+/// Representatives of a bin's pairs that bound sums over them. For a function with a nonnegative
+/// third derivative, the sum over all pairs is between the sums over `least` and over `most`.
 struct BinPairs {
     std::array<Stand, 2> least;
     std::array<Stand, 2> most;
 };
 
-/// Two distances with the mean and variance of the pairs, one of them at an end of the bin.
+/// Two distances, one of them at an end of the bin, with the same mean and variance as the bin's
+/// pairs.
 std::array<Stand, 2> with_end(double pairs, double mean, double variance, double end) {
     const double off = mean - end;
     const double share = variance / (variance + off * off);
@@ -199,14 +200,15 @@ std::vector<BinPairs> bins_of(const PairCounts& counts, double width) {
         const double spread = counts.squared_offsets[b] / pairs - offset * offset;
         const double mean = low + (offset + 0.5) * width;
         bins[b].least = bins[b].most = {{{mean, pairs}, {mean, 0}}};
-        if (spread < 1e-14 || !(std::abs(offset) < 0.5 - 1e-7)) continue;  // within rounding
+        // Zero variance up to rounding.
+        if (spread < 1e-14 || !(std::abs(offset) < 0.5 - 1e-7)) continue;
         bins[b].least = with_end(pairs, mean, spread * width * width, low);
         bins[b].most = with_end(pairs, mean, spread * width * width, low + width);
     }
     return bins;
 }
 
-/// Sum of the overlap over all pairs of points, with its error.
+/// Sum of the overlaps over all pairs of points, with its error bound.
 Estimate overlaps(std::span<const BinPairs> bins, const Plan& plan, std::size_t at,
                   const Ball& ball) {
     const double radius = plan.radius(at);
@@ -217,7 +219,7 @@ Estimate overlaps(std::span<const BinPairs> bins, const Plan& plan, std::size_t 
     };
     double least = 0;
     double most = 0;
-    for (std::size_t b = plan.halves[at]; b-- > 0;) {  // smallest overlaps first
+    for (std::size_t b = plan.halves[at]; b-- > 0;) {  // adds the smallest overlaps first
         if (bins[b].least[0].pairs + bins[b].least[1].pairs == 0) continue;
         const double one = sum(bins[b].least);
         least += one;
@@ -265,7 +267,7 @@ void add_exponent(Report& report) {
     report.add("exponent_standard_error", std::sqrt(residual / (count - 2) / xx));
 }
 
-/// Adds the results at one radius; `share` is the window's fraction of the volume.
+/// Adds the results at one radius; `share` is the ball's fraction of the box's volume.
 void add(Curves& curves, double radius, double mean, double variance, double share) {
     curves.radius.push_back(radius);
     curves.mean.push_back(mean);
@@ -294,15 +296,15 @@ Curves by_pairs(const PointSet& points, const Plan& plan, const Distances& dista
     return curves;
 }
 
-/// Sums over windows for each radius; integers, so that their order does not matter.
+/// Sums over windows, for each radius. They are integers, so that their order does not matter.
 struct WindowSums {
     std::vector<std::uint64_t> counts;
     std::vector<std::uint64_t> squares;
 };
 
-constexpr std::uint64_t windows_in_block = 256;  ///< windows per block
+constexpr std::uint64_t windows_in_block = 256;
 
-/// Adds the numbers of points within each radius of the window's centre.
+/// Counts the points within each radius of the window's centre, and adds the counts to the sums.
 template <std::size_t D>
 void add_window(const SortedPoints<D>& points, const Box& box, std::span<const double> radii,
                 std::uint64_t window, WindowSums& sums) {
@@ -398,14 +400,15 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return results;
 }
 
-/// Fails for sets with different radii. @throws Error(usage)
+/// Reports that sets have different radii. @throws Error(usage)
 [[noreturn]] void refuse_mean() {
     fail_with_hint(ErrorKind::usage, "set one --min-radius and --max-radius for all",
                    "--average: the sets have windows of different radii, because their numbers of "
                    "points differ");
 }
 
-/// Takes the slope of the mean variance, which scatters less than the mean of the slopes.
+/// Recomputes the exponent from the mean variance, which scatters less than the mean of the
+/// exponents.
 void refine(Report& mean, std::size_t, const Values&) {
     if (!mean.find("radius")) refuse_mean();
     add_exponent(mean);

@@ -44,7 +44,7 @@
 namespace stipple::analyzers::nearest_neighbor {
 namespace {
 
-/// Squares of the reciprocal centre densities.
+/// Squares of the reciprocal centre densities for d = 1 to 8.
 constexpr std::array<double, 8> packing = {4, 12, 32, 64, 128, 192, 256, 256};
 
 /// Smallest distance of the densest known packing of n points in the box.
@@ -59,7 +59,7 @@ double smallest(double minimum, const Distances& distances) {
     return distances.torus ? std::min(minimum, shortest_side(*distances.box)) : minimum;
 }
 
-/// Sum of term(distance) over points, block by block.
+/// Sum of term(distance) over all points, block by block.
 template <class Term>
 double sum_up(const std::vector<Neighbor>& neighbors, const RunContext& run, const Term& term) {
     constexpr std::uint64_t size = 65536;

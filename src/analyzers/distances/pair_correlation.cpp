@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Pair correlation function: the number of points at a distance t from a point, relative to that
-// for independent uniform points,
+// Pair correlation function: the number of points at a distance t from a point, divided by the same
+// number for independent uniform points,
 //
 //     g(t) = sum over pairs of w(|x_i - x_j|; t)  /  ( n (n - 1) / 2 * integral of w(s; t) dp(s) ),
 //
@@ -19,7 +19,7 @@
 //     sqrt( E[w^2] / E[w]^2 - 1 ) / sqrt( n (n - 1) / 2 ),
 //
 // on the torus, where the distances of different pairs are independent. It is left out for straight
-// distances, which are not.
+// distances, which are dependent.
 //
 // Shape   n >= 2 points of the unit cube or a box, d = 1, 2, 3.
 // Units   distances in the unit of the points; with --normalize-distance in (V / n)^(1/d), so that
@@ -162,7 +162,8 @@ struct Curves {
     Report::Curve density;
     Report::Curve deviation;
 
-    /// Adds g(t) from the sum of weights, and the mean and mean square of a single pair's weight.
+    /// Adds g(t) from the pairs' sum of weights, and from the mean and the mean square of a single
+    /// pair's weight.
     void add(double t, double sum, double mean, double mean_square, double pairs) {
         distance.push_back(t);
         density.push_back(mean > 0 ? sum / (pairs * mean) : 0);
@@ -182,7 +183,8 @@ Curves histogram(const Plan& plan, const PairCounts& counts, const RunContext& r
     return curves;
 }
 
-/// Sum over all pairs of 1 - ((s - t) / h)^2, where t is the lower edge of bin `at`.
+/// Sum over all pairs of 1 - ((s - t) / h)^2, where s is a pair's distance and t the lower edge of
+/// bin `at`.
 double parabola_sum(const PairCounts& counts, std::size_t at, std::size_t spread) {
     const auto h = static_cast<double>(spread);
     double sum = 0;
@@ -196,8 +198,8 @@ double parabola_sum(const PairCounts& counts, std::size_t at, std::size_t spread
     return sum;
 }
 
-/// Mean of (1 - ((s - t) / h)^2)^power over the distances s of two independent points, integrated
-/// by parts, which needs no density of distances.
+/// Mean of (1 - ((s - t) / h)^2)^power over the distances s of two independent points. Integrates
+/// by parts, so that no density of distances is needed.
 double parabola_mean(const Chances& chances, std::size_t at, std::size_t spread, int power) {
     const auto h = static_cast<double>(spread);
     const std::size_t first = at - std::min(at, spread);
@@ -257,7 +259,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return results;
 }
 
-/// Functions over different distances cannot be averaged.
+/// Functions with different bins cannot be averaged.
 void combine(Report&, std::span<const Report> sets, const Values&) {
     if (!alike(sets, "bin_width"))
         fail_with_hint(ErrorKind::usage, "set one --max-distance, or --normalize-distance",

@@ -19,7 +19,7 @@ namespace {
 /// Number of candidates whose distances are computed at a time.
 constexpr std::size_t batch_size = 256;
 
-/// Distances from a place to points that are stored axis by axis.
+/// A place, and the points whose distances from it are computed, stored axis by axis.
 template <std::size_t D>
 struct FromPlace {
     std::array<const double*, D> columns;  ///< coordinates of the points
@@ -27,7 +27,8 @@ struct FromPlace {
     std::array<double, D> sides;  ///< periods; infinite for straight distances
 };
 
-/// places[i] = distance of point i times `scale`, at most `last`; bins[i] is its integer part.
+/// Computes places[i], the distance of point i times `scale`, at most `last`; bins[i] is its
+/// integer part.
 template <std::size_t D>
 STIPPLE_WIDE void find_places(const FromPlace<D>& from, std::size_t count, double scale,
                               double last, double* places, std::int32_t* bins) {
@@ -56,7 +57,7 @@ void add_pairs(const double* places, const std::int32_t* bins, std::size_t count
     }
 }
 
-/// Adds the bins that `sums` has, and ignores further ones.
+/// Adds bins of `more` to those of `sums`; ignores bins that `sums` does not have.
 template <class Number>
 void add_bins(std::vector<Number>& sums, const std::vector<Number>& more) {
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += more[i];
@@ -112,7 +113,7 @@ class PairCounter {
         return std::max(nth_root(4, D) * mean_distance(box, count), reach / 5);
     }
 
-    /// Counts the pairs of point s with `size` points from `from` on.
+    /// Counts the pairs of point s with the points from, ..., from + size - 1.
     void measure(std::size_t s, std::size_t from, std::size_t size, PairCounts& to) const {
         FromPlace<D> here{{}, {}, sides_};
         for (std::size_t k = 0; k < D; ++k) {
@@ -136,7 +137,7 @@ class PairCounter {
     std::size_t bins_;
     bool with_offsets_;
     const RunContext& run_;
-    std::array<std::vector<double>, D> columns_;  ///< coordinates cell by cell, for each axis
+    std::array<std::vector<double>, D> columns_;  ///< coordinates by axis, ordered by cell
 };
 
 }  // namespace
@@ -155,15 +156,15 @@ PairCounts count_pairs(const PointSet& points, const Distances& distances, doubl
 
 namespace {
 
-/// One axis, of side L. The absolute displacement x of two uniform points has the density 2 (1 -
-/// slope x / L) / L on [0, reach()].
+/// One axis of a box, of side L. The absolute displacement x of two uniform points along it has the
+/// density 2 (1 - slope x / L) / L on [0, reach()].
 struct Axis {
     double side;
     double slope;  ///< 0 on the torus, 1 for straight distances
 
     [[nodiscard]] double reach() const { return slope > 0 ? side : side / 2; }
 
-    /// Integral of 2 (1 - slope x / L) / L over [0, h], h at most the reach.
+    /// Integral of 2 (1 - slope x / L) / L over x in [0, h], or in [0, reach()] if h is larger.
     [[nodiscard]] double within(double h) const {
         const double t = std::min(h, reach()) / side;
         return t * (2 - slope * t);
@@ -197,8 +198,8 @@ double within_disk(const Axis& a, const Axis& b, double r) {
     return a.within(flat) * b.within(b.reach()) + under_arc(a, b, r, flat, high);
 }
 
-/// Integral over the height c = r sin(angle), split where the disk at that height meets a side or a
-/// corner.
+/// Probability of distances up to r in space: integral over the height c = r sin(angle), split
+/// where the disk at that height meets a side or a corner.
 double within_ball(const Axis& a, const Axis& b, const Axis& c, double r) {
     const double top = r > c.reach() ? arc_sine(c.reach() / r) : std::numbers::pi / 2;
     std::array<double, 5> cuts{0, top, top, top, top};
@@ -213,7 +214,8 @@ double within_ball(const Axis& a, const Axis& b, const Axis& c, double r) {
         const double across = r * cos;
         return 2 / c.side * (1 - c.slope * z / c.side) * across * within_disk(a, b, across);
     };
-    // Beyond a cut the disk's part begins with a fractional power, which this rule handles well.
+    // After a cut the area of the disk's part begins with a fractional power, which this rule
+    // handles well.
     thread_local boost::math::quadrature::tanh_sinh<double> rule;
     double sum = 0;
     for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {

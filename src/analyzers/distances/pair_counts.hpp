@@ -17,7 +17,7 @@
 namespace stipple::analyzers {
 
 struct PairCounts {
-    std::vector<std::uint64_t> pairs;  ///< number in each bin
+    std::vector<std::uint64_t> pairs;  ///< number of pairs in each bin
 
     /// Sums over a bin's pairs of (distance - middle of the bin) / width, and of its square; empty
     /// unless requested.
@@ -25,6 +25,7 @@ struct PairCounts {
     std::vector<double> squared_offsets;
 };
 
+/// Counts pairs by distance in bins of the given width; ignores distances beyond the last bin.
 /// @throws Error(limit, cancelled)
 PairCounts count_pairs(const PointSet& points, const Distances& distances, double width,
                        std::size_t bins, bool with_offsets, const RunContext& run);
@@ -33,9 +34,9 @@ PairCounts count_pairs(const PointSet& points, const Distances& distances, doubl
 //
 //     p(r) = 1 / V^2 * integral over |x| <= r of c(x) dx,
 //
-// where c is the box's set covariance: prod_k (L_k - |x_k|) for straight distances, and for the
-// torus V within half a side along each axis, since its distances are never longer. It accounts for
-// the edges exactly: n points have n (n - 1) / 2 * p(r) pairs on average.
+// where c is the box's set covariance: prod_k (L_k - |x_k|) for straight distances, and V for the
+// torus, within half a side along each axis, since coordinates never differ by more there. It
+// accounts for the edges exactly: n points have n (n - 1) / 2 * p(r) pairs on average.
 //
 // Shape   a box of 1, 2 or 3 dimensions and positive sides; r >= 0; p in [0, 1].
 // Cost    closed forms in 1-D and 2-D, an integral over one angle in 3-D.

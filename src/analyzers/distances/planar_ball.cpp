@@ -18,7 +18,8 @@ namespace {
 
 double squared_length(const Vec2& v) { return v.x * v.x + v.y * v.y; }
 
-/// Recomputes a corner from the sites beyond its two edges, more accurately than it was cut.
+/// Recomputes a corner from the neighbours beyond its two edges, with higher accuracy than the
+/// cell's cuts.
 Vec2 refined(const CellCorner& before, const CellCorner& corner, double squared_reach) {
     const Vec2& a = before.neighbor;
     const Vec2& b = corner.neighbor;
@@ -33,22 +34,23 @@ Vec2 refined(const CellCorner& before, const CellCorner& corner, double squared_
     };
     const Vec2 found{solved(b.y, a.y), -solved(b.x, a.x)};
     const Vec2 change{found.x - corner.at.x, found.y - corner.at.y};
-    // With nearly parallel edges a corner is uncertain anyway; it stays as it was cut.
+    // With nearly parallel edges a corner is uncertain anyway; keeps the corner as it was cut.
     return squared_length(change) < 1e-12 * squared_reach ? found : corner.at;
 }
 
-/// A cell whose farthest corner was as good as any when the cell was cut.
+/// A cell whose farthest corner was at least as far as all known ones when the cell was cut.
 struct Record {
     double squared_reach;
     std::size_t site;
 };
 
-/// Squared distances of corners within this ratio are compared more accurately.
+/// Corners whose squared distances differ by less than this factor are compared with higher
+/// accuracy.
 constexpr double tied = 1 - 1e-9;
 
 std::vector<Record> best_cells(const PlanarCells& cells, std::size_t count, const RunContext& run) {
     constexpr std::uint64_t size = 2048;
-    constexpr std::size_t most = 100;  // there are more ties only if a set repeats itself
+    constexpr std::size_t most = 100;  // more ties occur only in periodic sets
     std::vector<std::vector<Record>> parts(block_count(count, size));
     std::atomic<double> best = 0;  // its timing changes which cells are examined, but no result
     for_each_block(run, count, size, [&](const Block& b) {
@@ -75,7 +77,7 @@ std::vector<Record> best_cells(const PlanarCells& cells, std::size_t count, cons
     return records;
 }
 
-/// Distance of a place to the nearest point, which is close to `about`.
+/// Distance of a place to the nearest point, given the approximate distance `about`.
 double clearance(const SortedPoints<2>& points, const std::vector<double>& place, double about) {
     double least = std::numeric_limits<double>::infinity();
     points.visit(place.data(), about * (1 + 1e-6),
@@ -83,7 +85,7 @@ double clearance(const SortedPoints<2>& points, const std::vector<double>& place
     return std::sqrt(least);
 }
 
-/// A coordinate within the box: wrapped on the torus, and clamped to the walls.
+/// Moves a coordinate into the box: wraps it on the torus, and clamps it to the walls.
 double inside(const Distances& distances, std::size_t k, double x) {
     const Box& box = *distances.box;
     if (distances.torus && x < box.low[k]) x += box.extent(k);

@@ -6,20 +6,21 @@
 //     maximal   min_i |x - x_i| <= R for all places x of the unit cube or box.
 //
 // R is --radius; otherwise the radius that the points were made with, if their provenance has one;
-// otherwise the smallest distance of the set, which is then spaced. Distances wrap across opposite
-// faces unless --metric or the provenance (bounded) says otherwise. Sets made with a density, a map
-// of radii or a mask are rejected without --radius.
+// otherwise the smallest distance of the set, so that the set is spaced. Distances wrap across
+// opposite faces unless --metric or the provenance (bounded) says otherwise. Sets made with a
+// density, a map of radii or a mask are rejected without --radius.
 //
 // The largest empty ball decides whether the set is maximal (empty_ball.hpp). The last gaps that a
-// generator fills are as small as rounding, so a radius above R by less than --tolerance passes. A
-// disk fits into such a gap only within a part of R of about the tolerance's size.
+// generator should fill may be lost in rounding, so a largest empty ball whose radius exceeds R by
+// less than --tolerance is accepted. The centre of a disk in such a gap can move only by about the
+// tolerance times R.
 //
 // Shape   points n x d, d <= 32.
 // Cost    that of `coverage`; 10^6 points in 2-D take 3 s on one core. Counting conflicts takes
 //         O(n^(2 - 1/d)) at worst.
 // Promise spaced: exact, comparing sums of squares with R^2 in float64. maximal: for d <= 2 as
-//         exact as coverage; for d >= 3 certain, as boxes are cut until either all are known to
-//         hold no ball larger than R (1 + tolerance), or one of them holds such a ball. Never
+//         exact as coverage; for d >= 3 certain: boxes are divided until no box can contain the
+//         centre of an empty ball larger than R (1 + tolerance), or such a ball is found. Never
 //         depends on the number of threads.
 // Beware  a single point has no conflict, even if the torus is narrower than R.
 // Source  M. S. Ebeida et al., Computer Graphics Forum 31 (2012) 785-794,
@@ -63,7 +64,8 @@ constexpr Param<Choice> expect{
     .choices = "valid",
     .help = "Fail (exit code 1) if points are too close or the set is not maximal"};
 
-/// Option that the points were made with, from their provenance; nullopt if unknown or after warps.
+/// An option with which the points were made, from their provenance; nullopt if unknown, or if the
+/// points were warped.
 std::optional<std::string> option_of(const PointSet& points, std::string_view option) {
     if (!points.provenance.warps.empty()) return std::nullopt;
     for (const auto& [name, text] : points.provenance.options)
@@ -99,14 +101,14 @@ double radius_of(const PointSet& points, const Values& options, double squared) 
     return root * root <= squared ? root : std::nextafter(root, 0.0);
 }
 
-/// Pairs that are too close: their number, and the first of them.
+/// Pairs closer than R: their number, and the first of them.
 struct Conflicts {
     std::uint64_t count = 0;
     Report::Integers first = {};
 };
 
-/// Counts the conflicts of R^2 = `squared`. The first is that of the lowest i, and of the lowest j
-/// for this i.
+/// Counts the pairs whose squared distance is below `squared`. The first pair is the one with the
+/// lowest i and, for this i, the lowest j.
 Conflicts find_conflicts(const PointSet& points, const Distances& distances,
                          const std::vector<Neighbor>& neighbors, double squared,
                          const RunContext& run) {
@@ -115,7 +117,8 @@ Conflicts find_conflicts(const PointSet& points, const Distances& distances,
     std::vector<std::uint64_t> parts(block_count(points.count(), size));
     for_each_block(run.stage(0.2, 1), points.count(), size, [&](const Block& b) {
         for (std::uint64_t i = b.first; i < b.last; ++i)
-            parts[b.index] += tree.count_nearer(points[i], squared) - 1;  // the point itself
+            // Without the point itself.
+            parts[b.index] += tree.count_nearer(points[i], squared) - 1;
     });
     Conflicts found{.count = std::accumulate(parts.begin(), parts.end(), std::uint64_t{0}) / 2};
     const auto too_near = [&](const Neighbor& neighbor) { return neighbor.squared < squared; };
@@ -128,7 +131,7 @@ Conflicts find_conflicts(const PointSet& points, const Distances& distances,
     return found;
 }
 
-/// Message for an expectation that is not met.
+/// Message for a failed expectation.
 std::string complaint(double r, const Conflicts& conflicts, const EmptyBall& ball, bool maximal) {
     std::vector<std::string> reasons;
     if (conflicts.count > 0)
@@ -170,7 +173,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return results;
 }
 
-/// Positions and pairs cannot be averaged. A mean is valid if all sets are.
+/// Positions and pairs cannot be averaged. A mean is valid if all sets are valid.
 void refine(Report& mean, std::size_t sets, const Values& options) {
     const auto* item = mean.find("valid");
     const bool* valid = item ? std::get_if<bool>(item) : nullptr;

@@ -42,7 +42,7 @@ namespace {
 /// Unit of edge lengths: (V n^(d-1))^(1/d) / (n - 1).
 double unit_length(const Box& box, double n) {
     const auto d = static_cast<double>(box.dimension());
-    double log_volume = 0;  // a product of many sides might overflow or underflow
+    double log_volume = 0;  // logarithms, since a product of many sides might overflow or underflow
     for (std::size_t k = 0; k < box.dimension(); ++k) log_volume += logarithm(box.extent(k));
     return exponential((log_volume + (d - 1) * logarithm(n)) / d) / (n - 1);
 }

@@ -59,11 +59,11 @@ constexpr Param<double> shortest_edge{
         "corner of four cells"};
 
 constexpr std::size_t fewest_neighbors = 3;
-constexpr std::size_t most_neighbors = 16;  ///< or more
+constexpr std::size_t most_neighbors = 16;  ///< the last class includes larger valences
 
 double length_of(const Vec2& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 
-/// Sums over cells, with lengths in sqrt(V / m).
+/// Sums over cells; lengths are in units of sqrt(V / m).
 struct Sums {
     double squared_deviation = 0;  ///< sum over areas of (a - 1)^2
     double smallest = INFINITY;
@@ -147,7 +147,7 @@ Sums sum_up(const PlanarSites& sites, double unit, double shortest, const RunCon
     std::vector<Sums> parts(block_count(sites.count(), size));
     for_each_block(run, sites.count(), size, [&](const Block& b) {
         VoronoiCell cell;
-        Sums sums;  // local, apart from memory that other threads write
+        Sums sums;  // local, since other threads write near shared memory
         for (std::uint64_t i = b.first; i < b.last; ++i) {
             if (i % 64 == 0) run.check_stop();
             cells.cut(static_cast<std::size_t>(i), cell);
