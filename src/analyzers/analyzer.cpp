@@ -10,7 +10,7 @@
 namespace stipple {
 namespace {
 
-/// Whether a part of a key stands for any name.
+/// Whether a part of a key is a placeholder for any name.
 bool is_free(std::string_view part) {
     return std::ranges::all_of(part, [](char c) { return c >= 'A' && c <= 'Z'; });
 }

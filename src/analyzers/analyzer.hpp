@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-//
-// Analyzers: the record of one, with its function from points to a report.
+// Records of analyzers, with their functions from points to a report.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +27,7 @@ struct AnalyzerTraits {
     std::size_t max_dimension = 1'000'000;
     bool unit_cube = true;   ///< accepts only points of the closed unit cube
     bool boxed = false;      ///< accepts only points of the unit cube or of a box
-    bool densities = false;  ///< uses known densities of the points
+    bool densities = false;  ///< uses the density at each point, if known
     bool table = false;      ///< accepts rows of any numbers; missing ones are NaN
 };
 
@@ -39,25 +38,26 @@ constexpr const char* word_of(Better better) {
     return better == Better::lower ? "lower" : better == Better::higher ? "higher" : "neither";
 }
 
-/// One key of the results.
+/// One result key of a report.
 struct ResultKey {
-    std::string key;  ///< dotted; a part in capitals stands for any name
+    std::string key;  ///< dotted; a part in capital letters is a placeholder for any name
     std::string help;
-    bool always = true;           ///< false: only with some options
+    bool always = true;           ///< false: reported only with some options
     std::string_view words = {};  ///< possible values, separated by |; empty: numbers, or any text
     Better better = Better::neither;
-    bool any_count = false;  ///< comparable between sets of different sizes
-    /// Sentences for these words on a report page; {}: the numbers behind the word.
+    bool any_count = false;  ///< values of sets of different sizes can be compared
+    /// Sentences for these words on a report page; if {}, the page shows the numbers that decide
+    /// the word.
     std::vector<std::pair<std::string_view, std::string_view>> sentences = {};
 };
 
-/// A result of which the lower value is better.
+/// Marks a result as better if lower.
 inline ResultKey lower(ResultKey result) {
     result.better = Better::lower;
     return result;
 }
 
-/// A result of which the higher value is better.
+/// Marks a result as better if higher.
 inline ResultKey higher(ResultKey result) {
     result.better = Better::higher;
     return result;
@@ -75,8 +75,8 @@ struct Arrival {
     [[nodiscard]] std::size_t width() const { return dimension() + (weighted ? 1 : 0); }
 };
 
-/// Analyzes a set that arrives in pieces, without storing it. The report must not depend on whether
-/// the count was announced.
+/// Analyzes a set that arrives in batches, without storing it. The report must not depend on
+/// whether the count was announced.
 class Accumulator {
   public:
     Accumulator() = default;
@@ -84,7 +84,7 @@ class Accumulator {
     Accumulator& operator=(const Accumulator&) = delete;
     virtual ~Accumulator() = default;
 
-    /// Takes the next points of the set: arrival_batch() of them, fewer only at its end. It may use
+    /// Adds the next points of the set: arrival_batch() of them, except for the last batch. May use
     /// the run's threads; the caller reports progress.
     virtual void add(std::span<const double> rows, const RunContext& run) = 0;
 
@@ -95,66 +95,70 @@ class Accumulator {
 /// Analyzes a part of a set whose count was announced, and merges the states of other parts.
 class SharedAccumulator : public Accumulator {
   public:
-    /// Called before any points if this part is not the set's first. Its first point is point
-    /// `first` of the set; `head` is the first batch of the whole set.
+    /// Called before any points if this part does not begin the set. Its first point has the index
+    /// `first` in the set; `head` is the first batch of the whole set.
     virtual void begin_at(std::uint64_t first, std::span<const double> head) = 0;
 
-    /// Serialized state, for the accumulator that merges it. No points may follow.
+    /// Serialized state, to be merged by another accumulator. No points may follow.
     virtual std::string state(const RunContext& run) = 0;
 
-    /// Merges the state of the accumulator for the points directly after its own. The report then
-    /// equals, to the last bit, that of a single accumulator for all of these points.
+    /// Merges the state of the accumulator for the points directly after those of this object. The
+    /// report then equals, to the last bit, that of a single accumulator for all of these points.
     virtual void merge(std::string_view state, const RunContext& run) = 0;
 };
 
 /// How several processes share the work on one set: each sees a part of the points (grain), or each
 /// sees all points and does a part of a search (together). At most one of the two is set.
 struct Sharing {
-    /// Alignment of parts: each begins at a multiple of this number of points. `accumulate` then
-    /// makes a SharedAccumulator. @throws Error(usage) if these options do not allow sharing
+    /// Alignment of parts, which begin at multiples of this number of points. `accumulate` must
+    /// then make a SharedAccumulator. @throws Error(usage) if these options do not allow sharing
     std::function<std::uint64_t(const Arrival&, const Values&)> grain = {};
 
-    /// Like `analyze`, with peers that were given the same points and options; all get the report.
+    /// Like `analyze`, but divides the work among peers that have the same points and options; all
+    /// of them return the report.
     std::function<Report(const PointSet&, const Values&, Peers&, const RunContext&)> together = {};
 
     explicit operator bool() const { return grain || together; }
 };
 
-/// Points per call of Accumulator::add(). Depends only on the dimension, so that sums do, too.
+/// Points per call of Accumulator::add(). Depends only on the dimension, so that sums over batches
+/// are reproducible.
 constexpr std::size_t arrival_batch(std::size_t dimension) {
     constexpr std::size_t numbers = std::size_t{1} << 18;
     return dimension < numbers ? numbers / dimension : 1;
 }
 
-/// A list of the results that is drawn as a curve.
+/// A list among the results that is drawn as a curve.
 struct CurveKey {
     std::string_view key;
     std::string_view over;  ///< key of the list of its abscissas
     /// Values for independent points: a number, or the key of a list. Empty: unknown.
     std::string_view reference = {};
-    std::string_view title = {};       ///< name on its axis; empty: the key in words
-    std::string_view over_title = {};  ///< likewise of the abscissas
-    bool log = false;                  ///< logarithmic axes
-    std::string_view caption = {};     ///< on a report page; empty: not shown there
+    std::string_view title = {};  ///< title of its axis; empty: derived from the key
+    /// Title of the axis of abscissas; empty: derived from `over`.
+    std::string_view over_title = {};
+    bool log = false;               ///< logarithmic axes
+    std::string_view caption = {};  ///< caption on a report page; empty: not shown there
 };
 
 /// Parts of a report page, in its order.
 enum class PagePart { discrepancy, means, gaps, distances, spectrum, pairs, integration, tests };
 
-/// One measure of a report page: the analyzer with these options.
+/// A measure shown on a report page: the analyzer with the given options.
 struct PageMeasure {
     std::string_view title;
-    /// Keys of results in the comparison of sets, with their names there.
+    /// Keys of results that appear in the comparison of sets, with their titles there.
     std::vector<std::pair<std::string_view, std::string_view>> compared = {};
-    /// Options with their values; the page chooses an empty value (max-work, prefixes).
+    /// Options with their values; for an empty value (max-work, prefixes) the page chooses one.
     std::vector<std::pair<std::string_view, std::string_view>> options = {};
-    std::string_view name = {};  ///< first part of its keys; empty: the analyzer's name
+    /// First part of the keys of its results; empty: the analyzer's name.
+    std::string_view name = {};
 };
 
-/// How long a comparison of all pairs takes.
+/// How long it takes to compare all pairs of points.
 struct AllPairs {
-    std::size_t above = 0;  ///< all pairs are compared in more dimensions than this
-    double steps = 0;       ///< values of n^2 d that take as long as a comparison in a search
+    std::size_t above = 0;  ///< in more dimensions than this, all pairs are compared
+    double steps = 0;  ///< number of terms of n^2 d that take as long as one comparison in a search
 };
 
 struct Analyzer {
@@ -162,7 +166,7 @@ struct Analyzer {
     std::string summary;
     std::string source;
     std::string family = {};  ///< family name such as "blue noise", set by the registry
-    /// Search words that are not names of it: a kind, a part or a use.
+    /// Search words that are not names of this unit: its kind, parts or uses.
     std::vector<std::string> related = {};
     AnalyzerTraits traits;
     Schema options;
@@ -172,16 +176,17 @@ struct Analyzer {
     std::vector<PageMeasure> page = {};
     AllPairs pairs = {};
     /// Values of `stipple plot --chart` that show results with default options, each with the title
-    /// of the grid in the plane; empty: the curve.
+    /// of a grid in the plane, or with an empty title for a curve.
     std::vector<std::pair<std::string_view, std::string_view>> charts = {};
-    std::string_view strengths = {};  ///< option that names the column of weights, if there is one
+    /// Option that names the column of weights; empty: no such option.
+    std::string_view strengths = {};
 
     /// Analyzes one set, whose dimension and domain have been checked against the traits. Empty if
     /// `accumulate` is set.
     std::function<Report(const PointSet&, const Values&, const RunContext&)> analyze = {};
 
-    /// Makes an accumulator for a set of any size, in constant memory if possible. It checks that
-    /// the points are on their domain. Empty if all points are needed at once.
+    /// Makes an accumulator for a set of any size, in constant memory if possible. The accumulator
+    /// checks that the points are in their domain. Empty if all points are needed at once.
     std::function<std::unique_ptr<Accumulator>(const Arrival&, const Values&, const RunContext&)>
         accumulate = {};
 
@@ -204,13 +209,13 @@ struct Analyzer {
     std::function<void(Report& mean, std::span<const Report> sets, const Values&)> combine = {};
 };
 
-/// Grain of one batch of points, for Sharing.
+/// Returns the size of one batch, for Sharing::grain.
 std::uint64_t batch_grain(const Arrival& arrival, const Values&);
 
-/// Number of parts of a key that stand for any name.
+/// Number of parts of a key that are placeholders for any name.
 std::size_t free_parts(const ResultKey& result);
 
-/// Record of the result with a dotted key; nullptr if there is none.
+/// Record of the result with a dotted key; nullptr if no record matches.
 const ResultKey* find_result(const Analyzer& analyzer, std::string_view key);
 
 /// @throws Error(input) if the analyzer does not accept points of this dimension
@@ -219,7 +224,7 @@ void check_dimension(const Analyzer& analyzer, std::size_t dimension);
 /// Whether all reports to be averaged have the same number under a key, up to rounding.
 bool alike(std::span<const Report> sets, std::string_view key);
 
-/// Removes entries that cannot be averaged from a report, such as positions and pairs.
+/// Removes entries that cannot be averaged, such as positions and pairs, from a report.
 void drop(Report& report, std::initializer_list<std::string_view> names);
 
 namespace analyzers {

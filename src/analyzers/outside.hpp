@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-//
-// Points outside the domain that they are supposed to be on.
+// Points outside the domain to which they should belong.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +15,9 @@ namespace stipple::analyzers {
 
 struct Outside {
     std::uint64_t count = 0;
-    std::uint64_t first = std::numeric_limits<std::uint64_t>::max();  ///< lowest index outside
-    std::vector<double> point = {};                                   ///< the point with that index
+    /// Lowest index of such a point.
+    std::uint64_t first = std::numeric_limits<std::uint64_t>::max();
+    std::vector<double> point = {};  ///< the point with that index
 
     /// Adds point `i`; indices must ascend.
     void add(std::uint64_t i, std::span<const double> at) {
@@ -40,11 +40,11 @@ struct Outside {
     }
 };
 
-/// Reports their number among `total` and the first of them. @throws Error(input)
+/// Reports how many of `total` points are outside, and the first of these. @throws Error(input)
 [[noreturn]] void refuse(const Outside& outside, std::uint64_t total, const Domain& domain,
                          std::string hint);
 
-/// Advice for points outside the domain.
+/// Hint for the message about points outside the domain.
 std::string outside_hint(const Domain& domain);
 
 }  // namespace stipple::analyzers

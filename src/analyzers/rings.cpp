@@ -13,13 +13,13 @@ namespace {
 
 constexpr double lowest_db = -100;
 
-/// Half of the rows of frequencies; the other half holds the opposite vectors.
+/// Half of the rows of a spectrum; the other half contains the opposite frequency vectors.
 struct HalfOfRows {
     explicit HalfOfRows(const Grid& of)
         : power(of), width(static_cast<std::int64_t>(of.columns)), last(width / 2) {}
 
     /// Calls visit(centre, f_1^2 + f_2^2, middle) for each row: `centre` points to the power at f_0
-    /// = 0, and `middle` is true for the row that contains the opposites of its own vectors.
+    /// = 0, and `middle` is true for the row that also contains the opposites of its vectors.
     template <class Visit>
     void visit(const RunContext& run, Visit&& visit) const {
         for (std::size_t row = power.rows / 2; row < power.rows; ++row) {
@@ -37,8 +37,8 @@ struct HalfOfRows {
     std::int64_t last;  ///< F, the highest frequency
 };
 
-/// Calls visit(ring, power) for half of the frequency vectors in rings 1..F; the others are their
-/// opposites. In integers, k - 1/2 <= |f| < k + 1/2 is k^2 - k < |f|^2 <= k^2 + k.
+/// Calls visit(ring, power) for one of each pair of opposite frequency vectors in rings 1..F. In
+/// integers, k - 1/2 <= |f| < k + 1/2 is k^2 - k < |f|^2 <= k^2 + k.
 template <class Visit>
 void for_half_of_rings(const Grid& power, const RunContext& run, Visit&& visit) {
     const HalfOfRows rows(power);
@@ -91,7 +91,7 @@ double anisotropy_db(double variance, double mean, double least) {
 
 namespace {
 
-/// Half of the frequencies of one length.
+/// Sums over half of the frequency vectors of one length.
 struct Shell {
     double power = 0;
     double cells = 0;
@@ -111,7 +111,7 @@ std::int64_t whole_root(std::int64_t x) {
     return root;
 }
 
-/// Shells of a ring by |f|^2, up to F^2.
+/// Shells of a ring, indexed by |f|^2, up to F^2.
 std::map<std::int64_t, Shell> shells_of(const Grid& power, std::int64_t ring,
                                         const RunContext& run) {
     std::map<std::int64_t, Shell> shells;
@@ -139,8 +139,9 @@ double effective_nyquist(const Grid& power, const Rings& rings, const RunContext
         within.push_back(within.back());
         within.back().add({rings.power[i] * cells, cells});
     }
-    // Goes inwards. The mean up to a shell of a ring is at least the power before the ring divided
-    // by the number of cells including the ring, so most rings need no closer look.
+    // Starts at the outermost ring. The mean power up to any shell of a ring is at least the power
+    // inside the ring divided by the number of cells including the ring. This bound excludes most
+    // rings without their shells.
     const std::size_t last = rings.power.size();
     for (std::size_t ring = last; ring > 0; --ring) {
         if (!Shell{within[ring - 1].power, within[ring].cells}.is_low()) continue;
@@ -168,7 +169,8 @@ double effective_nyquist(const Grid& power, const Rings& rings, const RunContext
 
 namespace {
 
-/// Mean over the frequencies of some rings, where weighted(cells, power) is the sum over one ring.
+/// Mean over the frequencies of rings first..last, where weighted(cells, power) is the sum over one
+/// ring.
 template <class Weighted>
 double mean_of(const Rings& rings, std::size_t first, std::size_t last, const Weighted& weighted) {
     double sum = 0;

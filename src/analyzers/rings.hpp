@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Statistics of a power spectrum, or of any grid with P(-f) = P(f), by the rings k - 1/2 <= |f| <
+// Statistics of a power spectrum, or of any grid with P(-f) = P(f), over the rings k - 1/2 <= |f| <
 // k + 1/2, k = 1..F, always without frequency 0. The formulas are at the top of
 // spectrum/periodogram.cpp.
 #pragma once
@@ -14,7 +14,7 @@
 
 namespace stipple::analyzers {
 
-/// Means and variances over rings; index 0 is ring 1.
+/// Means, variances and numbers of cells of rings; index 0 is ring 1.
 struct Rings {
     std::vector<double> power;
     std::vector<double> variance;
@@ -27,14 +27,15 @@ Rings rings_of(const Grid& power, const RunContext& run);
 /// Decibels of a ratio of powers above 0.
 double decibels(double ratio);
 
-/// Anisotropy of a ring in dB, at least -100; -100 also if the mean is at most `least`.
+/// Anisotropy of a ring in dB, at least -100. It is -100 also if the mean is at most `least`.
 double anisotropy_db(double variance, double mean, double least = 0);
 
-/// Half the largest radius up to which the mean power of all frequencies is at most 0.1.
-/// @param rings those of the power
+/// Effective Nyquist frequency: half the radius of the largest disk of frequencies whose mean power
+/// is at most 0.1. @param rings those of `power`
 double effective_nyquist(const Grid& power, const Rings& rings, const RunContext& run);
 
-/// Oscillation; complete if the power reaches 0.98 and F cuts off no ring of the range.
+/// Oscillation of the radial power. Complete if the power reaches 0.98 and F cuts off no ring of
+/// the range.
 struct Oscillation {
     double value;
     bool complete;
@@ -43,7 +44,8 @@ Oscillation oscillation(const Rings& rings, double regular_nyquist);
 
 double total_variation(const Rings& rings);
 
-/// Returns nullopt if fewer than 3 of the lowest rings have a power above `least`.
+/// Slope of log power against log frequency; nullopt if fewer than 3 of the lowest rings have a
+/// power above `least`.
 std::optional<double> low_frequency_exponent(const Rings& rings, double regular_nyquist,
                                              double least);
 
