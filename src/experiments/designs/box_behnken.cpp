@@ -42,7 +42,8 @@ constexpr Blocks published[] = {
      "1269 348b 5ade 7cfg 237a 145c 6bef 89dg 256d 478f 19ae 3bcg 367e 158g 2abf 49cd 13df 24eg "
      "579b 68ac 46ag 359f 17bd 28ce"}};
 
-/// @throws Error(usage) naming the nearest available numbers of factors
+/// Returns the blocks for a number of factors. @throws Error(usage) naming the nearest available
+/// numbers
 const Blocks& blocks_for(std::size_t factors) {
     std::size_t below = 0;
     for (const Blocks& blocks : published) {
@@ -58,7 +59,7 @@ const Blocks& blocks_for(std::size_t factors) {
          below);
 }
 
-/// Index of each factor within each block, -1 for factors outside the block.
+/// Position of each factor within each block; -1 for factors outside the block.
 using Places = std::vector<std::vector<int>>;
 
 Places places_of(const Blocks& blocks) {
@@ -95,7 +96,7 @@ std::size_t level(const Places& places, std::size_t log_runs, std::uint64_t run,
     if (at < 0) return 1;
     const auto bits = static_cast<unsigned>(run & ((std::uint64_t{1} << log_runs) - 1));
     if (at < 4) return (bits >> at & 1) != 0 ? 2 : 0;
-    return std::popcount(bits) % 2 == 0 ? 2 : 0;  // the fifth factor, E = ABCD
+    return std::popcount(bits) % 2 == 0 ? 2 : 0;  // level of the fifth factor, E = ABCD
 }
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {

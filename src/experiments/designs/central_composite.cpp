@@ -13,9 +13,9 @@
 //            inscribed     axial runs at -1 and 1, corners at -1/alpha and 1/alpha
 //            faced         alpha = 1
 //
-// Circumscribed and inscribed designs have the same points in the cube. They differ in the box that
-// gives them these coded values (coded_bounds of the provenance, for --bounds): that of the
-// circumscribed one is alpha times as wide.
+// Circumscribed and inscribed designs have the same points in the cube. They differ in the box with
+// these coded values (coded_bounds of the provenance, for --bounds): the box of the circumscribed
+// design is alpha times as wide.
 //
 // Shape   n = F + 2 k + --center, k from 2 to 20.
 // Promise square roots are the only operations that round; the centre is 1/2 exactly.
@@ -91,7 +91,7 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-/// Coordinates of the coded values -alpha, -1, 0, 1 and alpha.
+/// Unit coordinates of the coded values -alpha, -1, 0, 1 and alpha.
 std::vector<double> places_of(double a, bool ends) {
     const double outer = std::max(a, 1.0);
     std::vector<double> places{-a, -1, 0, 1, a};

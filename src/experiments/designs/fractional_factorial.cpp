@@ -3,8 +3,9 @@
 // Regular fractional factorial design 2^(k-p): k factors of two levels in n = 2^(k-p) runs, a
 // subset of the full factorial (regular_fraction.hpp). The factors are A, B, ..., H, J, ..., Z, a,
 // ..., without I, which denotes the mean. The fraction is given by --generators (D=ABC,E=-AB) or
-// taken from a table (fractions.txt): the highest known resolution for a count, or the fewest
-// runs for a resolution, and then the least known aberration.
+// taken from a table (fractions.txt): the one with the highest known resolution for a count, or
+// with the fewest runs for a resolution. Among several, it is the one with the least known
+// aberration.
 //
 //     III   main effects are aliased with interactions of two factors, but not with each other
 //     IV    main effects are aliased with interactions of three factors; interactions of two
@@ -53,7 +54,7 @@ std::size_t asked_resolution(const Values& options) {
     return options.given(resolution) ? static_cast<std::size_t>(options[resolution]) : 3;
 }
 
-/// @throws Error(usage) if no fraction has `count` runs
+/// Fraction with `count` runs. @throws Error(usage) if there is no such fraction
 KnownFraction for_count(std::uint64_t count, std::size_t factors, const Values& options) {
     const std::uint64_t all = std::uint64_t{1} << factors;
     if (!std::has_single_bit(count) || count > all) {
@@ -97,7 +98,8 @@ KnownFraction decide(std::optional<std::uint64_t> count, std::size_t factors,
     return *known;
 }
 
-/// Number of factors: the dimension, or as many as the equations name. @throws Error(usage)
+/// Number of factors: the dimension, or the number of factors in the equations. @throws
+/// Error(usage)
 std::size_t factors_of(const Request& request, const Values& options) {
     if (!options.given(equations)) return request.dimension.value_or(3);
     std::uint64_t named = 0;
@@ -147,7 +149,8 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
         findings_of(known, options.given(equations), ends));
 }
 
-/// Smallest number of runs that might reach the resolution but is not known to; 0 if there is none.
+/// Smallest number of runs for which a fraction of this resolution is neither known nor excluded; 0
+/// if there is no such number below that of the known fraction.
 std::uint64_t fewer_in_doubt(std::size_t factors, const KnownFraction& known, std::size_t asked) {
     for (std::size_t basic = 1; basic < known.design.basic.size(); ++basic)
         if (const auto smaller = known_fraction(factors, basic); smaller && smaller->bound >= asked)

@@ -12,7 +12,7 @@ namespace {
 struct Functions {
     std::uint64_t outer;
     std::uint64_t inner;
-    /// Bits as hexadecimal digits, highest first; 1 bits are the value 1, others -1.
+    /// Bits as hexadecimal digits, the highest first. A bit of 1 is the value 1, a bit of 0 is -1.
     std::array<std::string_view, 4> values;
 };
 

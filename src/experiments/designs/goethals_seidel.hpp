@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Four functions A, B, C, D with values -1 and 1 on an abelian group of v elements give a Hadamard
-// matrix of order 4 v. With R the matrix that maps x to -x, and X the one with entries X(y - x), it
-// is
+// Hadamard matrix of order 4 v from four functions A, B, C, D with values -1 and 1 on an abelian
+// group of v elements. With R the matrix that maps x to -x, and each function X also denoting the
+// matrix with entries X(y - x), it is
 //
 //      A    B R     C R     D R
 //     -B R  A      -D'R     C'R
@@ -41,14 +41,14 @@ class GoethalsSeidel {
     [[nodiscard]] bool positive(std::uint64_t row, std::uint64_t column) const;
 
   private:
-    /// Number of the group element x + y.
+    /// Index of the group element x + y.
     [[nodiscard]] std::uint64_t sum(std::uint64_t x, std::uint64_t y) const;
     [[nodiscard]] std::uint64_t negative(std::uint64_t x) const;
 
-    /// Element i inner + j is the pair (i, j), i modulo outer and j modulo inner.
+    /// Element i inner_ + j is the pair (i, j), i modulo outer_ and j modulo inner_.
     std::uint64_t outer_ = 1;
     std::uint64_t inner_ = 1;
-    std::array<std::vector<bool>, 4> positive_;  ///< A, B, C, D
+    std::array<std::vector<bool>, 4> positive_;  ///< where A, B, C, D are 1
 };
 
 }  // namespace stipple::generators

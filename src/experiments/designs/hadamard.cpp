@@ -19,7 +19,7 @@ std::uint64_t prime_of_power(std::uint64_t q) {
     return q == 1 ? p : 0;
 }
 
-/// Returns a if q = a (a + 2) with both primes, otherwise 0.
+/// Returns a if q = a (a + 2), where a and a + 2 are prime; otherwise 0.
 std::uint64_t lower_twin(std::uint64_t q) {
     const std::uint64_t a = floor_root(q, 2);
     return a >= 3 && a * (a + 2) == q && is_prime(a) && is_prime(a + 2) ? a : 0;
@@ -33,8 +33,8 @@ std::uint64_t difference(std::uint64_t x, std::uint64_t y, std::uint64_t p) {
     return out;
 }
 
-/// Squares of the field, including 0. They are the even powers of t modulo the first polynomial, in
-/// the order of coefficients, that has t as a primitive root.
+/// Squares of the field, including 0. They are the even powers of t modulo a polynomial that has t
+/// as a primitive root: the first such polynomial in the order of coefficients.
 std::vector<bool> squares_of_field(std::uint64_t q, std::uint64_t p) {
     for (std::uint64_t polynomial = 1; polynomial < q; ++polynomial) {
         std::vector<bool> square(q);
@@ -60,8 +60,8 @@ std::vector<bool> squares_of_prime(std::uint64_t p) {
     return square;
 }
 
-/// Sequence of Stanton and Sprott, rotated so that the design of 36 runs is that of Plackett and
-/// Burman.
+/// Sequence of Stanton and Sprott, rotated so that the design of 36 runs equals that of Plackett
+/// and Burman.
 std::vector<bool> twin_sequence(std::uint64_t a) {
     const auto of_a = squares_of_prime(a);
     const auto of_b = squares_of_prime(a + 2);
@@ -75,14 +75,14 @@ std::vector<bool> twin_sequence(std::uint64_t a) {
     return positive;
 }
 
-/// Whether Miyamoto's construction gives this order.
+/// Whether Miyamoto's construction exists for this order.
 bool is_of_miyamoto(std::uint64_t order) {
     const std::uint64_t q = order / 4;
     return order % 16 == 4 && prime_of_power(q) != 0 && has_hadamard(q - 1);
 }
 
-/// Order of the construction that doubling extends to `order`, possibly `order` itself; 0 if there
-/// is none.
+/// First one of order, order / 2, order / 4, ... that has a construction other than doubling; 0 if
+/// none has.
 std::uint64_t base_order(std::uint64_t order) {
     for (; order >= 4 && order % 4 == 0; order /= 2)
         if (prime_of_power(order - 1) != 0 || lower_twin(order - 1) != 0 ||
@@ -145,7 +145,7 @@ bool Hadamard::positive(std::uint64_t row, std::uint64_t column) const {
 
 bool Hadamard::core(std::uint64_t row, std::uint64_t column) const {
     if (column == 0) return true;
-    if (kind_ == Kind::four_functions)  // divides each row by its first entry
+    if (kind_ == Kind::four_functions)  // each row is divided by its first entry
         return four_->positive(row, column) == four_->positive(row, 0);
     if (kind_ == Kind::miyamoto) return miyamoto(row, column) == miyamoto(row, 0);
     if (kind_ == Kind::conference) return paley_two(row, column);
@@ -155,8 +155,8 @@ bool Hadamard::core(std::uint64_t row, std::uint64_t column) const {
     return square_[kind_ == Kind::field ? difference(k, row, prime_) : (k + q - row) % q];
 }
 
-/// Entry of C (x) (1 1 / 1 -1) + I (x) (1 -1 / -1 -1), with row 1 negated so that the first column
-/// is all 1.
+/// Entry of C (x) (1 1 / 1 -1) + I (x) (1 -1 / -1 -1), where C is the conference matrix. Row 1 is
+/// negated so that the first column is all 1.
 bool Hadamard::paley_two(std::uint64_t row, std::uint64_t column) const {
     const std::uint64_t i = row / 2;
     const std::uint64_t k = column / 2;

@@ -13,9 +13,9 @@
 //                                matrix of order q - 1
 //     n = 2 m                    H_m H_m / H_m -H_m (Sylvester)
 //
-// They are tried in this order; q may also be a power of a prime.
+// The constructions are tried in this order; q may also be a power of a prime.
 //
-// Shape   multiples of 4 up to 2^20: all up to 664, most of those beyond.
+// Shape   multiples of 4 up to 2^20: all up to 664, and most of the larger ones.
 // Cost    O(q) memory; O(log n) an entry.
 // Source  R. E. A. C. Paley, J. Math. Phys. 12 (1933) 311-320, doi:10.1002/sapm1933121311;
 //         R. G. Stanton, D. A. Sprott, Canad. J. Math. 10 (1958) 73-77, doi:10.4153/CJM-1958-008-5
@@ -40,7 +40,7 @@ bool has_hadamard(std::uint64_t order);
 
 class Hadamard {
   public:
-    /// @param order one for which has_hadamard() holds
+    /// @param order an order for which has_hadamard() is true
     explicit Hadamard(std::uint64_t order);
 
     /// Whether an entry is 1 rather than -1.
@@ -58,11 +58,12 @@ class Hadamard {
 
     Kind kind_ = Kind::cyclic;
     std::uint64_t base_ = 0;    ///< order before doubling
-    std::uint64_t prime_ = 0;   ///< q is a power of this prime
-    std::vector<bool> square_;  ///< whether the character is 1 or its argument 0
+    std::uint64_t prime_ = 0;   ///< prime of which q is a power
+    std::vector<bool> square_;  ///< whether the character of an element is 1, or the element is 0
     std::shared_ptr<const GoethalsSeidel> four_;
     std::shared_ptr<const Hadamard> smaller_;  ///< Hadamard matrix of order q - 1
-    std::vector<std::uint64_t> elements_;      ///< nonzero squares, then nonsquares
+    /// Elements of the field: nonzero squares, then nonsquares.
+    std::vector<std::uint64_t> elements_;
     std::string construction_;
 };
 

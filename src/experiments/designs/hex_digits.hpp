@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Reads numbers of tables that are stored as hexadecimal digits.
+// Reads numbers from tables of hexadecimal digits.
 #pragma once
 
 #include <charconv>

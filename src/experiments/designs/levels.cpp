@@ -77,7 +77,7 @@ std::unique_ptr<Sequence> level_sequence(const Plan& plan, std::span<const doubl
                                          LevelOf level_of, Findings findings) {
     const std::size_t factors = plan.dimension;
     const LevelPlaces place(plan);
-    std::vector<double> at;  // factor after factor
+    std::vector<double> at;  // coordinates of all levels, factor after factor
     for (std::size_t k = 0; k < factors; ++k)
         for (const double x : places) at.push_back(place(k, x));
     auto points =

@@ -2,16 +2,16 @@
 //
 // Levels of designed experiments as coordinates. Level l = 0, ..., m - 1 of a factor is
 //
-//     (2 l + 1) / (2 m)     the middle of the l-th of m equal cells, or with --ends
+//     (2 l + 1) / (2 m)     the middle of cell l of m equal ones, or with --ends
 //     l / (m - 1)           from face to face, the highest one just below 1.
 //
 // With the middles, every warp by inversion onto m equally probable integers or categories gives
 // the levels exactly. So does the box from -m / (m - 1) to m / (m - 1), in which they are the coded
 // values -1, ..., 1 of the literature: --bounds -2..2 for two levels, -1.5..1.5 for three.
 //
-// A factor that is warped onto K outcomes (categories, or up to ten numbers) takes them in turn,
-// whatever their probabilities: a level at x moves to the middle of the interval of outcome
-// floor(K x).
+// A factor that is warped onto K outcomes (categories, or up to ten numbers) uses all of them
+// equally, whatever their probabilities: a level at x moves to the middle of the interval of
+// outcome floor(K x).
 #pragma once
 
 #include <cstddef>
@@ -45,45 +45,46 @@ inline constexpr Param<std::int64_t> center_option{
 
 using Findings = std::vector<std::pair<std::string, std::string>>;
 
-/// Coordinate of a level; 1/2 if it is the only one.
+/// Coordinate of a level; 1/2 if there is only one level.
 double level_place(std::uint64_t level, std::uint64_t levels, bool ends);
 
 /// Coordinates of all levels.
 std::vector<double> level_places(std::uint64_t levels, bool ends);
 
-/// The --bounds that map the levels to -1, ..., 1, such as "-2..2".
+/// Value of --bounds that maps the levels to -1, ..., 1, such as "-2..2".
 std::string coded_range(std::uint64_t levels, bool ends);
 
 /// Plan for a fixed number of runs. @throws Error(usage) if the request has another count
-/// @param design named in that message, such as "2^3 runs"
+/// @param design description of the design in that message, such as "2^3 runs"
 Plan plan_of_runs(const Request& request, std::uint64_t runs, std::size_t factors,
                   const std::string& design);
 
-/// Like plan_of_runs(), for `others` runs plus those at the centre.
+/// Like plan_of_runs(), for `others` runs and those at the centre.
 Plan plan_with_center(const Request& request, const Values& options, std::uint64_t others,
                       std::size_t factors, const std::string& design);
 
-/// Checks that count and start are multiples of `block`. @throws Error(usage)
+/// Checks that count and start are multiples of `block`; `who` is the design's name in messages.
+/// @throws Error(usage)
 void require_whole_blocks(const Plan& plan, std::uint64_t block, const std::string& who);
 
-/// Coordinates of levels along the factors of a plan.
+/// Maps levels to coordinates, separately for each factor of a plan.
 class LevelPlaces {
   public:
     explicit LevelPlaces(const Plan& plan);
 
-    /// Number of outcomes that serve as levels of a factor; 0 if its levels are plain coordinates.
+    /// Number of outcomes used as levels of a factor; 0 if its levels are plain coordinates.
     [[nodiscard]] std::size_t outcomes(std::size_t factor) const {
         return factor < ends_.size() && !ends_[factor].empty() ? ends_[factor].size() - 1 : 0;
     }
 
-    /// Coordinate of the level at x.
+    /// Coordinate of the level at x: x itself, or the middle of an outcome's interval.
     [[nodiscard]] double operator()(std::size_t factor, double x) const;
 
   private:
-    std::vector<std::vector<double>> ends_;  ///< level_ends() of each factor
+    std::vector<std::vector<double>> ends_;  ///< ends of the outcomes' intervals, for each factor
 };
 
-/// Index of a run's level along a factor.
+/// Returns the index of a factor's level in a run.
 using LevelOf = std::function<std::size_t(std::uint64_t run, std::size_t factor)>;
 
 std::unique_ptr<Sequence> level_sequence(const Plan& plan, std::span<const double> places,

@@ -96,7 +96,7 @@ class Trajectory {
         }
     }
 
-    /// Moves along the next factor.
+    /// Moves to the other level of the next factor.
     void step() {
         const std::size_t k = order_[moved_++];
         up_[k] = !up_[k];
@@ -109,7 +109,7 @@ class Trajectory {
 
   private:
     std::uint64_t levels_;
-    std::vector<std::uint64_t> low_;  ///< lower of the factor's two levels
+    std::vector<std::uint64_t> low_;  ///< lower level of each factor
     std::vector<bool> up_;
     std::vector<std::size_t> order_;
     std::size_t moved_ = 0;
@@ -123,7 +123,7 @@ void fill(const Plan& plan, const LevelPlaces& places, std::uint64_t p, bool end
         Trajectory trajectory(keys.bits(first / (d + 1)), d, p);
         for (std::size_t j = 0; j <= d && !rows.empty(); ++j) {
             if (j > 0) trajectory.step();
-            if (j < first % (d + 1)) continue;  // the first trajectory may begin inside
+            if (j < first % (d + 1)) continue;  // the first trajectory may begin before `first`
             trajectory.write(rows.first(d), ends, places);
             rows = rows.subspan(d);
             if (j == d) first += d + 1 - first % (d + 1);

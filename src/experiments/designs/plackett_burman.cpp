@@ -6,8 +6,8 @@
 // is 36, they are the published cyclic ones: each run is the previous one shifted by one, and the
 // last run has all factors at the low level.
 //
-// Shape   n x k, k < n; n a multiple of 4 (which ones: hadamard.hpp). The default count is the
-//         least for k factors, the default k is n - 1.
+// Shape   n x k, k < n; n a multiple of 4 for which hadamard.hpp has a matrix. The default count is
+//         the smallest for k factors, the default k is n - 1.
 // Beware  main effects are aliased in part with interactions of two other factors.
 // Source  R. L. Plackett, J. P. Burman, Biometrika 33 (1946) 305-325,
 //         doi:10.1093/biomet/33.4.305.
@@ -25,11 +25,11 @@ std::uint64_t nearest_below(std::uint64_t count) {
     return n;
 }
 
-/// Smallest possible count of at least `count`; 0 if there is none.
+/// Smallest possible count that is at least `count`; 0 if there is none.
 std::uint64_t nearest_above(std::uint64_t count) {
     if (count > most_hadamard) return 0;
     std::uint64_t n = std::max<std::uint64_t>(4, (count + 3) / 4 * 4);
-    while (!has_hadamard(n)) n += 4;  // ends at 2^20, for which there is a matrix
+    while (!has_hadamard(n)) n += 4;  // ends at 2^20 at the latest, for which a matrix exists
     return n;
 }
 

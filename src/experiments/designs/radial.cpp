@@ -10,7 +10,7 @@
 namespace stipple::generators {
 namespace {
 
-/// Checks that `base` can start at any index. @throws Error(usage)
+/// Checks that the points of `base` do not depend on their number. @throws Error(usage)
 void require_sequence(const std::string& base, Request request) {
     request.start = 1;
     try {

@@ -9,13 +9,13 @@
 
 namespace stipple::generators {
 
-const char* fraction_table();  // fractions.txt
+const char* fraction_table();  // contents of fractions.txt
 
 namespace {
 
 constexpr std::uint64_t bit(std::size_t i) { return std::uint64_t{1} << i; }
 
-/// Word of each factor that is not basic, as a set of factors.
+/// Words, as sets of factors, that define the factors that are not basic.
 std::vector<std::uint64_t> generating_words(const RegularFraction& design) {
     std::vector<std::uint64_t> words;
     for (std::size_t k = 0; k < design.factors(); ++k) {
@@ -57,7 +57,8 @@ WordLengths from_rows(const std::vector<std::uint64_t>& sums, std::size_t basic)
     return lengths;
 }
 
-/// Line of the table: its numbers, and columns of (basic + 3) / 4 hexadecimal digits each.
+/// Line of the table: three numbers, and the columns of the factors, with (basic + 3) / 4
+/// hexadecimal digits each.
 struct FractionRow {
     std::size_t basic;
     std::size_t least;
@@ -81,7 +82,7 @@ const std::vector<FractionRow>& fraction_rows() {
     return all;
 }
 
-/// Row of the table with the fraction, nullptr if there is none.
+/// Row of the table with the fraction; nullptr if there is none.
 const FractionRow* row_of(std::size_t factors, std::size_t basic) {
     const auto found = std::ranges::find_if(fraction_rows(), [&](const FractionRow& row) {
         return row.basic == basic && row.least <= factors && factors <= row.most;
@@ -89,7 +90,8 @@ const FractionRow* row_of(std::size_t factors, std::size_t basic) {
     return found == fraction_rows().end() ? nullptr : &*found;
 }
 
-/// Proven upper bound of the resolution; the table's, unless a higher one may exist.
+/// Proven upper bound of the resolution: that of the table's fraction, unless a higher resolution
+/// may exist.
 std::size_t bound_of(std::size_t factors, std::size_t basic, std::size_t resolution) {
     struct Open {
         std::size_t basic, first, last, bound;
@@ -101,9 +103,9 @@ std::size_t bound_of(std::size_t factors, std::size_t basic, std::size_t resolut
     return resolution;
 }
 
-/// Whether the fraction is proven to have minimum aberration: by the complete catalogues of up to
-/// 32 runs, and of 64 runs at resolution IV (Chen, Sun, Wu 1993), or by the theorems on up to four
-/// generators (J. Chen, C. F. J. Wu, Ann. Stat. 19 (1991) 1028-1041).
+/// Whether the fraction is proven to have minimum aberration. The proofs are the complete
+/// catalogues of up to 32 runs, and of 64 runs at resolution IV (Chen, Sun, Wu 1993), and the
+/// theorems on up to four generators (J. Chen, C. F. J. Wu, Ann. Stat. 19 (1991) 1028-1041).
 bool is_least(std::size_t factors, std::size_t basic) {
     return basic <= 5 || (basic == 6 && factors <= 32) || factors - basic <= 4;
 }
@@ -130,7 +132,7 @@ WordLengths word_lengths(const RegularFraction& design) {
         for_each_sum(generating_words(design), count);
         return counts;
     }
-    std::vector<std::uint64_t> rows(basic);  // factors whose column has the j-th basic one
+    std::vector<std::uint64_t> rows(basic);  // factors whose column contains basic factor j
     for (std::size_t j = 0; j < basic; ++j)
         for (std::size_t i = 0; i < k; ++i)
             if ((design.columns[i] & bit(j)) != 0) rows[j] |= bit(i);
@@ -149,7 +151,7 @@ std::vector<std::uint64_t> defining_words(const RegularFraction& design) {
     for_each_sum(generating_words(design), [&](std::uint64_t word) { words.push_back(word); });
     words.erase(words.begin());
     std::ranges::sort(words, {}, [](std::uint64_t word) {
-        // by length, then alphabetically: ABD before ACE
+        // sorts by length, then alphabetically: ABD before ACE
         std::uint64_t reversed = 0;
         for (std::size_t i = 0; i < 64; ++i) reversed |= (word >> i & 1) << (63 - i);
         return std::pair(std::popcount(word), ~reversed);

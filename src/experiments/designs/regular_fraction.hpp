@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // Regular two-level fractions 2^(k-p): r = k - p basic factors take all combinations of their
-// levels, and every other factor is a product of some of them, its column. A set of factors whose
+// levels. Every other factor is a product of some basic factors, its column. A set of factors whose
 // columns have the product 1 is a word of the defining relation. The resolution is the length of
 // the shortest word.
 //
 //     A_t = number of words of length t        the word length pattern
 //
-// Of two designs, the one with fewer words of the first length at which they differ has less
-// aberration. Columns are sets of basic factors, bit j for the j-th; products are their XOR.
+// Let t be the smallest length for which two designs have different numbers of words. The design
+// with fewer words of length t has less aberration. Columns are sets of basic factors, stored with
+// bit j for basic factor j; products are their XOR.
 #pragma once
 
 #include <bit>
@@ -20,10 +21,10 @@
 namespace stipple::generators {
 
 struct RegularFraction {
-    /// Basic factors; the j-th has its high level in run i if bit j of i is 1.
+    /// Basic factors. Basic factor j has its high level in run i if bit j of i is 1.
     std::vector<std::size_t> basic;
-    std::vector<std::uint64_t> columns;  ///< column of every factor
-    std::vector<bool> negative = {};     ///< factors whose sign is reversed; may be empty
+    std::vector<std::uint64_t> columns;  ///< columns of all factors
+    std::vector<bool> negative = {};     ///< whether a factor's sign is reversed; may be empty
 
     [[nodiscard]] std::size_t factors() const { return columns.size(); }
     [[nodiscard]] std::uint64_t runs() const { return std::uint64_t{1} << basic.size(); }
@@ -46,10 +47,10 @@ WordLengths word_lengths(const RegularFraction& design);
 /// Length of the shortest word; 0 for a full factorial, which has no words.
 std::size_t resolution_of(const WordLengths& lengths);
 
-/// Words of the defining relation as sets of factors, without the empty one: 2^p - 1.
+/// The 2^p - 1 nonempty words of the defining relation, as sets of factors.
 std::vector<std::uint64_t> defining_words(const RegularFraction& design);
 
-/// Best known fraction (fractions.txt), or all combinations.
+/// Best known fraction (fractions.txt), or the full factorial.
 struct KnownFraction {
     RegularFraction design;
     std::size_t resolution = 0;  ///< 0 for a full factorial
@@ -67,8 +68,8 @@ inline constexpr std::size_t most_basic_factors = 16;
 /// Best known fraction of 2^basic runs; nullopt if main effects would be aliased with each other.
 std::optional<KnownFraction> known_fraction(std::size_t factors, std::size_t basic);
 
-/// Fraction with the fewest runs for a resolution; nullopt if it takes more than
-/// 2^most_basic_factors.
+/// Fraction with the fewest runs that has a resolution; nullopt if it needs more than
+/// 2^most_basic_factors runs.
 std::optional<KnownFraction> fewest_runs(std::size_t factors, std::size_t resolution);
 
 }  // namespace stipple::generators

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Saltelli's design for Sobol' indices of k factors. For each base row i, with two independent
-// points A_i and B_i of the cube, the runs are, in this order (that of SALib),
+// points A_i and B_i of the cube, the runs are, in the same order as SALib's,
 //
 //     A_i,  AB_i1, ..., AB_ik,  [BA_i1, ..., BA_ik,]  B_i
 //
@@ -57,7 +57,8 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
             row[j - 1] = b[j - 1];
             return;
         }
-        const std::size_t kept = j + 1 < runs ? j - k - 1 : k;  // k: none
+        // Coordinate kept from A; k if none is kept.
+        const std::size_t kept = j + 1 < runs ? j - k - 1 : k;
         for (std::size_t i = 0; i < k; ++i)
             if (i != kept) row[i] = b[i];
     };
