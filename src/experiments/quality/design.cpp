@@ -7,15 +7,15 @@
 //     phi_p           (sum_{i<j} d_ij^-p)^(1/p), near 1 / minimum for a large p (Morris, Mitchell)
 //     audze_eglais    sum_{i<j} 1 / d_ij^2
 //     maxpro          ((n choose 2)^-1 sum_{i<j} prod_k (x_ik - x_jk)^-2)^(1/d) (Joseph, Gul, Ba)
-//     variation       deviation over mean of the distances to the nearest neighbours: the coverage
+//     variation       deviation / mean of the distances to the nearest neighbours: the coverage
 //                     measure of Gunzburger and Burkardt, 0 for a grid
 //     correlation     of two coordinates: the largest absolute value, and the root mean square
-//     line, plane     the least distance of two points in the projections to one axis and to two
+//     line, plane     smallest distance of two points in any projection to one axis or to two
 //     efficiency      D, A and G for a polynomial model (model_efficiency.hpp), each coordinate
 //                     scaled so that its lowest and highest values in the design are -1 and 1
 //
-// and, for comparison, the means of all of them over random Latin hypercubes with the same number
-// of points, those of the seeds 1, 2, ....
+// and, for comparison, the means of all criteria over random Latin hypercubes with the same number
+// of points and the seeds 1, 2, ....
 //
 // Shape   n x d, n >= 2, d <= 1000. Sums over pairs for up to 16384 points; planes for d <= 32.
 // Units   lengths of the unit cube.
@@ -64,19 +64,19 @@ constexpr Param<std::int64_t> compare{
 constexpr std::size_t most_paired = 16384;
 constexpr std::size_t most_planes = 32;
 
-/// Adds a criterion unless it is infinite, as it may be if two points share a coordinate.
+/// Adds a criterion unless it is infinite, which it may be if two points share a coordinate.
 void add_finite(Report& report, const char* name, double value) {
     if (std::isfinite(value)) report.add(name, value);
 }
 
-/// Axis numbers for users, from 1.
+/// Axis numbers from 1, as shown to users.
 Report::Integers from_one(const std::vector<std::size_t>& axes) {
     Report::Integers numbers;
     for (const std::size_t k : axes) numbers.push_back(static_cast<std::int64_t>(k + 1));
     return numbers;
 }
 
-/// Coordinates scaled so that the lowest and highest value of each is -1 and 1.
+/// Coordinates scaled so that the lowest value of each is -1 and the highest is 1.
 std::vector<double> coded(const PointSet& cube) {
     const std::size_t d = cube.dimension();
     const Box range = bounding_box(cube.flat(), d);

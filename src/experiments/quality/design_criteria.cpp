@@ -26,11 +26,12 @@ PointSet projected(const PointSet& points, const std::vector<std::size_t>& axes)
     return image;
 }
 
-/// Terms of the three sums over pairs.
+/// Sums over pairs of points.
 struct PairSums {
-    double powers = 0;       ///< (minimum / distance)^p
-    double reciprocals = 0;  ///< 1 / distance^2
-    double products = 0;     ///< 1 / prod (4 difference)^2; 4 keeps the product in range
+    double powers = 0;       ///< terms (minimum / distance)^p
+    double reciprocals = 0;  ///< terms 1 / distance^2
+    /// Terms 1 / prod (4 difference)^2; the factor 4 keeps the product in range.
+    double products = 0;
 
     PairSums& operator+=(const PairSums& other) {
         powers += other.powers;

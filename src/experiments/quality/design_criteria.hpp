@@ -27,8 +27,8 @@ struct PairCriteria {
     double maxpro = 0;
 };
 
-/// Smallest distance of two points, and the standard deviation over mean of the distances to the
-/// nearest neighbours.
+/// Smallest distance of two points, and the standard deviation divided by the mean of the distances
+/// to the nearest neighbours.
 struct Separation {
     double minimum = 0;
     double variation = 0;
@@ -36,12 +36,12 @@ struct Separation {
 
 Separation separation_of(const PointSet& points, const RunContext& run);
 
-/// @param minimum the smallest distance; if 0, or if points share coordinates, criteria are
+/// @param minimum the smallest distance; if it is 0, or if points share coordinates, criteria are
 /// infinite
 PairCriteria pair_criteria(const PointSet& points, double p, double minimum, const RunContext& run);
 
-/// Largest absolute correlation of two coordinates, and root mean square of all. Constant
-/// coordinates are left out; nullopt if fewer than two remain.
+/// Largest absolute correlation of two coordinates, and root mean square of all correlations.
+/// Constant coordinates are left out; nullopt if fewer than two others remain.
 struct Correlation {
     AtAxes largest;
     double rms = 0;
@@ -49,10 +49,11 @@ struct Correlation {
 
 std::optional<Correlation> correlation_of(const PointSet& points);
 
-/// Least distance of two points in the projections to one axis.
+/// Smallest distance of two points in any projection to one axis.
 AtAxes closest_on_axis(const PointSet& points);
 
-/// Least distance of two points in the projections to two axes, in O(n log n) for each of these.
+/// Smallest distance of two points in any projection to two axes, in O(n log n) for each
+/// projection.
 AtAxes closest_on_plane(const PointSet& points, const RunContext& run);
 
 }  // namespace stipple::analyzers

@@ -24,7 +24,7 @@ void terms_of(std::span<const double> x, Model model, std::vector<double>& f) {
             f.push_back(x[i] * x[j]);
 }
 
-/// Lower triangle of M.
+/// Lower triangle of M of the header.
 std::vector<double> information(std::span<const double> coded, std::size_t dimension, Model model,
                                 const RunContext& run) {
     const std::size_t p = model_terms(model, dimension);
@@ -40,7 +40,8 @@ std::vector<double> information(std::span<const double> coded, std::size_t dimen
     return m;
 }
 
-/// Replaces f by L^-1 f, where f is 0 before index `first`; returns its squared length.
+/// Replaces f by L^-1 f, where the elements of f before index `first` are 0; returns the squared
+/// length of the result.
 double solve(std::span<const double> factor, std::size_t first, std::vector<double>& f) {
     const std::size_t p = f.size();
     double squares = 0;
@@ -65,7 +66,7 @@ double trace_of_inverse(std::span<const double> factor, std::size_t p, const Run
     return trace;
 }
 
-/// Largest f^T M^-1 f over `count` places x; place(i, x) writes the i-th.
+/// Largest f^T M^-1 f over `count` places x; place(i, x) writes place i to x.
 template <class Place>
 double largest_variance(std::span<const double> factor, std::size_t dimension, Model model,
                         std::uint64_t count, const Place& place, const RunContext& run) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Efficiency of a design of n runs for estimating the p coefficients of a polynomial model. With
-// f(x) the row of its terms at x, coded to [-1, 1], X the matrix of the runs' rows, and M = X^T X,
+// f(x) the row of the model's terms at x, which is coded to [-1, 1], X the matrix of the rows of
+// all runs, and M = X^T X,
 //
 //     D = det(M)^(1/p) / n,     A = p / (n trace(M^-1)),     G = p / (n max_x f(x)^T M^-1 f(x)),
 //
@@ -31,9 +32,9 @@ struct Efficiency {
     double a = 0;
     double g = 0;
 
-    /// Candidate places of the maximum in G: "corners" of the cube, where it is for the first two
-    /// models; the "grid" of -1, 0, 1; or, if there are too many of either, the design's own
-    /// "points".
+    /// Candidate places for the maximum in G: "corners" of the cube, which contain the maximum for
+    /// the first two models; the "grid" of -1, 0, 1; or, if there are too many of either, the
+    /// design's own "points".
     const char* places = "";
 };
 
