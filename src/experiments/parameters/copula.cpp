@@ -16,8 +16,8 @@
 namespace stipple::parameters {
 namespace {
 
-/// The smaller of the two probabilities; 0, which is infinitely far, becomes the smallest random
-/// number.
+/// The smaller of the two probabilities. Replaces 0, whose score would be infinite, by the smallest
+/// random number.
 double tail(const Share& share) {
     const double m = std::min(share.below, share.above);
     return m > 0 ? std::max(m, 1e-300) : 0x1p-54;
@@ -55,7 +55,7 @@ Copula::Place Copula::place(std::size_t i, std::span<const double> y, double squ
 }
 
 void Copula::forward(std::span<Share> row) const {
-    std::vector<double> y(d_);  // L y = scores
+    std::vector<double> y(d_);  // solution of L y = scores
     double squares = 0;
     for (std::size_t i = 0; i < d_; ++i) {
         const auto [middle, spread] = place(i, y, squares);
@@ -121,7 +121,7 @@ bool is_correlation(const std::vector<double>& matrix, std::size_t d) {
 
 namespace {
 
-/// The nearest symmetric matrix whose eigenvalues are at least `least`.
+/// The nearest symmetric matrix whose eigenvalues are at least `least`, by the sum of squares.
 std::vector<double> lifted(const std::vector<double>& matrix, std::size_t d, double least) {
     const auto [values, vectors] = jacobi_eigen(matrix, d);
     std::vector<double> out(d * d);
@@ -137,7 +137,8 @@ std::vector<double> lifted(const std::vector<double>& matrix, std::size_t d, dou
 
 std::vector<double> nearest_correlation(std::vector<double> matrix, std::size_t d) {
     constexpr double least = 1e-6;
-    std::vector<double> correction(d * d);  // Dykstra's correction for the projection onto a cone
+    // Dykstra's correction for the projection onto the cone of such matrices.
+    std::vector<double> correction(d * d);
     for (int step = 0; step < 500; ++step) {
         std::vector<double> shifted(d * d);
         for (std::size_t i = 0; i < d * d; ++i) shifted[i] = matrix[i] - correction[i];

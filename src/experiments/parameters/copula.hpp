@@ -7,12 +7,12 @@
 //     Student    v_i = T_nu(t_i),      t_i = m_i + s_i T_(nu+i)^-1(u_i),
 //
 // where m_i and s_i^2 = L_ii^2 (nu + q_i) / (nu + i) are the parameters of Student's distribution
-// given the i preceding coordinates, and q_i is the sum of squares of their y, with L y = t. Both
-// are Rosenblatt's map: u_i determines v_i given the preceding ones, so that strata of the first
-// coordinate are preserved and an inverse exists.
+// given the i preceding coordinates, and q_i is the sum of the squares of y_1 ... y_i, with L y =
+// t. Both are Rosenblatt's transformation: u_i determines v_i given the preceding coordinates. So
+// strata of the first coordinate are preserved, and an inverse exists.
 //
-// Shape   d coordinates; each is stored as the probability p below and q = 1 - p above, so that
-//         both tails keep all digits.
+// Shape   d coordinates. Each is stored as two probabilities, p below and q = 1 - p above it, so
+//         that both tails keep all digits.
 // Cost    d^2 / 2 multiplications and d quantiles per point.
 // Promise the same bits on every machine.
 // Source  M. Rosenblatt, Ann. Math. Statist. 23 (1952) 470-472, doi:10.1214/aoms/1177729394;
@@ -29,7 +29,7 @@
 
 namespace stipple::parameters {
 
-/// The probabilities below and above a position.
+/// The probabilities below and above a coordinate.
 struct Share {
     double below = 0.5;
     double above = 0.5;
@@ -45,31 +45,33 @@ class Copula {
     void forward(std::span<Share> row) const;
     void inverse(std::span<Share> row) const;
 
-    /// Whether coordinate i is unchanged.
+    /// Whether forward() does not change coordinate i.
     [[nodiscard]] bool leaves(std::size_t i) const;
 
-    /// Whether coordinate i depends on others.
+    /// Whether coordinate i depends on other coordinates.
     [[nodiscard]] bool joins(std::size_t i) const;
 
-    /// Density with respect to the uniform distribution.
+    /// Density with respect to the uniform distribution on the cube.
     [[nodiscard]] double density(std::span<const Share> row) const;
 
   private:
-    /// Conditional distribution of the score of coordinate i, given those before: score = middle +
-    /// L_ii y_i, where y_i / spread has the distribution for i given coordinates.
+    /// Conditional distribution of the score of coordinate i, given the preceding scores: score =
+    /// middle + L_ii y_i, where y_i / spread has the distribution laws_[i] (or normal).
     struct Place {
         double middle;
         double spread;
     };
     [[nodiscard]] Place place(std::size_t i, std::span<const double> y, double squares) const;
-    /// Conversions by the distribution for `given` preceding coordinates.
+    /// Convert between probabilities and scores by the distribution for `given` preceding
+    /// coordinates.
     [[nodiscard]] double score(const Share& share, std::size_t given) const;
     [[nodiscard]] Share share(double score, std::size_t given) const;
 
     std::size_t d_;
     std::vector<double> factor_;  ///< L, in row-major order
     std::optional<double> degrees_;
-    std::vector<MarginalPtr> laws_;  ///< Student's, given 0, 1, ... preceding coordinates
+    /// Student's distributions for 0, 1, ... preceding coordinates.
+    std::vector<MarginalPtr> laws_;
 };
 
 /// Correlation 2 sin(pi r / 6) of normal scores with Spearman's rank correlation r.
@@ -78,8 +80,8 @@ double score_correlation(double spearman);
 /// Whether a symmetric matrix with ones on its diagonal has a Cholesky factor.
 bool is_correlation(const std::vector<double>& matrix, std::size_t d);
 
-/// The nearest correlation matrix with a Cholesky factor, by the sum of squares; eigenvalues are at
-/// least 1e-6.
+/// The nearest correlation matrix, by the sum of squares, whose eigenvalues are at least about
+/// 1e-6, so that it has a Cholesky factor.
 ///
 /// Source  N. J. Higham, IMA J. Numer. Anal. 22 (2002) 329-343, doi:10.1093/imanum/22.3.329.
 std::vector<double> nearest_correlation(std::vector<double> matrix, std::size_t d);

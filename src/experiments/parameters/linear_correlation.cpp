@@ -26,7 +26,7 @@ double normal_density(double z) {
     return exponential(-z * z / 2) / std::sqrt(2 * std::numbers::pi);
 }
 
-/// Gauss's rule for the integral of f between two ends.
+/// Integral of f from low to high, by Gauss's rule with n nodes.
 template <std::size_t n, class F>
 double by_gauss(double low, double high, const F& f) {
     using Rule = boost::math::quadrature::gauss<double, n>;
@@ -41,13 +41,14 @@ double by_gauss(double low, double high, const F& f) {
     return half * sum;
 }
 
-/// Normal score for a probability `below`.
+/// Normal score with the probabilities `below` and `above` it.
 double score_of(double below, double above) {
     const double m = std::max(std::min(below, above), 1e-300);
     return detail::normal_quantile(below < above ? below - 0.5 : 0.5 - above, m);
 }
 
-/// Reduces increments to at most four with the same moments up to the seventh.
+/// Reduces increments to at most four with the same moments up to order seven; appends them to
+/// `out`.
 void gather(std::span<const Increment> many, std::vector<Increment>& out) {
     constexpr std::size_t nodes = 4;
     if (many.size() <= nodes) {
@@ -98,7 +99,7 @@ std::vector<Increment> mirrored(std::vector<Increment> increments) {
     return increments;
 }
 
-/// S(t). @param c, s cosine and sine of t
+/// S(t) of the header. @param c, s cosine and sine of t
 double slope(const std::vector<Increment>& a, const std::vector<Increment>& b, double c, double s) {
     const double reach = 12 * c;
     const double exponent = -0.5 / (c * c);
@@ -115,7 +116,8 @@ double slope(const std::vector<Increment>& a, const std::vector<Increment>& b, d
     return sum / (2 * std::numbers::pi);
 }
 
-/// Integral of S from an angle on, and the angle where it reaches a given value.
+/// Legendre series of S on an interval of angles: its integral, and the angle at which this reaches
+/// a value.
 class Part {
   public:
     template <class Slope>
@@ -134,7 +136,7 @@ class Part {
         for (const double c : series_) sum += c;  // each polynomial is 1 at the end
         return sum;
     }
-    /// The angle up to which the integral is `value`.
+    /// The angle at which the integral from the interval's start is `value`.
     [[nodiscard]] double reaching(double value) const {
         double low = -1, high = 1;
         for (int step = 0; step < 60; ++step) {
@@ -161,7 +163,8 @@ class Part {
         }
         return p;
     }
-    /// Integral from -1 to x, times half the width.
+    /// Integral of S over [-1, x], in the interval scaled to [-1, 1], times half the interval's
+    /// width.
     [[nodiscard]] double integral(double x) const {
         const auto p = legendre(x);
         double sum = series_[0] * (x + 1);
@@ -175,7 +178,7 @@ class Part {
     std::array<double, order> series_{};
 };
 
-/// The angle with this cosine in (0, 1], in the first quadrant.
+/// The angle in the first quadrant whose cosine is `cosine`, in (0, 1].
 double angle_of(double cosine) {
     return 2 * std::numbers::pi * turns_of(cosine, std::sqrt((1 - cosine) * (1 + cosine)));
 }
@@ -255,7 +258,7 @@ void Scored::take_cells() {
 }
 
 void Scored::take_panels() {
-    const auto matters = [&](double z) {  // whether increments beyond z matter
+    const auto matters = [&](double z) {  // whether increments beyond the score z matter
         const double size = at(z) / deviation_;
         return normal_distribution(-std::abs(z)) * std::max(1.0, size * size) > 1e-13;
     };
@@ -297,7 +300,7 @@ void Scored::add_panel(double low, double high, double x_low, double x_high) {
         increments_.push_back({(low + high) / 2, gained});
         return;
     }
-    // Weights of the rule, in the order of its evaluations.
+    // Weights of Gauss's rule, in the order in which it evaluates nodes.
     using Rule = boost::math::quadrature::gauss<double, 10>;
     for (std::size_t i = 0; i < nodes.size(); ++i)
         nodes[i].size *=
@@ -308,7 +311,7 @@ void Scored::add_panel(double low, double high, double x_low, double x_high) {
 
 namespace {
 
-/// Integral of f over the normal distribution; f must be smooth between cuts.
+/// Integral of f with respect to the normal distribution. Between cuts, f must be smooth.
 template <class F>
 double normal_mean(std::vector<double> cuts, const F& f) {
     for (double z = -farthest; z <= farthest; z += 0.5) cuts.push_back(z);
@@ -357,8 +360,8 @@ double Scored::scores_for(const Scored& other, double r) const {
              extreme(other, -1), extreme(other, 1));
     const double size = deviation_ * other.deviation_;
     const double wanted = std::abs(r);
-    // Kernels become narrower: the cosine is halved in each octave, down to the increments'
-    // resolution.
+    // Kernels become narrower with the angle: each octave halves the cosine, down to the resolution
+    // of the increments.
     const int octaves = stepped_ && other.stepped_ ? 21 : 4;
     double low = 0, reached = 0, rate = 0;
     for (int octave = 0; octave < octaves; ++octave) {
@@ -378,8 +381,8 @@ double Scored::scores_for(const Scored& other, double r) const {
         rate = part.end_slope();
         low = high;
     }
-    // Extrapolates from there to the end by a power of the remaining angle that has the computed
-    // slope.
+    // Extrapolates the covariance from the last angle to pi / 2 by a power of the remaining angle,
+    // with the same slope.
     const double width = std::numbers::pi / 2 - low;
     const double power = std::max(1.0, rate * width / (end - reached));
     const double left = exponential(logarithm((end - wanted) / (end - reached)) / power) * width;

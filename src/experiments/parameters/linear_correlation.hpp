@@ -7,11 +7,11 @@
 //     Cov(X, Y) = integral over [0, t] of S,
 //     S(t) = 1 / (2 pi) sum of dX(z) dY(w) exp(-(z^2 - 2 z w sin t + w^2) / (2 cos^2 t)),
 //
-// where the sum is over the increments of both. These are the steps of a discrete distribution; for
-// a continuous one, nodes of Gauss's rule on panels, which are halved until they yield the
-// increment of X. Many increments within a fraction of cos t are reduced to four with the same
-// moments (Gauss's rule for them). At the ends, t = +-pi / 2, the covariance is an integral over z
-// alone.
+// where the sum is over the increments of X and Y. For a discrete distribution these are its steps.
+// For a continuous one they are at the nodes of Gauss's rule on panels, which are halved until the
+// rule yields the difference of X over the panel. Many increments within a fraction of cos t are
+// replaced by four with the same moments (a Gauss rule). At the ends, t = +-pi / 2, the covariance
+// is an integral over z alone.
 //
 // Cost    some thousand quantiles per parameter, and 1 to 30 ms per pair.
 // Promise correlations within 1e-9 for steps, 1e-6 for other distributions that are smooth where
@@ -28,24 +28,25 @@
 
 namespace stipple::parameters {
 
-/// A parameter's numbers, or their mean ranks, as a function of the normal score.
+/// A parameter's numbers, or their mean ranks, as a function of its normal score.
 class Scored {
   public:
-    /// Quantity that is correlated: the numbers, or their mean ranks (F(x) + F(x-)) / 2.
+    /// Correlated quantity: the numbers, or their mean ranks (F(x) + F(x-)) / 2.
     enum class Of { numbers, ranks };
 
-    /// @throws Error(usage) if the variance is 0 or infinite, or comes from too far in the tails
+    /// @throws Error(usage) if the variance is 0 or infinite, or comes from too far out in the
+    /// tails
     Scored(MarginalPtr law, Of of);
 
-    /// Correlation of the scores for which this and the other parameter have the correlation r.
-    /// @throws Error(usage) naming the possible range, if there is none
+    /// Correlation of the scores for which this parameter and the other one have the correlation r.
+    /// @throws Error(usage) naming the possible range, if r is not possible
     [[nodiscard]] double scores_for(const Scored& other, double r) const;
 
-    /// Correlation of both parameters if that of their scores is `sign`, 1 or -1.
+    /// Correlation of the two parameters if that of their scores is `sign`: 1 or -1.
     [[nodiscard]] double extreme(const Scored& other, double sign) const;
 
     struct Increment {
-        double at;  ///< score
+        double at;  ///< normal score
         double size;
     };
 
@@ -56,19 +57,19 @@ class Scored {
     void add_panel(double low, double high, double x_low, double x_high);
     void settle();
 
-    /// Value at a score, relative to the mean.
+    /// number(z) minus the mean.
     [[nodiscard]] double at(double z) const;
-    /// The value itself.
+    /// Number, or mean rank, at the score z.
     [[nodiscard]] double number(double z) const;
-    /// Increments reduced for kernels that are at least `width` wide.
+    /// Increments, merged for kernels that are at least `width` wide.
     [[nodiscard]] std::vector<Increment> gathered(double width) const;
 
     MarginalPtr law_;
     bool ranks_;
     bool stepped_ = false;               ///< the increments are exactly the distribution's steps
     std::vector<Increment> increments_;  ///< ascending by score
-    std::vector<double> levels_;         ///< values between steps
-    std::vector<double> cuts_;           ///< limits of smooth pieces
+    std::vector<double> levels_;         ///< numbers or ranks between consecutive steps
+    std::vector<double> cuts_;           ///< limits of intervals on which number() is smooth
     double mean_ = 0;
     double deviation_ = 1;
 };

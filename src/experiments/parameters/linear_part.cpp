@@ -63,8 +63,8 @@ void LinearPart::move_inside(std::span<double> row) const {
 
 namespace {
 
-/// Half-spaces of an affine constraint; nullopt if it is not affine or has more variables than a
-/// polytope can.
+/// Half-spaces of an affine constraint; nullopt if it is not affine, or has more variables than a
+/// polytope may have.
 std::optional<std::vector<HalfSpace>> half_spaces(const Expression& constraint) {
     constexpr std::size_t most = 12;
     VariableNames own = constraint.variables();
@@ -122,7 +122,7 @@ std::optional<LinearPart> take_linear_part(const std::vector<UniformRange>& rang
         return part;
     } catch (const Error& e) {
         if (e.kind() != ErrorKind::limit) throw;
-        return std::nullopt;  // too large: falls back to rejection
+        return std::nullopt;  // the polytope is too large: rejection is used instead
     }
 }
 

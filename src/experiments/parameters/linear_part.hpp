@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Parameters joined by linear constraints: uniform on the polytope of their ranges and the
-// constraints (math/polytopes). The cube is mapped onto it, and no point is dropped. A constraint
-// qualifies if it is affine, and all its parameters are uniform on fixed ranges and in no copula:
+// Parameters joined by linear constraints: uniform on the polytope that their ranges and the
+// constraints bound (math/polytopes). The cube is mapped onto the polytope, and no point is
+// dropped. A constraint qualifies if it is affine, and all its parameters are uniform on fixed
+// ranges and in no copula:
 //
 //     {"range": [0, 2]}, {"range": [0, 2]}, "a + 2*b < 3 && a > b"
 //
-// Parameters that depend on these still follow their own conditional distributions. If other
-// constraints drop points, the remaining ones follow the distribution under all constraints.
+// Parameters that depend on the polytope's parameters still follow their conditional distributions.
+// If other constraints drop points, the remaining points follow the distribution under all
+// constraints.
 #pragma once
 
 #include <cstddef>
@@ -34,9 +36,9 @@ class LinearPart {
     /// Volume of the polytope as a fraction of the ranges' volume.
     [[nodiscard]] double share() const { return share_; }
 
-    /// Writes the coordinates into rows of all parameters. Points that rounding moved onto or
-    /// beyond a constraint are moved towards the middle until all constraints hold, strict ones
-    /// too.
+    /// Writes the polytope's coordinates into rows of all parameters. Points that rounding moved
+    /// onto or beyond a constraint are moved towards the middle until all constraints hold,
+    /// including strict ones.
     void from_cube(std::span<const double> cube, std::span<double> rows,
                    std::size_t dimension) const;
     void to_cube(std::span<const double> row, std::span<double> cube) const;
@@ -51,12 +53,13 @@ class LinearPart {
     std::vector<Expression> constraints_;
 };
 
-/// Range of a parameter with a uniform distribution; nullopt if it has another one, or depends on
-/// other parameters.
+/// Range of a parameter with a uniform distribution; nullopt if its distribution is not uniform or
+/// depends on other parameters.
 using UniformRange = std::optional<std::pair<double, double>>;
 
-/// Removes the constraints that form a polytope from the list. nullopt if there are none, or if the
-/// polytope is too large. @throws Error(usage) if no parameters satisfy them
+/// Makes a polytope from the linear constraints and removes them from the list; nullopt if there
+/// are no such constraints, or if the polytope is too large. @throws Error(usage) if no parameters
+/// satisfy them
 std::optional<LinearPart> take_linear_part(const std::vector<UniformRange>& ranges,
                                            std::vector<Expression>& constraints);
 

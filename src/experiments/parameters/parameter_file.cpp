@@ -24,7 +24,7 @@
 namespace stipple::parameters {
 namespace {
 
-/// A value of the file and its path, such as $.parameters[2].range.
+/// A value in the file and its path, such as $.parameters[2].range.
 class Place {
   public:
     Place(const Json& value, std::string path, const std::string& source)
@@ -36,7 +36,7 @@ class Place {
         throw Error(ErrorKind::input, fmt::format("{}: {}: {}", source_, path_, what), hint);
     }
 
-    /// Runs work() and reports its usage errors at this path.
+    /// Runs work(); its usage errors become errors at this path.
     template <class Work>
     auto naming(const Work& work) const {
         try {
@@ -70,7 +70,7 @@ class Place {
         return x;
     }
 
-    /// Rejects a value that is not an object, and unknown keys.
+    /// Rejects unknown keys, and a value that is not an object.
     void check_keys(const std::vector<std::string>& known, const char* expected) const {
         if (!value_.is_object()) refuse(expected);
         for (const auto& [key, ignored] : value_.items())
@@ -84,7 +84,7 @@ class Place {
     const std::string& source_;
 };
 
-/// A number, or a formula in the preceding parameters.
+/// A number, or a formula of the preceding parameters.
 struct Entry {
     double number = 0;
     std::optional<Expression> formula = {};
@@ -100,7 +100,7 @@ Entry entry_of(const Place& place, const FormulaNames& before) {
         [&] { return Entry{.formula = Expression("", place.value().get<std::string>(), before)}; });
 }
 
-/// Limits the numbers, since all of them are stored in the points' provenance.
+/// Limits the count of numbers, since all are stored in the points' provenance.
 void check_size(const Place& values, std::size_t count) {
     constexpr std::size_t most = 100'000;
     if (count > most)
@@ -178,7 +178,7 @@ class ParameterReader {
 
     /// A distribution's name and parameters.
     struct Law {
-        const char* key;  ///< the key that named it
+        const char* key;  ///< the key that selects the distribution
         std::string family;
         std::vector<std::pair<std::string, Entry>> numbers;
         std::optional<std::pair<Entry, Entry>> within = {};
@@ -313,8 +313,8 @@ class ParameterReader {
         });
     }
 
-    /// Probabilities of the levels from the file; equal ones if it has none. Whole numbers are
-    /// ratios, 2:1:1.
+    /// Probabilities of the levels from the file, or equal ones by default. Whole numbers are
+    /// ratios, such as 2:1:1.
     std::vector<double> probabilities(std::size_t count) const {
         std::vector<double> p(count, 1);
         bool ratios = true;
@@ -345,7 +345,7 @@ class ParameterReader {
     const FormulaNames& before_;
 };
 
-/// The dependence between parameters: at most one of both.
+/// Dependence between parameters: a copula, a reordering, or neither.
 struct Joint {
     std::optional<Copula> copula = {};
     std::optional<Reordering> reordering = {};
@@ -389,7 +389,7 @@ class CorrelationReader {
     }
 
   private:
-    /// Whether sets are reordered, instead of using a copula.
+    /// Whether the file requests a reordering of sets instead of a copula.
     bool read_reordering() const {
         if (!place_.has("reordering")) return false;
         const Place at = place_.at("reordering");
@@ -449,12 +449,12 @@ class CorrelationReader {
         const std::size_t d = parameters_.size();
         if (given_[i * d + j]) pair.refuse("the pair is given twice");
         given_[i * d + j] = given_[j * d + i] = true;
-        spearman_[i * d + j] = spearman_[j * d + i] = r;  // used only by a reordering
+        spearman_[i * d + j] = spearman_[j * d + i] = r;  // used only by reorderings
         const double scores = of_scores(pair, i, j, r, kind, student);
         matrix_[i * d + j] = matrix_[j * d + i] = scores;
     }
 
-    /// Correlation of the copula's scores for which the parameters have the correlation r.
+    /// Correlation of the copula's scores for which parameters i and j have the correlation r.
     double of_scores(const Place& pair, std::size_t i, std::size_t j, double r,
                      std::string_view kind, bool student) {
         const MarginalPtr& a = parameters_[i].law;
@@ -466,7 +466,8 @@ class CorrelationReader {
                 "ties",
                 student ? "" : "give \"spearman\"");
         if (kind == "kendall") return std::copysign(cos_sin_turns(std::abs(r) / 4).sin, r);
-        // If the parameter depends on others: correlation of its conditional probability.
+        // For a parameter that depends on others, r is the correlation of its conditional
+        // probability.
         if (kind == "spearman" && (!a || !b || !discrete)) return score_correlation(r);
         if (!a || !b)
             pair.refuse("the correlation of a parameter that depends on others cannot be computed");
@@ -483,7 +484,7 @@ class CorrelationReader {
         return *made;
     }
 
-    /// Reports the nearest possible correlations. @throws Error(input)
+    /// Reports the nearest possible correlations as a hint. @throws Error(input)
     [[noreturn]] void offer_nearest() const {
         const std::size_t d = parameters_.size();
         auto nearest = nearest_correlation(matrix_, d);
@@ -507,8 +508,8 @@ class CorrelationReader {
     std::vector<double> matrix_;  ///< correlations of the scores
     std::vector<double> spearman_;
     std::vector<bool> given_;
-    bool ranks_only_ = true;  ///< rank correlations of scores are those of the parameters
-    std::vector<std::shared_ptr<const Scored>> numbers_;  ///< per parameter; null until needed
+    bool ranks_only_ = true;  ///< rank correlations of the scores equal those of the parameters
+    std::vector<std::shared_ptr<const Scored>> numbers_;  ///< by parameter; null until needed
     std::vector<std::shared_ptr<const Scored>> ranks_;
 };
 
@@ -551,7 +552,7 @@ std::string one_line(std::string_view json, const std::string& source) {
 
 namespace {
 
-/// Numbers of the column in a file that the parameter names.
+/// Numbers in the column of a file that the parameter refers to.
 Json column_of(const Place& parameter, const RunContext& run) {
     const Place file = parameter.at("file");
     const std::string path = file.text("expected the name of a file");

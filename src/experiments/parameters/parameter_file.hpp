@@ -20,7 +20,7 @@ ParameterSpace parse_parameters(std::string_view json, const std::string& source
 /// @throws Error(input), Error(io)
 std::string text_with_columns(const std::string& path, const RunContext& run);
 
-/// The text on one line, for specs and provenance. @throws Error(input)
+/// The text of a parameter file on one line, for specs and provenance. @throws Error(input)
 std::string one_line(std::string_view json, const std::string& source);
 
 }  // namespace stipple::parameters

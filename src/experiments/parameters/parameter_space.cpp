@@ -7,15 +7,15 @@
 namespace stipple::parameters {
 namespace {
 
-/// Quantile; an infinite one is replaced by that at the smallest random number.
+/// Quantile. Replaces an infinite one by the quantile at the smallest random number.
 double place(const Marginal& law, const Share& share) {
     const Tail tail = share.below <= share.above ? Tail::lower : Tail::upper;
     const double x = law.quantile(std::min(share.below, share.above), tail);
     return std::isfinite(x) ? x : law.quantile(0x1p-54, tail);
 }
 
-/// Probabilities below and above x; for a discrete distribution, those of the middle of its
-/// interval.
+/// Probabilities below and above x; if the distribution is discrete, below and above the middle of
+/// x's interval.
 Share share_of(const Marginal& law, double x) {
     const Share at{law.probability(x, Tail::lower), law.probability(x, Tail::upper)};
     if (!law.discrete()) return at;

@@ -21,10 +21,10 @@ namespace stipple::parameters {
 struct Parameter {
     std::string name;
     std::string unit;
-    std::vector<std::string> levels;  ///< level names of the numbers 0, 1, ...; empty: numeric
-    MarginalPtr law;                  ///< its distribution; null: depends on preceding parameters
-    bool uniform = false;             ///< the distribution is uniform
-    /// Conditional distribution, given the preceding parameters.
+    std::vector<std::string> levels;  ///< names of the numbers 0, 1, ...; empty if numeric
+    MarginalPtr law;                  ///< distribution; null if it depends on preceding parameters
+    bool uniform = false;             ///< whether the distribution is uniform
+    /// Returns the distribution, given the preceding parameters.
     std::function<MarginalPtr(std::span<const double> before)> law_given = {};
 };
 
@@ -37,21 +37,23 @@ class ParameterSpace {
                    std::optional<Reordering> reordering = std::nullopt);
 
     [[nodiscard]] const std::vector<Parameter>& parameters() const { return parameters_; }
-    /// Parameters joined by linear constraints; null if there are none.
+    /// Parameters joined by linear constraints; null if there are no such constraints.
     [[nodiscard]] const LinearPart* linear() const { return linear_ ? &*linear_ : nullptr; }
-    /// Whether from_cube() maps onto the polytope, because rejection would keep too few points.
+    /// Whether from_cube() maps onto the polytope, since rejection would keep too few points.
     [[nodiscard]] bool maps_linear() const { return linear_ && linear_->share() < 0.1; }
-    /// Whether some rows of the cube are rejected.
+    /// Whether from_cube() rejects some rows.
     [[nodiscard]] bool rejects() const { return !others_.empty() || (linear_ && !maps_linear()); }
-    /// Whether all constraints are linear, and sets are not reordered.
+    /// Whether density() is normalized: all constraints are linear, and sets are not reordered.
     [[nodiscard]] bool density_known() const { return others_.empty() && !reordering_; }
     [[nodiscard]] bool has_copula() const { return copula_.has_value(); }
-    /// Reordering to be applied to a whole set before from_cube(), instead of a copula.
+    /// Reordering to be applied to a whole set before from_cube(), instead of a copula; nullopt if
+    /// there is none.
     [[nodiscard]] const std::optional<Reordering>& reordering() const { return reordering_; }
     [[nodiscard]] std::vector<std::string> names() const;
     [[nodiscard]] Levels levels() const;
 
-    /// Whether the parameter is a quantile of its own cube coordinate, unchanged by a copula.
+    /// Whether the parameter is the quantile of its own cube coordinate, which a copula does not
+    /// change.
     [[nodiscard]] bool takes_own(std::size_t k) const { return !copula_ || copula_->leaves(k); }
 
     /// Whether some parameter's distribution depends on others.
@@ -59,23 +61,23 @@ class ParameterSpace {
     /// Whether some parameter is discrete.
     [[nodiscard]] bool discrete() const { return discrete_; }
 
-    /// Maps a row of the unit cube to parameters. Returns false if they violate a constraint.
+    /// Maps a row of the unit cube to parameters; false if they violate a constraint.
     [[nodiscard]] bool from_cube(std::span<const double> cube, std::span<double> row) const;
 
-    /// Maps each parameter back through its own distribution, before constraints; a discrete value
-    /// to the middle of its interval.
+    /// Maps each parameter back by its own distribution, ignoring constraints. Discrete values map
+    /// to the middle of their interval.
     void to_cube(std::span<const double> row, std::span<double> cube) const;
 
     /// Whether every parameter has a possible value and all constraints hold.
     [[nodiscard]] bool contains(std::span<const double> row) const;
 
-    /// Density before nonlinear constraints and without a reordering; for discrete parameters,
-    /// probability.
+    /// Density without nonlinear constraints and without a reordering; for discrete parameters it
+    /// is a probability.
     [[nodiscard]] double density(std::span<const double> row) const;
 
   private:
     [[nodiscard]] bool in_linear(std::size_t k) const { return linear_ && linear_->holds(k); }
-    /// @param held keeps alive a distribution made for this row
+    /// Distribution of parameter k. @param held owns the distribution if it was made for this row
     [[nodiscard]] const Marginal& law(std::size_t k, std::span<const double> row,
                                       MarginalPtr& held) const;
     [[nodiscard]] std::vector<Share> shares(std::span<const double> row) const;

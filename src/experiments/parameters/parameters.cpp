@@ -6,15 +6,15 @@
 //
 //     x_k = F_k^-1(v_k | x_1 ... x_(k-1)),    v = copula(u)
 //
-// Linear constraints on parameters that are uniform on ranges restrict these to a polytope, and
+// Linear constraints on uniformly distributed parameters restrict these to a polytope, so that
 // densities remain known. If the polytope is less than a tenth of the ranges' volume, the cube is
 // mapped onto it, and no point is dropped (linear_part.hpp). Otherwise points are rejected, which
 // preserves neighbours and strata.
 //
 // Shape   one unit coordinate per parameter.
-// Strata  without a copula, xi is used directly, even if sets are reordered. With one, the strata
-//         of the first parameter that it joins are preserved. On a polytope, the first parameter's
-//         xi selects a simplex.
+// Strata  without a copula, xi is used directly, even if sets are reordered. With a copula, the
+//         strata of the first parameter that it joins are preserved. On a polytope, the first
+//         parameter's xi selects a simplex.
 // Cost    that of the quantiles, and d^2 / 2 multiplications for a copula; about 50 ns per
 //         constraint; for a polytope, about 20 ns a coordinate.
 // Promise no point violates a constraint. The inverse of an outcome is the middle of its interval.
@@ -62,8 +62,8 @@ class ParameterDomain final : public NamedDomain {
         axes_ = each_->domain().get();
     }
 
-    /// The mapping of each coordinate alone, if the parameters are independent apart from linear
-    /// constraints; else null.
+    /// Mapping of each coordinate alone, if the parameters are independent except for linear
+    /// constraints; otherwise null.
     const Mapping* by_axes() const {
         return axes_ != nullptr && !space_.has_copula() && space_.density_known() ? each_.get()
                                                                                   : nullptr;
@@ -95,7 +95,7 @@ class ParameterDomain final : public NamedDomain {
         to_own_cube(point, cube);
         if (linear()) linear()->to_cube(point, cube);
     }
-    /// Inverse that ignores constraints.
+    /// Inverse of the parameters' distributions; ignores constraints.
     void to_own_cube(std::span<const double> point, std::span<double> cube) const {
         by_axes() ? axes_->to_cube(point, cube) : space_.to_cube(point, cube);
     }
@@ -162,8 +162,8 @@ class ParameterDomain final : public NamedDomain {
                  "ranges");
     }
 
-    /// Estimated from some images, for dependent distributions; fewer images if there are many
-    /// parameters.
+    /// Bounding box of some images, for distributions that depend on other parameters. Uses fewer
+    /// images if there are many parameters.
     Box box_of_images() const {
         const std::size_t d = dimension();
         const std::size_t count = std::clamp<std::size_t>(0x100000 / d, 64, 4096);
@@ -183,8 +183,8 @@ class ParameterDomain final : public NamedDomain {
     const Domain* axes_ = nullptr;   ///< the domain of each_
 };
 
-/// Mapping onto the parameters or, if `in_cube`, onto the cube's points whose parameters satisfy
-/// all constraints.
+/// Mapping onto the parameters or, if `in_cube`, onto those points of the cube whose parameters
+/// satisfy all constraints.
 class ParameterMapping final : public Mapping {
   public:
     ParameterMapping(std::shared_ptr<const ParameterDomain> parameters, bool in_cube)
@@ -246,7 +246,8 @@ class ParameterMapping final : public Mapping {
     bool in_cube_;
 };
 
-/// Domain with the text in its spec. @param source name of the text in messages
+/// Domain whose spec contains the text of a parameter file. @param source name of the text in
+/// messages
 std::shared_ptr<const ParameterDomain> domain_of(const std::string& text,
                                                  const std::string& source) {
     return std::make_shared<const ParameterDomain>(

@@ -28,7 +28,7 @@ struct Ranked {
     }
 };
 
-/// Ranks of the points; sorts the items.
+/// Sorts the items, and returns the ranks of the points.
 Ranks ranks_of(std::vector<Ranked>& items) {
     std::ranges::sort(items, std::less{});
     Ranks ranks(items.size());
@@ -46,7 +46,7 @@ std::vector<double> van_der_waerden(std::size_t n) {
     return scores;
 }
 
-/// P Q^-1 of lower triangular matrices.
+/// P Q^-1, for lower triangular P and Q.
 std::vector<double> quotient(const std::vector<double>& p, const std::vector<double>& q,
                              std::size_t d) {
     std::vector<double> s(d * d);
@@ -59,7 +59,7 @@ std::vector<double> quotient(const std::vector<double>& p, const std::vector<dou
     return s;
 }
 
-/// The numbers of a set sorted by coordinate, and the scores of their ranks.
+/// A set with its numbers sorted by coordinate, and with the scores of their ranks.
 class ScoredSet {
   public:
     ScoredSet(std::span<const double> rows, const std::vector<MarginalPtr>& laws,
@@ -121,7 +121,7 @@ class ScoredSet {
         return e;
     }
 
-    /// Ranks of R S^T; S is lower triangular with S_00 = 1.
+    /// Ranks of the points in R S^T, where S is lower triangular with S_00 = 1.
     [[nodiscard]] std::vector<Ranks> transformed(const std::vector<double>& s) const {
         std::vector<Ranks> ranks(d_, ranks_[0]);
         for_each_block(run_, d_ - 1, 1, [&](const Block& column) {
@@ -136,7 +136,7 @@ class ScoredSet {
         return ranks;
     }
 
-    /// Writes to each point the number of its rank, in every coordinate.
+    /// Writes to each coordinate of each point the number with the point's rank.
     void give_out(const std::vector<Ranks>& ranks, std::span<double> rows) const {
         for (std::size_t k = 0; k < d_; ++k)
             for (std::size_t i = 0; i < scores_.size(); ++i)
@@ -144,7 +144,8 @@ class ScoredSet {
     }
 
   private:
-    /// Ranks of a coordinate relative to their mean; equal parameters get the mean of their ranks.
+    /// Computes mean_ranks_ of a coordinate. Numbers that give equal parameters get the mean of
+    /// their ranks.
     void rank_equals(std::size_t k, const MarginalPtr& law) {
         const auto& numbers = numbers_[k];
         const auto parameter = [&](double u) { return law ? law->quantile(u) : u; };
@@ -162,14 +163,16 @@ class ScoredSet {
 
     std::size_t d_;
     RunContext run_;
-    std::vector<double> scores_;                   ///< scores of the ranks 0, 1, ...
-    std::vector<Ranks> ranks_;                     ///< ranks of the points, by coordinate
-    std::vector<std::vector<double>> numbers_;     ///< sorted numbers, by coordinate
-    std::vector<std::vector<double>> mean_ranks_;  ///< mean ranks of these, from the middle
+    std::vector<double> scores_;                ///< scores of the ranks 0, 1, ...
+    std::vector<Ranks> ranks_;                  ///< ranks of the points, by coordinate
+    std::vector<std::vector<double>> numbers_;  ///< numbers in ascending order, by coordinate
+    /// Mean ranks of numbers_, relative to the middle rank.
+    std::vector<std::vector<double>> mean_ranks_;
     std::vector<std::uint8_t> tied_;
 };
 
-/// Adjusts the correlations of the scores until the ranks have the requested correlations.
+/// Adjusts the requested correlations of the scores until the ranks have the requested
+/// correlations.
 class Corrections {
   public:
     Corrections(const std::vector<double>& spearman, std::vector<double> scores,
@@ -183,8 +186,8 @@ class Corrections {
 
     [[nodiscard]] const std::vector<double>& asked() const { return asked_; }
 
-    /// Adds the ranks' remaining error to the requested score correlations; returns the largest
-    /// error, in terms of scores.
+    /// Adds the remaining error of the rank correlations to the requested score correlations.
+    /// Returns the largest error, converted to scores.
     double correct(const std::vector<Ranks>& ranks) {
         double worst = 0;
         for (std::size_t j = 0; j < d_; ++j)
@@ -201,7 +204,8 @@ class Corrections {
     double next(std::size_t j, std::size_t k, double lacks) {
         const double now = asked_[j * d_ + k];
         if (!set_.tied(j) && !set_.tied(k)) return now + lacks;
-        double& step = step_[j * d_ + k];  // ranks of ties respond more, or less, to scores
+        // Factor for the error, since ties make ranks respond more, or less, to scores.
+        double& step = step_[j * d_ + k];
         double& before = before_[j * d_ + k];
         if (std::abs(lacks) > std::abs(before) / 2 && before != 0)
             step = lacks * before < 0 ? step / 2 : std::min(1.5 * step, 8.0);
@@ -215,10 +219,10 @@ class Corrections {
     std::size_t d_;
     std::vector<double> asked_;  ///< correlations requested for the scores
     std::vector<double> step_;
-    std::vector<double> before_;  ///< previous error
+    std::vector<double> before_;  ///< previous errors
 };
 
-/// Q. @throws Error(input) if there is none
+/// Q of the header. @throws Error(input) if the scores' correlations have no Cholesky factor
 std::vector<double> factor_of(const ScoredSet& set, const std::vector<std::string>& names) {
     const std::size_t d = names.size();
     for (std::size_t k = 0; k < d; ++k)

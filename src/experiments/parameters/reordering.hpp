@@ -7,19 +7,20 @@
 //     T = R S^T,   S = P Q^-1,   P P^T = C,   Q Q^T = E,
 //
 // where E are the correlations of the scores and C the requested ones, 2 sin(pi r / 6) for a rank
-// correlation r. Point i gets the number of coordinate k whose rank is that of T_ik. The ranks'
-// remaining error is added to C, and the scores are transformed again as long as that helps. For
-// parameters with ties, whose ranks are averaged, a multiple of the error is added.
+// correlation r. In coordinate k, point i gets the number whose rank equals the rank of T_ik. The
+// remaining error of the rank correlations is added to C, and the scores are transformed again, as
+// long as that reduces the error. For parameters with ties, whose ranks are averaged, a multiple of
+// the error is added.
 //
-// The paper uses random scores. Here they are the scores of the points themselves, so that their
-// existing order is the starting point and nothing is random.
+// The paper uses random scores. Here the scores are those of the points themselves, so that the
+// existing order of the points is the starting point and nothing is random.
 //
 // Shape   n > d points of d coordinates; no coordinate is the same in all points.
 // Cost    up to 11 rounds, 31 with ties, of d sorts of n numbers and n d^2 multiplications; 36 n d
 //         bytes.
-// Promise each coordinate keeps its numbers exactly: a Latin hypercube remains one. The first
-//         coordinate also keeps its order. Equal numbers are ordered by point, equal scores by
-//         number. The same bits on every machine.
+// Promise each coordinate keeps its numbers exactly: a Latin hypercube remains a Latin hypercube.
+//         The first coordinate also keeps its order. Equal numbers are ordered by point, equal
+//         scores by number. The same bits on every machine.
 // Source  R. L. Iman, W. J. Conover, Commun. Statist. B 11 (1982) 311-334,
 //         doi:10.1080/03610918208812265.
 #pragma once
@@ -40,15 +41,15 @@ using Ranks = std::vector<std::uint32_t>;
 class Reordering {
   public:
     /// @param spearman requested rank correlations, d x d in row-major order
-    /// @param scores correlations of scores that give them; a valid matrix
-    /// @param names of the coordinates, for messages
-    /// @param laws distributions that map coordinates to the ranked parameters, for discrete ones;
-    /// else null
+    /// @param scores correlations of the scores that produce these; a valid correlation matrix
+    /// @param names names of the coordinates, for messages
+    /// @param laws for each coordinate the distribution of a discrete parameter, whose ranks are
+    /// used; null for others
     Reordering(std::vector<double> spearman, std::vector<double> scores,
                std::vector<std::string> names, std::vector<MarginalPtr> laws);
 
-    /// Reorders a whole set, in place. Reports rank correlations that could not be reached.
-    /// @throws Error(input) for too few points, and if some coordinates have the same order;
+    /// Reorders a whole set in place. Reports rank correlations that could not be reached. @throws
+    /// Error(input) if there are too few points, or if some coordinates have the same order;
     /// Error(limit), Error(cancelled)
     void apply(std::span<double> rows, const RunContext& run) const;
 
