@@ -11,7 +11,7 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// Quantile at p of the finite values; NaN if there are none.
+/// The p-quantile of the finite values; NaN if there are none.
 double quantile(std::vector<double>& values, double p) {
     std::erase_if(values, [](double v) { return !std::isfinite(v); });
     if (values.empty()) return none;
@@ -24,7 +24,7 @@ double quantile(std::vector<double>& values, double p) {
     return *low + (at - static_cast<double>(below)) * (next - *low);
 }
 
-/// Means of the terms over resampled rows, one for each uniform number.
+/// Means of the terms over one resample. Each uniform number selects a row.
 void take_means(const TermTable& table, std::span<const double> uniform, std::span<double> means) {
     const auto rows = static_cast<double>(table.rows());
     std::ranges::fill(means, 0.0);

@@ -5,9 +5,9 @@
 //
 // The interval's ends are quantiles of the resampled statistics, at the levels Phi(-+ sqrt(n / (n -
 // 1)) t_(n-1)) that make it Student's interval for n rows instead of the normal one. Their
-// distances from the statistic are stretched by 1 + caution / n, because resamples show neither the
-// skewness of a few terms, nor that rows of a low-discrepancy base may be alike in some coordinates
-// and count as fewer.
+// distances from the statistic are stretched by 1 + caution / n, for two effects that resamples do
+// not show: a few rows may hide the skewness of the terms, and rows of a low-discrepancy base may
+// be alike in some coordinates, so that their effective number is smaller.
 //
 // Cost    resamples x rows x terms additions; 0.4 s for 1000 x 2^14 x 24 on one core.
 // Promise the same for any number of threads: resample b depends only on the seed and b.
@@ -25,7 +25,7 @@
 
 namespace stipple::analyzers::sensitivity {
 
-/// Terms of samples, one row each.
+/// Table with one row of terms per sample.
 struct TermTable {
     std::vector<double> terms;
     std::size_t width;
@@ -33,17 +33,17 @@ struct TermTable {
     [[nodiscard]] std::size_t rows() const { return terms.size() / width; }
 };
 
-/// Writes statistics that depend on the means of the terms.
+/// Computes statistics from the means of the terms.
 using Statistics = std::function<void(std::span<const double> means, std::span<double> values)>;
 
-inline constexpr std::size_t least_rows = 10;  ///< fewer rows give no intervals
+inline constexpr std::size_t least_rows = 10;  ///< with fewer rows, there are no intervals
 
-/// Returns `count` statistics of all rows, each with its interval.
+/// Returns the first `count` statistics, computed from all rows, with their bootstrap intervals.
 std::vector<Index> bootstrapped(const TermTable& table, std::size_t count,
                                 const Statistics& statistics, double caution,
                                 const Setting& setting, const RunContext& run);
 
-/// Returns `count` indices from `first` on.
+/// Returns the `count` elements of `all` that begin at `first`.
 inline std::vector<Index> part_of(std::span<const Index> all, std::size_t first,
                                   std::size_t count) {
     const auto part = all.subspan(first, count);

@@ -32,7 +32,8 @@ Centred centred(std::span<const double> y) {
     const auto [low, high] = std::ranges::minmax(y);
     const double largest = std::max(std::abs(low), std::abs(high));
     if (!(largest > 0)) return {.z = {y.begin(), y.end()}};
-    // Sums of differences from the middle are as accurate as the differences, not as the numbers.
+    // Sums of differences from the middle have the rounding errors of the differences, which are
+    // smaller than those of the numbers.
     const double middle = low / 2 + high / 2;
     const double reach = std::max(high / 2 - low / 2, std::numeric_limits<double>::min());
     Centred out{.z = {y.begin(), y.end()}, .unit = reach};
@@ -86,7 +87,7 @@ double interval_quantile(double level, std::size_t freedom) {
 
 namespace {
 
-/// Inputs in [0, 1] by the domain's distributions.
+/// Maps inputs to [0, 1] by the distributions of their domain.
 std::vector<double> by_domain(const Inputs& inputs) {
     std::vector<double> u;
     u.reserve(inputs.runs() * inputs.size());
@@ -98,7 +99,7 @@ std::vector<double> by_domain(const Inputs& inputs) {
     return u;
 }
 
-/// Inputs in [0, 1] without a known domain: unchanged, or scaled by their extremes.
+/// Maps inputs without a known domain to [0, 1]: unchanged, or scaled by their extremes.
 UnitInputs as_they_lie(const PointSet& values) {
     const auto flat = values.flat();
     UnitInputs out{.u = {flat.begin(), flat.end()}, .scale = "cube"};
@@ -107,7 +108,7 @@ UnitInputs as_they_lie(const PointSet& values) {
     out.scale = "range";
     for (std::size_t i = 0; i < out.u.size(); ++i) {
         const std::size_t j = i % values.dimension();
-        // Halves, because the difference of two doubles may overflow.
+        // Uses halves, because the difference of two doubles may overflow.
         const double extent = box.high[j] / 2 - box.low[j] / 2;
         out.u[i] = extent > 0 ? (out.u[i] / 2 - box.low[j] / 2) / extent : 0.5;
     }

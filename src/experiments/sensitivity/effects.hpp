@@ -19,21 +19,22 @@ namespace stipple::analyzers::sensitivity {
 
 inline constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Inputs of a model in its runs, one row each.
+/// Inputs of all runs of a model, one row per run.
 struct Inputs {
     std::vector<std::string> names = {};
     PointSet values;
     std::string generator = {};  ///< generator of the inputs; empty if unknown
 
     DomainPtr domain = {};  ///< domain with the inputs as coordinates; null if unknown
-    PointSet points = {};   ///< all coordinates of the domain, in each run
-    std::vector<std::size_t> coordinates = {};  ///< positions of the inputs among these
+    PointSet points = {};   ///< all coordinates of the domain, one row per run
+    /// Positions of the inputs among the domain's coordinates.
+    std::vector<std::size_t> coordinates = {};
 
     [[nodiscard]] std::size_t runs() const { return values.count(); }
     [[nodiscard]] std::size_t size() const { return values.dimension(); }
 };
 
-/// One output of the model in these runs; NaN where a run failed.
+/// One output of a model in all runs; NaN where the run failed.
 struct Response {
     std::string name;
     std::vector<double> y;
@@ -41,14 +42,14 @@ struct Response {
 
 /// Options of the estimates.
 struct Setting {
-    std::size_t bootstrap = 1000;  ///< resamples; 0: no intervals from them
+    std::size_t bootstrap = 1000;  ///< number of resamples; 0: no bootstrap intervals
     double level = 0.95;
     std::uint64_t seed = 1;
-    std::optional<std::size_t> harmonics = {};  ///< M of fast; default: from the curves
-    std::optional<std::size_t> degree = {};     ///< degree of chaos; default: chosen
+    std::optional<std::size_t> harmonics = {};  ///< M of fast; by default that of the curves
+    std::optional<std::size_t> degree = {};     ///< degree of chaos; chosen by default
 };
 
-/// A number with its interval; NaN if unknown.
+/// An index with its interval; unknown numbers are NaN.
 struct Index {
     double value = 0;
     double low = none;
@@ -69,38 +70,40 @@ struct PairIndex {
 
 /// Results of a method for one output.
 struct Effects {
-    std::uint64_t used = 0;     ///< number of runs
-    std::uint64_t samples = 0;  ///< number of independent samples among them, such as base rows
+    std::uint64_t used = 0;     ///< number of runs used
+    std::uint64_t samples = 0;  ///< number of independent samples, such as base rows, in these runs
     double mean = none;
     double variance = none;
     std::vector<IndexKind> kinds = {};
     std::vector<PairIndex> pairs = {};
-    Report details = {};                    ///< further numbers of the method
-    std::string no_intervals = {};          ///< why intervals are left out; empty if they are not
-    std::vector<std::string> missing = {};  ///< reason for each input without indices; may be empty
+    Report details = {};            ///< other results of the method
+    std::string no_intervals = {};  ///< why intervals are left out; empty if they are given
+    /// For each input without indices, the reason; may be empty.
+    std::vector<std::string> missing = {};
 };
 
-/// Rows of a design as a method groups them; if they do not fit, the reason.
+/// How a method groups the rows of a design; if the rows do not fit, the reason.
 struct Layout {
-    std::size_t group = 0;      ///< number of rows that belong together
-    bool star = false;          ///< morris: whether rows move from their group's first row
+    std::size_t group = 0;  ///< number of rows that belong together
+    /// Morris: every row of a group differs from its first row, not from the previous one.
+    bool star = false;
     std::size_t harmonics = 0;  ///< M of fast
     std::string trouble = {};
 
     explicit operator bool() const { return trouble.empty(); }
 };
 
-/// Numbers with mean 0 and largest magnitude 1, whose squares fit a double.
+/// Numbers scaled to mean 0 and largest magnitude 1, so that their squares fit a double.
 struct Centred {
     std::vector<double> z;
     double mean = 0;
-    double unit = 1;  ///< original numbers are mean + unit z
+    double unit = 1;  ///< the original numbers are mean + unit z
 
-    /// Mean square.
+    /// Mean square of z, which is the variance in units of unit^2.
     [[nodiscard]] double variance() const;
 };
 
-/// Whether numbers differ at most by rounding, so that there is no variance to share.
+/// Whether numbers differ at most by rounding, so that there is no variance to explain.
 bool is_constant(std::span<const double> y);
 
 Centred centred(std::span<const double> y);
@@ -109,24 +112,24 @@ Centred centred(std::span<const double> y);
 std::vector<std::size_t> succeeded(std::span<const double> y);
 std::vector<double> picked(std::span<const double> y, std::span<const std::size_t> runs);
 
-/// Indices of the groups of `group` consecutive runs without a failed one.
+/// Indices of the groups of `group` consecutive runs in which no run failed.
 std::vector<std::size_t> complete_groups(std::span<const double> y, std::size_t group);
 
-/// With fewer runs, methods for any design give no intervals.
+/// With fewer runs, the methods for any design do not compute intervals.
 inline constexpr std::size_t least_for_intervals = 20;
 std::string too_few_for_intervals(std::size_t count, std::size_t least, const char* of_what);
 
-/// Student's quantile for a two-sided interval of this level.
+/// Student's quantile for a two-sided interval of the given level.
 double interval_quantile(double level, std::size_t freedom);
 
-/// Inputs in [0, 1], run after run; uniform as far as their distributions are known.
+/// Inputs in [0, 1], run after run; uniform if their distributions are known.
 struct UnitInputs {
     std::vector<double> u;
-    const char* scale;  ///< "cube", "box", "distributions", "range"
+    const char* scale;  ///< how inputs were scaled: "cube", "box", "distributions" or "range"
 };
 
-/// Uses the distributions of the inputs' domain if they are known. Otherwise inputs stay as they
-/// are if all are in [0, 1], like points without provenance, or are scaled by their extremes.
+/// Maps inputs to [0, 1] by the distributions of their domain, if known. Otherwise inputs remain
+/// unchanged if all are in [0, 1], like points without provenance, or are scaled by their extremes.
 UnitInputs unit_inputs(const Inputs& inputs);
 
 /// (rank - 1/2) / n of each of n numbers; equal numbers have the mean of their ranks.

@@ -9,8 +9,9 @@
 // probabilities F_i(x_i) if the distributions of the inputs are known (unit_inputs).
 //
 // Shape   n = r (k + 1) rows: trajectories of k + 1 consecutive rows, in which each input moves
-//         once. A discrete input may stay the same in some, which then have no effect of it.
-// Units   mu, mu* and sigma are those of the output: steps are of inputs in [0, 1].
+//         once. A discrete input may stay the same in some trajectories, which then have no effect
+//         for it.
+// Units   mu, mu* and sigma have the unit of the output, since inputs are scaled to [0, 1].
 // Cost    O(n k), and the bootstrap over trajectories.
 // Source  M. D. Morris, Technometrics 33 (1991) 161-174, doi:10.1080/00401706.1991.10484804; mu*:
 //         F. Campolongo, J. Cariboni, A. Saltelli, Environ. Model. Softw. 22 (2007) 1509-1518,
@@ -38,14 +39,14 @@ std::size_t moved(std::span<const double> from, std::span<const double> to) {
     return found;
 }
 
-/// Row from which `row` moves.
+/// Index of the row from which the move to `row` begins.
 std::size_t origin_of(std::size_t row, std::size_t group, bool star) {
     return star ? row - row % group : row - 1;
 }
 
-/// Checks that rows in groups of k + 1 move one coordinate each, from the previous row or, in a
-/// star, from the first of their group. Skips rows that do not move, as is possible for discrete
-/// inputs.
+/// Checks that in groups of k + 1 rows each row moves in one coordinate, from the previous row or,
+/// in a star, from the first row of its group. Accepts rows that do not move, which may occur with
+/// discrete inputs.
 Layout find_moves(const PointSet& design, bool star) {
     const std::size_t k = design.dimension();
     const std::size_t group = k + 1;
@@ -73,8 +74,8 @@ Layout find_moves(const PointSet& design, bool star) {
     return {.group = group, .star = star};
 }
 
-/// Terms EE - c, |EE|, (EE - c)^2 and 1 of each input, one row per trajectory, where c is the mean
-/// effect. All are 0 if the input did not move.
+/// Terms EE - c, |EE|, (EE - c)^2 and 1 for each input, one row per trajectory, where c is the mean
+/// effect. Terms are 0 if the input did not move.
 struct EffectTable {
     TermTable terms;
     std::vector<double> centre;
@@ -111,7 +112,7 @@ EffectTable effect_table(const Layout& layout, const PointSet& design, std::span
     return table;
 }
 
-/// Power of two near the largest magnitude of the outputs that did not fail; a normal number.
+/// A power of two near the largest magnitude of the outputs that are not NaN. Never subnormal.
 double size_of(std::span<const double> y) {
     double largest = std::numeric_limits<double>::min();
     for (const double value : y)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Extended FAST: the design has a curve for each input i. On this curve the input oscillates with a
-// high frequency w = floor((N - 1) / (2 M)), and all others with frequencies up to w / (2 M). With
-// the power P(f) = |1/N sum_s y_s exp(-2 pi i f s / N)|^2 of the output along the curve,
+// Extended FAST: the design has a curve for each input i. On this curve input i oscillates with a
+// high frequency w = floor((N - 1) / (2 M)), and all other inputs with frequencies up to w / (2 M).
+// With the power P(f) = |1/N sum_s y_s exp(-2 pi i f s / N)|^2 of the output along the curve,
 //
 //     S_i = sum_{p = 1..M} P(p w) / V,    ST_i = 1 - sum_{f = 1..w/2} P(f) / V,
 //
@@ -27,7 +27,7 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// Fourier powers along curves of n outputs.
+/// Fourier powers of n outputs along a curve.
 class Spectrum {
   public:
     Spectrum(std::size_t n, std::size_t harmonics)
@@ -58,7 +58,7 @@ class Spectrum {
         return {own_share(y, all), 1 - others / all};
     }
 
-    /// Fraction of the variance `all` that the harmonics of w contain.
+    /// Fraction of the variance `all` that is at the harmonics of w.
     [[nodiscard]] double own_share(std::span<const double> y, double all) const {
         double own = 0;
         for (std::size_t p = 1; p <= harmonics_; ++p) own += 2 * power(y, p * frequency_);
@@ -85,7 +85,8 @@ class Spectrum {
     std::vector<CosSin> turns_;
 };
 
-/// Centred ranks of coordinate j along curve i of n rows; ranks do not depend on the distribution.
+/// Ranks of coordinate j along curve i of n rows, minus their mean. Ranks do not depend on the
+/// distribution of the coordinate.
 std::vector<double> along(const PointSet& design, std::size_t i, std::size_t j, std::size_t n) {
     std::vector<double> x(n);
     for (std::size_t s = 0; s < n; ++s) x[s] = design[i * n + s][j];
@@ -94,8 +95,8 @@ std::vector<double> along(const PointSet& design, std::size_t i, std::size_t j, 
     return x;
 }
 
-/// Returns M of a closed curve with the frequency w = floor((n - 1) / (2 M)), from its 2 w
-/// crossings of the mean. As n > 4 M^2, no other M has this w. 0 if there is none.
+/// Determines M of a closed curve with the frequency w = floor((n - 1) / (2 M)) from its 2 w
+/// crossings of the mean. Since n > 4 M^2, no other M has this w. Returns 0 if no M fits.
 std::size_t harmonics_of(std::span<const double> curve) {
     std::size_t crossings = 0;
     for (std::size_t s = 0; s < curve.size(); ++s)
@@ -123,7 +124,7 @@ Layout find_curves(const PointSet& design, std::optional<std::size_t> asked,
         return {.trouble = fmt::format("curves have {} rows, but {} harmonics need {}", n,
                                        harmonics, 4 * harmonics * harmonics + 1)};
     const Spectrum spectrum(n, harmonics);
-    // A triangle wave has 0.998 for M = 4; discrete inputs have less.
+    // For M = 4 the fraction is 0.998 for a triangle wave; it is smaller for discrete inputs.
     constexpr double own_least = 0.7;
     constexpr double others_most = 0.1;
     for (std::size_t i = 0; i < k; ++i)

@@ -20,7 +20,7 @@ void subtract(std::vector<double>& from, double factor, std::span<const double> 
     for (std::size_t i = 0; i < from.size(); ++i) from[i] -= factor * b[i];
 }
 
-/// One fit, which grows column by column; q is an orthonormal basis of the columns in it.
+/// A fit that grows column by column; q_ is an orthonormal basis of its columns.
 class Pursuit {
   public:
     Pursuit(const Candidates& candidates, std::span<const double> z, const RunContext& run)
@@ -76,7 +76,7 @@ class Pursuit {
         return sums;
     }
 
-    /// Adds the column that correlates most with the residual; false if none is left.
+    /// Adds the column that correlates most with the residual; false if no usable column is left.
     bool take_next() {
         run_.check_stop();
         const auto products = column_sums([](double v, double rest) { return v * rest; });
@@ -94,12 +94,12 @@ class Pursuit {
         }
     }
 
-    /// Adds a column; false if it depends linearly on those in the fit.
+    /// Adds a column; false if it depends linearly on the columns of the fit.
     bool orthogonalized(std::size_t column) {
         std::vector<double> v(n_);
         for (std::size_t i = 0; i < n_; ++i) v[i] = row(i)[column];
         std::vector<double> r(q_.size(), 0.0);
-        for (int pass = 0; pass < 2; ++pass)  // two passes give orthogonality
+        for (int pass = 0; pass < 2; ++pass)  // a second pass makes v orthogonal despite rounding
             for (std::size_t s = 0; s < r.size(); ++s) {
                 const double part = dot(q_[s], v);
                 r[s] += part;
@@ -114,7 +114,7 @@ class Pursuit {
         return true;
     }
 
-    /// Appends the basis vector q, whose column of R is (r, norm).
+    /// Appends the basis vector q; its column of R consists of r and norm.
     void append(std::vector<double> q, std::span<const double> r, double norm) {
         std::vector<double> column(r.size() + 1, 0.0);
         for (std::size_t s = 0; s < r.size(); ++s)
@@ -155,9 +155,9 @@ class Pursuit {
     double trace_ = 0;           ///< trace of the inverse of the Gram matrix
     double least_ = 1;
     std::vector<std::size_t> chosen_;
-    std::vector<std::vector<double>> q_;     ///< orthonormal basis, the constant first
-    std::vector<std::vector<double>> back_;  ///< columns of the inverse of R, upper triangular
-    std::vector<double> along_;              ///< products q . z
+    std::vector<std::vector<double>> q_;  ///< orthonormal basis of the columns, the constant first
+    std::vector<std::vector<double>> back_;  ///< columns of the upper triangular inverse of R
+    std::vector<double> along_;              ///< products of z with the basis vectors
 };
 
 }  // namespace

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // Orthogonal matching pursuit: adds terms to a least squares fit one by one, each time the term
-// that correlates most with the residual. It keeps the number of terms t with the least
+// that correlates most with the residual. It keeps the number of terms t that minimizes
 //
 //     (mean square of e_i / (1 - h_i)) n / (n - t) (1 + trace of inverse Gram matrix) P^(2t/n)
 //
-// of terms chosen from P candidates, where e_i / (1 - h_i) are the leave-one-out errors. The last
-// factor makes up for choosing the best of P candidates, which reduces the error even of pure
+// for terms chosen from P candidates, where e_i / (1 - h_i) are the leave-one-out errors. The last
+// factor compensates for choosing the best of P candidates, which reduces the error even for pure
 // noise.
 //
 // Source  Y. C. Pati, R. Rezaiifar, P. S. Krishnaprasad, Asilomar Conf. 27 (1993) 40-44,
@@ -25,7 +25,7 @@ namespace stipple::analyzers::sensitivity {
 
 inline constexpr std::size_t most_terms = 300;  ///< largest number of terms in a fit
 
-/// Candidate terms: the columns of a table, stored row by row. The fit uses some of the rows.
+/// Candidate terms: the columns of a table, stored row by row. The fit uses only some of the rows.
 struct Candidates {
     std::span<const double> values;
     std::size_t columns;
@@ -39,8 +39,8 @@ struct SparseFit {
     std::vector<double> coefficients = {};
 };
 
-/// Fits z, one number for each row of the table, by a constant and columns; by the constant alone
-/// if no column improves the criterion.
+/// Fits z, which has one number per row of the table, by a constant and columns. Uses only the
+/// constant if no column improves the criterion.
 SparseFit sparse_fit(const Candidates& candidates, std::span<const double> z,
                      const RunContext& run);
 

@@ -9,7 +9,8 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// Appends the products of `begun` with inputs from `from` on, whose degrees add up to `left`.
+/// Appends all products of `begun` with polynomials of inputs from `from` on, whose degrees sum to
+/// `left`.
 void append_terms_of_degree(BasisTerm& begun, std::size_t from, std::span<const Polynomials> inputs,
                             std::size_t left, std::vector<BasisTerm>& terms) {
     if (left == 0) return terms.push_back(begun);
@@ -21,7 +22,8 @@ void append_terms_of_degree(BasisTerm& begun, std::size_t from, std::span<const 
         }
 }
 
-/// Distinct values of an input, ascending and scaled to [-1, 1], with their fractions of the runs.
+/// Distinct values of an input, scaled to [-1, 1], in ascending order; each with its fraction of
+/// the runs.
 struct Distribution {
     std::vector<double> x;
     std::vector<double> weight;
@@ -39,7 +41,7 @@ Distribution distribution_of(std::span<const double> x, const std::vector<double
         ++out.weight[static_cast<std::size_t>(std::ranges::lower_bound(values, value) -
                                               values.begin())];
     for (double& weight : out.weight) weight /= static_cast<double>(x.size());
-    // Halves, because the difference of two doubles may overflow.
+    // Uses halves, because the difference of two doubles may overflow.
     const double middle = values.front() / 2 + values.back() / 2;
     const double extent = values.back() / 2 - values.front() / 2;
     for (const double value : values)
@@ -47,11 +49,11 @@ Distribution distribution_of(std::span<const double> x, const std::vector<double
     return out;
 }
 
-/// Appends x times the last polynomial, made orthonormal to all; false if it vanishes.
+/// Appends x times the last polynomial, made orthonormal to all others; false if nothing remains.
 bool append_next(const Distribution& law, std::vector<std::vector<double>>& polynomials) {
     std::vector<double> next = polynomials.back();
     for (std::size_t i = 0; i < next.size(); ++i) next[i] *= law.x[i];
-    for (int pass = 0; pass < 2; ++pass)  // two passes give orthogonality
+    for (int pass = 0; pass < 2; ++pass)  // a second pass makes it orthogonal despite rounding
         for (const auto& other : polynomials) {
             const double part = law.product(next, other);
             for (std::size_t i = 0; i < next.size(); ++i) next[i] -= part * other[i];

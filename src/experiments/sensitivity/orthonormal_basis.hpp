@@ -15,29 +15,30 @@
 
 namespace stipple::analyzers::sensitivity {
 
-/// Values of the polynomials of one input, run after run, by ascending degree.
+/// Polynomials of one input, evaluated in all runs: run after run, by ascending degree.
 struct Polynomials {
-    std::size_t count = 1;  ///< largest degree plus one
+    std::size_t count = 1;  ///< number of polynomials: largest degree + 1
     std::vector<double> values = {};
 };
 
 /// Values of sqrt(2 m + 1) L_m(2 u - 1), with Legendre's L_m, for m from 0 to max_degree.
 Polynomials legendre_polynomials(std::span<const double> u, std::size_t max_degree);
 
-/// Polynomials for the distribution of the values x, of degrees up to max_degree and below the
-/// number of distinct values.
+/// Orthonormal polynomials for the distribution of the values x; their degrees are at most
+/// max_degree and below the number of distinct values.
 Polynomials sample_polynomials(std::span<const double> x, std::size_t max_degree);
 
-/// A product of polynomials: inputs, ascending, each with its degree above 0.
+/// A product of polynomials of different inputs: pairs of an input, ascending, and its degree,
+/// which is at least 1.
 using BasisTerm = std::vector<std::pair<std::size_t, std::size_t>>;
 
-/// Number of terms of k inputs with total degree 1 to p, if every input has enough values.
+/// Number of terms of k inputs with total degrees from 1 to p, if every input has enough values.
 double term_count(std::size_t k, std::size_t p);
 
-/// All terms of the inputs' polynomials with total degree 1 to p, by ascending degree.
+/// All products of the inputs' polynomials with total degrees from 1 to p, by ascending degree.
 std::vector<BasisTerm> basis_terms(std::span<const Polynomials> inputs, std::size_t p);
 
-/// Values of the terms in n runs: run after run, one column per term.
+/// Values of the terms in n runs; one row per run, one column per term.
 std::vector<double> basis_values(std::span<const Polynomials> inputs, std::size_t n,
                                  std::span<const BasisTerm> terms, const RunContext& run);
 

@@ -9,8 +9,8 @@
 //     second  S_ij  = mean (f(BA_i) f(AB_j) - f(A) f(B)) / V - S_i - S_j.
 //
 // Shape   n = N (k + 2) rows, for each base row A, AB_1, ..., AB_k, B; or N (2k + 2) rows: A, AB_1,
-//         ..., AB_k, BA_1, ..., BA_k, B. Coordinates that were copied must be equal to the last
-//         bit, as they are after any map of single coordinates.
+//         ..., AB_k, BA_1, ..., BA_k, B. Copied coordinates must be equal to the last bit, which is
+//         so after any map of single coordinates.
 // Cost    O(n k) and the bootstrap over base rows, to which pairs add k (k - 1) / 2 terms.
 // Source  A. Saltelli, P. Annoni, I. Azzini, F. Campolongo, M. Ratto, S. Tarantola, Comput. Phys.
 //         Commun. 181 (2010) 259-270, doi:10.1016/j.cpc.2009.09.018, table 2 (b) and (f), the
@@ -30,7 +30,7 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// Whether a row is `whole` with coordinate i taken from `other`.
+/// Whether a row equals `whole` except for coordinate i, which is that of `other`.
 bool is_mixed(std::span<const double> row, std::span<const double> whole,
               std::span<const double> other, std::size_t i) {
     for (std::size_t j = 0; j < row.size(); ++j)
@@ -38,8 +38,8 @@ bool is_mixed(std::span<const double> row, std::span<const double> whole,
     return true;
 }
 
-/// First row that does not fit groups of this size; the number of rows if all fit, 0 if first and
-/// last rows are always equal.
+/// Index of the first row that does not fit groups of this size. The number of rows if all fit; 0
+/// if the first and last rows of all groups are equal.
 std::size_t first_unfit(const PointSet& design, std::size_t group) {
     const std::size_t k = design.dimension();
     bool moves = false;
@@ -55,8 +55,9 @@ std::size_t first_unfit(const PointSet& design, std::size_t group) {
     return moves ? design.count() : 0;
 }
 
-/// Whether first and last rows of groups differ in every coordinate although these have few values,
-/// as in a factorial design. For independent rows, this has a probability below exp(-most).
+/// Whether the first and last rows of all groups differ in every coordinate although coordinates
+/// have few values, as in a factorial design. For independent rows, the probability of this is
+/// below exp(-most).
 bool is_factorial(const PointSet& design, std::size_t group) {
     constexpr double most = 2;
     const auto groups = design.count() / group;
@@ -70,14 +71,15 @@ bool is_factorial(const PointSet& design, std::size_t group) {
             ++times[a];
             ++times[b];
         }
-        if (times.size() > groups) return false;  // more than few levels
+        if (times.size() > groups) return false;  // too many levels for a factorial
         for (const auto& [value, count] : times)
             expected += count * count / static_cast<double>(4 * groups);
     }
     return expected >= most;
 }
 
-/// Appends the terms of a base row with the outputs `f`: those of V, then first, total, pairs.
+/// Appends the terms of a base row with the outputs `f`: those of V, then those of first, total and
+/// second order indices.
 void append_terms(std::span<const double> f, std::size_t k, std::vector<double>& terms) {
     const double a = f.front();
     const double b = f.back();
@@ -92,10 +94,10 @@ void append_terms(std::span<const double> f, std::size_t k, std::vector<double>&
         for (std::size_t j = i + 1; j < k; ++j) terms.push_back(ba[i] * ab[j] - a * b);
 }
 
-/// Mean, variance and indices from the means of such terms, in their order; NaN if the first and
-/// last rows, which give the variance, vary only by rounding.
+/// Mean, variance and indices from the means of these terms, in the same order. NaN if the outputs
+/// of the first and last rows, which give the variance, differ only by rounding.
 void indices_of(std::span<const double> means, std::size_t k, std::span<double> values) {
-    constexpr double rounding = 1e-12;  // for outputs with the largest magnitude 1
+    constexpr double rounding = 1e-12;  // relative to the largest output, 1
     const double variance = means[1] - means[0] * means[0];
     if (!(variance > rounding)) {
         std::ranges::fill(values, none);
@@ -109,8 +111,8 @@ void indices_of(std::span<const double> means, std::size_t k, std::span<double> 
         for (std::size_t j = i + 1; j < k; ++j) values[pair++] -= values[2 + i] + values[2 + j];
 }
 
-/// Drops the indices of inputs whose mixed rows vary far more than A and B. These should be samples
-/// of the same, so V cannot be the variance of the output.
+/// Drops the indices of inputs whose mixed rows vary far more than A and B. Since all these rows
+/// should be samples of the same distribution, V cannot be the variance of the output.
 void drop_unlike(Effects& effects, std::span<const double> f, std::size_t k, double variance) {
     constexpr double most = 10;
     const std::size_t group = f.size() / effects.samples;

@@ -1,32 +1,34 @@
 // SPDX-License-Identifier: MIT
 //
-// Sobol' indices of a sparse polynomial chaos expansion, fitted to any sample and validated by runs
-// it has not seen. The output is approximated by p(x) = c_0 + sum_a c_a P_a(x), with products P_a
-// of polynomials that are orthonormal for each input's own distribution in the sample
-// (orthonormal_basis.hpp). So p splits into orthogonal parts p_u of groups u of terms: those of
-// input i alone (first), all with input i (total), those of inputs i and j (second).
+// Sobol' indices of a sparse polynomial chaos expansion, fitted to any sample and validated with
+// runs to which it was not fitted. The output is approximated by p(x) = c_0 + sum_a c_a P_a(x),
+// with products P_a of polynomials that are orthonormal for each input's own distribution in the
+// sample (orthonormal_basis.hpp). So p has orthogonal parts. Each index belongs to the part p_u of
+// a group u of terms: those with input i alone (first), all with input i (total), or those with
+// inputs i and j only (second).
 //
 // Five times, a polynomial is fitted to four fifths of the runs: degree, terms and coefficients are
 // chosen from these alone (matching_pursuit.hpp). Let r = f - p be its errors in the other fifth.
-// With means over all runs, each by the polynomial that has not seen it,
+// With means over all runs, each predicted by the polynomial that was not fitted to it,
 //
 //     V   = mean of sum_a c_a^2 + 2 (p - c_0) r + r^2,    Q2 = 1 - mean r^2 / Var f,
 //     S_u = (mean of |p_u|^2 + 2 p_u r) / V,  |p_u|^2 the sum of the c_a^2 of u.
 //
-// S_u is (||f_u||^2 - ||f_u - p_u||^2) / V up to chance: the part of the index that p_u explains,
-// and no more, because terms fitted to noise explain nothing of other runs. The unexplained part 1
-// - Q2 may belong to u or not. So the interval is from S_u minus its error to S_u + 1 - Q2 plus its
-// error. The errors are Student's quantile times the standard error of the ratio of the two means.
+// Up to random errors, S_u is (||f_u||^2 - ||f_u - p_u||^2) / V, the part of the index that p_u
+// explains. Terms fitted to noise do not increase it, because they explain nothing of other runs.
+// The unexplained part 1 - Q2 may or may not belong to u. So the interval is from S_u minus its
+// error to S_u + 1 - Q2 plus its error. The errors are Student's quantile times the standard error
+// of the ratio of the two means.
 //
-// If the inputs' distributions are unknown, the runs are a sample of these, too. The standard error
-// then takes p_u (2 p_v - p_u) instead of |p_u|^2, where v are all terms that contain the inputs of
-// u, and (f - mean f)^2 instead of V's terms: these are what changes with the frequencies of an
-// input's values.
+// If the inputs' distributions are unknown, the runs are also a sample of these distributions. The
+// standard error then uses p_u (2 p_v - p_u) instead of |p_u|^2, where v are all terms that contain
+// the inputs of u, and (f - mean f)^2 instead of the terms of V. These expressions include the
+// effect of the frequencies of an input's values.
 //
 // Shape   eight runs or more, twenty for intervals; independent inputs. Inputs that are known to be
 //         uniform, or in [0, 1] with the mean and variance of uniform ones, have Legendre
-//         polynomials. Others have those of their values or of the ranks of these, whichever fit
-//         better.
+//         polynomials. Other inputs have polynomials of their values or of the ranks of these,
+//         whichever fit better.
 // Cost    for P candidates and t terms O(n P t) time for each degree, n (P + t) numbers of memory.
 //         P is at most 600 and 1e7 / n, t at most 0.4 n and 300.
 // Beware  indices are fractions of the whole variance, including noise that no input explains.
@@ -60,17 +62,18 @@ constexpr std::size_t fold_count = 5;
 struct Basis {
     std::string scale;
     std::vector<Polynomials> inputs = {};
-    bool known = false;  ///< whether they are for known distributions, not those of the sample
+    /// The polynomials are for known distributions, not for those of the sample.
+    bool known = false;
 };
 
-/// Terms with their values in all runs: one column per term, row after row.
+/// Terms with their values in all runs: one row per run, one column per term.
 struct Table {
     std::size_t degree;
     std::vector<BasisTerm> terms;
     std::vector<double> values;
 };
 
-/// A polynomial, the runs that it was fitted to (seen) and the others.
+/// A polynomial, with the runs to which it was fitted (seen) and the other runs.
 struct Fold {
     std::vector<std::size_t> seen = {};
     std::vector<std::size_t> unseen = {};
@@ -80,11 +83,12 @@ struct Fold {
     double constant = 0;
     std::vector<BasisTerm> terms = {};
     std::vector<double> coefficients = {};
-    std::vector<double> products = {};  ///< coefficients times terms: one row per unseen run
+    /// Products of coefficients and terms: one row per unseen run.
+    std::vector<double> products = {};
 
     [[nodiscard]] bool is_settled(std::size_t next_degree) const {
         constexpr double enough = 1e-6;
-        constexpr std::size_t patience = 3;  // even and odd terms alternate
+        constexpr std::size_t patience = 3;  // since even and odd degrees may alternate
         return degree > 0 && (error < enough || next_degree > degree + patience);
     }
 };
@@ -101,7 +105,7 @@ std::vector<Fold> folds_of(std::size_t n) {
     return folds;
 }
 
-/// Replaces the polynomial by the best one with terms of the table, if that is better.
+/// Replaces the polynomial by the best one with the table's terms, if that has a smaller error.
 void improve(Fold& fold, const Table& table, const Basis& basis, std::span<const double> z,
              const RunContext& run) {
     const std::size_t columns = table.terms.size();
@@ -121,7 +125,7 @@ void improve(Fold& fold, const Table& table, const Basis& basis, std::span<const
                                     table.values[i * columns + fit.chosen[t]]);
 }
 
-/// Largest degree with an acceptable number of candidates, at least 1.
+/// Largest degree with an acceptable number of candidates; at least 1.
 std::size_t bearable_degree(std::size_t k, std::size_t n) {
     const double most = std::min(600.0, 1e7 / static_cast<double>(n));
     std::size_t degree = 1;
@@ -129,7 +133,8 @@ std::size_t bearable_degree(std::size_t k, std::size_t n) {
     return degree;
 }
 
-/// Folds with their best polynomials of all acceptable degrees that may help, or of the given one.
+/// Folds with their best polynomials over all acceptable degrees, or of the given degree. Stops if
+/// higher degrees do not help.
 std::vector<Fold> fitted_folds(const Basis& basis, std::span<const double> z,
                                const std::optional<std::size_t>& degree, const RunContext& run) {
     std::vector<Fold> folds = folds_of(z.size());
@@ -152,11 +157,11 @@ std::vector<Fold> fitted_folds(const Basis& basis, std::span<const double> z,
     return folds;
 }
 
-/// Group of terms of an index: those with both inputs, or with only these inputs.
+/// Group of terms of an index, by the inputs that they contain.
 struct Part {
     std::size_t first;
     std::size_t second;  ///< equal to `first` for a single input
-    bool alone;          ///< whether terms with other inputs are excluded
+    bool alone;          ///< excludes terms that contain other inputs
 
     /// Whether a term contains the inputs, and whether it belongs to the group.
     [[nodiscard]] std::pair<bool, bool> holds(const BasisTerm& term) const {
@@ -168,11 +173,11 @@ struct Part {
     }
 };
 
-/// Sums over terms for each run, by the polynomial that has not seen it.
+/// Sums over terms for each run, from the polynomial that was not fitted to the run.
 struct Sums {
-    std::vector<double> norm;    ///< squares of coefficients
-    std::vector<double> own;     ///< values of the terms of the group
-    std::vector<double> around;  ///< values of all terms that contain the group's inputs
+    std::vector<double> norm;    ///< sums of squared coefficients
+    std::vector<double> own;     ///< sums of the group's terms
+    std::vector<double> around;  ///< sums of all terms that contain the group's inputs
 };
 
 template <class Holds>
@@ -201,12 +206,13 @@ double mean_of(std::span<const double> values) {
     return sum / static_cast<double>(values.size());
 }
 
-/// Errors of the polynomials in runs that they have not seen, and the variance of the output.
+/// Errors of the polynomials in runs to which they were not fitted, and the variance of the output.
 struct Judgement {
     bool known = false;  ///< whether the inputs' distributions are known
     std::vector<double> error;
-    std::vector<double> moving = {};  ///< numbers with the mean V: how each run changes it
-    double variance = 0;              ///< V, of the output
+    /// By run: the terms of V, or squared outputs if the distributions are unknown.
+    std::vector<double> moving = {};
+    double variance = 0;  ///< V, the variance of the output
     double q2 = 0;
 };
 
@@ -225,13 +231,13 @@ Judgement judged(std::span<const Fold> folds, std::span<const double> z, bool kn
         out.variance += term;
         out.moving.push_back(known ? term : z[i] * z[i]);
     }
-    // A few wild predictions must not make the variance vanish.
+    // A few extreme predictions must not make the variance vanish.
     out.variance = std::max(out.variance, whole / 2) / static_cast<double>(z.size());
     out.q2 = 1 - squares / whole;
     return out;
 }
 
-/// Standard error of mean(values) / V.
+/// Standard error of the ratio mean(values) / V.
 double error_of_ratio(std::span<const double> values, double ratio, const Judgement& judgement) {
     std::vector<double> rest(values.begin(), values.end());
     for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= ratio * judgement.moving[i];
@@ -265,7 +271,7 @@ Index index_of(const Sums& sums, const Judgement& judgement, double level) {
     return index;
 }
 
-/// Whether the values are nearly their ranks, scaled to their range.
+/// Whether all values are within a tenth of their range of their ranks, scaled to this range.
 bool is_even(std::span<const double> x, std::span<const double> ranks) {
     const auto [low, high] = std::ranges::minmax(x);
     constexpr double most = 0.1;
@@ -297,8 +303,9 @@ std::vector<double> column_of(std::span<const double> table, std::size_t width, 
     return column;
 }
 
-/// Legendre polynomials for inputs that are known to be uniform or look so. Otherwise polynomials
-/// of the values and, as a second basis if that may matter, of their ranks.
+/// Legendre polynomials for inputs that are known to be uniform or look uniform; otherwise
+/// polynomials of the values. Adds a second basis, with polynomials of the ranks, if that may
+/// matter.
 std::vector<Basis> bases_of(const Inputs& inputs, std::span<const std::size_t> runs,
                             std::size_t degree) {
     const std::size_t k = inputs.size();
@@ -328,7 +335,7 @@ std::vector<Basis> bases_of(const Inputs& inputs, std::span<const std::size_t> r
     return bases;
 }
 
-/// Pairs of inputs that form a term of two.
+/// Pairs of inputs that occur together in a term of only these inputs.
 std::set<std::pair<std::size_t, std::size_t>> pairs_in(std::span<const Fold> folds) {
     std::set<std::pair<std::size_t, std::size_t>> pairs;
     for (const Fold& fold : folds)

@@ -7,15 +7,15 @@
 //     S_i = (sum n_g z_g^2 - chance) / (n V).
 //
 // For independent runs chance is sum s_g^2, and S_i is the mean of the products of different runs
-// of a window. On low-discrepancy points the means z_g have smaller errors. Then chance is
+// of a window. On low-discrepancy points the means z_g have smaller errors, so that chance is
 // estimated from their second differences, W / (W - 2) sum n_g (z_(g-1) - 2 z_g + z_(g+1))^2 / 6
-// for W windows, if that is less. A window has sqrt(n) runs or more and ends where x_i changes, so
-// that runs of equal x_i stay together, and their order does not matter.
+// for W windows, if this estimate is smaller. A window has sqrt(n) runs or more and ends where x_i
+// changes, so that runs of equal x_i stay together, and their order does not matter.
 //
-// With windows of two this would nearly be the statistic of Chatterjee, and of Gamboa et al., of
-// each run and its next neighbor. That has errors of a fifth and more on low-discrepancy points,
-// whose neighbors in one coordinate are related in the others; a window of many is well spread
-// there.
+// With windows of two runs this would nearly be the statistic of Chatterjee, and of Gamboa et al.,
+// which uses each run and its next neighbor. Its errors are a fifth and more on low-discrepancy
+// points, whose neighbors in one coordinate are related in the others. The points of a larger
+// window are well spread in the other coordinates.
 //
 // The interval extends by Student's quantile times the standard error se to both sides, with the
 // degrees of freedom of W or sqrt(n) windows. With m_j the mean of the other runs in the window of
@@ -23,25 +23,25 @@
 //
 //     (n V se)^2 = n var(2 z_j m_j - z_g^2 - S_i z_j^2) + sum 2 n_g / (n_g - 1) s_g^4,
 //
-// where z_g^2 is without its chance. The first term is the influence of run j on the index, the
-// second is due to pairs of runs. The upper end is extended by what windows may hide of E(f | x_i),
-// the loss with windows of twice the size,
+// where the share of chance is subtracted from z_g^2. The first term is the influence of run j on
+// the index; the second is due to pairs of runs. The upper end is extended by the variance of E(f |
+// x_i) that windows may hide. It is estimated by the loss with windows of twice the size,
 //
 //     sum_g (n_g n_(g+1) (z_g - z_(g+1))^2 - n_(g+1) s_g^2 - n_g s_(g+1)^2)
 //         / (n_g + n_(g+1)) / (n V),
 //
-// for both ways to join neighbors. If x_i is constant in both, they hide nothing. Intervals at the
-// level of 95 % contain the index in at least 90 % of samples, for n from 20 to 1000, on the
-// functions of tests/oracles/sensitivity.py.
+// summed over both ways to join neighbors. Two windows hide nothing if x_i is constant in both.
+// Intervals at the level of 95 % contain the index in at least 90 % of samples, for n from 20 to
+// 1000, on the functions of tests/oracles/sensitivity.py.
 //
 // Shape   four runs or more, twenty for intervals.
 // Cost    O(k n log n).
 // Beware  indices are too small by the fraction of the variance that E(f | x_i) has within windows,
-//         O(1/n); for independent runs too large by (1 - S_i) 0.8 n^(-3/4), as the lesser chance is
-//         taken. Outputs with rare huge values, whose variance n runs do not show, have intervals
-//         that are too short. Runs of structured designs share coordinates, which adds other
-//         inputs' effects. The bootstrap is useless here: a resample has runs twice, as their own
-//         neighbors.
+//         O(1/n); for independent runs they are too large by (1 - S_i) 0.8 n^(-3/4), since the
+//         smaller estimate of chance is used. Intervals are too short for outputs with rare huge
+//         values, if these do not occur in the runs. Runs of structured designs share coordinates,
+//         which adds effects of other inputs. The bootstrap is useless here: a resample contains
+//         runs twice, as neighbors of themselves.
 // Source  E. Plischke, E. Borgonovo, C. L. Smith, Eur. J. Oper. Res. 226 (2013) 536-550,
 //         doi:10.1016/j.ejor.2012.11.047 (windows); F. Gamboa, P. Gremaud, T. Klein, A. Lagnoux,
 //         Bernoulli 28 (2022) 2345-2374, doi:10.3150/21-BEJ1421 (neighbors); Z. Lin, F. Han,
@@ -56,22 +56,22 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// A run of the model, sorted by one input: its value x and the centred output z.
+/// A run, sorted by one input: the input's value x and the centred output z.
 struct Ordered {
     double x;
     double z;
 };
 
-/// Neighbors in the order of an input, x.
+/// Window of runs that are neighbors in the order of an input x.
 struct Window {
     double size = 0;
     double mean = 0;
-    double variance = 0;  ///< unbiased variance of a single run
-    bool constant;        ///< whether x is constant
+    double variance = 0;  ///< unbiased variance of the outputs
+    bool constant;        ///< whether x is constant in the window
 };
 
-/// Windows of about equal sizes, of at least `least` and two runs, that do not separate equal
-/// inputs.
+/// Divides runs into windows of about equal sizes, with at least `least` runs and at least two.
+/// Runs with equal inputs are in the same window.
 std::vector<Window> windows_of(std::span<const Ordered> runs, std::size_t least) {
     std::vector<Window> windows;
     for (std::size_t first = 0, last = 0; first < runs.size(); first = last) {
@@ -97,7 +97,7 @@ std::vector<Window> windows_of(std::span<const Ordered> runs, std::size_t least)
     return windows;
 }
 
-/// Random part of sum n_g mean_g^2: that of independent runs or, if it is less, the one estimated
+/// Part of sum n_g z_g^2 due to chance: for independent runs or, if it is smaller, as estimated
 /// from the second differences of the means.
 double chance_of(std::span<const Window> windows) {
     double independent = 0;
@@ -112,8 +112,8 @@ double chance_of(std::span<const Window> windows) {
     return std::min(independent, seen * all / (all - 2));
 }
 
-/// Loss of sum n_g mean_g^2 if windows had twice the size, summed over both ways to join neighbors.
-/// Pairs of windows in which the input is constant are skipped, since they hide nothing.
+/// Loss of sum n_g z_g^2 if windows had twice the size, summed over both ways to join neighbors.
+/// Skips pairs of windows in which the input is constant, since they hide nothing.
 double hidden_in(std::span<const Window> windows) {
     double sum = 0;
     for (std::size_t g = 1; g < windows.size(); ++g) {
@@ -127,7 +127,7 @@ double hidden_in(std::span<const Window> windows) {
     return std::max(sum, 0.0);
 }
 
-/// Variance of sum n_g mean_g^2 - S sum z^2.
+/// Variance of sum n_g z_g^2 - S sum z^2, where S is the index.
 double variance_of(std::span<const Window> windows, std::span<const Ordered> runs, double index) {
     double of_none = 0;
     double sum = 0;

@@ -24,7 +24,7 @@ using Numbers = std::vector<std::size_t>;
 struct Columns {
     const PointSet& table;
     Names names;
-    std::string place;  ///< name in messages
+    std::string place;  ///< name of the table in messages
 };
 
 bool in(const Numbers& columns, std::size_t c) {
@@ -73,14 +73,14 @@ PointSet columns_of(const PointSet& table, const Numbers& columns) {
 
 // ---------------------------------------------------------------- domain of the inputs
 
-/// Domain of the inputs, with the names of its coordinates; null if unknown.
+/// Domain of the inputs and the names of its coordinates; null if unknown.
 struct Known {
     DomainPtr domain;
     Names names;
 };
 
-/// Names and domain of the inputs from the provenance; for a domain given by the user, only the
-/// order of the inputs is known.
+/// Names and domain of the inputs from the provenance. There are no names for a domain given by the
+/// user, of which only the order of the inputs is known.
 Known known_inputs(const Provenance& told, std::size_t inputs, const RunContext& run) {
     const bool made = !told.generator.empty();
     if (told.domain.empty() || (told.domain == "unit-cube" && !made)) return {};
@@ -91,7 +91,7 @@ Known known_inputs(const Provenance& told, std::size_t inputs, const RunContext&
     return known;
 }
 
-/// Columns with these names, in their order; empty if some are missing.
+/// Indices of the columns with these names, in the same order; empty if some are missing.
 Numbers named_columns(const Names& wanted, const Names& names) {
     Numbers columns;
     for (const auto& name : wanted) {
@@ -102,8 +102,7 @@ Numbers named_columns(const Names& wanted, const Names& names) {
     return columns;
 }
 
-/// Columns of the inputs that are known by name.
-/// @throws Error(input) if some are missing
+/// Indices of the columns that the known names select. @throws Error(input) if some are missing
 Numbers known_columns(const Known& known, const Columns& from) {
     Numbers columns = named_columns(known.names, from.names);
     if (!columns.empty()) return columns;
@@ -115,8 +114,8 @@ Numbers known_columns(const Known& known, const Columns& from) {
                    from.place, join(missing, ", "), join(from.names, ", "));
 }
 
-/// Columns of the domain's coordinates; empty if it belongs to other columns.
-/// @throws Error(usage) if it has no names and another dimension
+/// Indices of the columns with the domain's coordinates; empty if some of these are missing.
+/// @throws Error(usage) if the domain has no names and another dimension
 Numbers coordinates_of(const Known& known, const Columns& from, const Numbers& columns,
                        const RunContext& run) {
     const std::size_t k = known.domain->dimension();
@@ -131,8 +130,8 @@ Numbers coordinates_of(const Known& known, const Columns& from, const Numbers& c
     return {};
 }
 
-/// Whether the density is a product over the coordinates. Then two points that exchange a
-/// coordinate keep the product of their densities.
+/// Whether the density is a product over the coordinates. If so, two points that exchange a
+/// coordinate keep the product of their densities, which is tested.
 bool independent(const Domain& domain, const PointSet& points) {
     constexpr std::size_t most = 100;
     constexpr double rounding = 1e-9;
@@ -146,9 +145,9 @@ bool independent(const Domain& domain, const PointSet& points) {
             try {
                 const double before = std::log(domain.density(x)) + std::log(domain.density(y));
                 const double after = std::log(domain.density(a)) + std::log(domain.density(b));
-                if (!std::isfinite(before)) continue;  // infinite at the end of a range
+                if (!std::isfinite(before)) continue;  // may be infinite at the end of a range
                 if (!(std::abs(after - before) <= rounding * (1 + std::abs(before)))) return false;
-            } catch (const Error&) {  // unknown, as with constraints
+            } catch (const Error&) {  // unknown density, as with constraints
                 return false;
             }
         }
@@ -197,7 +196,7 @@ Inputs inputs_of(const Columns& from, const Numbers& columns, const Known& known
 
 // ---------------------------------------------------------------- outputs
 
-/// Output in a column. @throws Error(input) if it holds words
+/// Output in column c. @throws Error(input) if the column contains words
 Response response_of(const Columns& from, std::size_t c) {
     for (const auto& [column, words] : from.table.provenance.levels)
         if (column == from.names[c])
@@ -207,8 +206,9 @@ Response response_of(const Columns& from, std::size_t c) {
     return {from.names[c], column_of(from.table, c)};
 }
 
-/// First point at which column c of a table differs from column j of the design, by more than
-/// `rounding` of the latter's range and of the number; the number of points if there is none.
+/// First point at which column c of a table differs from column j of the design by more than
+/// `rounding` times the larger one of column j's range and the number's magnitude. Returns the
+/// number of points if there is no such point.
 std::size_t first_difference(const PointSet& table, std::size_t c, const PointSet& design,
                              std::size_t j, double rounding) {
     double room = 0;
@@ -223,7 +223,7 @@ std::size_t first_difference(const PointSet& table, std::size_t c, const PointSe
     return i;
 }
 
-/// Columns of the table that are not copies of the candidate columns of the design.
+/// Columns of the table that do not repeat candidate columns of the design.
 Numbers other_columns(const Columns& table, const Columns& design, const Numbers& candidates,
                       const RunContext& run) {
     const bool named = !table.table.provenance.columns.empty();
@@ -256,7 +256,7 @@ Numbers other_columns(const Columns& table, const Columns& design, const Numbers
     return others;
 }
 
-/// Notes which columns are neither input nor output.
+/// Reports columns that are neither inputs nor outputs.
 void note_unused(const Columns& table, const Numbers& inputs, const Numbers& outputs,
                  const RunContext& run) {
     Numbers unused;
@@ -275,7 +275,8 @@ Names output_names(const PointSet& table) {
     return coordinate_names(table.dimension(), table.provenance);
 }
 
-/// Whether the columns of a table are the domain's coordinates in order, for lack of names.
+/// Whether the columns of a table are assumed to be the domain's coordinates in order, since names
+/// are missing.
 bool by_position(const Known& known, const PointSet& table) {
     return known.names.empty() ||
            (table.provenance.columns.empty() && known.names.size() == table.dimension());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Runs of a model in tables: outputs with a separate file of inputs, or both in one table.
+// Reads the runs of a model from tables: outputs with a separate file of inputs, or both in one
+// table.
 #pragma once
 
 #include <string>
@@ -10,10 +11,10 @@
 
 namespace stipple::analyzers::sensitivity {
 
-/// Requested columns: names or numbers from 1, separated by commas; empty: automatic.
+/// Requested columns, by names or numbers from 1, separated by commas. Empty: chosen automatically.
 struct ColumnsAsked {
-    std::string design = {};    ///< file of the inputs; empty: they are columns of the table
-    std::string inputs = {};    ///< columns of the design, or of the table
+    std::string design = {};    ///< file of the inputs; empty: the table contains them
+    std::string inputs = {};    ///< columns of the design or, without a design, of the table
     std::string response = {};  ///< columns of the table
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Global sensitivity of a model's outputs to its inputs: which part of the variance of f(x) is due
-// to which x_i, alone and together with others,
+// Global sensitivity of a model's outputs to its inputs: the parts of the variance of f(x) that are
+// due to each x_i, alone and together with others,
 //
 //     first  S_i  = Var E(f | x_i) / Var f,    total  ST_i = 1 - Var E(f | all but x_i) / Var f,
 //     second S_ij = Var E(f | x_i, x_j) / Var f - S_i - S_j.
@@ -114,7 +114,7 @@ Setting setting_of(const Values& options) {
     return setting;
 }
 
-/// Layout of the rows for a method; it has a reason if the rows do not fit.
+/// Layout of the rows for a method. If the rows do not fit, the layout contains the reason.
 Layout find_layout(const std::string& kind, const PointSet& points, const Setting& setting,
                    const RunContext& run) {
     if (kind == "saltelli") return find_pick_freeze(points);
@@ -122,7 +122,8 @@ Layout find_layout(const std::string& kind, const PointSet& points, const Settin
     return find_curves(points, setting.harmonics, run);
 }
 
-/// Warns if rows are not those of the generator that made them, or only resemble such rows.
+/// Warns if the rows do not form the design of the generator that made them, or resemble a design
+/// without forming it.
 void note_broken(const Inputs& in, const std::string& trouble, const RunContext& run) {
     if (!trouble.empty())
         return run.notify(
@@ -140,7 +141,8 @@ void note_broken(const Inputs& in, const std::string& trouble, const RunContext&
             100 * share));
 }
 
-/// @throws Error(input) if the design does not have the rows that the method needs
+/// Chooses the method. @throws Error(input) if the design does not have the rows that the requested
+/// method needs
 Plan plan_of(const Inputs& in, const std::string& asked, const Setting& setting,
              const RunContext& run) {
     if (asked == "rank" || asked == "chaos") return {.method = asked};
@@ -155,7 +157,8 @@ Plan plan_of(const Inputs& in, const std::string& asked, const Setting& setting,
     std::string trouble;
     for (const std::string kind : {"saltelli", "morris", "fast"}) {
         const bool made = in.generator == kind;
-        // Any two values of a single input make a trajectory.
+        // Any two values of a single input form a trajectory, so this would not indicate a Morris
+        // design.
         if (kind == "morris" && in.size() == 1 && !made) continue;
         Layout layout = find_layout(kind, in.values, setting, run);
         if (layout) return {.method = kind, .layout = std::move(layout)};
@@ -166,12 +169,12 @@ Plan plan_of(const Inputs& in, const std::string& asked, const Setting& setting,
     return {};
 }
 
-/// Indices by chaos or, if no polynomial predicts well enough, by ranks; reports the method and the
-/// reason.
+/// Indices by chaos or, if no polynomial predicts well enough, by ranks. Reports the method chosen
+/// and the reason.
 Effects of_any_design(std::string& chosen, const Inputs& in, const Response& out,
                       const Setting& setting, const RunContext& run) {
     constexpr double enough = 0.8;
-    constexpr std::size_t least = 8;  // runs that chaos needs
+    constexpr std::size_t least = 8;  // smallest number of runs for chaos
     if (chosen == "rank") return rank_indices(in, out, setting, run);
     const bool both = chosen.empty();
     std::string reason = fmt::format("fewer than {} runs, which chaos needs", least);
@@ -198,7 +201,7 @@ Effects of_any_design(std::string& chosen, const Inputs& in, const Response& out
     return effects;
 }
 
-/// Why an output cannot have indices by any method; empty if it can.
+/// Reason why no method can compute indices of an output; empty if one can.
 std::string why_none(const std::string& taken, const Response& out) {
     const auto y = picked(out.y, succeeded(out.y));
     if (y.empty()) return "all runs failed";
@@ -231,14 +234,14 @@ void tell_failures(const Response& out, const Effects& effects, const RunContext
                            failed > few ? ", ..." : "", effects.used));
 }
 
-/// The name as a part of a key, made different from those already taken.
+/// Makes a name usable as a part of a key that differs from the keys already used.
 std::string key_of(std::string name, const Report& taken) {
     std::ranges::replace(name, '.', '_');
     while (name.empty() || taken.find(name) != nullptr) name += '_';
     return name;
 }
 
-/// Adds an index and its interval, as far as they are finite.
+/// Adds an index and its interval, unless they are infinite or NaN.
 void add(Report& report, const std::string& name, const Index& index) {
     if (!std::isfinite(index.value)) return;
     report.add(name, index.value);
@@ -247,7 +250,7 @@ void add(Report& report, const std::string& name, const Index& index) {
     report.add(name + "_high", index.high);
 }
 
-/// Indices of one input and, if some are missing, the reason.
+/// Indices of one input; if some are missing, also the reason.
 Report report_of_input(const Effects& effects, std::size_t i) {
     Report own;
     const auto known = [i](const IndexKind& kind) { return std::isfinite(kind.of[i].value); };
@@ -279,20 +282,20 @@ Report report_of(const Effects& effects, const std::string& name, const Inputs& 
     for (const PairIndex& pair : effects.pairs) {
         Report own;
         add(own, "second", pair.index);
-        if (own.entries().empty()) continue;  // the reports of its inputs have the reason
+        if (own.entries().empty()) continue;  // the reports of both inputs contain the reason
         report.add(key_of(keys[pair.first] + ":" + keys[pair.second], report), std::move(own));
     }
     return report;
 }
 
-/// Report of an output that has no indices.
+/// Report of an output without indices.
 Report report_of_none(const Response& out, const std::string& why) {
     Report report;
     report.add("failed", out.y.size() - succeeded(out.y).size());
     return report.add("missing", why);
 }
 
-/// @throws Error(usage) for options of methods that were not used
+/// Checks that no option belongs only to unused methods. @throws Error(usage)
 void check_options(const Values& options, const std::vector<std::string>& methods) {
     const auto require = [&](const auto& option, std::vector<std::string> of) {
         const auto used = [&](const std::string& name) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Signs that rows are not an independent sample although they form no design of a known method.
+// Detects rows that are neither an independent sample nor the design of a known method.
 #include "experiments/sensitivity/methods.hpp"
 
 #include <fmt/format.h>
@@ -15,7 +15,8 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-constexpr double most_work = 1e8;  ///< numbers to examine, in a second or less
+/// Limit for the numbers to examine, which takes a second or less.
+constexpr double most_work = 1e8;
 
 struct Levels {
     std::size_t count = 0;  ///< number of distinct values
@@ -49,15 +50,15 @@ double share_of_neighbors(const PointSet& points, const RunContext& run) {
         grid *= static_cast<double>(levels[j].count);
     }
     if (std::fmod(static_cast<double>(n), grid) == 0) return 0;
-    double neighbors = 0;  // expected number for one row, by chance
+    double neighbors = 0;  // expected number of neighbors of a row, by chance
     for (std::size_t j = 0; j < k; ++j) {
         double equal = static_cast<double>(n - 1);
         for (std::size_t c = 0; c < k; ++c)
             if (c != j) equal *= levels[c].chance;
         neighbors += equal;
     }
-    // Sums of hashed coordinates: without the term of coordinate j, they are equal if all others
-    // are.
+    // Sums of hashed coordinates. Without the term of coordinate j, two rows have the same sum if
+    // all other coordinates are equal.
     const auto code = [&](std::size_t i, std::size_t j) {
         return SplitMix64(std::bit_cast<std::uint64_t>(points[i][j] + 0.0) + j).next();
     };
@@ -104,7 +105,8 @@ void note_dependence(const Inputs& in, const RunContext& run) {
                 sum += (ranks[i * k + a] - 0.5) * (ranks[i * k + b] - 0.5);
             if (!(squares[a] * squares[b] > 0)) continue;
             const double r = sum / std::sqrt(squares[a] * squares[b]);
-            // Rows that repeat coordinates are not independent; but levels repeat in any case.
+            // Rows that repeat coordinates are not independent, so only distinct values count. But
+            // if there are few values, they are levels, which repeat in independent rows, too.
             constexpr std::size_t few = 30;
             const std::size_t values = std::max(levels[a], levels[b]);
             const double size = std::sqrt(static_cast<double>(values < few ? n : values) - 1);
@@ -114,7 +116,7 @@ void note_dependence(const Inputs& in, const RunContext& run) {
                 at = {a, b};
             }
         }
-    // Independent inputs exceed this in one of 10^4 designs.
+    // For independent inputs, the largest correlation exceeds this in one of 10^4 designs.
     if (largest <= std::sqrt(2 * std::log(1e4 * pairs))) return;
     run.notify(
         fmt::format("the inputs {} and {} depend on each other: their rank correlation is {:.2f}; "
