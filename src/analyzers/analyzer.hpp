@@ -31,7 +31,7 @@ struct AnalyzerTraits {
     bool table = false;      ///< accepts rows of any numbers; missing ones are NaN
 };
 
-/// Which of two values is the better one.
+/// Direction in which a result is better.
 enum class Better { neither, lower, higher };
 
 constexpr const char* word_of(Better better) {
@@ -46,8 +46,7 @@ struct ResultKey {
     std::string_view words = {};  ///< possible values, separated by |; empty: numbers, or any text
     Better better = Better::neither;
     bool any_count = false;  ///< values of sets of different sizes can be compared
-    /// Sentences for these words on a report page; if {}, the page shows the numbers that decide
-    /// the word.
+    /// Sentences that a report page shows for these words; {} is replaced by the test's numbers.
     std::vector<std::pair<std::string_view, std::string_view>> sentences = {};
 };
 
@@ -107,8 +106,8 @@ class SharedAccumulator : public Accumulator {
     virtual void merge(std::string_view state, const RunContext& run) = 0;
 };
 
-/// How several processes share the work on one set: each sees a part of the points (grain), or each
-/// sees all points and does a part of a search (together). At most one of the two is set.
+/// Ways for several processes to share the work on one set: each sees a part of the points (grain),
+/// or each sees all points and does a part of a search (together). At most one of the two is set.
 struct Sharing {
     /// Alignment of parts, which begin at multiples of this number of points. `accumulate` must
     /// then make a SharedAccumulator. @throws Error(usage) if these options do not allow sharing
@@ -155,7 +154,7 @@ struct PageMeasure {
     std::string_view name = {};
 };
 
-/// How long it takes to compare all pairs of points.
+/// Cost of comparing all pairs of points.
 struct AllPairs {
     std::size_t above = 0;  ///< in more dimensions than this, all pairs are compared
     double steps = 0;  ///< number of terms of n^2 d that take as long as one comparison in a search
@@ -193,7 +192,7 @@ struct Analyzer {
     /// Seconds on one core for a set of n points, within a factor of ten; empty: 5e-7 n d.
     double (*cost)(double n, double d) = nullptr;
 
-    /// How several processes share the work on one set; empty: they cannot.
+    /// Ways for several processes to share the work on one set; empty: there are none.
     Sharing sharing = {};
 
     /// Called with the mean of `sets` reports (numbers, curves and grids averaged): recomputes

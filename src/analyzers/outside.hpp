@@ -15,7 +15,7 @@ namespace stipple::analyzers {
 
 struct Outside {
     std::uint64_t count = 0;
-    /// Lowest index of such a point.
+    /// Lowest index of a point outside.
     std::uint64_t first = std::numeric_limits<std::uint64_t>::max();
     std::vector<double> point = {};  ///< the point with that index
 

@@ -138,7 +138,8 @@ class MarginalLine final : public LineDistribution {
     MarginalPtr law_;
     std::pair<double, double> ends_;
     std::pair<bool, bool> endless_;
-    /// The ends; the next double inside if an end or its density is infinite, or this density 0.
+    /// The ends, or the next double inside where the end or its density is infinite, or this
+    /// density is 0.
     std::pair<double, double> inside_;
 };
 

@@ -131,8 +131,9 @@ struct Warp {
 
     std::function<std::unique_ptr<Mapping>(const WarpRequest&)> mapping;
 
-    /// For a warp that a file describes: its domain, whose spec is the warp's and has the contents
-    /// of the file. @throws Error(input) naming the place in the file; Error(io)
+    /// Reads the domain of a warp that a file describes; the domain's spec is the warp's, with the
+    /// contents of the file. Empty for other warps. @throws Error(input) naming the place in the
+    /// file; Error(io)
     std::function<DomainPtr(const std::string& path, const RunContext& run)> read = {};
 
     /// Makes the mapping for these options. `given` is the number of available coordinates; warps
@@ -144,7 +145,8 @@ struct Warp {
 
 namespace warps {
 
-/// For warps that other programs define with the angle first, or starting from another corner.
+/// Option of warps that other programs define with the angle first, or starting from another
+/// corner.
 inline constexpr Param<Numbers> orientation{
     {.name = "orientation",
      .help = "Order in which the unit coordinates are used, with a minus sign for 1 - xi: 2,1 "

@@ -136,8 +136,8 @@ Report off_by(const l2::Square& square, l2::Kind which, const char* method, cons
     return result_of(square.squared, method).add("error", error);
 }
 
-/// Discrepancy of one kind in three or more dimensions. If its value is not finite, @throws
-/// Error(limit) if it is the only kind requested (`alone`).
+/// Discrepancy of one kind in three or more dimensions. @throws Error(limit) if the value is not
+/// finite and no other kind is requested (`alone`)
 Report in_space(const PointSet& points, l2::Kind which, const l2::AxisWeights& weights, bool alone,
                 const RunContext& run) {
     const std::size_t n = points.count();

@@ -8,11 +8,11 @@
 // where P(D) is the probability that the difference of two uniform points is in D: the area of D
 // over V on the torus, and less for straight differences, by the box's set covariance (L_1 - |x|)
 // (L_2 - |y|). So independent points have density 1 everywhere. The image complements the power
-// spectrum: what one shows at high frequencies the other shows near 0. It is summarized by
+// spectrum: near 0 it shows what the spectrum shows at high frequencies. The image is summarized by
 //
 //     radial density     mean over the pixels with centres in the ring k - 1/2 <= |x| / w < k + 1/2
 //     anisotropy         variance of the pixels over the ring / squared mean, in dB; independent
-//                        points have -10 log10(differences per pixel), less for a mean of sets
+//                        points have -10 log10(differences per pixel), and less in a mean of sets
 //
 // where w is the side of a pixel; k = 0 is the central pixel.
 //

@@ -44,8 +44,7 @@ struct Record {
     std::size_t site;
 };
 
-/// Corners whose squared distances differ by less than this factor are compared with higher
-/// accuracy.
+/// Corners are compared with higher accuracy if the ratio of their squared distances exceeds this.
 constexpr double tied = 1 - 1e-9;
 
 std::vector<Record> best_cells(const PlanarCells& cells, std::size_t count, const RunContext& run) {

@@ -23,11 +23,11 @@
 // Uniform points come from the same points of the cube: x_i is mapped back to the cube by the
 // domain's coordinates, in which p is uniform, and from there to the box, hemisphere or sphere by
 // its measure. Variances are those of single samples, f / p and measure x f, over the set. Their
-// ratio is the factor by which independent uniform points would have to be more numerous.
+// ratio is the factor by which more independent uniform points would be needed.
 //
 // If the density is 0 on a part of the domain, no point samples f there: the estimate is of the
-// integral over the rest, the support. So is `exact`, by quadrature to exact_error if the support
-// is known as a few boxes of one or two dimensions; otherwise it is left out.
+// integral over the rest, the support. So is `exact`: it is computed by quadrature to exact_error
+// if the support consists of a few known boxes of one or two dimensions, and otherwise left out.
 //
 // If the density is constant, on any domain, both estimates use the same points. If the domain has
 // no coordinates in which p is uniform (mixtures, formulas, supports with gaps), or the density is

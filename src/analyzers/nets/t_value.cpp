@@ -169,7 +169,7 @@ class Search {
     [[nodiscard]] Worst unequal(const Level& level, const RunContext& run) const {
         Worst found{.unequal = level.digits};
         std::mutex finding;
-        // Each way to cut is the number of digits of the first coordinate.
+        // The ways to cut differ in the number of digits of the first coordinate.
         const std::size_t ways = level.digits - level.size + 1;
         for_each(level.size, ways, run,
                  [&](const Combination& along, std::size_t way, auto& probe) {

@@ -16,25 +16,25 @@
 //
 //     radial power       P_k = mean of P over the ring k - 1/2 <= |f| < k + 1/2,  k = 1..F
 //     anisotropy         variance of P over the ring (mean squared deviation) / P_k^2, in dB;
-//                        at least -100 dB, which is that of a ring of equal powers and of one
-//                        without power above the tolerance. White noise has 0 dB, a mean of R
-//                        sets -10 log10 R
-//     effective Nyquist  R / 2, where R is the largest radius, at most F, of a disk |f| < R that
-//                        has a mean power of at most 1/10; 0 if no disk has
+//                        at least -100 dB, which rings of equal powers have, and rings without
+//                        power above the tolerance. White noise has 0 dB, a mean of R sets of it
+//                        -10 log10 R
+//     effective Nyquist  R / 2, where R is the largest radius, at most F, for which the disk
+//                        |f| < R has a mean power of at most 1/10; 0 if there is no such disk
 //     oscillation        10 times the root of the mean of (P_k - 1)^2 over the frequency vectors of
-//                        rings a..b: a is the first with P_k >= 0.98 (else that of most power),
-//                        b = a + 5 n^(1/d), at most F. It is complete, and as published, only if
-//                        there is such a ring a and F >= b
+//                        rings a..b. Ring a is the first with P_k >= 0.98 (if none has, the one
+//                        with the most power), b = a + 5 n^(1/d), at most F. The oscillation is
+//                        complete, and as published, only if P_a >= 0.98 and F >= a + 5 n^(1/d)
 //     total variation    half the mean of |P_k - 1| over the frequency vectors of all rings: 0 for
-//                        white noise, near 1 for a lattice; the larger F, the smaller for others
-//     exponent           slope of log P_k against log k, rings weighted by their vectors, for
-//                        k <= n^(1/d) / 4 (but at least up to 4): a in P ~ f^a near 0. Rings
-//                        without power above the tolerance are left out
+//                        white noise, near 1 for a lattice; for other sets it decreases with F
+//     exponent           a in P ~ f^a near 0: slope of log P_k against log k for k <= n^(1/d) / 4
+//                        (but at least up to 4), with rings weighted by their numbers of vectors.
+//                        Rings without power above the tolerance are left out
 //
 // Shape   points in [0, 1]^d or a box, d = 1, 2, 3, also in pieces; strengths 0 or from 1e-100 to
 //         1e100 in size; the 2-D power has row = f_1, column = f_0, -F..F.
-// Units   cycles a unit length (of a box: a side); published tables give the effective Nyquist
-//         frequency over `regular_nyquist`, n^(1/d) / 2, which is that of a regular grid.
+// Units   cycles per unit length (for a box: per side). Published tables give the effective Nyquist
+//         frequency divided by `regular_nyquist`, n^(1/d) / 2, which is that of a regular grid.
 // Cost    O(n w^d + (4F)^d log F), see math/fourier/nufft.hpp; `direct` O(n (2F)^d). Sets of up to
 //         2^20 points are kept until their number is known; of larger ones only a batch.
 // Promise the same for any number of threads, and whether points arrive at once or in pieces. The

@@ -20,8 +20,8 @@ using CellGrid = std::vector<std::size_t>;  ///< number of cells along each axis
 inline constexpr std::uint64_t fewest_expected = 5;
 inline constexpr std::uint64_t most_cells = 100'000'000;
 
-/// For more points than the first of these numbers, the default grid is that of the largest number
-/// not above the count.
+/// Numbers of points whose default grids larger sets use, too: a set takes the grid of the largest
+/// of these numbers that is not above its count. Sets below the first number have their own grids.
 inline constexpr std::uint64_t grid_counts[] = {1U << 20, 1U << 24, 1U << 28};
 
 /// Largest number of axes cut by a default grid.

@@ -243,7 +243,7 @@ void conclude(Report& report, const Judged& plain, const std::optional<Judged>& 
     add_verdict(report, verdict, p, options[expect_uniformity_option]);
 }
 
-/// Tails of a fit; the upper tail is 0 if a point is in a cell of probability 0.
+/// Tails of a fit; the upper tail is 0 if there are impossible points.
 Judged judge(const Fit& fit) {
     const Tails never{.upper = 0, .lower = 1};
     if (fit.impossible > 0) return {never, never, never};

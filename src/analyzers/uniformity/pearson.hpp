@@ -48,7 +48,7 @@ struct Fit {
     std::uint64_t pooled = 0;      ///< cells pooled with others
     std::uint64_t impossible = 0;  ///< number of points in cells of probability 0
     double mass_error = 0;         ///< sum of the errors of the cells' probabilities
-    double statistic_error = 0;    ///< largest error of the statistic due to mass_error
+    double statistic_error = 0;    ///< largest error of the statistic due to those errors
     double most_even = 0;          ///< probability of the smallest possible statistic; 0: unknown
     std::vector<double> modal_probabilities = {};  ///< q_1, q_2, ..., down to negligible ones
     std::uint64_t points = 0;

@@ -62,7 +62,7 @@ class Copula {
         double spread;
     };
     [[nodiscard]] Place place(std::size_t i, std::span<const double> y, double squares) const;
-    /// Convert between probabilities and scores by the distribution for `given` preceding
+    /// Converts probabilities to scores and back, by the distribution for `given` preceding
     /// coordinates.
     [[nodiscard]] double score(const Share& share, std::size_t given) const;
     [[nodiscard]] Share share(double score, std::size_t given) const;

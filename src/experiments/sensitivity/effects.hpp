@@ -78,7 +78,7 @@ struct Effects {
     std::vector<PairIndex> pairs = {};
     Report details = {};            ///< other results of the method
     std::string no_intervals = {};  ///< why intervals are left out; empty if they are given
-    /// For each input without indices, the reason; may be empty.
+    /// Reason for each input without indices; may be empty.
     std::vector<std::string> missing = {};
 };
 

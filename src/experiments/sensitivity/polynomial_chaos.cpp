@@ -210,7 +210,7 @@ double mean_of(std::span<const double> values) {
 struct Judgement {
     bool known = false;  ///< whether the inputs' distributions are known
     std::vector<double> error;
-    /// By run: the terms of V, or squared outputs if the distributions are unknown.
+    /// One number per run: the term of V, or the squared output if the distributions are unknown.
     std::vector<double> moving = {};
     double variance = 0;  ///< V, the variance of the output
     double q2 = 0;
@@ -271,7 +271,8 @@ Index index_of(const Sums& sums, const Judgement& judgement, double level) {
     return index;
 }
 
-/// Whether all values are within a tenth of their range of their ranks, scaled to this range.
+/// Whether the values differ from their ranks, scaled to the range of the values, by at most a
+/// tenth of this range.
 bool is_even(std::span<const double> x, std::span<const double> ranks) {
     const auto [low, high] = std::ranges::minmax(x);
     constexpr double most = 0.1;

@@ -42,8 +42,8 @@ constexpr Param<double> half_angle{.name = "half-angle",
 /// Spherical cap: the directions within an angle of an axis.
 struct Cap {
     Frame frame;
-    CosSin rim;   ///< of the angle between the axis and the rim
-    CosSin half;  ///< of half that angle
+    CosSin rim;   ///< cosine and sine of the angle between axis and rim
+    CosSin half;  ///< likewise for half of that angle
 
     /// 1 - cos and 1 + cos of the angle from the axis to the rim.
     double rim_minus() const { return rim.cos > 0.5 ? 2 * half.sin * half.sin : 1 - rim.cos; }

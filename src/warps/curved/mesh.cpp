@@ -61,7 +61,7 @@ constexpr Param<Choice> attributes{
 
 using Pair = std::array<double, 2>;
 
-// Numbers per point.
+// Numbers per point, by --attributes.
 constexpr std::size_t with_normal = 6;
 constexpr std::size_t with_barycentrics = 7;
 

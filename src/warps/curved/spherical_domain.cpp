@@ -66,7 +66,7 @@ double SphericalDomain::edge_top(std::size_t i, const Vector3& up) const {
     const Vector3& from = corners_[i];
     const Vector3& to = corners_[(i + 1) % corners_.size()];
     const Vector3& normal = inward_[i];
-    // Of the edge's great circle.
+    // The point of the edge's great circle that is highest along `up`, before normalization.
     const Vector3 highest = minus(up, times(normal, dot(normal, up)));
     // Whether that point is on the edge, between its ends.
     const bool passes = turn_ * dot(cross(from, highest), normal) > 0 &&

@@ -180,8 +180,8 @@ class Urena {
     }
 
     /// Computes H from G, or G from H: their sum is pi - low - high. Used for angles above pi / 2.
-    /// Near pi, where the foot of z is almost in the rectangle, the sines of such angles have lost
-    /// digits.
+    /// Near pi, where the foot of the perpendicular from o is almost in the rectangle, the sines of
+    /// such angles have lost digits.
     CosSin rest_of(const CosSin& p) const {
         return {p.sin * both_.sin - p.cos * both_.cos, p.sin * both_.cos + p.cos * both_.sin};
     }
@@ -235,7 +235,7 @@ void check_edges(const Table& table, double size_x, double size_y, double cosine
              format_value(table), cosine);
 }
 
-/// @throws Error(usage)
+/// The rectangle of the options, in units of the largest coordinate. @throws Error(usage)
 Rectangle rectangle_of(const Values& options) {
     const Table table = options[edges];
     if (table.size() != 2 || table[0].size() != 3)

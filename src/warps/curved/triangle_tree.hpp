@@ -7,7 +7,7 @@
 // Promise finds all triangles within the distance, and only these; in unspecified order.
 #pragma once
 
-// Boost.Geometry includes headers that print deprecation notes.
+// Boost.Geometry includes deprecated headers, which would print notes.
 #define BOOST_ALLOW_DEPRECATED_HEADERS
 
 #include <array>

@@ -210,8 +210,8 @@ class MixtureDomain final : public NamedDomain {
         return sum;
     }
 
-    /// Probability of a zone of directions; parts without a sphere_shape() use zones as cells
-    /// themselves.
+    /// Probability of a zone of directions; parts without a sphere_shape() have such zones as their
+    /// own cells.
     static Estimate zone_mass(const Domain& part, const Box& cell) {
         const auto shape = part.sphere_shape();
         if (!shape) return part.probability(cell);

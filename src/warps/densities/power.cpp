@@ -52,8 +52,8 @@ constexpr Param<double> exponent{
 constexpr Param<Numbers> range{
     {.name = "range", .fallback = "0,1", .help = "The interval: a,b with a < b"}};
 
-/// How to invert x^p; with logarithms if the interval is on one side of 0 and x^p hardly varies on
-/// it.
+/// Method for the inverse of x^p: logarithms if the interval is on one side of 0 and x^p hardly
+/// varies on it, otherwise a root.
 enum class Root { none, square, cube, other, logarithm };
 
 /// y^(1/p) for y >= 0, computed in the cheapest way; cube roots also for y < 0.

@@ -11,8 +11,9 @@
 // Promise x in [low, high], at the ends only for xi = 0 and 1, and never where the density is
 //         infinite; quantiles within a relative 1e-13 in both tails. The same bits on every
 //         machine.
-// Beware  if b is below 1, much of the mass may be closer to high than the spacing of doubles: 1e-8
-//         of it with b = 0.5. If that matters, use high = 0 and low below it.
+// Beware  if b is below 1, a part of the mass is closer to high than the spacing of doubles: 1e-8
+//         of it for b = 0.5, and more for smaller b. If that matters, use high = 0 and low below
+//         it.
 
 #include "warps/marginal_mapping.hpp"
 

@@ -32,7 +32,7 @@ Estimate area_share(const Box& box, const Domain& shape, const Shared& shared) {
     const double area =
         shared(Polygon{{low[0], low[1]}, {high[0], low[1]}, {high[0], high[1]}, {low[0], high[1]}});
     const double share = std::clamp(area / shape.measure(), 0.0, 1.0);
-    // In extents: a shape nearer to 0 than this counts as exact, despite rounding.
+    // A shape nearer to 0 than this multiple of its extent counts as exact, despite rounding.
     constexpr double near = 16;
     return {share, far > near ? 8 * std::numeric_limits<double>::epsilon() * far : 0};
 }

@@ -64,7 +64,7 @@ class FlatDomain : public NamedDomain {
 
     Table corners_;
     EdgeFrame frame_;
-    /// Of the parallelogram along s and t, and of corner 0 above the diagonal.
+    /// Heights of the parallelogram along s and t, and of corner 0 above the diagonal.
     std::array<double, 3> heights_;
 };
 

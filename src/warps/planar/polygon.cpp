@@ -141,7 +141,7 @@ bool is_flat(const Ring& ring) {
     return std::ranges::all_of(ring, [&](PlanePoint p) { return turn(ring[1], p) == 0; });
 }
 
-/// Edges of the options' rings, which are checked to bound a polygon; only its area is not checked.
+/// Edges of the options' rings. Checks that they bound a polygon, but not that this has an area.
 /// @throws Error
 std::vector<RingSegment> edges_of(const Values& options, const Source& source,
                                   const RunContext& run) {

@@ -131,7 +131,7 @@ std::array<Vector3, 3> corners_of(const Table& table) {
     return {space_point(table[0]), space_point(table[1]), space_point(table[2])};
 }
 
-/// @throws Error(usage)
+/// Frame of the triangle's edges. @throws Error(usage) if its area is lost in rounding
 EdgeFrame frame_of(const std::array<Vector3, 3>& v, const Table& table) {
     const double size = std::max({largest(v[0]), largest(v[1]), largest(v[2])});
     if (size > 1e150) fail(ErrorKind::usage, "--vertices: a coordinate is outside [-1e150, 1e150]");
