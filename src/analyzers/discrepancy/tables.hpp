@@ -51,7 +51,8 @@ struct Member {
 /// Measures one set; reports `lower`, `upper` and, if it is known, `value`.
 using Measure = std::function<Report(const Member&, const RunContext&)>;
 
-/// Marks the first row of a table of projections with the largest lower bound.
+/// In a table of projections, marks the row with the largest lower bound; the first one if several
+/// have it.
 void mark_worst(Report& table);
 
 /// Whether tables are requested. @throws Error(usage) for sizes that no prefix can have

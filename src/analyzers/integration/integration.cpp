@@ -250,7 +250,7 @@ struct Fault {
     std::size_t task = 0;
     double value = 0;
     double density = 0;
-    bool uniform = false;  ///< value is at the uniform point made from `point`
+    bool uniform = false;  ///< the value is at the uniform point made from `point`
 
     void add(const Fault& other) {
         if (other.point < point) *this = other;

@@ -53,7 +53,7 @@ class StrengthSums {
     }
 
   private:
-    /// Divides the size of the grids' blocks.
+    /// Number of points per block; a divisor of the number of points per grid.
     static constexpr std::uint64_t block = std::uint64_t{1} << 21;
 
     void close() {

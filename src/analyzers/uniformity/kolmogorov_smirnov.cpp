@@ -78,7 +78,7 @@ double statistic_of(std::span<const Placed> sorted) {
     return most;
 }
 
-/// D from the counts of equal cells.
+/// Bounds of D from the counts in equal cells.
 Distance distance_of(std::span<const std::uint64_t> cells, double n) {
     const double width = 1 / static_cast<double>(cells.size());
     Distance found;

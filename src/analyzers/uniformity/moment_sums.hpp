@@ -51,14 +51,14 @@ class MomentSums {
     void add(std::span<const double> rows, const RunContext& run);
 
     void pack(Packer& to) const;
-    /// Adds the sums of the batches directly after those of this object.
+    /// Merges the sums of the batches that directly follow this object's.
     void merge(Unpacker& from);
 
     /// Moments of at least two rows. @throws Error(limit) if a power exceeds the largest double
     [[nodiscard]] SampleAndErrors moments() const;
 
   private:
-    /// Sums over 2^level batches: powers 1..6 of each column, then pairs.
+    /// Sums over 2^level batches: powers 1..6 of each column, then products of pairs of columns.
     struct Node {
         std::uint64_t first = 0;  ///< a multiple of 2^level
         std::uint64_t level = 0;

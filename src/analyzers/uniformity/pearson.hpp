@@ -85,7 +85,8 @@ Tails count_tails(double statistic, const Fit& fit);
 /// groups of equal probability; nullopt if it would take too long (count_law.cpp).
 std::optional<double> exact_lower_tail(double statistic, std::uint64_t n, std::uint64_t groups);
 
-/// Likewise for two or more groups with the given expected numbers of points, whose sum is n.
+/// The same probability for two or more groups with the given expected numbers of points, whose sum
+/// is n.
 std::optional<double> exact_lower_tail(double statistic, std::uint64_t n,
                                        std::span<const double> expected);
 

@@ -99,7 +99,7 @@ std::vector<Increment> mirrored(std::vector<Increment> increments) {
     return increments;
 }
 
-/// S(t) of the header. @param c, s cosine and sine of t
+/// S(t) of linear_correlation.hpp. @param c, s cosine and sine of t
 double slope(const std::vector<Increment>& a, const std::vector<Increment>& b, double c, double s) {
     const double reach = 12 * c;
     const double exponent = -0.5 / (c * c);

@@ -104,7 +104,7 @@ class ScoredSet {
         return of_j > 0 && of_k > 0 ? sum / std::sqrt(of_j * of_k) : 0;
     }
 
-    /// E, the correlations of the scores of all coordinates.
+    /// Matrix E of reordering.hpp: the correlations of the scores of all coordinates.
     [[nodiscard]] std::vector<double> correlations() const {
         double squares = 0;
         for (const double score : scores_) squares += score * score;
@@ -121,7 +121,8 @@ class ScoredSet {
         return e;
     }
 
-    /// Ranks of the points in R S^T, where S is lower triangular with S_00 = 1.
+    /// Ranks of the points in the matrix R S^T of reordering.hpp, where S is lower triangular with
+    /// S_00 = 1.
     [[nodiscard]] std::vector<Ranks> transformed(const std::vector<double>& s) const {
         std::vector<Ranks> ranks(d_, ranks_[0]);
         for_each_block(run_, d_ - 1, 1, [&](const Block& column) {
@@ -222,7 +223,8 @@ class Corrections {
     std::vector<double> before_;  ///< previous errors
 };
 
-/// Q of the header. @throws Error(input) if the scores' correlations have no Cholesky factor
+/// Matrix Q of reordering.hpp. @throws Error(input) if the scores' correlations have no Cholesky
+/// factor
 std::vector<double> factor_of(const ScoredSet& set, const std::vector<std::string>& names) {
     const std::size_t d = names.size();
     for (std::size_t k = 0; k < d; ++k)

@@ -24,7 +24,7 @@ void terms_of(std::span<const double> x, Model model, std::vector<double>& f) {
             f.push_back(x[i] * x[j]);
 }
 
-/// Lower triangle of M of the header.
+/// Lower triangle of the matrix M of model_efficiency.hpp.
 std::vector<double> information(std::span<const double> coded, std::size_t dimension, Model model,
                                 const RunContext& run) {
     const std::size_t p = model_terms(model, dimension);

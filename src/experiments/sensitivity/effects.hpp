@@ -45,8 +45,9 @@ struct Setting {
     std::size_t bootstrap = 1000;  ///< number of resamples; 0: no bootstrap intervals
     double level = 0.95;
     std::uint64_t seed = 1;
-    std::optional<std::size_t> harmonics = {};  ///< M of fast; by default that of the curves
-    std::optional<std::size_t> degree = {};     ///< degree of chaos; chosen by default
+    std::optional<std::size_t> harmonics =
+        {};  ///< fast: number M of harmonics; by default that of the curves
+    std::optional<std::size_t> degree = {};  ///< chaos: degree of the polynomial; by default chosen
 };
 
 /// An index with its interval; unknown numbers are NaN.
@@ -87,7 +88,7 @@ struct Layout {
     std::size_t group = 0;  ///< number of rows that belong together
     /// Morris: every row of a group differs from its first row, not from the previous one.
     bool star = false;
-    std::size_t harmonics = 0;  ///< M of fast
+    std::size_t harmonics = 0;  ///< fast: number M of harmonics
     std::string trouble = {};
 
     explicit operator bool() const { return trouble.empty(); }

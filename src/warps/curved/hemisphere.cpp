@@ -130,8 +130,8 @@ struct CosineConcentric {
         return frame.out({x, y, std::sqrt((1 - r) * (1 + r))});
     }
 
-    /// The disk's inverse, except that the radius is computed from the height, which is accurate
-    /// near the horizon.
+    /// Inverse of the concentric disk map, except that the radius is computed from the height,
+    /// which is more accurate near the horizon.
     std::array<double, 2> inverse(std::span<const double> point) const {
         const auto [x, y, z] = frame.in(vector_of(point));
         const bool wide = std::abs(x) > std::abs(y);

@@ -220,9 +220,9 @@ class Urena {
     double behind_ = 0;  ///< G at x1
     double w0_ = 0;
     double w1_ = 0;
-    CosSin low_{};   ///< pi - kappa0
-    CosSin high_{};  ///< kappa1
-    CosSin both_{};  ///< low_ + high_
+    CosSin low_{};   ///< cosine and sine of pi - kappa0
+    CosSin high_{};  ///< cosine and sine of kappa1
+    CosSin both_{};  ///< cosine and sine of the sum of both angles
 };
 
 /// @throws Error(usage) unless these are the edges of a rectangle

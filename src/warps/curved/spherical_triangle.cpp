@@ -126,8 +126,8 @@ class Arvo {
     Vector3 bc_;
     double half_area_;
     Vector3 to_c_{};  ///< unit tangent at a, towards c
-    double sin_ = 0;  ///< 2 sin(ac/2), and below 2 cos(ac/2)
-    double cos_ = 0;
+    double sin_ = 0;  ///< 2 sin(ac/2)
+    double cos_ = 0;  ///< 2 cos(ac/2)
     double along_ = 0;
     double across_ = 0;
     double turn_ = 1;  ///< orientation of a, b, c: 1 counter-clockwise, seen from outside

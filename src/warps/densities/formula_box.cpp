@@ -75,7 +75,7 @@ FormulaBox::FormulaBox(std::string spec, Expression f, Box box)
 Estimate FormulaBox::integral() const {
     std::call_once(once_, [this] {
         const std::string what = "--density: " + f_.text();
-        // Quadrature may miss a narrow peak; then its result deviates too far from the mean.
+        // If quadrature misses a narrow peak, its result is too far from that of mean_integral().
         constexpr int most_tries = 4;
         const Estimate mean = mean_integral(f_, box_);
         Effort effort = effort_for(dimension());

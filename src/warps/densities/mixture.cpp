@@ -77,8 +77,8 @@ struct Component {
 /// at the component's rim (math/geometry/zone_integral.hpp).
 class MixtureDomain final : public NamedDomain {
   public:
-    /// @param parts that give directions or fill the same number of dimensions; weights that sum to
-    /// 1
+    /// @param parts components that all give directions, or all fill the same number of dimensions;
+    /// their weights sum to 1
     MixtureDomain(const std::vector<Component>& parts, std::string spec)
         : NamedDomain(std::move(spec), parts[0].mapping->domain()->dimension(),
                       parts[0].mapping->domain()->cube_dimension()) {
@@ -96,8 +96,8 @@ class MixtureDomain final : public NamedDomain {
         });
     }
 
-    /// All directions if a part covers them all; the box if every part fills it. Otherwise the
-    /// union of the parts is unknown, and the measure is that of all space.
+    /// Measure of all directions if a part covers them all, or of the box if every part fills it.
+    /// Otherwise the union of the parts is unknown, and the measure is infinite.
     double measure() const override {
         const auto has_all = [&](const DomainPtr& part) {
             return part->measure() > (1 - 1e-12) * all_directions();

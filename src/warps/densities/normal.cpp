@@ -194,7 +194,7 @@ class NormalDomain final : public NamedDomain {
         return mass;
     }
 
-    /// z = L^-1 (x - m).
+    /// Computes z = L^-1 (x - m).
     void standardise(std::span<const double> point, std::span<double> z) const {
         const std::size_t d = dimension();
         for (std::size_t k = 0; k < d; ++k) {

@@ -148,7 +148,7 @@ template <Root root>
 struct OneSided final : PowerLaw {
     using PowerLaw::PowerLaw;
 
-    static constexpr bool narrow = root == Root::logarithm;  ///< r > 1/2
+    static constexpr bool narrow = root == Root::logarithm;  ///< the form for r > 1/2
 
     double heavy = 1;        ///< magnitude of the end with the larger |x|^p
     double sign = 1;         ///< sign of x

@@ -79,7 +79,7 @@ class RegularPolygon {
     double area_in(const Polygon& window) const {
         Polygon corners;
         for (const auto& [x, y] : *vertices_) corners.push_back({x, y});
-        corners.pop_back();  // repeats the first one
+        corners.pop_back();  // the last vertex repeats the first one
         return shared_area(corners, window);
     }
 

@@ -62,7 +62,7 @@ std::vector<PlanePoint> RingSector::hull(double turn) const {
     return points;
 }
 
-/// E r^n times the means of cos^i sin^j over the angle, i + j = n.
+/// Each moment of order n = i + j is E r^n times the mean of cos^i sin^j over the angle.
 PlaneMoments RingSector::moments() const {
     const double q = inner;
     const double r = 2 / 3.0 * (1 + q + q * q) / (1 + q);
