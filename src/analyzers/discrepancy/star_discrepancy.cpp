@@ -270,11 +270,10 @@ Analyzer unit() {
                       "periodic-discrepancy"}},
             .analyze = analyze,
             .cost =
-                // Measured: exact searches of Halton, Sobol' and random points.
-            [](double n, double d) {
-                if (d <= 2) return 3e-8 * std::pow(n, 1.33);
-                return std::min(100.0, 5e-8 * std::pow(n, d <= 8 ? 1 + d / 4 : 2.2 + d / 10));
-            },
+                [](double n, double d) {  // exact searches of Halton, Sobol' and random points
+                    if (d <= 2) return 3e-8 * std::pow(n, 1.33);
+                    return std::min(100.0, 5e-8 * std::pow(n, d <= 8 ? 1 + d / 4 : 2.2 + d / 10));
+                },
             .sharing = {.together = analyze_together},
             .refine = refine};
 }

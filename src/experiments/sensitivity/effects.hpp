@@ -45,9 +45,8 @@ struct Setting {
     std::size_t bootstrap = 1000;  ///< number of resamples; 0: no bootstrap intervals
     double level = 0.95;
     std::uint64_t seed = 1;
-    std::optional<std::size_t> harmonics =
-        {};  ///< fast: number M of harmonics; by default that of the curves
-    std::optional<std::size_t> degree = {};  ///< chaos: degree of the polynomial; by default chosen
+    std::optional<std::size_t> harmonics = {};  ///< fast: number M; by default from the curves
+    std::optional<std::size_t> degree = {};     ///< chaos: degree; by default chosen
 };
 
 /// An index with its interval; unknown numbers are NaN.
