@@ -138,8 +138,7 @@ class MarginalLine final : public LineDistribution {
     MarginalPtr law_;
     std::pair<double, double> ends_;
     std::pair<bool, bool> endless_;
-    /// The ends, or the next double inside where the end or its density is infinite, or this
-    /// density is 0.
+    /// The ends. If an end or its density is infinite, or its density is 0: the next double inside.
     std::pair<double, double> inside_;
 };
 

@@ -26,9 +26,9 @@
 // change nothing for those of 1 + k. Without weights symmetric is 2^d times average.)
 //
 // Shape   points n x d in [0, 1];  results >= 0, pure numbers, smaller is more even.
-// Cost    d <= 2: O(n log n) for all kinds together (about 0.4 s at n = 10^6 on one core). d > 2:
-//         O(n^2 d) for each kind. For the kinds star, extreme, centered and modified of many
-//         points, O(n log^2 n) in three dimensions and O(n log^3 n) in four.
+// Cost    d <= 2: O(n log n) for all kinds together (about 0.4 s at n = 10^6 on one core).
+//         d > 2: O(n^2 d) for each kind. For many points, O(n log^2 n) in three dimensions; in
+//         four, O(n log^3 n) for the kinds star, extreme, centered and modified.
 // Promise the same for any number of threads. d <= 2: exact sums, rounded once at the end, of
 //         coordinates rounded to multiples of 2^-63. d > 2: `value` is off by at most `error`. This
 //         is below a relative 1e-12 (usually the rounding of the value) unless all but 2^-38 of the

@@ -19,8 +19,7 @@
 namespace stipple::analyzers {
 namespace {
 
-/// Sorts the coordinates, measured from `low`, in ascending order. A stop request ends the sort
-/// quickly.
+/// Returns the coordinates in ascending order. A stop request ends the sort quickly.
 std::vector<double> sorted(const PointSet& points, double low, const RunContext& run) {
     std::vector<Placed> items(points.count());
     for (std::size_t i = 0; i < items.size(); ++i)

@@ -101,8 +101,8 @@ constexpr Param<std::int64_t> window_count{
     .help =
         "Number of random windows with --metric euclidean; on the torus all positions are counted"};
 
-/// Number of bins within twice the smallest radius. Bounds of their number within twice the largest
-/// radius take precedence.
+/// Number of bins within twice the smallest radius, and limits for the number within twice the
+/// largest, which take precedence.
 constexpr double bins_in_smallest = 400;
 constexpr double fewest_bins = 4096;
 constexpr double most_bins = 16384;

@@ -35,7 +35,7 @@ class RegionView {
   private:
     const Domain& domain_;
     bool finite_;                ///< whether the support has a finite measure
-    std::optional<Box> box_;     ///< box of a domain that fills it
+    std::optional<Box> box_;     ///< bounding box, if the domain fills it
     std::optional<Frame> axes_;  ///< frame of a hemisphere, whose axis is z
     std::optional<Frame> pole_;  ///< frame of a distribution on the whole sphere, whose axis is z
 };

@@ -67,8 +67,8 @@ struct AxisSums {
     }
 };
 
-/// Adds rows [first, last) of `cubes` to the sums, together with the preceding rows of `cubes` at
-/// each lag.
+/// Adds the terms of rows [first, last) of `cubes` to the sums, including products with preceding
+/// rows of `cubes` back to the largest lag.
 void sum_axis(std::span<const double> cubes, std::size_t axes, std::size_t axis, std::size_t first,
               std::size_t last, AxisSums& sums) {
     const auto u = [&](std::size_t i) { return cubes[i * axes + axis]; };

@@ -9,9 +9,8 @@
 // the levels exactly. So does the box from -m / (m - 1) to m / (m - 1), in which they are the coded
 // values -1, ..., 1 of the literature: --bounds -2..2 for two levels, -1.5..1.5 for three.
 //
-// A factor that is warped onto K outcomes (categories, or up to ten numbers) uses all of them
-// equally, whatever their probabilities: a level at x moves to the middle of the interval of
-// outcome floor(K x).
+// A factor that is warped onto K outcomes (categories, or up to ten numbers) ignores their
+// probabilities: a level at x moves to the middle of the interval of outcome floor(K x).
 #pragma once
 
 #include <cstddef>

@@ -7,9 +7,9 @@
 //     Student    v_i = T_nu(t_i),      t_i = m_i + s_i T_(nu+i)^-1(u_i),
 //
 // where m_i and s_i^2 = L_ii^2 (nu + q_i) / (nu + i) are the parameters of Student's distribution
-// given the i preceding coordinates, and q_i is the sum of the squares of y_1 ... y_i, with L y =
-// t. Both are Rosenblatt's transformation: u_i determines v_i given the preceding coordinates. So
-// strata of the first coordinate are preserved, and an inverse exists.
+// given the i preceding coordinates, and q_i is the sum of the squares of y over these coordinates,
+// with L y = t. Both are Rosenblatt's transformation: u_i determines v_i given the preceding
+// coordinates. So strata of the first coordinate are preserved, and an inverse exists.
 //
 // Shape   d coordinates. Each is stored as two probabilities, p below and q = 1 - p above it, so
 //         that both tails keep all digits.

@@ -59,8 +59,8 @@ LineRange range_of(const Values& options) {
     return out;
 }
 
-/// The domain's cells have nearly equal mass, according to the table; probability() returns the
-/// exact one.
+/// The domain's cells have nearly equal mass, according to the table; probability() computes it
+/// from the formula.
 class ByFormula final : public LineDistribution {
   public:
     ByFormula(Expression formula, const LineRange& ends, double within, const RunContext& run)
