@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+//
 // Records of analyzers, with their functions from points to a report.
 #pragma once
 
@@ -109,8 +110,8 @@ class SharedAccumulator : public Accumulator {
 /// Ways for several processes to share the work on one set: each sees a part of the points (grain),
 /// or each sees all points and does a part of a search (together). At most one of the two is set.
 struct Sharing {
-    /// Alignment of parts, which begin at multiples of this number of points. `accumulate` must
-    /// then make a SharedAccumulator. @throws Error(usage) if these options do not allow sharing
+    /// Alignment of parts: each begins at a multiple of this number of points. `accumulate` then
+    /// makes a SharedAccumulator. @throws Error(usage) if these options do not allow sharing
     std::function<std::uint64_t(const Arrival&, const Values&)> grain = {};
 
     /// Like `analyze`, but divides the work among peers that have the same points and options; all
@@ -143,7 +144,7 @@ struct CurveKey {
 /// Parts of a report page, in its order.
 enum class PagePart { discrepancy, means, gaps, distances, spectrum, pairs, integration, tests };
 
-/// A measure shown on a report page: the analyzer with the given options.
+/// One measure of a report page: the analyzer with these options.
 struct PageMeasure {
     std::string_view title;
     /// Keys of results that appear in the comparison of sets, with their titles there.
@@ -223,7 +224,7 @@ void check_dimension(const Analyzer& analyzer, std::size_t dimension);
 /// Whether all reports to be averaged have the same number under a key, up to rounding.
 bool alike(std::span<const Report> sets, std::string_view key);
 
-/// Removes entries that cannot be averaged, such as positions and pairs, from a report.
+/// Removes entries that cannot be averaged from a report, such as positions and pairs.
 void drop(Report& report, std::initializer_list<std::string_view> names);
 
 namespace analyzers {

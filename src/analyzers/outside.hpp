@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+//
 // Points outside the domain to which they should belong.
 #pragma once
 

@@ -19,7 +19,7 @@ struct HalfOfRows {
         : power(of), width(static_cast<std::int64_t>(of.columns)), last(width / 2) {}
 
     /// Calls visit(centre, f_1^2 + f_2^2, middle) for each row: `centre` points to the power at f_0
-    /// = 0, and `middle` is true for the row that also contains the opposites of its vectors.
+    /// = 0, and `middle` is true for the row that contains the opposites of its own vectors.
     template <class Visit>
     void visit(const RunContext& run, Visit&& visit) const {
         for (std::size_t row = power.rows / 2; row < power.rows; ++row) {
@@ -111,7 +111,7 @@ std::int64_t whole_root(std::int64_t x) {
     return root;
 }
 
-/// Shells of a ring, indexed by |f|^2, up to F^2.
+/// Shells of a ring by |f|^2, up to F^2.
 std::map<std::int64_t, Shell> shells_of(const Grid& power, std::int64_t ring,
                                         const RunContext& run) {
     std::map<std::int64_t, Shell> shells;

@@ -27,7 +27,7 @@ Rings rings_of(const Grid& power, const RunContext& run);
 /// Decibels of a ratio of powers above 0.
 double decibels(double ratio);
 
-/// Anisotropy of a ring in dB, at least -100. It is -100 also if the mean is at most `least`.
+/// Anisotropy of a ring in dB, at least -100; -100 also if the mean is at most `least`.
 double anisotropy_db(double variance, double mean, double least = 0);
 
 /// Effective Nyquist frequency: half the radius of the largest disk of frequencies whose mean power

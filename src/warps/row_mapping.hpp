@@ -77,7 +77,7 @@ STIPPLE_WIDE [[gnu::flatten]] void map_rows(const Method method, std::span<const
     }
 }
 
-/// Inverse of a point of the domain, by the method or else by the domain.
+/// Inverse of a point of the domain: the method's, or else the domain's.
 template <class Known, class Method, std::size_t m>
 [[gnu::flatten]] auto row_back(const Known& domain, const Method& method,
                                const std::array<double, m>& point) {

@@ -44,7 +44,7 @@ class Mapping {
     /// Whether some points may have no image.
     [[nodiscard]] virtual bool drops() const { return false; }
 
-    /// Outcomes of each unit coordinate; empty if all are continuous, or if outcomes depend on
+    /// Outcomes of each unit coordinate. Empty if all are continuous, or if outcomes depend on
     /// other coordinates.
     [[nodiscard]] virtual std::vector<OutcomeAxis> outcome_axes() const { return {}; }
 
@@ -52,11 +52,12 @@ class Mapping {
     /// for unsuitable points; Error(limit), Error(cancelled)
     using SetStep = std::function<void(std::span<double> cube, const RunContext& run)>;
 
-    /// Step that needs the whole set and precedes forward(); empty if points are mapped one by one.
+    /// Step that needs the whole set and comes before forward(); empty if points are mapped one by
+    /// one.
     [[nodiscard]] virtual SetStep set_step() const { return {}; }
 
-    /// Whether the image of a row of the cube would be infinite and is replaced by a finite one.
-    /// Called only if the domain's measure is infinite.
+    /// Whether the image of a row of the cube is infinite and replaced by a finite one. Called only
+    /// if the domain's measure is infinite.
     [[nodiscard]] virtual bool infinite(std::span<const double> /*row*/) const { return false; }
 
     /// Inverse, into the closed unit cube: the domain's to_cube(), unless a method has its own.

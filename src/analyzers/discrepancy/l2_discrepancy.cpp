@@ -123,7 +123,7 @@ void warn_of_pairs(std::size_t n, std::size_t d, l2::Kind which, const RunContex
                     l2::record_of(which).name, n, d, seconds / 60));
 }
 
-/// Reports the root of a square with its error; warns if few digits are reliable.
+/// Reports the root of a square with its error; warns if few digits are certain.
 Report off_by(const l2::Square& square, l2::Kind which, const char* method, const RunContext& run) {
     constexpr double few_digits = 1e-9;
     constexpr double smallest = std::numeric_limits<double>::min();

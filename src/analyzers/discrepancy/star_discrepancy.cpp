@@ -75,7 +75,7 @@ constexpr Param<Choice> boxes{.name = "boxes",
 /// Limit beyond any machine's memory; counts of points stay far from 2^31.
 constexpr std::size_t max_count = std::size_t{1} << 29;
 
-/// Result of a search, and the method used.
+/// Result of a search, and its method.
 struct Found {
     SearchResult result;
     const char* method = "branch-and-bound";
@@ -122,7 +122,7 @@ void need_room(const PointSet& points, Family family, const RunContext& run) {
 /// Finds the worst box in two dimensions. Returns only bounds if the sweep exceeds its share of the
 /// time limit.
 Found sweep_or_search(const BoxGrid& grid, const Limits& limits, const RunContext& run) {
-    constexpr double part = 0.7;  // the remaining time is for bounds
+    constexpr double part = 0.7;  // the rest is for bounds
     SearchLimits first = limits.search;
     first.deadline = limits.start + part * (first.deadline - limits.start);
     const SearchResult sweep = star::sweep_2d(grid, first, run);
@@ -179,7 +179,7 @@ Report analyze_together(const PointSet& points, const Values& options, Peers& pe
                    options, run);
 }
 
-/// Boxes and axes cannot be averaged; the worst projection is found again from the means.
+/// Boxes and axes cannot be averaged; the worst projection is found anew from the means.
 void refine(Report& mean, std::size_t sets, const Values&) {
     if (sets < 2) return;
     drop(mean, {"worst_box"});
@@ -270,7 +270,7 @@ Analyzer unit() {
                       "periodic-discrepancy"}},
             .analyze = analyze,
             .cost =
-                [](double n, double d) {  // exact searches of Halton, Sobol' and random points
+                [](double n, double d) {  // exact searches of Halton's, Sobol's and random points
                     if (d <= 2) return 3e-8 * std::pow(n, 1.33);
                     return std::min(100.0, 5e-8 * std::pow(n, d <= 8 ? 1 + d / 4 : 2.2 + d / 10));
                 },

@@ -14,7 +14,7 @@
 namespace stipple::discrepancy::star {
 namespace {
 
-/// Columns common to all tables. Unknown values are NaN.
+/// Columns of every table. Unknown values are NaN.
 struct Columns {
     explicit Columns(std::size_t rows) : value(rows), lower(rows), upper(rows) {}
 
@@ -122,7 +122,7 @@ class Table {
     std::size_t rows_;
     const Limits& limits_;
     double weight_;
-    double left_;  ///< total weight of the sets not begun
+    double left_;  ///< weight of the sets that have not begun
     const Measure& measure_;
     const RunContext& run_;
     std::size_t done_ = 0;
@@ -183,7 +183,7 @@ double step_between(std::size_t n, std::size_t m) {
     return static_cast<double>(m - n) / static_cast<double>(m) + 0x1p-50;
 }
 
-/// Tightens the bounds of each prefix by those of its neighbours.
+/// Tightens the bounds of each prefix by those of the neighbouring ones.
 void carry_bounds(const std::vector<std::size_t>& sizes, Columns& columns) {
     const auto carry = [&](std::size_t from, std::size_t to) {
         const auto [n, m] = std::minmax(sizes[from], sizes[to]);

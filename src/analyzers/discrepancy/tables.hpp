@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Tables of discrepancies: of the prefixes of a sequence by length, and of the projections of a set
-// to a few of its axes.
+// Tables of discrepancies: of the prefixes of a sequence, by length, and of the projections of a
+// set to a few of its axes.
 #pragma once
 
 #include <functional>

@@ -143,7 +143,7 @@ class DifferenceCounter {
     }
 
   private:
-    /// Counts the difference of two points, and the opposite difference.
+    /// Counts the difference of two points and its opposite.
     void add(const double* p, const double* q, Counts& counts) const {
         const auto size = static_cast<double>(plan_.pixels);
         const double column = across(q[0] - p[0], 0) * scale_ + size / 2;

@@ -57,7 +57,7 @@ struct Part {
     std::vector<double> center;
     std::vector<double> half;
     double upper = std::numeric_limits<double>::infinity();
-    double lower = 0;  ///< radius of the largest ball found so far
+    double lower = 0;  ///< radius of the largest ball found in the box
     std::vector<double> place = {};
 };
 
@@ -79,8 +79,8 @@ class Search {
           neighbors_(std::min(points.count(), 4 * (points.dimension() + 1))) {
         const auto d = static_cast<double>(points.dimension());
         const double ball = real_power(std::numbers::pi, d / 2) / exponential(log_gamma(d / 2 + 1));
-        // If n balls of this radius were disjoint, they would fill the box; so the covering radius
-        // is not smaller. Parts with a larger half diagonal are halved without computing a bound.
+        // At this radius n balls have the volume of the box, so the covering radius is not smaller.
+        // Parts with a larger half diagonal are halved without a bound.
         least_ = real_power(volume_of(box_) / ball / static_cast<double>(points.count()), 1 / d);
     }
 

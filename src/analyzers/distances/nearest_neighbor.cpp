@@ -59,7 +59,7 @@ double smallest(double minimum, const Distances& distances) {
     return distances.torus ? std::min(minimum, shortest_side(*distances.box)) : minimum;
 }
 
-/// Sum of term(distance) over all points, block by block.
+/// Sum of term(distance) over points, block by block.
 template <class Term>
 double sum_up(const std::vector<Neighbor>& neighbors, const RunContext& run, const Term& term) {
     constexpr std::uint64_t size = 65536;

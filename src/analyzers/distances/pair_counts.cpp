@@ -27,8 +27,7 @@ struct FromPlace {
     std::array<double, D> sides;  ///< periods; infinite for straight distances
 };
 
-/// Computes places[i], the distance of point i times `scale`, at most `last`; bins[i] is its
-/// integer part.
+/// places[i] = distance of point i times `scale`, at most `last`; bins[i] is its integer part.
 template <std::size_t D>
 STIPPLE_WIDE void find_places(const FromPlace<D>& from, std::size_t count, double scale,
                               double last, double* places, std::int32_t* bins) {

@@ -173,7 +173,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return results;
 }
 
-/// Positions and pairs cannot be averaged. A mean is valid if all sets are valid.
+/// Positions and pairs cannot be averaged. A mean is valid if all sets are.
 void refine(Report& mean, std::size_t sets, const Values& options) {
     const auto* item = mean.find("valid");
     const bool* valid = item ? std::get_if<bool>(item) : nullptr;

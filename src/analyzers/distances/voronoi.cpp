@@ -63,7 +63,7 @@ constexpr std::size_t most_neighbors = 16;  ///< the last class includes larger 
 
 double length_of(const Vec2& v) { return std::sqrt(v.x * v.x + v.y * v.y); }
 
-/// Sums over cells; lengths are in units of sqrt(V / m).
+/// Sums over cells, with lengths in sqrt(V / m).
 struct Sums {
     double squared_deviation = 0;  ///< sum over areas of (a - 1)^2
     double smallest = INFINITY;

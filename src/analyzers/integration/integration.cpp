@@ -124,7 +124,7 @@ bool fits(const IntegrandKind& kind, const Domain& domain, const RegionView& vie
            domain.dimension() <= kind.max_dimension;
 }
 
-/// An integrand given by --integrand, with its options.
+/// An integrand of --integrand, with its options.
 struct Named {
     const IntegrandKind& kind;
     Values values;
@@ -257,7 +257,7 @@ struct Fault {
     }
 };
 
-/// Sums over one block, or over all blocks of points.
+/// Sums over one block, or over all blocks.
 struct Sums {
     std::vector<Tally> weighted;  ///< f / p, for each task
     std::vector<Tally> uniform;   ///< measure x f at uniform points, or measure x f^2 / p
@@ -279,7 +279,7 @@ struct Uniform {
     enum How {
         none,
         remade,       ///< uniform points, made from the coordinates of the given points in the cube
-        as_they_are,  ///< the given points, whose density is constant
+        as_they_are,  ///< the given points; their density is constant
         weighed,      ///< no uniform points; their variance follows from sums of measure x f^2 / p
     };
     How how = none;
@@ -425,7 +425,7 @@ Tally measure_of(const PointSet& points) {
     return inverse;
 }
 
-/// Whether the densities of the points equal those of the domain.
+/// Whether the densities of the points are those of the domain.
 bool follows_domain(const PointSet& points) {
     for (std::size_t i = 0; i < points.densities.size(); ++i)
         if (std::abs(points.domain->density(points[i]) / points.densities[i] - 1) > 1e-12)

@@ -83,7 +83,7 @@ class Search {
     Search(const Net& net, const std::optional<Matrices>& matrices)
         : net_(net), matrices_(matrices) {}
 
-    /// R of the projections of each size from 0 to `largest`; for size 0 it is m + 1.
+    /// R of the projections of each size up to `largest`; for size 0, m + 1.
     [[nodiscard]] std::vector<Unequal> projections(std::size_t largest,
                                                    const RunContext& run) const {
         double total = 0;

@@ -277,7 +277,7 @@ class Summation final : public SharedAccumulator {
     }
 
   private:
-    /// Limits the threads for small sets, which are done before other threads wake up.
+    /// Limits the threads for small sets, which are done before other threads have woken up.
     [[nodiscard]] RunContext fitting(const RunContext& run) const {
         if (nufft_ || direct_ || options_[method] == "direct") return run;
         const double values = fourier_sums_size(d_, frequency_for(std::max<std::uint64_t>(n_, 1)));
@@ -459,7 +459,7 @@ class Summation final : public SharedAccumulator {
     std::unique_ptr<DirectSummation> direct_;
 };
 
-/// Points per block of the sums, each of which has its own grid. Small sets are not shared.
+/// Points per block of the sums, each with its own grid; small sets are not shared.
 std::uint64_t grain(const Arrival& arrival, const Values& options) {
     if (options[method] == "direct")
         fail(ErrorKind::usage, "periodogram: ranks can share --method nufft only; use one process");

@@ -69,7 +69,7 @@ class StrengthSums {
     ScaledGridSum squares_;
 };
 
-/// Power at all frequencies from the sums at half of the frequencies; P(-f) = P(f) holds exactly.
+/// Power at all frequencies from the sums at half of them; P(-f) = P(f) holds exactly.
 /// @param hann whether the points were weighted by the Hann window
 Grid power_of(const FourierSums& sums, const Strengths& strengths, bool hann,
               const RunContext& run);

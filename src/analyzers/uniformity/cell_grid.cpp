@@ -13,7 +13,7 @@
 namespace stipple::analyzers {
 namespace {
 
-/// The odd prime nearest to x by ratio, at most `cap`; `cap` is at least 3.
+/// Odd prime nearest to x by ratio, at most `cap`, which is at least 3.
 std::size_t odd_prime_near(double x, std::size_t cap) {
     auto below = std::min(cap, std::max<std::size_t>(3, static_cast<std::size_t>(x)));
     while (!is_prime(below)) --below;
@@ -146,7 +146,7 @@ std::vector<Estimate> cell_masses(const Domain& domain, const CellGrid& grid, bo
     });
     Estimate sum;
     for (const Estimate& mass : masses) sum += mass;
-    // Even exact probabilities have a rounding error each.
+    // Exact probabilities still have a rounding error each.
     const double rounding =
         std::numeric_limits<double>::epsilon() * (64 + 4 * static_cast<double>(masses.size()));
     if (std::abs(sum.value - 1) > sum.error + rounding)

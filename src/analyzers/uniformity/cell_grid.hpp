@@ -24,7 +24,7 @@ inline constexpr std::uint64_t most_cells = 100'000'000;
 /// of these numbers that is not above its count. Sets below the first number have their own grids.
 inline constexpr std::uint64_t grid_counts[] = {1U << 20, 1U << 24, 1U << 28};
 
-/// Largest number of axes cut by a default grid.
+/// Largest number of axes that a default grid cuts.
 inline constexpr std::size_t most_cut_axes = 8;
 
 /// Default grid: odd primes with a product near 2 n^(2/5), at most n / 5. @throws Error(input) for
@@ -41,8 +41,8 @@ std::uint64_t cell_count(const CellGrid& grid);
 /// half a cell before 0.
 std::size_t cell_of(std::span<const double> cube, const CellGrid& grid, bool shifted);
 
-/// Probabilities of all cells, which must sum to 1. @throws Error(limit) if the domain's
-/// probabilities contradict each other
+/// Probabilities of all cells, whose sum is checked to be 1.
+/// @throws Error(limit) if the domain's probabilities contradict each other
 std::vector<Estimate> cell_masses(const Domain& domain, const CellGrid& grid, bool shifted,
                                   const RunContext& run);
 

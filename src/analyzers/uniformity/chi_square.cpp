@@ -94,7 +94,7 @@ constexpr Param<Choice> combination{
 
 constexpr std::uint64_t held_points = grid_counts[0];  ///< points kept until the grid is known
 
-/// Gaps of a domain's density: regions without points, whatever the probability of the cell.
+/// Gaps of a domain's density: no point can be there, whatever the probability of the cell.
 class Gaps {
   public:
     explicit Gaps(DomainPtr domain) : domain_(std::move(domain)) {
@@ -199,8 +199,8 @@ class Tally {
     std::vector<std::uint64_t> shifted_;
 };
 
-/// Tails of a statistic, and of the smallest and largest values possible within the errors of the
-/// cells' probabilities.
+/// Tails of a statistic, and of the smallest and largest value that it may have within the errors
+/// of the cells' probabilities.
 struct Judged {
     Tails found;
     Tails least;
@@ -221,7 +221,7 @@ Report& add_tails(Report& report, const Tails& tails) {
         .add("p_method", tails.exact ? "exact" : "corrected");
 }
 
-/// Adds the tails on one or two grids, and the verdict. @throws Error(limit) if the errors of the
+/// Adds the tails on one grid or two, and the verdict. @throws Error(limit) if the errors of the
 /// cells' probabilities could change the verdict
 void conclude(Report& report, const Judged& plain, const std::optional<Judged>& second,
               const Values& options) {
@@ -370,7 +370,7 @@ class Counter final : public SharedAccumulator {
     Values options_;
     std::size_t axes_;
     std::uint64_t first_ = 0;  ///< index of the first point to arrive
-    std::size_t width_ = 0;    ///< number of cube coordinates kept per point
+    std::size_t width_ = 0;    ///< number of cube coordinates that are kept per point
     std::uint64_t n_ = 0;
     std::uint64_t in_gaps_ = 0;
     std::vector<Tally> tallies_;

@@ -40,7 +40,7 @@ constexpr double most_steps = 2e6;
 constexpr double tie = 1e-12;  ///< tolerance for statistics that differ only by rounding
 
 /// Sums over the counts m + e of equal groups, with weights m! m^e / (m + e)!, indexed by the sum
-/// of e and by the sum of e^2.
+/// of e and the sum of e^2.
 class EqualCounts {
   public:
     /// @param squares largest sum of e^2
@@ -102,8 +102,8 @@ class EqualCounts {
     std::vector<double> weights_;
 };
 
-/// Binomial probability of `count` among n points if `expected` are expected. The powers of n, k
-/// and n - k are separated from n! / (k! (n - k)!), so that nothing cancels.
+/// Probability that `count` of n points are where `expected` are expected. The powers of n, k and n
+/// - k are separated from n! / (k! (n - k)!), so that nothing cancels.
 double binomial_chance(double count, double n, double expected) {
     const auto off = [](double found, double right) {
         const double e = (found - right) / right;

@@ -218,8 +218,8 @@ class Collector final : public SharedAccumulator {
     std::uint64_t first_ = 0;
     std::uint64_t n_ = 0;
     Outside outside_;
-    std::vector<double> buffer_;  ///< cube coordinates, point by point
-    /// Numbers of points in the cells, axis after axis; empty while points are kept.
+    std::vector<double> buffer_;  ///< coordinates of the cube, point by point
+    /// Numbers of points in cells, axis after axis; empty while points are kept.
     std::vector<std::uint64_t> counts_;
 };
 

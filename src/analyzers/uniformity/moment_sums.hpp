@@ -47,14 +47,14 @@ class MomentSums {
     /// batch.
     explicit MomentSums(std::vector<double> about, std::uint64_t first = 0);
 
-    /// Adds the next batch.
+    /// Takes the next batch.
     void add(std::span<const double> rows, const RunContext& run);
 
     void pack(Packer& to) const;
     /// Merges the sums of the batches that directly follow this object's.
     void merge(Unpacker& from);
 
-    /// Moments of at least two rows. @throws Error(limit) if a power exceeds the largest double
+    /// Moments of at least two rows. @throws Error(limit) if powers exceed the largest double
     [[nodiscard]] SampleAndErrors moments() const;
 
   private:

@@ -66,7 +66,7 @@ SampleMoments exact_of(const Moments& moments) {
     return exact;
 }
 
-/// Finite moments, and the names of the others.
+/// The moments that are finite, and the names of the others.
 Report finite_of(const SampleMoments& exact) {
     Report report;
     std::vector<std::string> missing;
@@ -156,7 +156,7 @@ class Summation final : public SharedAccumulator {
     }
 
   private:
-    /// Starts the sums, about the means of the set's first batch.
+    /// Starts the sums, about means of the set's first batch.
     void begin(std::span<const double> rows) {
         const std::uint64_t batch = first_ / arrival_batch(domain_->dimension());
         raw_.emplace(means_of(rows, domain_->dimension()), batch);

@@ -19,8 +19,8 @@ namespace {
 /// Largest number of unequal groups whose counts may be enumerated.
 constexpr std::size_t most_unequal = 8;
 
-/// Number of equal cells to pool so that a group's expectation is at least 5. @throws Error(input)
-/// if that leaves fewer than two groups
+/// Number of equal cells in a group, so that its expectation is at least 5. @throws Error(input) if
+/// that leaves fewer than two groups
 std::uint64_t group_size(std::uint64_t n, std::uint64_t total) {
     const std::uint64_t size = (fewest_expected * total + n - 1) / n;
     if (size > total / 2) {

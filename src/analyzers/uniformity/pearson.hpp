@@ -46,14 +46,14 @@ struct Fit {
     double statistic = 0;
     std::uint64_t groups = 0;
     std::uint64_t pooled = 0;      ///< cells pooled with others
-    std::uint64_t impossible = 0;  ///< number of points in cells of probability 0
+    std::uint64_t impossible = 0;  ///< points in cells of probability 0
     double mass_error = 0;         ///< sum of the errors of the cells' probabilities
     double statistic_error = 0;    ///< largest error of the statistic due to those errors
     double most_even = 0;          ///< probability of the smallest possible statistic; 0: unknown
     std::vector<double> modal_probabilities = {};  ///< q_1, q_2, ..., down to negligible ones
     std::uint64_t points = 0;
     std::vector<double> expected = {};  ///< expectations of groups, if few and unequal
-    bool equal = false;                 ///< all groups have the same expectation
+    bool equal = false;                 ///< whether all groups have the same expectation
 
     [[nodiscard]] double freedom() const { return static_cast<double>(groups - 1); }
 };
@@ -61,7 +61,7 @@ struct Fit {
 /// Fit for cells of equal probability. @throws Error(input) if they make fewer than two groups
 Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunContext& run);
 
-/// Fit for cells with the given probabilities, one for each count. @throws Error(input)
+/// Fit for cells with these probabilities, one for each count. @throws Error(input)
 Fit fit_masses(std::span<const std::uint64_t> counts, std::span<const Estimate> masses,
                std::uint64_t n, const RunContext& run);
 

@@ -136,7 +136,7 @@ class Order final : public Accumulator {
     }
 
   private:
-    /// Adds rows [first, last) of tail_ in blocks; adds the sums of the blocks in order.
+    /// Adds rows [first, last) of tail_, in blocks whose sums are added in order.
     void add_rows(std::size_t first, std::size_t last, const RunContext& run) {
         const std::size_t axes = sums_.size();
         const std::size_t block = std::max<std::size_t>(1, 16384 / axes);

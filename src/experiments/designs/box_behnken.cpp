@@ -59,7 +59,7 @@ const Blocks& blocks_for(std::size_t factors) {
          below);
 }
 
-/// Position of each factor within each block; -1 for factors outside the block.
+/// Index of each factor within each block, -1 for factors outside the block.
 using Places = std::vector<std::vector<int>>;
 
 Places places_of(const Blocks& blocks) {

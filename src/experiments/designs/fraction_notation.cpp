@@ -39,7 +39,7 @@ Equation parse_equation(std::string_view text) {
     return equation;
 }
 
-/// Checks that no column is constant, and none equal or opposite to another. @throws Error(usage)
+/// Checks that no column is constant, equal to or opposite to another. @throws Error(usage)
 void require_different_columns(const RegularFraction& design) {
     for (std::size_t i = 0; i < design.factors(); ++i) {
         if (design.columns[i] == 0)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Text notation of regular fractions. Factors are A, B, ..., Z, a, ..., z, except I and i, because
+// Text notation of regular fractions. Factors are A, B, ..., Z, a, ..., z without I and i, because
 // I denotes the mean. Generators are D=ABC,E=-AB; the defining relation is I=ABCD=-ABE=-CDE; each
 // main effect is listed with its aliases.
 #pragma once
@@ -41,7 +41,7 @@ std::string relation_of(const RegularFraction& design, const std::vector<std::ui
 /// Each main effect with its shortest aliases: "A=BD=CE; B=AD".
 std::string aliases_of(const RegularFraction& design, const std::vector<std::uint64_t>& words);
 
-/// Numbers of words by length as text: "7 of 3, 7 of 4, 1 of 7".
+/// Numbers of words by length: "7 of 3, 7 of 4, 1 of 7".
 std::string lengths_text(const WordLengths& lengths);
 
 /// Roman numeral up to ten (III for 3), Arabic digits beyond.

@@ -41,7 +41,7 @@ class GoethalsSeidel {
     [[nodiscard]] bool positive(std::uint64_t row, std::uint64_t column) const;
 
   private:
-    /// Index of the group element x + y.
+    /// Number of the group element x + y.
     [[nodiscard]] std::uint64_t sum(std::uint64_t x, std::uint64_t y) const;
     [[nodiscard]] std::uint64_t negative(std::uint64_t x) const;
 

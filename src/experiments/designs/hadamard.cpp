@@ -60,8 +60,8 @@ std::vector<bool> squares_of_prime(std::uint64_t p) {
     return square;
 }
 
-/// Sequence of Stanton and Sprott, rotated so that the design of 36 runs equals that of Plackett
-/// and Burman.
+/// Sequence of Stanton and Sprott, rotated so that the design of 36 runs is that of Plackett and
+/// Burman.
 std::vector<bool> twin_sequence(std::uint64_t a) {
     const auto of_a = squares_of_prime(a);
     const auto of_b = squares_of_prime(a + 2);

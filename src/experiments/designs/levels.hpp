@@ -9,7 +9,7 @@
 // the levels exactly. So does the box from -m / (m - 1) to m / (m - 1), in which they are the coded
 // values -1, ..., 1 of the literature: --bounds -2..2 for two levels, -1.5..1.5 for three.
 //
-// A factor that is warped onto K outcomes (categories, or up to ten numbers) ignores their
+// A factor that is warped onto K outcomes (categories, or up to ten numbers) ignores the outcomes'
 // probabilities: a level at x moves to the middle of the interval of outcome floor(K x).
 #pragma once
 
@@ -44,13 +44,13 @@ inline constexpr Param<std::int64_t> center_option{
 
 using Findings = std::vector<std::pair<std::string, std::string>>;
 
-/// Coordinate of a level; 1/2 if there is only one level.
+/// Coordinate of a level; 1/2 if it is the only one.
 double level_place(std::uint64_t level, std::uint64_t levels, bool ends);
 
 /// Coordinates of all levels.
 std::vector<double> level_places(std::uint64_t levels, bool ends);
 
-/// Value of --bounds that maps the levels to -1, ..., 1, such as "-2..2".
+/// The --bounds that map the levels to -1, ..., 1, such as "-2..2".
 std::string coded_range(std::uint64_t levels, bool ends);
 
 /// Plan for a fixed number of runs. @throws Error(usage) if the request has another count
@@ -58,7 +58,7 @@ std::string coded_range(std::uint64_t levels, bool ends);
 Plan plan_of_runs(const Request& request, std::uint64_t runs, std::size_t factors,
                   const std::string& design);
 
-/// Like plan_of_runs(), for `others` runs and those at the centre.
+/// Like plan_of_runs(), for `others` runs plus those at the centre.
 Plan plan_with_center(const Request& request, const Values& options, std::uint64_t others,
                       std::size_t factors, const std::string& design);
 
@@ -71,7 +71,7 @@ class LevelPlaces {
   public:
     explicit LevelPlaces(const Plan& plan);
 
-    /// Number of outcomes used as levels of a factor; 0 if its levels are plain coordinates.
+    /// Number of outcomes that serve as levels of a factor; 0 if its levels are plain coordinates.
     [[nodiscard]] std::size_t outcomes(std::size_t factor) const {
         return factor < ends_.size() && !ends_[factor].empty() ? ends_[factor].size() - 1 : 0;
     }

@@ -25,7 +25,7 @@ std::uint64_t nearest_below(std::uint64_t count) {
     return n;
 }
 
-/// Smallest possible count that is at least `count`; 0 if there is none.
+/// Smallest possible count of at least `count`; 0 if there is none.
 std::uint64_t nearest_above(std::uint64_t count) {
     if (count > most_hadamard) return 0;
     std::uint64_t n = std::max<std::uint64_t>(4, (count + 3) / 4 * 4);

@@ -82,7 +82,7 @@ const std::vector<FractionRow>& fraction_rows() {
     return all;
 }
 
-/// Row of the table with the fraction; nullptr if there is none.
+/// Row of the table with the fraction, nullptr if there is none.
 const FractionRow* row_of(std::size_t factors, std::size_t basic) {
     const auto found = std::ranges::find_if(fraction_rows(), [&](const FractionRow& row) {
         return row.basic == basic && row.least <= factors && factors <= row.most;
@@ -103,9 +103,9 @@ std::size_t bound_of(std::size_t factors, std::size_t basic, std::size_t resolut
     return resolution;
 }
 
-/// Whether the fraction is proven to have minimum aberration. The proofs are the complete
-/// catalogues of up to 32 runs, and of 64 runs at resolution IV (Chen, Sun, Wu 1993), and the
-/// theorems on up to four generators (J. Chen, C. F. J. Wu, Ann. Stat. 19 (1991) 1028-1041).
+/// Whether the fraction is proven to have minimum aberration: by the complete catalogues of up to
+/// 32 runs, and of 64 runs at resolution IV (Chen, Sun, Wu 1993), or by the theorems on up to four
+/// generators (J. Chen, C. F. J. Wu, Ann. Stat. 19 (1991) 1028-1041).
 bool is_least(std::size_t factors, std::size_t basic) {
     return basic <= 5 || (basic == 6 && factors <= 32) || factors - basic <= 4;
 }

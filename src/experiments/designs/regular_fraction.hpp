@@ -23,7 +23,7 @@ namespace stipple::generators {
 struct RegularFraction {
     /// Basic factors. Basic factor j has its high level in run i if bit j of i is 1.
     std::vector<std::size_t> basic;
-    std::vector<std::uint64_t> columns;  ///< columns of all factors
+    std::vector<std::uint64_t> columns;  ///< column of every factor
     std::vector<bool> negative = {};     ///< whether a factor's sign is reversed; may be empty
 
     [[nodiscard]] std::size_t factors() const { return columns.size(); }
@@ -50,7 +50,7 @@ std::size_t resolution_of(const WordLengths& lengths);
 /// The 2^p - 1 nonempty words of the defining relation, as sets of factors.
 std::vector<std::uint64_t> defining_words(const RegularFraction& design);
 
-/// Best known fraction (fractions.txt), or the full factorial.
+/// Best known fraction (fractions.txt), or all combinations.
 struct KnownFraction {
     RegularFraction design;
     std::size_t resolution = 0;  ///< 0 for a full factorial

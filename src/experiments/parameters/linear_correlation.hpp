@@ -28,21 +28,20 @@
 
 namespace stipple::parameters {
 
-/// A parameter's numbers, or their mean ranks, as a function of its normal score.
+/// A parameter's numbers, or their mean ranks, as a function of the normal score.
 class Scored {
   public:
     /// Correlated quantity: the numbers, or their mean ranks (F(x) + F(x-)) / 2.
     enum class Of { numbers, ranks };
 
-    /// @throws Error(usage) if the variance is 0 or infinite, or comes from too far out in the
-    /// tails
+    /// @throws Error(usage) if the variance is 0 or infinite, or comes from too far in the tails
     Scored(MarginalPtr law, Of of);
 
     /// Correlation of the scores for which this parameter and the other one have the correlation r.
     /// @throws Error(usage) naming the possible range, if r is not possible
     [[nodiscard]] double scores_for(const Scored& other, double r) const;
 
-    /// Correlation of the two parameters if that of their scores is `sign`: 1 or -1.
+    /// Correlation of both parameters if that of their scores is `sign`, 1 or -1.
     [[nodiscard]] double extreme(const Scored& other, double sign) const;
 
     struct Increment {
@@ -61,7 +60,7 @@ class Scored {
     [[nodiscard]] double at(double z) const;
     /// Number, or mean rank, at the score z.
     [[nodiscard]] double number(double z) const;
-    /// Increments, merged for kernels that are at least `width` wide.
+    /// Increments reduced for kernels that are at least `width` wide.
     [[nodiscard]] std::vector<Increment> gathered(double width) const;
 
     MarginalPtr law_;

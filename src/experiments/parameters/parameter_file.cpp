@@ -24,7 +24,7 @@
 namespace stipple::parameters {
 namespace {
 
-/// A value in the file and its path, such as $.parameters[2].range.
+/// A value of the file and its path, such as $.parameters[2].range.
 class Place {
   public:
     Place(const Json& value, std::string path, const std::string& source)
@@ -84,7 +84,7 @@ class Place {
     const std::string& source_;
 };
 
-/// A number, or a formula of the preceding parameters.
+/// A number, or a formula in the preceding parameters.
 struct Entry {
     double number = 0;
     std::optional<Expression> formula = {};
@@ -100,7 +100,7 @@ Entry entry_of(const Place& place, const FormulaNames& before) {
         [&] { return Entry{.formula = Expression("", place.value().get<std::string>(), before)}; });
 }
 
-/// Limits the count of numbers, since all are stored in the points' provenance.
+/// Limits the numbers, since all of them are stored in the points' provenance.
 void check_size(const Place& values, std::size_t count) {
     constexpr std::size_t most = 100'000;
     if (count > most)
@@ -449,7 +449,7 @@ class CorrelationReader {
         const std::size_t d = parameters_.size();
         if (given_[i * d + j]) pair.refuse("the pair is given twice");
         given_[i * d + j] = given_[j * d + i] = true;
-        spearman_[i * d + j] = spearman_[j * d + i] = r;  // used only by reorderings
+        spearman_[i * d + j] = spearman_[j * d + i] = r;  // used only by a reordering
         const double scores = of_scores(pair, i, j, r, kind, student);
         matrix_[i * d + j] = matrix_[j * d + i] = scores;
     }
@@ -484,7 +484,7 @@ class CorrelationReader {
         return *made;
     }
 
-    /// Reports the nearest possible correlations as a hint. @throws Error(input)
+    /// Reports the nearest possible correlations. @throws Error(input)
     [[noreturn]] void offer_nearest() const {
         const std::size_t d = parameters_.size();
         auto nearest = nearest_correlation(matrix_, d);
@@ -508,8 +508,8 @@ class CorrelationReader {
     std::vector<double> matrix_;  ///< correlations of the scores
     std::vector<double> spearman_;
     std::vector<bool> given_;
-    bool ranks_only_ = true;  ///< rank correlations of the scores equal those of the parameters
-    std::vector<std::shared_ptr<const Scored>> numbers_;  ///< by parameter; null until needed
+    bool ranks_only_ = true;  ///< rank correlations of scores are those of the parameters
+    std::vector<std::shared_ptr<const Scored>> numbers_;  ///< per parameter; null until needed
     std::vector<std::shared_ptr<const Scored>> ranks_;
 };
 

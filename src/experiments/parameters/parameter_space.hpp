@@ -23,7 +23,7 @@ struct Parameter {
     std::string unit;
     std::vector<std::string> levels;  ///< names of the numbers 0, 1, ...; empty if numeric
     MarginalPtr law;                  ///< distribution; null if it depends on preceding parameters
-    bool uniform = false;             ///< whether the distribution is uniform
+    bool uniform = false;             ///< the distribution is uniform
     /// Returns the distribution, given the preceding parameters.
     std::function<MarginalPtr(std::span<const double> before)> law_given = {};
 };
@@ -39,7 +39,7 @@ class ParameterSpace {
     [[nodiscard]] const std::vector<Parameter>& parameters() const { return parameters_; }
     /// Parameters joined by linear constraints; null if there are no such constraints.
     [[nodiscard]] const LinearPart* linear() const { return linear_ ? &*linear_ : nullptr; }
-    /// Whether from_cube() maps onto the polytope, since rejection would keep too few points.
+    /// Whether from_cube() maps onto the polytope, because rejection would keep too few points.
     [[nodiscard]] bool maps_linear() const { return linear_ && linear_->share() < 0.1; }
     /// Whether from_cube() rejects some rows.
     [[nodiscard]] bool rejects() const { return !others_.empty() || (linear_ && !maps_linear()); }
@@ -61,7 +61,7 @@ class ParameterSpace {
     /// Whether some parameter is discrete.
     [[nodiscard]] bool discrete() const { return discrete_; }
 
-    /// Maps a row of the unit cube to parameters; false if they violate a constraint.
+    /// Maps a row of the unit cube to parameters. Returns false if they violate a constraint.
     [[nodiscard]] bool from_cube(std::span<const double> cube, std::span<double> row) const;
 
     /// Maps each parameter back by its own distribution, ignoring constraints. Discrete values map

@@ -183,8 +183,8 @@ class ParameterDomain final : public NamedDomain {
     const Domain* axes_ = nullptr;   ///< the domain of each_
 };
 
-/// Mapping onto the parameters or, if `in_cube`, onto those points of the cube whose parameters
-/// satisfy all constraints.
+/// Mapping onto the parameters or, if `in_cube`, onto the cube's points whose parameters satisfy
+/// all constraints.
 class ParameterMapping final : public Mapping {
   public:
     ParameterMapping(std::shared_ptr<const ParameterDomain> parameters, bool in_cube)

@@ -220,7 +220,7 @@ class Corrections {
     std::size_t d_;
     std::vector<double> asked_;  ///< correlations requested for the scores
     std::vector<double> step_;
-    std::vector<double> before_;  ///< previous errors
+    std::vector<double> before_;  ///< previous error
 };
 
 /// Matrix Q of reordering.hpp. @throws Error(input) if the scores' correlations have no Cholesky

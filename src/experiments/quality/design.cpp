@@ -64,7 +64,7 @@ constexpr Param<std::int64_t> compare{
 constexpr std::size_t most_paired = 16384;
 constexpr std::size_t most_planes = 32;
 
-/// Adds a criterion unless it is infinite, which it may be if two points share a coordinate.
+/// Adds a criterion unless it is infinite, as it may be if two points share a coordinate.
 void add_finite(Report& report, const char* name, double value) {
     if (std::isfinite(value)) report.add(name, value);
 }

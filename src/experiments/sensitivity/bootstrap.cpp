@@ -11,7 +11,7 @@
 namespace stipple::analyzers::sensitivity {
 namespace {
 
-/// The p-quantile of the finite values; NaN if there are none.
+/// Quantile at p of the finite values; NaN if there are none.
 double quantile(std::vector<double>& values, double p) {
     std::erase_if(values, [](double v) { return !std::isfinite(v); });
     if (values.empty()) return none;

@@ -76,7 +76,7 @@ struct Effects {
     double variance = none;
     std::vector<IndexKind> kinds = {};
     std::vector<PairIndex> pairs = {};
-    Report details = {};            ///< other results of the method
+    Report details = {};            ///< further numbers of the method
     std::string no_intervals = {};  ///< why intervals are left out; empty if they are given
     /// Reason for each input without indices; may be empty.
     std::vector<std::string> missing = {};
@@ -97,7 +97,7 @@ struct Layout {
 struct Centred {
     std::vector<double> z;
     double mean = 0;
-    double unit = 1;  ///< the original numbers are mean + unit z
+    double unit = 1;  ///< original numbers are mean + unit z
 
     /// Mean square of z, which is the variance in units of unit^2.
     [[nodiscard]] double variance() const;
@@ -119,7 +119,7 @@ std::vector<std::size_t> complete_groups(std::span<const double> y, std::size_t 
 inline constexpr std::size_t least_for_intervals = 20;
 std::string too_few_for_intervals(std::size_t count, std::size_t least, const char* of_what);
 
-/// Student's quantile for a two-sided interval of the given level.
+/// Student's quantile for a two-sided interval of this level.
 double interval_quantile(double level, std::size_t freedom);
 
 /// Inputs in [0, 1], run after run; uniform if their distributions are known.

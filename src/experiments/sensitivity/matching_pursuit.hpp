@@ -25,7 +25,7 @@ namespace stipple::analyzers::sensitivity {
 
 inline constexpr std::size_t most_terms = 300;  ///< largest number of terms in a fit
 
-/// Candidate terms: the columns of a table, stored row by row. The fit uses only some of the rows.
+/// Candidate terms: the columns of a table, stored row by row. The fit uses some of the rows.
 struct Candidates {
     std::span<const double> values;
     std::size_t columns;

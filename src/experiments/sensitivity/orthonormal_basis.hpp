@@ -32,7 +32,7 @@ Polynomials sample_polynomials(std::span<const double> x, std::size_t max_degree
 /// which is at least 1.
 using BasisTerm = std::vector<std::pair<std::size_t, std::size_t>>;
 
-/// Number of terms of k inputs with total degrees from 1 to p, if every input has enough values.
+/// Number of terms of k inputs with total degree 1 to p, if every input has enough values.
 double term_count(std::size_t k, std::size_t p);
 
 /// All products of the inputs' polynomials with total degrees from 1 to p, by ascending degree.

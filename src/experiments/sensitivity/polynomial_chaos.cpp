@@ -125,7 +125,7 @@ void improve(Fold& fold, const Table& table, const Basis& basis, std::span<const
                                     table.values[i * columns + fit.chosen[t]]);
 }
 
-/// Largest degree with an acceptable number of candidates; at least 1.
+/// Largest degree with an acceptable number of candidates, at least 1.
 std::size_t bearable_degree(std::size_t k, std::size_t n) {
     const double most = std::min(600.0, 1e7 / static_cast<double>(n));
     std::size_t degree = 1;
@@ -231,13 +231,13 @@ Judgement judged(std::span<const Fold> folds, std::span<const double> z, bool kn
         out.variance += term;
         out.moving.push_back(known ? term : z[i] * z[i]);
     }
-    // A few extreme predictions must not make the variance vanish.
+    // A few wild predictions must not make the variance vanish.
     out.variance = std::max(out.variance, whole / 2) / static_cast<double>(z.size());
     out.q2 = 1 - squares / whole;
     return out;
 }
 
-/// Standard error of the ratio mean(values) / V.
+/// Standard error of mean(values) / V.
 double error_of_ratio(std::span<const double> values, double ratio, const Judgement& judgement) {
     std::vector<double> rest(values.begin(), values.end());
     for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= ratio * judgement.moving[i];

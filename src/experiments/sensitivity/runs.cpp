@@ -73,7 +73,7 @@ PointSet columns_of(const PointSet& table, const Numbers& columns) {
 
 // ---------------------------------------------------------------- domain of the inputs
 
-/// Domain of the inputs and the names of its coordinates; null if unknown.
+/// Domain of the inputs, with the names of its coordinates; null if unknown.
 struct Known {
     DomainPtr domain;
     Names names;
@@ -145,7 +145,7 @@ bool independent(const Domain& domain, const PointSet& points) {
             try {
                 const double before = std::log(domain.density(x)) + std::log(domain.density(y));
                 const double after = std::log(domain.density(a)) + std::log(domain.density(b));
-                if (!std::isfinite(before)) continue;  // may be infinite at the end of a range
+                if (!std::isfinite(before)) continue;  // infinite at the end of a range
                 if (!(std::abs(after - before) <= rounding * (1 + std::abs(before)))) return false;
             } catch (const Error&) {  // unknown density, as with constraints
                 return false;
@@ -223,7 +223,7 @@ std::size_t first_difference(const PointSet& table, std::size_t c, const PointSe
     return i;
 }
 
-/// Columns of the table that do not repeat candidate columns of the design.
+/// Columns of the table that are not copies of the candidate columns of the design.
 Numbers other_columns(const Columns& table, const Columns& design, const Numbers& candidates,
                       const RunContext& run) {
     const bool named = !table.table.provenance.columns.empty();

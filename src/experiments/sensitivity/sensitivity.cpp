@@ -169,8 +169,8 @@ Plan plan_of(const Inputs& in, const std::string& asked, const Setting& setting,
     return {};
 }
 
-/// Indices by chaos or, if no polynomial predicts well enough, by ranks. Reports the method chosen
-/// and the reason.
+/// Indices by chaos or, if no polynomial predicts well enough, by ranks; reports the method and the
+/// reason.
 Effects of_any_design(std::string& chosen, const Inputs& in, const Response& out,
                       const Setting& setting, const RunContext& run) {
     constexpr double enough = 0.8;
@@ -250,7 +250,7 @@ void add(Report& report, const std::string& name, const Index& index) {
     report.add(name + "_high", index.high);
 }
 
-/// Indices of one input; if some are missing, also the reason.
+/// Indices of one input and, if some are missing, the reason.
 Report report_of_input(const Effects& effects, std::size_t i) {
     Report own;
     const auto known = [i](const IndexKind& kind) { return std::isfinite(kind.of[i].value); };
@@ -288,7 +288,7 @@ Report report_of(const Effects& effects, const std::string& name, const Inputs& 
     return report;
 }
 
-/// Report of an output without indices.
+/// Report of an output that has no indices.
 Report report_of_none(const Response& out, const std::string& why) {
     Report report;
     report.add("failed", out.y.size() - succeeded(out.y).size());

@@ -56,8 +56,8 @@ struct Sphere {
 
     [[nodiscard]] Box bounding_box() const { return box_about(center, {}, radius, 0, 0); }
 
-    /// Rounding error of a point's position, relative to the radius: 8 epsilon (1 + largest |c| /
-    /// R).
+    /// Rounding error of a point's position, relative to the radius: 8 epsilon (R + largest |c|) /
+    /// R.
     [[nodiscard]] double rounding() const;
 };
 

@@ -101,7 +101,7 @@ class Arvo {
 
     struct Foot {
         double share;  ///< fraction of the area, next to the edge ab
-        Vector3 arc;   ///< chord from b to c'
+        Vector3 arc;   ///< the chord from b to c'
     };
 
     /// @param x, y cos q and sin q times a common length

@@ -47,7 +47,7 @@ constexpr Param<Choice> method{
 
 constexpr auto radius = length_option("radius", 1, "Radius of the disk, above 0");
 
-// The methods, for the unit disk.
+// The methods on the unit disk.
 
 struct Rejection {
     static PlanePoint forward(double u, double v) { return {2 * u - 1, 2 * v - 1}; }

@@ -47,7 +47,7 @@ class FlatDomain : public NamedDomain {
         return box;
     }
 
-    /// Valid only for shapes in the plane.
+    /// Only for shapes in the plane.
     std::optional<Estimate> box_mass(const Box& box) const final {
         return area_share(box, *this, [&](const Polygon& window) {
             Polygon shape;

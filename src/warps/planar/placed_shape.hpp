@@ -44,7 +44,7 @@ namespace stipple::warps {
 inline constexpr Param<Numbers> shape_center{
     {.name = "center", .fallback = "0,0", .help = "Centre of the shape: x,y"}};
 
-/// Option of shapes that can be rotated.
+/// The option of shapes that can be rotated.
 constexpr Param<double> rotation_option(std::string_view help) {
     return {.name = "rotation", .low = -360, .high = 360, .unit = "degrees", .help = help};
 }

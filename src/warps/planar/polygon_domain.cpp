@@ -23,7 +23,7 @@ double x_at(const UpwardEdge& edge, double y) {
            (edge.high.x - edge.low.x) * ((y - edge.low.y) / (edge.high.y - edge.low.y));
 }
 
-/// Part of the inside between two edges, from one height to another.
+/// The inside between two edges, from one height to another.
 struct Trapezoid {
     UpwardEdge left;
     UpwardEdge right;
@@ -31,7 +31,7 @@ struct Trapezoid {
     std::size_t top;
 };
 
-/// Sweeps a row upwards: keeps the edges that the row meets, and collects the trapezoids between
+/// Sweep of a row upwards: keeps the edges that the row meets, and collects the trapezoids between
 /// them.
 class TrapezoidSweep {
   public:

@@ -51,7 +51,7 @@ class PolygonDomain final : public NamedDomain {
 
     double measure() const override { return area_; }
 
-    /// Tolerance for the rounding of generated points: 16 epsilon (largest coordinate).
+    /// Tolerance for rounding of generated points: 16 epsilon (largest coordinate).
     double slack() const { return slack_; }
 
     /// Whether the point is inside, or within slack() of the boundary.
@@ -66,7 +66,7 @@ class PolygonDomain final : public NamedDomain {
     void from_cube(std::span<const double> cube, std::span<double> image) const;
 
   private:
-    /// Part of the inside between two consecutive edges of a band.
+    /// The inside between two consecutive edges of a band, from left to right.
     struct Part {
         double left_bottom;
         double left_top;
