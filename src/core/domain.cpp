@@ -121,7 +121,7 @@ Box parse_box(std::string_view text, std::size_t dimension) {
     }
     if (box.dimension() != dimension)
         fail(ErrorKind::usage,
-             "--bounds: {} ranges for {} coordinates; one for all, or one for each",
+             "--bounds: {} ranges for {} coordinates; expected one for all, or one for each",
              box.dimension(), dimension);
     return box;
 }

@@ -20,8 +20,8 @@ Error caught_error() {
             failed ? failed->code() == std::errc::resource_unavailable_try_again
                    : std::string_view(e.what()).starts_with("pthread_create");  // thrown by oneTBB
         if (thread)
-            return {ErrorKind::limit, "a thread cannot be started",
-                    "the limits (ulimit) may allow fewer; see --threads"};
+            return {ErrorKind::limit, "cannot start a thread",
+                    "the limits (ulimit) may be too low; use fewer --threads"};
         return {ErrorKind::io, fmt::format("internal error: {}", e.what())};
     }
 }

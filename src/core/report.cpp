@@ -16,11 +16,10 @@ template <class T>
 const T& held(const Report& report, std::string_view key, std::string_view kind) {
     const Report::Item* item = report.find(key);
     const T* value = item ? std::get_if<T>(item) : nullptr;
-    if (item && value == nullptr)
-        fail(ErrorKind::usage, "'{}' is a result, but not a {}", key, kind);
+    if (item && value == nullptr) fail(ErrorKind::usage, "the result '{}' is not a {}", key, kind);
     if (value == nullptr)
         fail_with_hint(ErrorKind::usage, suggest(key, report.keys()),
-                       "'{}' is not a {} of the result", key, kind);
+                       "there is no {} '{}' among the results", kind, key);
     return *value;
 }
 

@@ -117,7 +117,7 @@ Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube,
         return measure;
     }
     if (analyzer.traits.unit_cube && domain != "unit-cube") {
-        measure.left_out = fmt::format("it compares points with the unit cube; these are on {}",
+        measure.left_out = fmt::format("it requires points of the unit cube; these are on {}",
                                        shown->domain->title());
         return measure;
     }

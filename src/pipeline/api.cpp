@@ -39,7 +39,7 @@ Values merged(const Spec& spec, const Schema& schema, const Settings& settings) 
 Spec spec_without_coordinates(std::string_view text) {
     Spec spec = parse_spec(text);
     if (!spec.coordinates.empty())
-        fail(ErrorKind::usage, "{}: only warps and scrambles take coordinates behind @", text);
+        fail(ErrorKind::usage, "{}: only warps and scrambles take coordinates after @", text);
     return spec;
 }
 
@@ -61,7 +61,8 @@ PointSet on_its_domain(PointSet set) {
 
 void require_rows(std::span<const double> rows, std::size_t dimension) {
     if (dimension == 0 || rows.size() % dimension != 0)
-        fail(ErrorKind::usage, "{} numbers do not make whole rows of {}", rows.size(), dimension);
+        fail(ErrorKind::usage, "{} numbers cannot be divided into rows of {}", rows.size(),
+             dimension);
 }
 
 }  // namespace

@@ -58,12 +58,13 @@ UnitInfo info(const Generator& unit) {
                          {"prefix", t.prefix},
                          {"seeded", t.seeded},
                          {"max_index", t.max_index}});
-    out.remarks = {dimensions(t.min_dimension, t.max_dimension) +
-                       (t.more_dimensions.empty() ? "" : ", more with --" + t.more_dimensions),
-                   t.sequence ? "streams in constant memory" : "made as a whole, in memory",
-                   t.prefix ? "any prefix of a longer set is the shorter set; --start and --shard"
-                            : "the points depend on their number; --shard",
-                   seed_use(unit)};
+    out.remarks = {
+        dimensions(t.min_dimension, t.max_dimension) +
+            (t.more_dimensions.empty() ? "" : ", more with --" + t.more_dimensions),
+        t.sequence ? "streams in constant memory" : "holds the whole set in memory",
+        t.prefix ? "the first n points are the same for any count; accepts --start and --shard"
+                 : "the points depend on the count; accepts --shard",
+        seed_use(unit)};
     return out;
 }
 

@@ -128,7 +128,8 @@ void require_sense(const Check& check, const ResultKey& result) {
     if (check.op != "==" && check.op != "!=")
         refuse(check, "'{}' is {}; compare it with == or !=", check.key, listed(words));
     if (std::ranges::find(words, check.value) == words.end())
-        refuse(check, "'{}' is never '{}'; it is {}", check.key, check.value, listed(words));
+        refuse(check, "'{}' cannot be '{}'; possible values: {}", check.key, check.value,
+               listed(words));
 }
 
 bool Check::holds(const Report& report) const {

@@ -56,7 +56,7 @@ TEST(Api, ASamplerGivesThePointsOfTheSet) {
 
     std::vector<double> odd(3);
     EXPECT_EQ(error_of([&] { sampler.fill(0, odd); }),
-              "usage: 3 numbers do not make whole rows of 2");
+              "usage: 3 numbers cannot be divided into rows of 2");
     const Sampler ends("jittered", {.count = 16, .dimension = 2});
     EXPECT_EQ(error_of([&] { ends.fill(7, rows); }),
               "usage: points 7 to 16 are beyond the last one, which is 15");
@@ -86,7 +86,8 @@ TEST(Api, AWarpGoesThereAndBack) {
 TEST(Api, ASetThatNobodyCouldMeanIsRefused) {
     EXPECT_NE(error_of([] { PointSet({0.1, 0.2, 0.3}, 2); }), "");
     PointSet set(3, 2);
-    EXPECT_EQ(error_of([&] { (void)set[3]; }), "usage: there is no point 3: the set has 3");
+    EXPECT_EQ(error_of([&] { (void)set[3]; }),
+              "usage: there is no point 3 (from 0); the set has 3 points");
     const PointSet moved = std::move(set);
     EXPECT_NE(error_of([&] { (void)set[0]; }), "");  // NOLINT(bugprone-use-after-move): on purpose
     PointSet homeless = generate("random", {.count = 200});

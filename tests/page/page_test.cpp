@@ -171,7 +171,7 @@ TEST(Measures, LeaveOutWhatTheyDoNotTakeAndSayWhy) {
     disk.domain = parse_domain("disk", 2);
     const Set set = page_set("disk", disk);
     EXPECT_EQ(measure_of(set, "star-discrepancy").left_out,
-              "it compares points with the unit cube; these are on disk");
+              "it requires points of the unit cube; these are on disk");
     EXPECT_TRUE(measure_of(set, "nearest-neighbor").results);
     const Set outside = page_set("far", points_of({{3, 4}, {0, 0}}));
     EXPECT_THAT(measure_of(outside, "star-discrepancy").left_out, HasSubstr("outside"));

@@ -124,15 +124,15 @@ TEST(PointSet, ConsistsOfWholePoints) {
     EXPECT_EQ(error_of([] {
                   PointSet(std::vector<double>{.1, .2, .3}, 2);
               }),
-              "usage: 3 numbers are not whole points of 2 coordinates");
+              "usage: 3 numbers cannot be divided into points of 2 coordinates");
     EXPECT_EQ(error_of([] { PointSet(std::vector<double>{.1}, 0); }),
-              "usage: 1 numbers are not whole points of 0 coordinates");
+              "usage: 1 numbers cannot be divided into points of 0 coordinates");
 }
 
 TEST(Report, SaysWhatIsNoNumber) {
     const Report report = analyze("star-discrepancy", points_of({{0.5, 0.25}}));
     EXPECT_EQ(error_of([&] { static_cast<void>(report.number("exact")); }),
-              "usage: 'exact' is a result, but not a number");
+              "usage: the result 'exact' is not a number");
 }
 
 }  // namespace stipple::testing::produce_test

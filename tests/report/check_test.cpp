@@ -57,15 +57,15 @@ TEST(Check, OfAWordIsOneThatTheResultMayBe) {
     EXPECT_EQ(refusal("verdict!=uniform"), "");
     EXPECT_EQ(refusal("p_value<0.1"), "");
     EXPECT_EQ(refusal("verdict==foo"),
-              "usage: --fail-on: 'verdict' is never 'foo'; it is uniform, non-uniform or "
-              "stratified");
+              "usage: --fail-on: 'verdict' cannot be 'foo'; possible values: uniform, non-uniform "
+              "or stratified");
     EXPECT_EQ(refusal("verdict<1"),
               "usage: --fail-on: 'verdict' is uniform, non-uniform or stratified; compare it with "
               "== or !=");
     const Check flag = parse_check("exact==1");
     EXPECT_EQ(
         error_of([&] { require_sense(flag, *find_result(find_analyzer("dispersion"), flag.key)); }),
-        "usage: --check: 'exact' is never '1'; it is true or false");
+        "usage: --check: 'exact' cannot be '1'; possible values: true or false");
 }
 
 TEST(Check, NamesTheResultsThatThereAre) {

@@ -95,7 +95,7 @@ std::string read_file(const std::string& path) {
         const std::size_t before = bytes.size();
         if (before > most_bytes())
             fail_with_hint(
-                ErrorKind::limit, "--max-memory must be three times its size",
+                ErrorKind::limit, "set --max-memory to at least three times the file's size",
                 "{}: the file is larger than {}, the limit for files that are read at once", path,
                 format_bytes(static_cast<double>(most_bytes())));
         if (before + step > bytes.capacity()) bytes.reserve(before + before / 2 + step);
@@ -129,7 +129,7 @@ const std::string& FileRules::readable(const std::string& path) {
     const auto it = rules->readable_.find(path);
     if (it == rules->readable_.end())
         fail_with_hint(ErrorKind::usage, "--input FILE allows reading a file",
-                       "it names the file {}, which is only read if --input allows it",
+                       "it names the file {}, which may only be read if --input allows it",
                        shown(path));
     return it->second;
 }
@@ -138,7 +138,8 @@ void FileRules::require_writable(const std::string& path) {
     if (rules == nullptr || std::ranges::find(rules->writable_, path) != rules->writable_.end())
         return;
     fail(ErrorKind::usage,
-         "it names the file {}, which is not written; only the file of --output is", shown(path));
+         "it names the file {}, which may not be written; only the file of --output may",
+         shown(path));
 }
 
 }  // namespace stipple

@@ -84,11 +84,13 @@ class HeaderReader {
         const std::string_view word = word_behind("shape");
         const auto close = word.find(')');
         if (!word.starts_with('(') || close == word.npos)
-            refuse(start_, "the header's shape is not like (1024, 2)");
+            refuse(start_, "the header's shape is not a tuple of whole numbers such as (1024, 2)");
         for (const auto part : split(word.substr(1, close - 1), ',')) {
             if (trim(part).empty()) continue;
             const auto extent = parse_unsigned(trim(part));
-            if (!extent) refuse(start_, "the header's shape is not like (1024, 2)");
+            if (!extent)
+                refuse(start_,
+                       "the header's shape is not a tuple of whole numbers such as (1024, 2)");
             header.shape.push_back(*extent);
         }
         header.shown_shape = word.substr(0, close + 1);

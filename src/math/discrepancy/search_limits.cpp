@@ -44,7 +44,7 @@ Limits::Limits(const Values& options, const RunContext& run)
       bounded(options[limit::method] == "bounds"),
       work_(options[limit::max_work]) {
     if (exact && options.given(limit::tolerance))
-        fail(ErrorKind::usage, "--tolerance: has no meaning with --method exact");
+        fail(ErrorKind::usage, "--tolerance cannot be combined with --method exact");
     search.tolerance = options.given(limit::tolerance) ? options[limit::tolerance]
                        : bounded                       ? 0.1
                                                        : 0;

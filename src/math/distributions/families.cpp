@@ -47,7 +47,8 @@ MarginalPtr lognormal_of(const ParameterValues& p) {
     if (mean || deviation) {
         if (p.find("mu") || p.find("sigma"))
             fail(ErrorKind::usage,
-                 "{}mean: {}mu or {}sigma is also given; give mu and sigma, or mean and deviation",
+                 "{}mean: cannot be combined with {}mu or {}sigma; give mu and sigma, or mean and "
+                 "deviation",
                  p.where, p.where, p.where);
         if (!mean || !deviation)
             fail(ErrorKind::usage, "{}{}: {}{} is needed as well", p.where,
@@ -207,9 +208,11 @@ MarginalPtr measured_law(std::vector<double> numbers, bool linear, ErrorKind kin
     std::ranges::sort(numbers);
     const auto twice = std::ranges::adjacent_find(numbers);
     if (twice != numbers.end())
-        fail_with_hint(kind, "steps accept repeated numbers",
-                       "{}: {} occurs twice; linear needs different numbers", where, *twice);
-    if (numbers.size() < 2) fail(kind, "{}: 1 number; linear needs 2 or more", where);
+        fail_with_hint(kind, "step interpolation accepts repeated numbers",
+                       "{}: {} occurs twice; linear interpolation needs distinct numbers", where,
+                       *twice);
+    if (numbers.size() < 2)
+        fail(kind, "{}: only 1 number; linear interpolation needs at least 2", where);
     return interpolated_law(std::move(numbers));
 }
 

@@ -133,9 +133,9 @@ MarginalPtr truncated(MarginalPtr law, double low, double high, std::string_view
         std::min(law->probability(from, Tail::upper), law->probability(to, Tail::lower));
     if (part->mass() < 1e-6 * beside)
         fail(ErrorKind::usage,
-             "{}low: less than 1e-6 of the probability of {} beyond it is from {} to {}; the range "
-             "is too narrow for float64",
-             where, law->name(), low, high);
+             "{}low: the range from {} to {} is too narrow for float64; the probability of {} in "
+             "it is less than 1e-6 of that beyond it",
+             where, low, high, law->name());
     return part;
 }
 

@@ -120,10 +120,10 @@ Integrand owen(std::size_t dimension, const Values& values) {
 
 // ---------------------------------------------------------------- Sobol' g
 
-constexpr Param<Numbers> numbers{{.name = "a",
-                                  .help =
-                                      "Number a of each coordinate, 0 or more, or one for all; a "
-                                      "larger one makes it less important; default: 0,1,2,..."}};
+constexpr Param<Numbers> numbers{
+    {.name = "a",
+     .help = "Coefficient a of each coordinate, 0 or more, or one for all; the larger a, the less "
+             "important the coordinate; default: 0,1,2,..."}};
 
 Integrand sobol_g(std::size_t dimension, const Values& values) {
     std::vector<double> given = values[numbers];

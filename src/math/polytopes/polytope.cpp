@@ -151,7 +151,7 @@ Polytope::Polytope(Box box, const std::vector<HalfSpace>& cuts)
 void Polytope::add_group(const std::vector<std::size_t>& coordinates,
                          const std::vector<HalfSpace>& cuts) {
     if (coordinates.size() > most_polytope_dimensions)
-        fail(ErrorKind::limit, "inequalities join {} coordinates; at most {} are possible",
+        fail(ErrorKind::limit, "inequalities couple {} coordinates; at most {} are possible",
              coordinates.size(), most_polytope_dimensions);
     std::vector<HalfSpace> own;
     for (const HalfSpace& cut : cuts) {

@@ -7,11 +7,11 @@
 //
 // The polytope is divided into simplices (math/polytopes/face_tree.hpp): xi_1 selects one in
 // proportion to its volume, and the coordinates then determine the weights of its vertices by stick
-// breaking. Coordinates that the inequalities do not join are independent of each other.
+// breaking. Coordinates that the inequalities do not couple are independent of each other.
 //
-// Shape   as many coordinates as --bounds has ranges, or as are given; inequalities may join up to
-//         12, with up to 200000 faces and 10000 vertices.
-// Strata  of a coordinate in no inequality: xi is used directly. Among d joined ones, the first xi
+// Shape   as many coordinates as --bounds has ranges, or as are given; inequalities may couple up
+//         to 12, with up to 200000 faces and 10000 vertices.
+// Strata  of a coordinate in no inequality: xi is used directly. Among d coupled ones, the first xi
 //         selects the simplex, and its remainder is the position along the simplex's last edge; the
 //         others are the fractions of its vertices, 0 at the vertex. So strata of the first xi are
 //         pieces of adjacent simplices, and strata of several xi are cut where simplices meet.
@@ -131,18 +131,19 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
 }  // namespace
 
 Warp unit() {
-    return {.name = "polytope",
-            .summary = "Polytope: a box cut by linear inequalities that join up to 12 coordinates",
-            .source =
-                "Fukuda and Prodon 1996, doi:10.1007/3-540-61576-8_77 (vertices); Rosenblatt "
-                "1952, doi:10.1214/aoms/1177729394 (simplices)",
-            .related = {"constraints", "inequalities", "half-spaces", "mixture-design", "convex"},
-            .strata =
-                "among coordinates joined by inequalities, the first xi selects a simplex and the "
-                "position along its last edge, the others the fractions of its vertices; xi of "
-                "other coordinates is used directly",
-            .options = Schema(constraints, bounds),
-            .mapping = make};
+    return {
+        .name = "polytope",
+        .summary = "Polytope: a box cut by linear inequalities that couple up to 12 coordinates",
+        .source =
+            "Fukuda and Prodon 1996, doi:10.1007/3-540-61576-8_77 (vertices); Rosenblatt "
+            "1952, doi:10.1214/aoms/1177729394 (simplices)",
+        .related = {"constraints", "inequalities", "half-spaces", "mixture-design", "convex"},
+        .strata =
+            "among coordinates coupled by inequalities, the first xi selects a simplex and the "
+            "position along its last edge, the others the fractions of its vertices; xi of other "
+            "coordinates is used directly",
+        .options = Schema(constraints, bounds),
+        .mapping = make};
 }
 
 }  // namespace stipple::warps::polytope

@@ -756,7 +756,7 @@ TEST(StarDiscrepancy, RefusesLimitsThatMakeNoSense) {
     EXPECT_EQ(error_of([&] {
                   analyze("star-discrepancy", p, {{"method", "exact"}, {"tolerance", "0.1"}});
               }),
-              "usage: --tolerance: has no meaning with --method exact");
+              "usage: --tolerance cannot be combined with --method exact");
     EXPECT_EQ(error_of([&] {
                   analyze("star-discrepancy", p, {{"kind", "extreme"}, {"boxes", "half-open"}});
               }),

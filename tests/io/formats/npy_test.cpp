@@ -158,8 +158,9 @@ TEST(Npy, RefusesWhatHoldsNoPoints) {
               "n, d)");
     EXPECT_EQ(refused(header("'<f8'", "(9000000000000000000, 9000000000000000000)")),
               "input: p: byte 128: the shape is larger than any file");
-    EXPECT_EQ(refused(header("'<f8'", "(-1, 2)")),
-              "input: p: byte 10: the header's shape is not like (1024, 2)");
+    EXPECT_EQ(
+        refused(header("'<f8'", "(-1, 2)")),
+        "input: p: byte 10: the header's shape is not a tuple of whole numbers such as (1024, 2)");
     EXPECT_EQ(refused(numpy_header("{'descr': '<f8'}")),
               "input: p: byte 10: the header has no 'shape'");
     EXPECT_NE(refused(header("[('x', '<f8')]", "(1,)")), "");

@@ -62,8 +62,8 @@ TEST(MarginalFamilies, SayWhatIsWrong) {
     EXPECT_EQ(refusal("lognormal", {{"mean", 2}}),
               "usage: x2.mean: x2.deviation is needed as well");
     EXPECT_EQ(refusal("lognormal", {{"mean", 2}, {"deviation", 1}, {"mu", 0}}),
-              "usage: x2.mean: x2.mu or x2.sigma is also given; give mu and sigma, or mean and "
-              "deviation");
+              "usage: x2.mean: cannot be combined with x2.mu or x2.sigma; give mu and sigma, or "
+              "mean and deviation");
     EXPECT_EQ(refusal("lognormal", {{"sigma", 100}}),
               "usage: x2.sigma: mu = 0 and sigma = 100 give numbers that are too small or too "
               "large; expected sigma of at least 1e-9 and |mu| + 38 sigma of at most 650");

@@ -137,8 +137,8 @@ TEST(Truncated, RefusesWhatCannotBeDividedBy) {
     EXPECT_EQ(error(uniform_law(0, 1), 3, 4),
               "usage: --low: uniform has the probability 0 from 3 to 4; expected above 1e-290");
     EXPECT_EQ(error(normal_law(0, 1), 0, 1e-8),
-              "usage: --low: less than 1e-6 of the probability of normal beyond it is from 0 to "
-              "1e-08; the range is too narrow for float64");
+              "usage: --low: the range from 0 to 1e-08 is too narrow for float64; the probability "
+              "of normal in it is less than 1e-6 of that beyond it");
     EXPECT_EQ(
         error(poisson_law(3), 0.2, 0.8),
         "usage: --low: poisson has no outcome with a probability above 1e-290 from 0.2 to 0.8");

@@ -32,10 +32,10 @@ TEST(EmpiricalWarp, ColumnsOfAFile) {
     EXPECT_EQ(image_of(of + ",file-columns=2,interpolation=linear", {0.5, 0.75}),
               (std::vector{20.0, 30.0}));
     EXPECT_EQ(mapping(of)->domain()->dimension(), 3U);
-    EXPECT_EQ(
-        refusal(of + ",file-columns=a,interpolation=linear"),
-        "input: " + file.path() +
-            ": 2 occurs twice; linear needs different numbers | steps accept repeated numbers");
+    EXPECT_EQ(refusal(of + ",file-columns=a,interpolation=linear"),
+              "input: " + file.path() +
+                  ": 2 occurs twice; linear interpolation needs distinct numbers | step "
+                  "interpolation accepts repeated numbers");
 }
 
 TEST(EmpiricalWarp, StrataGiveEachNumberAsOftenAsItStandsThere) {
@@ -60,7 +60,7 @@ TEST(EmpiricalWarp, RefusesWhatIsNoColumn) {
     EXPECT_EQ(refusal("empirical:file-columns=a"),
               "usage: --file-columns: selects columns of --file, which is not given");
     EXPECT_EQ(refusal("empirical:values=1,interpolation=linear"),
-              "usage: --values: 1 number; linear needs 2 or more");
+              "usage: --values: only 1 number; linear interpolation needs at least 2");
     EXPECT_EQ(refusal("empirical:values=[1,2],file=none.csv"),
               "usage: --values: cannot be combined with --file; give one of them");
     EXPECT_EQ(refusal("empirical:values=[1,1e200]"),

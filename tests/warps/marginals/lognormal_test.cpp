@@ -40,9 +40,9 @@ TEST(LognormalWarp, BothWaysAndDensity) {
 
 TEST(LognormalWarp, RefusesHalfAPair) {
     EXPECT_EQ(refusal("lognormal:mean=2"), "usage: --mean: --deviation is needed as well");
-    EXPECT_EQ(
-        refusal("lognormal:mean=2,deviation=1,sigma=1"),
-        "usage: --mean: --mu or --sigma is also given; give mu and sigma, or mean and deviation");
+    EXPECT_EQ(refusal("lognormal:mean=2,deviation=1,sigma=1"),
+              "usage: --mean: cannot be combined with --mu or --sigma; give mu and sigma, or mean "
+              "and deviation");
 }
 
 }  // namespace stipple::testing::lognormal_test

@@ -322,9 +322,9 @@ TEST(Polytope, SaysWhatIsWrong) {
         "usage: --constraints: none given; expected linear inequalities, such as 'x + y <= 1'");
     EXPECT_THAT(says(2, "x+q<1"), ::testing::StartsWith("usage: --constraints: 'x+q<1', column 3"));
     EXPECT_EQ(says(13, sum_of(13) + "<=1"),
-              "limit: --constraints: inequalities join 13 coordinates; at most 12 are possible");
+              "limit: --constraints: inequalities couple 13 coordinates; at most 12 are possible");
     EXPECT_EQ(error_of([] { polytope_of(2, "x<y", "0..1,0..1,0..1"); }),
-              "usage: --bounds: 3 ranges for 2 coordinates; one for all, or one for each");
+              "usage: --bounds: 3 ranges for 2 coordinates; expected one for all, or one for each");
     EXPECT_THAT(says(12, differences(12, "0.9")), ::testing::StartsWith("limit: --constraints: "));
 }
 
