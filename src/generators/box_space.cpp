@@ -51,7 +51,7 @@ void BoxSpace::check_resolution(double radius, std::string_view name) const {
     const double finest = largest * 0x1p-52 * 1024;
     if (!(radius >= finest))
         fail(ErrorKind::limit,
-             "{} of {} is too small for coordinates near {}, whose rounding allows {:.5g} or more",
+             "{} of {} is too small: coordinates near {} are rounded; expected at least {:.5g}",
              name, format_number(radius), format_number(largest), finest);
 }
 

@@ -18,8 +18,8 @@ namespace stipple {
 
 inline constexpr Param<bool> torus_option{
     .name = "torus", .help = "Measure distances across opposite faces (the default)"};
-inline constexpr Param<bool> bounded_option{.name = "bounded",
-                                            .help = "Do not measure distances across faces"};
+inline constexpr Param<bool> bounded_option{
+    .name = "bounded", .help = "Measure distances inside the box only, not across opposite faces"};
 
 /// @throws Error(usage) if both --torus and --bounded are given
 void check_torus(const Values& options);

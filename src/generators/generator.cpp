@@ -25,7 +25,7 @@ void check_indices(const Generator& generator, const Request& request, std::uint
     const auto& traits = generator.traits;
     if (request.start > 0 && !traits.prefix)
         fail(ErrorKind::usage,
-             "--start: {} is not an infinite sequence, its points depend on their number; leave "
+             "--start: the points of {} depend on the count, so a set cannot start later; leave "
              "--start out",
              generator.name);
     if (request.start > traits.max_index || count > traits.max_index - request.start)
@@ -34,7 +34,7 @@ void check_indices(const Generator& generator, const Request& request, std::uint
     const auto numbers =
         static_cast<double>(request.start + count) * static_cast<double>(dimension);
     if (numbers >= 0x1p63)
-        fail(ErrorKind::usage, "{} points of dimension {} are more numbers than 2^63",
+        fail(ErrorKind::usage, "{} points of dimension {} have more than 2^63 coordinates",
              request.start + count, dimension);
 }
 

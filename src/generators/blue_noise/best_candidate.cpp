@@ -574,16 +574,16 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
 }  // namespace
 
 Generator unit() {
-    return {
-        .name = "best-candidate",
-        .summary =
-            "Each point is the candidate farthest from all earlier points, of ever more candidates",
-        .source = "Mitchell 1991, doi:10.1145/122718.122736",
-        .traits = {.max_dimension = 32, .sequence = false, .boxed = true},
-        .options = Schema(candidates, torus_option, bounded_option),
-        .aliases = {"mitchell"},
-        .plan = plan_in_box,
-        .set = make};
+    return {.name = "best-candidate",
+            .summary =
+                "Each point is the random candidate farthest from all earlier points; the number "
+                "of candidates grows",
+            .source = "Mitchell 1991, doi:10.1145/122718.122736",
+            .traits = {.max_dimension = 32, .sequence = false, .boxed = true},
+            .options = Schema(candidates, torus_option, bounded_option),
+            .aliases = {"mitchell"},
+            .plan = plan_in_box,
+            .set = make};
 }
 
 }  // namespace stipple::generators::best_candidate

@@ -44,8 +44,9 @@ namespace {
 using planar::from;
 
 constexpr auto iterations = planar::iterations_option(60, "Number of moves of every point");
-constexpr Param<bool> crystals{.name = "crystals",
-                               .help = "Keep regular hexagons that form instead of shaking them"};
+constexpr Param<bool> crystals{
+    .name = "crystals",
+    .help = "Keep hexagonal regions; by default their points are moved at random"};
 
 constexpr double rough = 1e-2;   // tolerance of the masses while points still move
 constexpr std::size_t few = 20;  // limit of Newton steps then; one or two usually suffice

@@ -39,15 +39,14 @@ namespace {
 constexpr std::int64_t usual_steps = 1000;
 constexpr std::int64_t usual_steps_to_density = 300;  // each step takes about ten times as long
 
-constexpr Param<std::int64_t> iterations{
-    .name = "iterations",
-    .low = 0,
-    .high = 1'000'000,
-    .optional = true,
-    .unit = "steps",
-    .help =
-        "Gradient steps; more of them leave less in the spectrum below its peak. Default: 1000, or "
-        "300 with a density"};
+constexpr Param<std::int64_t> iterations{.name = "iterations",
+                                         .low = 0,
+                                         .high = 1'000'000,
+                                         .optional = true,
+                                         .unit = "steps",
+                                         .help =
+                                             "Gradient steps; more steps leave less power at low "
+                                             "frequencies. Default: 1000, or 300 with a density"};
 
 Plan plan(const Request& request, const Values& options) {
     const Plan plan = plan_in_proportion(request);

@@ -111,8 +111,8 @@ Plan planar_plan(const Request& request, const Values& options) {
     const double shortest = std::min(plan.bounds->extent(0), plan.bounds->extent(1));
     if (!(shortest > 1e-100 && longest < 1e100 && longest <= 1e6 * shortest))
         fail(ErrorKind::usage,
-             "--bounds: {} cannot be divided into cells; expected sides in [1e-100, 1e100], "
-             "neither above 1e6 times the other",
+             "--bounds: {} cannot be divided into cells; expected sides in [1e-100, 1e100] with a "
+             "ratio of at most 1e6",
              format_box(*plan.bounds));
     return plan;
 }

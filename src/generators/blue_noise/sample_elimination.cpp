@@ -65,8 +65,9 @@ constexpr Param<Choice> order{
 constexpr Param<Path> from{
     {.name = "from",
      .unit = "file",
-     .help = "File of points to choose from, also on a warp's domain, instead of random ones. "
-             "Default count: a fifth of them; distances are bounded, the seed is unused"}};
+     .help =
+         "File of points to choose from, on any domain, instead of random ones. Default count: a "
+         "fifth of them. Distances do not cross faces, except with --torus; the seed is unused"}};
 constexpr Param<std::int64_t> manifold{
     .name = "manifold-dimension",
     .low = 1,

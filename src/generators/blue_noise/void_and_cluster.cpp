@@ -104,8 +104,8 @@ Plan plan(const Request& request, const Values& options) {
     const double stretch = torus.stretch(proportions_of(plan));
     if (!(stretch <= most_stretch && 1 / stretch <= most_stretch))
         fail(ErrorKind::usage,
-             "--size: {} makes cells {:.4g} times as wide as high in the box; expected {:.2f} to "
-             "{:.0f} times",
+             "--size: {} makes cells {:.4g} times as wide as they are high; expected a ratio from "
+             "{:.2f} to {:.0f}",
              text, stretch, 1 / most_stretch, most_stretch);
     return plan;
 }

@@ -83,9 +83,9 @@ constexpr Param<std::int64_t> keep{.name = "keep",
                                    .help = "Number of first points of the file to keep unchanged"};
 constexpr Param<Numbers> axis_weights{
     {.name = "weights",
-     .help = "Weight of each coordinate, above 0. A box is weighted by the product over the "
-             "coordinates that it bounds (star), a projection by that over its coordinates (L2 "
-             "kinds)"}};
+     .help = "Weight of each coordinate, above 0. star: a box has the product of the weights of "
+             "the coordinates that it bounds; L2 kinds: a projection has the product of its "
+             "coordinates' weights"}};
 constexpr Param<bool> lattice{
     .name = "lattice",
     .help =

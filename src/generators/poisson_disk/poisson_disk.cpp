@@ -59,8 +59,8 @@ constexpr Param<double> radius{.name = "radius",
                                .optional = true,
                                .unit = "length",
                                .help =
-                                   "Minimum distance between points; as many as fit are made. "
-                                   "Instead of --count, for which the radius is searched"};
+                                   "Minimum distance between points; makes as many points as fit. "
+                                   "Without it, a radius is searched that gives --count points"};
 constexpr Param<std::int64_t> about{
     .name = "n-approx",
     .low = 1,
@@ -68,8 +68,8 @@ constexpr Param<std::int64_t> about{
     .optional = true,
     .unit = "points",
     .help =
-        "Approximate number of points, made in one pass: on the torus mostly within 2 % from 1000 "
-        "on; fewer if bounded. Instead of --count"};
+        "Approximate number of points, instead of --count; made in one pass. On the torus mostly "
+        "within 2 %, from 1000 points on; bounded boxes get fewer"};
 constexpr Param<Path> density{
     {.name = "density",
      .help = "Picture (PNG, PFM) or array (NPY, row 0 at y = 0); points per area follow its "

@@ -39,9 +39,9 @@ constexpr Param<Choice> scramble{
     .fallback = "none",
     .choices = "none|faure|reverse|permutation|owen",
     .help =
-        "Permutations of the digits: faure, Faure's fixed ones; reverse, a becomes b - a, except "
-        "0; permutation, a random one per base and position; owen, nested: one per prefix of "
-        "digits"};
+        "Permutations of the digits. faure: Faure's fixed ones; reverse: a becomes b - a, except "
+        "0; permutation: a random one per base and position; owen: a random one per prefix of "
+        "digits (nested)"};
 constexpr Param<std::int64_t> leap{
     .name = "leap",
     .fallback = 1,

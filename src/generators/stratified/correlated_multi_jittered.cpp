@@ -51,7 +51,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
 
 Generator unit() {
     return {.name = "correlated-multi-jittered",
-            .summary = "Correlated multi-jittered points: as multi-jittered, more evenly spread",
+            .summary = "Correlated multi-jittered points: more even than multi-jittered",
             .source = "Kensler 2013, Pixar Technical Memo 13-01",
             .traits = {.min_dimension = 2,
                        .max_dimension = 2,

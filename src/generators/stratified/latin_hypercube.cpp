@@ -85,8 +85,8 @@ constexpr Param<Numbers> nested{
 constexpr Param<Path> extend{
     {.name = "extend",
      .unit = "file",
-     .help = "Start with the points of a file, unchanged. With as many strata per axis as points "
-             "in the result, new points fill strata that the given ones leave empty"}};
+     .help = "Start with the points of a file, unchanged, and add others in strata that they leave "
+             "empty; each axis has as many strata as the result has points"}};
 constexpr Param<std::int64_t> add{.name = "add",
                                   .low = 1,
                                   .high = 1'000'000'000,
@@ -95,8 +95,8 @@ constexpr Param<std::int64_t> add{.name = "add",
                                   .help = "Number of points that --extend adds"};
 constexpr Param<Numbers> levels{
     {.name = "levels",
-     .help = "Number m of levels of each axis, such as 0,3,8: --optimize then measures distances "
-             "between the levels floor(x m); 0: between the x"}};
+     .help = "Number m of levels of each axis, such as 0,3,8. --optimize then measures distances "
+             "between the levels floor(x m); 0: between the coordinates themselves"}};
 
 /// Strata by random permutations. Points are in order, so a block has consecutive indices.
 StrataOf permuted_strata(const Plan& plan) {

@@ -42,8 +42,8 @@ constexpr Param<Choice> substrata{
     .fallback = "correlated",
     .choices = "none|independent|correlated",
     .help =
-        "Order of points along an axis within a level: not stratified (none), random in each level "
-        "(independent), or the same in all (correlated)"};
+        "Strata within a level: none; independent: in random order, drawn for each level; "
+        "correlated: in the same order in all levels"};
 
 std::size_t strength_of(const Values& options, std::size_t dimension) {
     const std::string name = options[construction];

@@ -51,8 +51,8 @@ constexpr Param<Path> from{
 
 constexpr Param<Text> of{{.name = "of",
                           .unit = "generator",
-                          .help = "Generator of points to choose from, without --from, as a spec: "
-                                  "'sobol:scramble=owen'; default: random"}};
+                          .help = "Generator of the points to choose from if --from is not given, "
+                                  "such as 'sobol:scramble=owen'; default: random"}};
 
 constexpr Param<std::int64_t> candidates{
     .name = "candidates",

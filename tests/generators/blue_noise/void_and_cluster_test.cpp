@@ -188,8 +188,8 @@ TEST(VoidAndCluster, RefusesCellsThatAreTooLong) {
     EXPECT_EQ(error_of([&] {
                   make(name, request, {{"size", "64x64"}});
               }),
-              "usage: --size: 64x64 makes cells 0.005 times as wide as high in the box; expected "
-              "0.01 to 100 times");
+              "usage: --size: 64x64 makes cells 0.005 times as wide as they are high; expected a "
+              "ratio from 0.01 to 100");
 }
 
 }  // namespace stipple::testing::void_and_cluster_test

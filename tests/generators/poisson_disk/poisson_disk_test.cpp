@@ -365,8 +365,8 @@ TEST(PoissonDisk, RefusesRadiiFinerThanTheCoordinates) {
     EXPECT_EQ(error_of([&] {
                   fill(far, {}, {{"radius", "0.01"}});
               }),
-              "limit: a radius of 0.01 is too small for coordinates near 1000000000001, whose "
-              "rounding allows 0.22737 or more");
+              "limit: a radius of 0.01 is too small: coordinates near 1000000000001 are rounded; "
+              "expected at least 0.22737");
     EXPECT_EQ(error_of([&] { fill(far, 100'000, {}); }).substr(0, 6), "limit:");
     EXPECT_EQ(error_of([&] { fill(far, {}, {{"radius", "0.3"}}); }), "");
 }
