@@ -130,10 +130,10 @@ if(STIPPLE_PYTHON)
       "python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-matplotlib, python3-scipy, stipple")
 endif()
-set(about "Points for whatever samples a domain: random numbers, low-discrepancy
-sequences, nets, lattices and blue noise; maps of them onto other domains and
-densities; discrepancies, spectra, tests and distances that tell how even they
-are.")
+set(about "Sample points for integration, rendering, simulation and experiments: random
+numbers, low-discrepancy sequences, nets, lattices and blue noise; maps of them
+onto other domains and densities; discrepancies, spectra, tests and distances
+that measure how even they are.")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "${about} This is the program, for pipes.")
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "${about} This is the C++ library.")
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION "${about} This is the Python module.")

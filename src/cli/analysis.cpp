@@ -114,8 +114,8 @@ void Analysis::check_domain() const {
     const bool moved = request_.bounds || request_.rescale;
     if (!named || *named == "unit-cube" || moved || !analyzer_.traits.unit_cube) return;
     fail_with_hint(ErrorKind::usage, "--rescale or --bounds lo..hi moves points into the cube",
-                   "--domain: {} measures points against the unit cube, not against {}",
-                   analyzer_.name, *named);
+                   "--domain: {} requires points of the unit cube, not of {}", analyzer_.name,
+                   *named);
 }
 
 void Analysis::check_side_files(const std::string& output) const {
@@ -144,8 +144,9 @@ void Analysis::warn_of_metric() const {
     if (request_.rescale) {
         if (bounds || metric->given) return;
         return session_.warn(
-            "--rescale puts the outermost points on faces that the torus joins; --metric euclidean "
-            "measures straight, and --rescale with --bounds takes the box that the points lie in");
+            "--rescale puts extreme points on opposite faces, which the torus joins; --metric "
+            "euclidean measures straight distances, and --rescale with --bounds maps the box that "
+            "the points are in");
     }
     if (!bounds) return;
     const auto ranges = std::ranges::count(*bounds, ',') + 1;

@@ -28,7 +28,7 @@ namespace {
 ReportFormat report_format(const AnalyzeRequest& request, const std::string& path) {
     if (request.format) return *request.format;
     static const std::vector<std::string> known = {".json", ".csv", ".txt"};
-    io::require_extension(path, known, "--format names what is written under any name");
+    io::require_extension(path, known, "--format selects a format for any file name");
     const std::string extension = io::extension_of(path);
     if (extension == ".csv") return ReportFormat::csv;
     const bool for_people = extension.empty() && (request.full || request.explain);
@@ -58,7 +58,7 @@ class AnalyzeCall {
           path_(output_of(request)),
           format_(report_format(request, path_)) {
         if (format_ != ReportFormat::text)
-            refuse_options(request, "full,explain", "is of --format text");
+            refuse_options(request, "full,explain", "requires --format text");
         for (const auto& [analyzer, options] : request.analyzers)
             analyses_.push_back(std::make_unique<Analysis>(*analyzer, options, request, session,
                                                            files_, several_analyzers()));
@@ -96,7 +96,7 @@ class AnalyzeCall {
         for (const auto& analysis : analyses_) {
             const auto column = analysis->text_of(analysis->analyzer().strengths);
             if (column && several_analyzers())
-                fail(ErrorKind::usage, "--weights: measure by {} alone", analysis->analyzer().name);
+                fail(ErrorKind::usage, "--weights: run {} alone", analysis->analyzer().name);
             if (column) return *column;
         }
         return {};
@@ -111,9 +111,9 @@ class AnalyzeCall {
     void require_sources() const {
         if (strengths().empty()) return;
         if (!request_.generate.empty())
-            fail(ErrorKind::usage, "--weights: generated points have no strengths");
+            fail(ErrorKind::usage, "--weights: generated points have no weight column");
         if (!in_blocks())
-            fail(ErrorKind::usage, "--rescale and --weights: give --bounds in place of --rescale");
+            fail(ErrorKind::usage, "--rescale and --weights: give --bounds instead of --rescale");
     }
 
     // ---------------------------------------------------------------- sets

@@ -269,8 +269,8 @@ PointSet of_the_cube(PointSet points, const Analyzer& analyzer) {
         return points;
     fail_with_hint(ErrorKind::input,
                    way_to_cube(points) + "; --domain unit-cube takes them as they are",
-                   "{} measures points against the unit cube; the domain of these is {}",
-                   analyzer.name, points.domain->title());
+                   "{} requires points of the unit cube; the domain of these is {}", analyzer.name,
+                   points.domain->title());
 }
 
 PointSet rescaled(PointSet points) {

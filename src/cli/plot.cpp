@@ -178,7 +178,7 @@ class Plot {
         add_generated();
         if (!reports_.empty() + !sets_.empty() + !means_.empty() > 1)
             fail(ErrorKind::input,
-                 "of points, reports and studies, one kind is drawn in one picture");
+                 "one picture can show points, reports or a study, but not several of these");
         pick_set();
         rename_sources();
         const std::string bytes = !means_.empty()    ? picture_of_study()
@@ -311,15 +311,15 @@ class Plot {
             if (names.size() < labels_.size() && !names.contains(row.generator))
                 names.emplace(row.generator, labels_[names.size()]);
             else if (!names.contains(row.generator))
-                refuse_labels("generators are more");
+                refuse_labels("generator");
         }
         if (!means_.empty() && names.size() < labels_.size())
-            refuse_labels(fmt::format("generators are {}", names.size()));
+            refuse_labels(fmt::format("of the {} generators", names.size()));
         for (MeanRow& row : means_) row.generator = names.at(row.generator);
         const std::vector<std::size_t> firsts = firsts_of_inputs();
         const bool all = labels_.size() == sets_.size();
         if (!all && !sets_.empty() && labels_.size() != firsts.size())
-            refuse_labels(fmt::format("sets of points are {}", sets_.size()));
+            refuse_labels(fmt::format("of the {} sets of points", sets_.size()));
         for (std::size_t i = 0, input = 0; i < sets_.size(); ++i) {
             while (input + 1 < firsts.size() && firsts[input + 1] <= i) ++input;
             sets_[i].title = labels_[all ? i : input];
@@ -345,7 +345,8 @@ class Plot {
     }
 
     [[noreturn]] void refuse_labels(const std::string& there) const {
-        fail(ErrorKind::usage, "--labels: {} names; the {}", labels_.size(), there);
+        fail(ErrorKind::usage, "--labels: {} names; expected one for each {}", labels_.size(),
+             there);
     }
 
     /// Applies --labels and --axes to a chart of reports.
@@ -361,7 +362,7 @@ class Plot {
             if (std::ranges::find(names, name) == names.end()) names.push_back(name);
         });
         if (!labels_.empty() && labels_.size() != names.size())
-            refuse_labels(fmt::format("curves are {}", names.size()));
+            refuse_labels(fmt::format("of the {} curves", names.size()));
         if (!labels_.empty())
             each([&](std::string& name) {
                 name = labels_[static_cast<std::size_t>(std::ranges::find(names, name) -
@@ -383,7 +384,7 @@ class Plot {
     // ---------------------------------------------------------------- pictures
 
     std::string picture_of_study() {
-        refuse_options(request_, "chart,set", "is not for the table of a study");
+        refuse_options(request_, "chart,set", "does not apply to the table of a study");
         const plot::StudyChart found = plot::study_chart(means_, request_.key.value_or(""));
         if (!found.left_out.empty())
             session_.warn(fmt::format("{} results are drawn; --key picks one: {}",
@@ -395,7 +396,7 @@ class Plot {
 
     std::string picture_of_reports() {
         if (!chart_.empty())
-            fail(ErrorKind::usage, "--chart: is for points; a report of {} is drawn as what it is",
+            fail(ErrorKind::usage, "--chart applies to points only; omit it for a report of {}",
                  reports_[0].analyzer);
         plot::Chart chart = plot::chart_of(reports_, request_.key.value_or(""));
         rename(chart);
@@ -404,7 +405,8 @@ class Plot {
     }
 
     std::string picture_of_points() {
-        if (request_.key) fail(ErrorKind::usage, "--key: is for reports; these are points");
+        if (request_.key)
+            fail(ErrorKind::usage, "--key applies to reports and studies; these are points");
         if (charted_ != nullptr && grid_title_.empty()) {
             plot::Chart chart = plot::chart_of(analyzed());
             rename_axes(chart);
@@ -438,7 +440,9 @@ class Plot {
     void add_overlays(plot::PointsPicture& picture, const Loaded& set) {
         if (request_.draw.empty()) return;
         if (set.points.dimension() != 2 || picture.sets.size() > 1 || medium_ == Medium::text)
-            fail(ErrorKind::usage, "--draw: is for one set of points of the plane in each frame");
+            fail(ErrorKind::usage,
+                 "--draw applies to pictures with one set of points of the plane per frame, not to "
+                 "text");
         for (const std::string& word : request_.draw) {
             if (word == "cells") {
                 picture.cells = true;
@@ -681,7 +685,7 @@ class Plot {
     /// Draws the local discrepancy of each set in a frame, with one colour scale for all and a bar
     /// at the end of each row.
     std::string local_discrepancies() {
-        refuse_options(request_, "overlay,draw", "is not for the local discrepancy");
+        refuse_options(request_, "overlay,draw", "does not apply to the local discrepancy");
         refuse_scales("a local discrepancy");
         keep_few_sets(most_frames);
         std::vector<plot::WorstBoxes> worst;

@@ -94,7 +94,7 @@ std::vector<std::size_t> coordinates_by_name(const Spec& spec,
     for (std::size_t k = 0; k < columns.size() && back; ++k)
         if (std::ranges::find(at, k) == at.end())
             fail_with_hint(ErrorKind::input, "--column picks columns by name",
-                           "the column '{}' is none of {}", columns[k], spec.name);
+                           "the column '{}' is not a coordinate of {}", columns[k], spec.name);
     const bool in_order = at.size() == columns.size() && std::ranges::is_sorted(at);
     return in_order ? std::vector<std::size_t>() : at;
 }
@@ -203,7 +203,7 @@ Spec spec_of(const WarpRequest& request, const Scramble* scrambled) {
     if (request.parameters) {
         const Spec named = parse_spec(request.parameters->spec());
         if (spec.name != named.name)
-            fail(ErrorKind::usage, "--parameters: is of the warp {}", named.name);
+            fail(ErrorKind::usage, "--parameters applies only to the warp {}", named.name);
         spec.settings.insert(spec.settings.end(), named.settings.begin(), named.settings.end());
     }
     if (request.coordinates)

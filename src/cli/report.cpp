@@ -96,13 +96,13 @@ class Reporter {
           json_(request.json.value_or(io::extension_of(path_) == ".json")) {
         if (!json_ && is_terminal(path_))
             fail_with_hint(ErrorKind::usage, "name a file with -o, or pipe it on",
-                           "a page is not for terminals");
+                           "an HTML page cannot be shown on a terminal");
         if (request.max_work) work_ = static_cast<std::int64_t>(*request.max_work);
         for (const auto& text : request.checks)
             conditions_.push_back(condition_of(text, "--check"));
         for (const auto& text : request.fail_on) {
             const Check check = opposite_of(condition_of(text, "--fail-on"));
-            session.warn(fmt::format("--fail-on {} is, in the form of all verbs, --check {}", text,
+            session.warn(fmt::format("--fail-on {} is the older form of --check {}", text,
                                      shell_word(check.key + check.op + check.value)));
             conditions_.push_back(check);
         }
@@ -112,7 +112,7 @@ class Reporter {
         keep_inputs();
         static const std::vector<std::string> known = {".html", ".htm", ".json"};
         if (!request_.json)
-            io::require_extension(path_, known, "--format names what is written under any name");
+            io::require_extension(path_, known, "--format selects a format for any file name");
         io::Output output(path_, session_.run().stop);
         load();
         check_sets();
@@ -339,7 +339,7 @@ class Reporter {
             if (has(all, key) || !measure_of(set, key).results) return;
             hint = suggest(key, all.keys());
         }
-        fail_with_hint(ErrorKind::usage, hint, "{}: no set has '{}'", check.option, key);
+        fail_with_hint(ErrorKind::usage, hint, "{}: no set has a result '{}'", check.option, key);
     }
 
     /// Command that makes this page, without options that do not affect it.

@@ -53,8 +53,8 @@ struct Original {
 
 [[noreturn]] void refuse_without_provenance(const Original& original) {
     fail_with_hint(ErrorKind::input,
-                   "json and jsonl always hold it; generate --meta puts it into other formats",
-                   "{}: it does not say how its points were made", original.name);
+                   "json and jsonl always record it; generate --meta adds it to other formats",
+                   "{}: it does not record how its points were made", original.name);
 }
 
 /// Whether a file begins like a table of a study, its summary or its comparison.
@@ -83,18 +83,18 @@ void refuse_without_points(const std::string& name, std::string_view front) {
     };
     const Other others[] = {
         {is("stipple.report") || top.starts_with("analyzer,source,"),
-         "it holds results of analyze, and names the points that they are of, but not how these "
-         "were made",
+         "it holds results of analyze and names their points, but does not record how these were "
+         "made",
          "reproduce takes files of points"},
         {is("stipple.comparison") || has("name=\"generator\" content=\"stipple"),
-         "a report about points, which it does not hold",
+         "a report about points, which it does not contain",
          "it names the command that makes it again, and those that make its points"},
-        {is("stipple.study-journal"), "the journal of a study that is not finished, without points",
-         "the same 'stipple study' with --resume goes on"},
+        {is("stipple.study-journal"), "the journal of an unfinished study, without points",
+         "the same 'stipple study' with --resume continues it"},
         {is_study(front), "a table of a study, without points",
          "'stipple generate' with a row's generator, its options, count, dimension, warps and "
          "seed makes the points of that row again"},
-        {is("stipple.meta"), "it says how the points in the file beside it were made",
+        {is("stipple.meta"), "it records how the points in another file were made",
          "reproduce takes the file of points"},
         {has("<!DOCTYPE html") || has("<html"), "an HTML page, which holds no points", ""}};
     for (const auto& [is_it, what, hint] : others)
@@ -361,10 +361,10 @@ std::unique_ptr<FileRules> rules_for(const Original& original, const ReproduceRe
             fail(ErrorKind::input, "{}: its points were made from {}, which has changed since",
                  original.name, shown(file));
         else
-            fail_with_hint(ErrorKind::input,
-                           fmt::format("give it with --input {}", printable(file)),
-                           "{}: its points were made from {}, which is not read for that alone",
-                           original.name, shown(file));
+            fail_with_hint(
+                ErrorKind::input, fmt::format("give it with --input {}", printable(file)),
+                "{}: its points were made from {}, which is read only if --input allows it",
+                original.name, shown(file));
     }
     const std::string output = request.output.value_or("-");
     return std::make_unique<FileRules>(std::move(readable),
@@ -493,7 +493,7 @@ class Reproducer {
         for (const auto& [name, says, is] : facts)
             if (says != is && !says.empty())
                 return fmt::format(
-                    "the points are the same, but the provenance says {} {} where it is {}", name,
+                    "the points are the same, but the provenance has {} {} instead of {}", name,
                     says, is);
         return {};
     }

@@ -93,7 +93,7 @@ TableStyle table_style(const StudyRequest& request, const std::string& path) {
     const std::string extension = extension_of(path);
     const bool lines = extension == ".jsonl" || extension == ".ndjson";
     if (!request.format && !lines && !extension.empty() && extension != ".csv")
-        fail_with_hint(ErrorKind::usage, "--format csv or jsonl says what it is to hold",
+        fail_with_hint(ErrorKind::usage, "--format csv or jsonl selects a format for any file name",
                        "--output: a study's table is .csv or .jsonl; '{}' is neither", path);
     return request.format.value_or(lines ? TableStyle::jsonl : TableStyle::csv);
 }
@@ -164,11 +164,11 @@ class Study {
         }
         const StudyFailures& failed = file.failures();
         if (failed.units == 0) return 0;
-        session_.warn(fmt::format(
-            "{} of {} measurements failed, their rows say why; the first: {} with {} points, seed "
-            "{}, {}: {}",
-            failed.units, sweep_.units(), failed.first.generator, failed.first.count,
-            failed.first.seed, failed.first.measure, failed.first.reason));
+        session_.warn(
+            fmt::format("{} of {} measurements failed, for the reasons in their rows; the first: "
+                        "{} with {} points, seed {}, {}: {}",
+                        failed.units, sweep_.units(), failed.first.generator, failed.first.count,
+                        failed.first.seed, failed.first.measure, failed.first.reason));
         return failed.met_limit ? 5 : 3;
     }
 
@@ -216,7 +216,7 @@ class Study {
                 fmt::format(" and {} on {} {}", long_time(WorkQueue(sweep_).seconds_left() / cores),
                             cores, cores == 1 ? "core" : "cores");
         fail_with_hint(
-            ErrorKind::limit, "--yes starts it all the same",
+            ErrorKind::limit, "--yes starts it anyway",
             "the study has {} rows or more ({} generators x {} dimensions x {} counts x {} seeds x "
             "{} measures), {}",
             sweep_.units(), r.generators.size(), r.dimensions.size(), r.counts.size(), r.seeds,

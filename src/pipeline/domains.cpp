@@ -176,7 +176,7 @@ std::vector<FactorLaw> factor_laws(std::span<const std::string> steps, const Dom
         else if (mapping->biased())
             run.notify(
                 fmt::format("the points come from {}, which is biased; their density on the domain "
-                            "{} is not known, and taken to be the domain's",
+                            "{} is not known, and the domain's is used instead",
                             step, domain->title()));
     }
     return laws;

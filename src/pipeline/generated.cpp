@@ -128,7 +128,7 @@ SetsToMake completed(SetsToMake asked, const RunContext& run) {
         for (const Spec& spec : asked.warps)
             if (scramble_named(spec.name) != nullptr)
                 fail(ErrorKind::usage,
-                     "--bounds: {} keeps its distances in the box, which {} would not",
+                     "--bounds: {} measures its distances in the box, and {} would change them",
                      asked.generator->name, spec.name);
     bounds = std::move(all);
     return asked;
@@ -341,7 +341,8 @@ void check_share(std::uint64_t kept, std::uint64_t made, std::size_t d) {
     if (made < enough || static_cast<double>(kept) > 1e-6 * static_cast<double>(made)) return;
     fail_with_hint(
         ErrorKind::input,
-        "constraints that hold on a surface alone, as with ==, never do at random",
+        "random points never satisfy constraints that hold only on a surface, such as those with "
+        "==",
         "the constraints hold for {} of {} points; at least one in a million is required",
         kept == 0 ? "none" : std::to_string(kept), made);
 }
@@ -380,8 +381,8 @@ GeneratedSets::Images GeneratedSets::next_images(std::uint64_t set, const RunCon
         const double more = pass == 0 ? lacking : std::max(1.1 * lacking / share, 4096.0);
         if (pass == 1 && more > 1e7)
             run.notify(
-                fmt::format("the constraints hold for {:.2g} of the points{}; about {:.1g} more "
-                            "points must be made",
+                fmt::format("the fraction of points that satisfy the constraints is {:.2g}{}; "
+                            "about {:.1g} more points must be made",
                             share, images.kept == 0 ? " or less" : "", more));
         check_share(images.kept, images.made, d);
         const std::uint64_t left = generator_.traits.max_index - images.made;

@@ -65,8 +65,9 @@ class Producer {
                 fail(ErrorKind::usage, "--{}: {} sets need a name with {{set}} or {{seed}}", option,
                      job_.sets);
             if (path_of_set(path, 0, seed) == path_of_set(target_.path, 0, seed))
-                fail(ErrorKind::usage, "--{}: '{}' is where the points go; name another file",
-                     option, path);
+                fail(ErrorKind::usage,
+                     "--{}: '{}' is already the output for the points; name another file", option,
+                     path);
         }
     }
 

@@ -242,9 +242,9 @@ const Format& format_of(const Target& target) {
     std::vector<std::string> known;
     for (const Format& format : io::all())
         known.insert(known.end(), format.extensions.begin(), format.extensions.end());
-    io::require_extension(target.path, known,
-                          "--format names what is written under any name; pictures are drawn by "
-                          "'stipple plot'");
+    io::require_extension(
+        target.path, known,
+        "--format selects a format for any file name; 'stipple plot' draws pictures");
     return io::format_named("csv");
 }
 

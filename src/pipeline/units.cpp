@@ -144,8 +144,9 @@ std::string unlike_prefixes(const Provenance& made) {
     if (generator == nullptr || generator->traits.prefix ||
         std::ranges::find(made.options, progressive) != made.options.end())
         return {};
-    return fmt::format("{} makes sets as a whole: their prefixes are not sets of its kind",
-                       generator->name);
+    return fmt::format(
+        "the points of {} depend on the count: a prefix differs from a set of fewer points",
+        generator->name);
 }
 
 void complete(Provenance& provenance) {

@@ -290,7 +290,7 @@ class Indexed {
             format_spec(generator.name, spec.values(generator.options), generator.options);
         sampler_ = std::make_unique<Sampler>(whole, Request{.dimension = d, .seed = seed});
         if (!generator.traits.prefix)
-            fail(ErrorKind::usage, "{} is no sequence: its points depend on how many there are",
+            fail(ErrorKind::usage, "{} is not a sequence: its points depend on the count",
                  generator.name);
     }
 

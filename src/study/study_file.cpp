@@ -275,14 +275,15 @@ void StudyFile::open_file(Start start, const RunContext& run) {
                                                         first.starts_with("{\"generator\":"));
     if (!empty && !ours)
         fail_with_hint(ErrorKind::input, "name another file with -o",
-                       "{}: is there and is not a study's table", path_);
+                       "{}: exists and is not the table of a study", path_);
     if (unfinished && start == Start::fresh)
-        fail_with_hint(ErrorKind::usage, "--resume goes on with it, --overwrite begins anew",
-                       "{}: holds a study that is not finished", path_);
+        fail_with_hint(ErrorKind::usage, "--resume continues it, --overwrite starts anew",
+                       "{}: holds an unfinished study", path_);
     if (whole && start == Start::fresh)
-        fail_with_hint(ErrorKind::usage,
-                       "--overwrite begins anew, --resume adds what is missing, -o names another",
-                       "{}: exists, and holds a study", path_);
+        fail_with_hint(
+            ErrorKind::usage,
+            "--overwrite starts anew, --resume adds what is missing, -o names another file",
+            "{}: exists and holds a study", path_);
     output_ = opened(path_);
     if (start != Start::resume || !whole) {
         lock_journal();
@@ -342,7 +343,7 @@ void StudyFile::refuse_other() const {
         break;
     }
     fail_with_hint(ErrorKind::input, "resume it with its own options, or name another file with -o",
-                   "{}: --resume: the study there is another one{}", path_, differs);
+                   "{}: --resume: the file holds another study{}", path_, differs);
 }
 
 /// Returns the finished study that this one extends, if the table begins with rows of another
@@ -384,8 +385,9 @@ std::optional<Sweep> StudyFile::smaller_study(const RunContext& run) const {
     }
     if (sweep->fingerprint() != fingerprint) refuse_other();
     if (const std::string lost = sweep_.missing_from(*sweep); !lost.empty())
-        fail_with_hint(ErrorKind::input, "name it, too, or name another file with -o",
-                       "{}: --resume: the study there has {}, this one has not", path_, lost);
+        fail_with_hint(ErrorKind::input, "include it, too, or name another file with -o",
+                       "{}: --resume: the study in the file has {}, this one does not", path_,
+                       lost);
     return sweep;
 }
 

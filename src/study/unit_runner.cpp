@@ -202,7 +202,7 @@ UnitResult measured(const SweepRequest& request, const Chosen<Analyzer>& measure
                                      format_number(report.number("upper")));
     else if (result.numbers.empty())
         result.failure =
-            fmt::format("none of its results is asked for; they are {}", join(report.keys(), ", "));
+            fmt::format("none of its results was requested; it has {}", join(report.keys(), ", "));
     return result;
 }
 

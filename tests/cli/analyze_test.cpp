@@ -170,8 +170,9 @@ TEST(Analyze, ChecksAndExpectationsSetTheExitCode) {
     EXPECT_THAT(failed.err, HasSubstr("h.csv: value<0 does not hold: it is 0."));
     const Outcome other = box.run({"analyze", "star-discrepancy", "h.csv", "--domain", "disk"});
     EXPECT_EQ(other.code, 2);
-    EXPECT_THAT(other.err, HasSubstr("--domain: star-discrepancy measures points against the unit "
-                                     "cube, not against disk"));
+    EXPECT_THAT(
+        other.err,
+        HasSubstr("--domain: star-discrepancy requires points of the unit cube, not of disk"));
     const Outcome two = box.run({"analyze", "star-discrepancy", "h.csv", "h.csv", "--method",
                                  "bounds", "--max-work", "1", "--tolerance", "0"});
     EXPECT_EQ(two.code, 0);
@@ -518,9 +519,9 @@ TEST(Analyze, SaysWhatPrefixesAndMixedUnitsTell) {
         return outcome.err;
     };
     const std::string prefixes = "star-discrepancy --prefixes 16,64";
-    EXPECT_THAT(
-        notes("jittered -n 64 -m 2 --meta", prefixes),
-        HasSubstr("jittered makes sets as a whole: their prefixes are not sets of its kind"));
+    EXPECT_THAT(notes("jittered -n 64 -m 2 --meta", prefixes),
+                HasSubstr("the points of jittered depend on the count: a prefix differs from a set "
+                          "of fewer points"));
     for (const char* make : {"sobol -n 64 --meta", "jittered -n 64",
                              "poisson-disk -n 64 "
                              "--order progressive --meta"})
@@ -531,8 +532,9 @@ TEST(Analyze, SaysWhatPrefixesAndMixedUnitsTell) {
               "stipple: note: the sides of --bounds are between 1 and 100 long, and distances mix "
               "their units; with --rescale the box is first mapped to the unit cube\n");
     EXPECT_EQ(notes(make, "nearest-neighbor --bounds 0..1,0..100 --rescale"), "");
-    EXPECT_THAT(notes(make, "nearest-neighbor --rescale"),
-                HasSubstr("--rescale puts the outermost points on faces that the torus joins"));
+    EXPECT_THAT(
+        notes(make, "nearest-neighbor --rescale"),
+        HasSubstr("--rescale puts extreme points on opposite faces, which the torus joins"));
     EXPECT_EQ(notes(make, "nearest-neighbor --rescale --metric euclidean"), "");
     EXPECT_EQ(notes(make, "star-discrepancy --rescale"), "");
     EXPECT_EQ(notes(make, "nearest-neighbor --bounds 0..100"), "");

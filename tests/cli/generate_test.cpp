@@ -408,7 +408,7 @@ TEST(Generate, WritesVectorsAsOtherPackagesDo) {
     expect_refusal(box.shell("stipple generate rank1-lattice --vector-format lddata"), 2,
                    "--vector-format applies to --vector-output only; give that too");
     expect_refusal(box.shell("stipple generate rank1-lattice --vector-output p.csv -o p.csv"), 2,
-                   "is where the points go");
+                   "is already the output for the points");
 }
 
 TEST(Generate, SinglePrecisionNeverHoldsOne) {
@@ -658,7 +658,7 @@ TEST(Generate, BoundsAreOfTheCoordinatesThatNoWarpTakes) {
     expect_refusal(box.shell("stipple generate halton -d 5 -w disk@1,2 --bounds 0..4,0..5"), 2,
                    "--bounds");
     expect_refusal(box.shell("stipple generate poisson-disk -n 9 -w owen --bounds 0..4"), 2,
-                   "poisson-disk keeps its distances in the box");
+                   "poisson-disk measures its distances in the box");
 }
 
 }  // namespace stipple::testing::generate_test

@@ -97,8 +97,8 @@ TEST(Plot, DrawsGeneratedPoints) {
     EXPECT_TRUE(marks("a.svg") == marks("b.svg"));
     EXPECT_THAT(box.read("b.svg"), HasSubstr("plot --generate random --count 50 --seed 4"));
     expect_refusal(box.shell("stipple plot --generate random --column 1"), 2,
-                   "--column: is of points from files, not of --generate");
-    expect_refusal(box.shell("stipple plot a.json -n 3"), 2, "--count: is of --generate");
+                   "--column: applies to points from files, not to --generate");
+    expect_refusal(box.shell("stipple plot a.json -n 3"), 2, "--count: requires --generate");
 }
 
 TEST(Plot, RefusesStudiesThatItCannotDraw) {
@@ -108,12 +108,12 @@ TEST(Plot, RefusesStudiesThatItCannotDraw) {
     expect_refusal(box.shell("stipple plot s.csv --key nonsense"), 2,
                    "--key: the study has no result 'nonsense'");
     expect_refusal(box.shell("stipple plot s.csv --chart radial"), 2,
-                   "--chart: is not for the table");
+                   "--chart: does not apply to the table");
     expect_refusal(box.shell("head -n 1 s.csv | stipple plot"), 3, "the study has no rows");
     expect_refusal(box.shell("(cat s.csv; echo nonsense) | stipple plot"), 3,
                    "this is not a row of a study");
     expect_refusal(box.shell("stipple generate random | stipple plot s.csv -"), 3,
-                   "one kind is drawn in one picture");
+                   "one picture can show points, reports or a study");
 }
 
 TEST(Plot, NotesTheCommandAsAShellTakesIt) {
@@ -247,8 +247,10 @@ TEST(Plot, RefusesALocalDiscrepancyOfOtherPoints) {
         box.shell(plot + "far.csv"), 3,
         "far.csv: 1 of 2 points are outside the unit cube [0, 1]^2; the first is point 1");
     expect_refusal(box.shell(plot + "empty.csv"), 3, "empty.csv");
-    expect_refusal(box.shell(plot + "--generate random --overlay"), 2, "--overlay: is not for");
-    expect_refusal(box.shell(plot + "--generate random --draw cells"), 2, "--draw: is not for");
+    expect_refusal(box.shell(plot + "--generate random --overlay"), 2,
+                   "--overlay: does not apply to");
+    expect_refusal(box.shell(plot + "--generate random --draw cells"), 2,
+                   "--draw: does not apply to");
     expect_refusal(box.shell(plot + "--generate random --width 300 --height 100"), 2,
                    "--height: 100 leaves no room");
     good(box.shell(plot + "far.csv --rescale"));
@@ -371,7 +373,7 @@ TEST(Plot, RefusesWhatIsNoPictureAndLeavesNoFile) {
     expect_refusal(box.run({"plot", "chi.json", "-o", "c.svg"}), 3, "nothing to draw");
     expect_refusal(box.run({"plot", "moments.json", "-o", "c.svg"}), 3, "nothing to draw");
     expect_refusal(box.run({"plot", "chi.json", "p.csv", "-o", "c.svg"}), 3,
-                   "one kind is drawn in one picture");
+                   "one picture can show points, reports or a study");
     expect_refusal(box.run({"plot", "chi.json", "nearest.json", "-o", "c.svg"}), 3,
                    "reports of different analyzers, chi-square and nearest-neighbor");
     expect_refusal(box.run({"plot", "chi.json", "--chart", "points"}), 2, "--chart");
@@ -573,7 +575,8 @@ TEST(Plot, LabelsAndAxesNameWhatIsDrawn) {
     good(box.shell(three + "--chart radial --labels A,B,C --axes 'f,P(f),dB' -o p.svg"));
     texts = xml(box, "p.svg", "text");
     for (const char* word : {"A|B|C|", "|P(f)|", "|dB", "|f"}) EXPECT_THAT(texts, HasSubstr(word));
-    expect_refusal(box.shell(three + "--labels A,B -o q.svg"), 2, "--labels: 2 names; the sets");
+    expect_refusal(box.shell(three + "--labels A,B -o q.svg"), 2,
+                   "--labels: 2 names; expected one for each of the");
     expect_refusal(box.shell(three + "--axes A -o q.svg"), 2, "--axes: 1 names for points of 2");
     good(
         box.shell("stipple study --generators halton,random -n 16,64,256 --seeds 3 --analyze "

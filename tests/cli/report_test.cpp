@@ -195,7 +195,7 @@ TEST(Report, FailsOnTheOppositeAndSaysSo) {
     const Outcome fine = box.shell(report + "'star-discrepancy>0.5'");
     EXPECT_EQ(fine.code, 0);
     EXPECT_EQ(fine.err,
-              "stipple: note: --fail-on star-discrepancy>0.5 is, in the form of all verbs, --check "
+              "stipple: note: --fail-on star-discrepancy>0.5 is the older form of --check "
               "'star-discrepancy.value<=0.5'\n");
     const Outcome failed = box.shell(report + "'star-discrepancy>0.001' --quiet");
     expect_refusal(failed, 1, "a.csv: star-discrepancy.value<=0.001 does not hold: it is 0.");

@@ -237,8 +237,8 @@ TEST(Reproduce, NoticesFilesThatAreGoneOrChanged) {
     expect_identical(box, "m.png");
     for (const char* file : {"l.json", "i.csv"}) {
         // A file is not read only because another file names it.
-        EXPECT_THAT(refusal(box, file), HasSubstr("made from 'm.png', which is not read for that "
-                                                  "alone; give it with --input m.png"));
+        EXPECT_THAT(refusal(box, file), HasSubstr("made from 'm.png', which is read only if "
+                                                  "--input allows it; give it with --input m.png"));
         good(box.run({"reproduce", file, "--input", "m.png"}));
         good(box.shell("cp m.png other.png"));
         good(box.run({"reproduce", file, "--input", "other.png"}));
@@ -299,8 +299,9 @@ TEST(Reproduce, RefusesWhatTellsNothing) {
         "stipple generate random -n 10 -o a.bin && stipple generate random -n 5 --seed 3 -m 2 -o "
         "c.json"));
     for (const char* file : {"a.csv", "a.npy", "a.svg", "a.bin"})
-        EXPECT_THAT(refusal(box, file), HasSubstr("it does not say how its points were made; json "
-                                                  "and jsonl always hold it; generate --meta"));
+        EXPECT_THAT(refusal(box, file),
+                    HasSubstr("it does not record how its points were made; json and jsonl always "
+                              "record it; generate --meta"));
     EXPECT_THAT(refusal(box, "r.json"), HasSubstr("r.json: it holds results of analyze"));
     EXPECT_THAT(refusal(box, "missing.json", 4), HasSubstr("missing.json"));
     EXPECT_EQ(box.run({"reproduce"}).code, 2);
@@ -325,8 +326,8 @@ TEST(Reproduce, SaysWhatFilesWithoutPointsAre) {
         "--generators halton,random -n 9 --seeds 2 --analyze moments --summary -o s.$t; done"));
     for (const char* file : {"r.html", "r.json"})
         EXPECT_THAT(refusal(box, file),
-                    HasSubstr("a report about points, which it does not hold; it names the command "
-                              "that makes it again"));
+                    HasSubstr("a report about points, which it does not contain; it names the "
+                              "command that makes it again"));
     for (const char* file : {"s.csv", "s.jsonl", "s.summary.csv", "s.summary.jsonl",
                              "s.comparisons.csv", "s.comparisons.jsonl"})
         EXPECT_THAT(refusal(box, file), HasSubstr("a table of a study, without points; 'stipple "

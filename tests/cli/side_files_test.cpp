@@ -77,7 +77,7 @@ TEST(SideFiles, OfOneNameAreRefused) {
         const Outcome both = dither(box, name, {"-o", name, "-f", "csv"});
         EXPECT_EQ(both.code, 2) << name;
         EXPECT_EQ(both.out, "") << name;
-        EXPECT_THAT(both.err, HasSubstr("is where the points go")) << name;
+        EXPECT_THAT(both.err, HasSubstr("is already the output for the points")) << name;
     }
     EXPECT_EQ(box.files(), Names{});
 }
@@ -133,7 +133,7 @@ TEST(SideFiles, OfALatticeComeFromItsProvenance) {
                    "names no lattice");
     EXPECT_FALSE(box.exists("r.csv"));
     expect_refusal(box.shell("stipple convert h.json -o r.csv --vector-format lddata"), 2,
-                   "--vector-format: is of --vector-output");
+                   "--vector-format: requires --vector-output");
 }
 
 }  // namespace stipple::testing::side_files_test

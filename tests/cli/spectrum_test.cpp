@@ -113,7 +113,7 @@ TEST(Spectrum, WeightsAreAColumn) {
     box.write("w.csv", "x,y,s\n0,0,1\n0.5,0,nan\n");
     expect_error(weights("s"), 3, "w.csv:3:7: 'nan' is not finite");
     expect_error(box.run({"analyze", "periodogram", "--generate", "random", "--weights", "s"}), 2,
-                 "--weights: generated points have no strengths");
+                 "--weights: generated points have no weight column");
 }
 
 TEST(Spectrum, PicturesTellTheirScale) {
@@ -195,9 +195,9 @@ TEST(Spectrum, RefusesWhatDoesNotGoTogether) {
     const auto refused = [&](const std::string& words, int code, const std::string& why) {
         expect_error(box.shell("stipple analyze periodogram " + words + " < /dev/null"), code, why);
     };
-    refused("-n 100", 2, "--count: is of --generate, which names a generator");
+    refused("-n 100", 2, "--count: requires --generate, which is not given");
     refused("--generate random p.csv", 4, "p.csv");
-    refused("--generate random --bounds 0..1", 2, "--bounds: is of points from files");
+    refused("--generate random --bounds 0..1", 2, "--bounds: applies to points from files");
     refused("--generate randon", 2, "unknown generator 'randon'");
     refused("--generate random -n 1", 3, "periodogram needs at least 2 points; there is 1");
     refused("--generate random --max-frequency 0", 2, "--max-frequency: 0 is outside [1, 1000000]");

@@ -138,7 +138,8 @@ TEST(Study, FailuresAreRowsAndTheExitCodeSaysSo) {
         "stipple study --generators 'grid,random' -n 16,32 --seeds 2 --analyze "
         "'star-discrepancy,pair-correlation' -d 2,4");
     EXPECT_EQ(outcome.code, 3);
-    EXPECT_THAT(outcome.err, HasSubstr("measurements failed, their rows say why; the first: "));
+    EXPECT_THAT(outcome.err,
+                HasSubstr("measurements failed, for the reasons in their rows; the first: "));
     std::map<std::string, int> failed;
     for (const Row& row : rows_of(outcome.out)) {
         if (row.at("status") != "failed") continue;
@@ -361,7 +362,7 @@ TEST(Study, ResumeTakesRowsInAnyOrderAndCutsOffADamagedEnd) {
     for (const std::string& twice : {row(4) + row(3) + row(4), row(1) + row(2) + row(1)})
         expect_refusal(resumed(twice), 3, "cut.csv:4: this row is not in its place");
     box.write("cut.csv.journal", head + "0\",\"settings\":{\"counts\":1,\"generators\":[]}}\n");
-    expect_refusal(box.shell(study + "-o cut.csv --resume"), 3, "the study there is another one");
+    expect_refusal(box.shell(study + "-o cut.csv --resume"), 3, "the file holds another study");
 }
 
 // A finished study has no journal; a copy of its table may be incomplete.
@@ -492,7 +493,7 @@ TEST(Study, ResumeRefusesAnotherStudyAndWhatIsNone) {
     const std::string whole = box.read("study.csv");
     Outcome outcome = box.shell(small + std::string("--keys value -o study.csv --resume"));
     EXPECT_EQ(outcome.code, 3);
-    EXPECT_THAT(outcome.err, HasSubstr("study.csv: --resume: the study there is another one"));
+    EXPECT_THAT(outcome.err, HasSubstr("study.csv: --resume: the file holds another study"));
     EXPECT_EQ(box.read("study.csv"), whole);
     EXPECT_EQ(good(box.shell(small + std::string("-o study.csv --resume"))), "");
     EXPECT_EQ(box.read("study.csv"), whole);
@@ -500,7 +501,7 @@ TEST(Study, ResumeRefusesAnotherStudyAndWhatIsNone) {
     for (const char* resume : {"", "--resume"}) {
         outcome = box.shell(small + std::string("-o points.csv ") + resume);
         EXPECT_EQ(outcome.code, 3);
-        EXPECT_THAT(outcome.err, HasSubstr("points.csv: is there and is not a study's table"));
+        EXPECT_THAT(outcome.err, HasSubstr("points.csv: exists and is not the table of a study"));
         EXPECT_EQ(box.read("points.csv"), "x,y\n0.5,0.5\n");
     }
     outcome = box.shell(small + std::string("--resume"));
@@ -584,8 +585,8 @@ TEST(Study, ResumeRefusesWhatHasLess) {
             box.shell("stipple study --no-seconds -o s.csv --resume " + options);
         EXPECT_EQ(outcome.code, 3);
         EXPECT_EQ(outcome.err,
-                  "stipple: s.csv: --resume: the study there has " + has +
-                      ", this one has not; name it, too, or name another file with -o\n");
+                  "stipple: s.csv: --resume: the study in the file has " + has +
+                      ", this one does not; include it, too, or name another file with -o\n");
     };
     good(box.shell(
         "stipple study --generators random,halton -n 8,16 -d 2,3 -s 2 --seeds 3 --analyze "
@@ -620,7 +621,7 @@ TEST(Study, AnUnfinishedStudyIsNotOverwritten) {
     box.write("study.csv.journal", "");
     const Outcome outcome = box.shell(small + std::string("-o study.csv"));
     EXPECT_EQ(outcome.code, 2);
-    EXPECT_THAT(outcome.err, HasSubstr("holds a study that is not finished; --resume goes on"));
+    EXPECT_THAT(outcome.err, HasSubstr("holds an unfinished study; --resume continues it"));
     EXPECT_EQ(box.read("study.csv"), lines(whole, 9));
 }
 
@@ -631,8 +632,8 @@ TEST(Study, AFinishedStudyIsOverwrittenOnlyIfAsked) {
     const Outcome outcome = box.shell(small + std::string("-s 9 -o study.csv"));
     EXPECT_EQ(outcome.code, 2);
     EXPECT_EQ(outcome.err,
-              "stipple: study.csv: exists, and holds a study; --overwrite begins anew, --resume "
-              "adds what is missing, -o names another\n");
+              "stipple: study.csv: exists and holds a study; --overwrite starts anew, --resume "
+              "adds what is missing, -o names another file\n");
     EXPECT_EQ(box.read("study.csv"), whole);
     EXPECT_EQ(good(box.shell(small + std::string("-s 9 -o study.csv --overwrite"))), "");
     EXPECT_NE(box.read("study.csv"), whole);
@@ -654,10 +655,9 @@ TEST(Study, AnotherStudyIsNamedByWhatDiffers) {
         "stipple study --generators random -n 4096 -d 5 --seeds 98 --analyze "
         "star-discrepancy -o study.csv --resume");
     EXPECT_EQ(outcome.code, 3);
-    EXPECT_EQ(
-        outcome.err,
-        "stipple: study.csv: --resume: the study there is another one: it has seeds '99', this "
-        "one '98'; resume it with its own options, or name another file with -o\n");
+    EXPECT_EQ(outcome.err,
+              "stipple: study.csv: --resume: the file holds another study: it has seeds '99', this "
+              "one '98'; resume it with its own options, or name another file with -o\n");
 }
 
 TEST(Study, RowsThatWereChangedAreFoundOut) {
@@ -689,7 +689,7 @@ TEST(Study, HugeStudiesAreRefusedBeforeTheyStart) {
     EXPECT_THAT(outcome.err, HasSubstr("the study has 1000000000 rows or more (2 generators x 1 "
                                        "dimensions x 1 counts x 500000000 seeds x 1 measures), "
                                        "about "));
-    EXPECT_THAT(outcome.err, HasSubstr("on 2 cores; --yes starts it all the same\n"));
+    EXPECT_THAT(outcome.err, HasSubstr("on 2 cores; --yes starts it anyway\n"));
     EXPECT_TRUE(box.files().empty());
 }
 
@@ -760,7 +760,7 @@ TEST(Study, BadInputIsOneLineThatHelps) {
         {"--generators random --analyze moments --pairs t",
          "stipple: --pairs: 't' is not one of welch, paired\n"},
         {"--generators random --analyze moments --pairs paired",
-         "stipple: --pairs: is of --summary, which is not given\n"},
+         "stipple: --pairs: requires --summary, which is not given\n"},
         {"--generators random --analyze moments --confidence 95",
          "stipple: --confidence: '95' is not a number above 0 and below 1\n"},
         {"--generators random --analyze l2-discrepancy:kind=centred -n 16,32 -d 2,3",
@@ -777,7 +777,7 @@ TEST(Study, BadInputIsOneLineThatHelps) {
          "stipple: --format: 'json' is not one of csv, jsonl; did you mean 'jsonl'?\n"},
         {"--generators random --analyze moments -o study.json",
          "stipple: --output: a study's table is .csv or .jsonl; 'study.json' is neither; --format "
-         "csv or jsonl says what it is to hold\n"},
+         "csv or jsonl selects a format for any file name\n"},
         {"--generators poison --analyze moments",
          "stipple: unknown generator 'poison'; did you mean 'poisson'?\n"},
         {"--generators random --analyze star-discrepancy --keys worst_bx",

@@ -109,7 +109,7 @@ def test_sequences_by_index_and_in_blocks():
     assert np.array_equal([next(points) for _ in range(1100)], all_points[:1100])
     with pytest.raises(IndexError):
         sequence[-1]
-    with pytest.raises(stipple.Error, match="no sequence"):
+    with pytest.raises(stipple.Error, match="not a sequence"):
         stipple.sequence("latin-hypercube")
 
 

@@ -35,7 +35,7 @@ def test_sequences_go_on():
     assert np.array_equal(qmc.Sobol(3, seed=1).fast_forward(100).random(28), rest[36:])
     plain = qmc.Halton(2, scramble=False).random(10)
     assert np.allclose(plain, scipy_qmc.Halton(2, scramble=False).random(10), atol=1e-15)
-    with pytest.raises(stipple.Error, match="no sequence"):
+    with pytest.raises(stipple.Error, match="not a sequence"):
         qmc.LatinHypercube(2).fast_forward(3)
 
 

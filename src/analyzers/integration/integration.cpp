@@ -227,7 +227,7 @@ std::vector<Task> tasks_of(const Domain& domain, const RegionView& view, const S
                            const Values& options) {
     const bool typed = options.given(expression);
     if (options.given(exact) && !typed)
-        fail(ErrorKind::usage, "--exact: needs --expression, whose integral it is");
+        fail(ErrorKind::usage, "--exact: requires --expression, which is not given");
     std::vector<Task> tasks;
     if (options.given(integrand))
         tasks = tasks_named(options[integrand], domain, view, support);

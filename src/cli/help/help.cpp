@@ -160,9 +160,9 @@ HelpPage page_of_program(HelpPage::Style style) {
     page.title("stipple", 1, "makes sample sets, warps them, and judges them",
                "stipple VERB ... [OPTIONS]");
     page.paragraph(
-        "Points for whatever samples a domain: sequences, nets, lattices and blue noise; maps of\n"
-        "them onto other domains and densities; and measures of how even they are. Data is the\n"
-        "only thing on standard output.");
+        "Sample points for integration, rendering, simulation and experiments: sequences, nets,\n"
+        "lattices and blue noise; maps of them onto other domains and densities; and measures of\n"
+        "how even they are. Only data is written to standard output.");
     page.section("Verbs");
     for (const VerbInfo& info : verbs()) page.entry(info.name, info.summary);
     page.section("Topics");

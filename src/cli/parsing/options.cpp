@@ -177,11 +177,12 @@ const std::vector<Row> rows = {
     {"--analyze", "SPECS", "", "analyzers to run: star-discrepancy,integration:integrand=...",
      study, &SweepRequest::measures},
     {"--config", "FILE", "",
-     "a study as JSON, as data/study.schema.json says; options on the command line override it",
+     "JSON file that describes the study (schema: data/study.schema.json); options on the command "
+     "line override it",
      study, &StudyRequest::config},
     {"--generate", "GENERATOR[:OPT=V,...]", "",
-     "generated points, behind those of the INPUTs, without a file; all share -n, -d, --seed, "
-     "--start and --warp, as in 'stipple generate'",
+     "also use points of this generator, after those of the INPUTs; -n, -d, --seed, --start and "
+     "--warp are those of 'stipple generate' and apply to all generators",
      analyze | plot | report, &Sources::generate},
     {"-n,--count", "COUNTS", "1024", "points in a set: 16,64,256 or 2^4..2^16 or 16..65536*2",
      study, &SweepRequest::counts, 1, most_points},
@@ -231,7 +232,8 @@ const std::vector<Row> rows = {
      "mapped to (see 'stipple help parameters')",
      analyze | convert | plot | report, &Request::parameters_file},
     {"--unit-cube", "", "",
-     "with --parameters: leave the points in the unit cube, without those that break a constraint",
+     "with --parameters: do not map the points to the parameters; only drop those that violate a "
+     "constraint",
      generate | analyze | plot | report, &Sources::unit_cube},
     {"--start", "I", "0", "index of the first point of --generate", analyze | plot | report,
      &Sources::start, 0, most_points},
@@ -274,46 +276,47 @@ const std::vector<Row> rows = {
     {"--long", "", "", "with the traits and options of every unit", list, &ListRequest::full},
     {"--man", "", "", "as a manual page, for man", help, &HelpRequest::man},
     {"--check", "[KEY<VALUE]", "",
-     "exit with 1 unless it holds; also <= > >= == !=; mean[0] picks one of a list; alone: "
-     "valid==true",
+     "exit with 1 unless this condition holds; also <= > >= == !=; mean[0] picks one of a list; "
+     "without a condition: valid==true",
      analyze, &AnalyzeRequest::checks},
     {"--check", "KEY<VALUE", "",
-     "exit with 1 unless it holds for all sets: star-discrepancy.value<0.01; also <= > >= == !=",
+     "exit with 1 unless this condition holds for all sets: star-discrepancy.value<0.01; also <= > "
+     ">= == !=",
      report, &ReportRequest::checks},
-    {"--fail-on", "KEY>VALUE", "", "older form: --check of the opposite", report,
+    {"--fail-on", "KEY>VALUE", "", "older form of --check, with the opposite condition", report,
      &ReportRequest::fail_on},
     {"--average", "", "",
-     "one result, the mean over all sets, with standard errors where they apply; one of each kind "
-     "where the sets were made by different generators, options, counts or warps",
+     "the mean over all sets, with standard errors where they apply; sets of different generators, "
+     "options, counts or warps have a mean each",
      analyze, &AnalyzeRequest::average},
     {"--pool", "", "", "one mean of all sets, however they were made", analyze,
      &AnalyzeRequest::pool},
-    {"--full", "", "", "as text, with all numbers of long lists, as tables", analyze,
+    {"--full", "", "", "text output with all numbers of long lists, as tables", analyze,
      &AnalyzeRequest::full},
     {"--explain", "", "",
-     "as text, with what each result means, which of two is better, and what is typical of 1024 "
-     "points in the plane",
+     "text output that explains each result: its meaning, which of two values is better, and what "
+     "is typical of 1024 points in the plane",
      analyze, &AnalyzeRequest::explain},
     {"--chart",
      "points|density|pairs|histogram|distances|spectrum|radial|pair-correlation|differential|"
      "local-discrepancy",
      "points",
-     "chart of points. points: positions (of three coordinates a view in space, of more each pair "
-     "of the first 8); density: counts by cell; pairs: each pair of coordinates; histogram: of "
-     "each coordinate; distances: to the nearest neighbour; local-discrepancy: with the worst "
-     "boxes of the star discrepancy; spectrum, radial, pair-correlation, differential: results of "
-     "analyze with default options",
+     "chart of points. points: positions (3 coordinates: a view in space; more: each pair of the "
+     "first 8); density: counts by cell; pairs: each pair of coordinates; histogram: of each "
+     "coordinate; distances: to the nearest neighbour; local-discrepancy: with the worst boxes of "
+     "the star discrepancy; spectrum, radial, pair-correlation, differential: results of analyze "
+     "with default options",
      plot, &PlotRequest::chart},
-    {"--key", "KEY", "", "result to draw of a report, such as prefixes.value or minimum", plot,
-     &PlotRequest::key},
+    {"--key", "KEY", "", "result of a report or study to draw, such as prefixes.value or minimum",
+     plot, &PlotRequest::key},
     {"--set", "K", "", "draw only set or report K, from 0; default: all", plot, &PlotRequest::set,
      0, most_points},
     {"--overlay", "", "",
-     "several sets of points in one frame, in colours; default: a frame for each", plot,
+     "draw several sets of points in one frame, in colours; default: one frame per set", plot,
      &PlotRequest::overlay},
     {"--draw", "cells,gap", "",
-     "over the points of a plane: their Voronoi cells, the largest empty circle, or both", plot,
-     &PlotRequest::draw},
+     "also draw the Voronoi cells of points in the plane, their largest empty circle, or both",
+     plot, &PlotRequest::draw},
     {"--keys", "KEY,...", "",
      "results to keep, by name or by a dotted part of it: value, radial.power, mean[0]; "
      "default: all numbers",
@@ -326,7 +329,7 @@ const std::vector<Row> rows = {
      &SweepRequest::curves},
     {"--resume", "", "",
      "continue the study in the output file, also with more seeds, counts, generators, ...; start "
-     "it if there is none",
+     "a new one if there is none",
      study, &StudyRequest::resume},
     {"--overwrite", "", "", "replace the study that the file holds", study,
      &StudyRequest::overwrite},
@@ -346,7 +349,7 @@ const std::vector<Row> rows = {
     {"--vector-output", "FILE", "",
      "also write the generating vector of a lattice, from the provenance of its points", convert,
      &ConvertRequest::vector_output},
-    {"--vector-format", "lddata|latnet-builder", "lddata", "form of --vector-output", convert,
+    {"--vector-format", "lddata|latnet-builder", "lddata", "format of --vector-output", convert,
      &ConvertRequest::vector_format},
     {"--with-pdf", "", "", "add a column with the density of each point", generate | warp,
      &Writing::with_pdf},
@@ -357,29 +360,30 @@ const std::vector<Row> rows = {
      "do not move the points; add a column with the warp's density at each, 0 outside its domain",
      warp, &WarpRequest::density_at},
     {"--shard", "I/K", "0/1",
-     "the I-th of K (from 0) contiguous parts; concatenated they are the whole set", generate,
-     &GenerateRequest::shard},
-    {"--title", "TEXT", "", "default: from the provenance; '' for neither title nor subtitle", plot,
+     "make only part I (from 0) of K contiguous parts, which concatenated are the whole set",
+     generate, &GenerateRequest::shard},
+    {"--title", "TEXT", "",
+     "title of the picture; default: from the provenance; '' for neither title nor subtitle", plot,
      &PlotRequest::title},
     {"--labels", "A,B,...", "",
      "names of the sets or curves in legends and titles, in order; for a study, of its generators",
      plot, &PlotRequest::labels},
     {"--axes", "X,Y,...", "",
-     "names of the axes: of points all coordinates; of curves x, then the y of each panel", plot,
-     &PlotRequest::axes},
+     "names of the axes: for points, of all coordinates; for curves, of x, then of y in each panel",
+     plot, &PlotRequest::axes},
     {"--theme", "light|dark", "light", "colours", plot, &PlotRequest::dark},
     {"--width", "W", "", "pixels, or characters of text; default: automatic", plot,
      &PlotRequest::width, 0, most_points},
     {"--height", "H", "",
-     "pixels, or lines of text; default: automatic; with --width, several sets stand in the rows "
-     "that make them largest",
+     "pixels, or lines of text; default: automatic; with --width, several sets are arranged so "
+     "that they are as large as possible",
      plot, &PlotRequest::height, 0, most_points},
     {"--x-scale", "linear|log", "", "scale of curves and histograms; default: automatic", plot,
      &PlotRequest::log_x},
     {"--y-scale", "linear|log", "", "scale of curves and histograms; default: automatic", plot,
      &PlotRequest::log_y},
     {"--pairs", "welch|paired", "welch",
-     "compare by Welch's t test, or by paired differences of sets with one seed", study,
+     "compare by Welch's t test, or by paired differences of sets with the same seed", study,
      &SummaryOptions::paired},
     {"--confidence", "C", "0.95", "confidence level of the intervals", study,
      &SummaryOptions::confidence, 0, 1},
@@ -393,8 +397,8 @@ const std::vector<Row> rows = {
      study, &SweepRequest::seconds},
     {"--yes", "", "", "start even with more than 10 million rows", study, &StudyRequest::yes},
     {"--max-work", "N", "1e9",
-     "comparisons of each search for a worst box (a few seconds); a search that stops there "
-     "gives rigorous bounds",
+     "limit of comparisons in each search for a worst box (a few seconds); a search that reaches "
+     "it gives rigorous bounds",
      report, &ReportRequest::max_work, 1, most_work},
     {"--concat", "", "", "join all INPUTs into one set, in order, such as the shards of a set",
      analyze | convert, &Sources::concat},
@@ -405,8 +409,8 @@ const std::vector<Row> rows = {
     {"-d,--dimension", "D", "", "coordinates of a point; required for raw binary files", readers,
      &Sources::dimension, 1, most_dimensions},
     {"--input", "FILE", "",
-     "a file that the points were made from, under whatever name; no other file is read", reproduce,
-     &ReproduceRequest::files},
+     "input file of the original command, which may have been renamed; no other file is read",
+     reproduce, &ReproduceRequest::files},
     {"--input-dtype", "f64|f32", "f64", "number type of raw binary input", readers,
      &Sources::dtype_in},
     {"--output-dtype", "f64|f32", "f64", "number type of binary formats that are written", writers,
@@ -423,7 +427,8 @@ const std::vector<Row> rows = {
     {"--threads", "T", "0", "0 = all cores; never changes a result", workers, &Request::threads, 0,
      4096},
     {"--max-memory", "SIZE", "80 % of the machine's",
-     "refuse, before starting, what would need more; 500M, 2G", workers, &Request::max_memory},
+     "memory limit, such as 500M or 2G; jobs that need more are refused at the start", workers,
+     &Request::max_memory},
     {"--quiet", "", "", "no warnings and no progress", workers, &Request::quiet},
     {"--progress", "auto|always|never", "auto", "a bar on stderr, after 0.5 s on a terminal",
      workers, &Request::progress}};
@@ -439,18 +444,18 @@ struct Rule {
 
 const Rule rules[] = {
     {analyze | plot | report, "count,seed,sets,warp,start,unit-cube", Rule::need, "generate",
-     "is of --generate, which names a generator"},
+     "requires --generate, which is not given"},
     {analyze | plot | report, "bounds,rescale,domain,column,from,dtype,input-dtype", Rule::need,
-     "INPUT", "is of points from files, not of --generate"},
+     "INPUT", "applies to points from files, not to --generate"},
     {generate | analyze | plot | report, "unit-cube", Rule::need, "parameters",
-     "is of --parameters, which is not given"},
+     "requires --parameters, which is not given"},
     {analyze, "bounds", Rule::exclude, "domain", {}},
     {warp, "inverse,with-pdf,with-weight", Rule::exclude, "density-at",
      "--density-at leaves the points where they are"},
     {convert, "vector-format", Rule::need, "vector-output",
-     "is of --vector-output, which is not given"},
+     "requires --vector-output, which is not given"},
     {study, "pairs,confidence,bootstrap", Rule::need, "summary",
-     "is of --summary, which is not given"},
+     "requires --summary, which is not given"},
     {study, "resume", Rule::exclude, "overwrite", {}}};
 
 }  // namespace table

@@ -156,7 +156,7 @@ void refuse_second_unit(const Arguments& arguments, const Kind& kind) {
             fmt::format("separate several analyzers by commas: {},{}",
                         arguments.specs.empty() ? arguments.unit : join(arguments.specs, ","),
                         word),
-            "{}: no such file, but an analyzer", word);
+            "{}: is the name of an analyzer, not a file", word);
     }
 }
 
@@ -179,8 +179,8 @@ void settle_format(Arguments& arguments) {
 void take_spec(const Spec& spec, const UnitInfo& unit, Arguments& arguments) {
     if (!spec.coordinates.empty()) {
         if (arguments.verb != Verb::warp)
-            fail(ErrorKind::usage, "{}@{}: coordinates behind @ are for warps", spec.name,
-                 format_coordinates(spec.coordinates));
+            fail(ErrorKind::usage, "{}@{}: only warps and scrambles take coordinates after @",
+                 spec.name, format_coordinates(spec.coordinates));
         if (arguments.has("coordinates"))
             fail(ErrorKind::usage, "--coordinates is given more than once");
         arguments.common.emplace_back("coordinates", format_coordinates(spec.coordinates));

@@ -54,7 +54,7 @@ class Engine(_scipy.QMCEngine):
 
     def fast_forward(self, n):
         if not self._prefix:
-            raise Error(f"{self._name} is no sequence; each call gives a new set")
+            raise Error(f"{self._name} is not a sequence; each call gives a new set")
         self.num_generated += n
         return self
 

@@ -414,7 +414,7 @@ TEST(Integration, TakesFormulas) {
     EXPECT_EQ(error_of([&] {
                   of(set, {{"exact", "1"}});
               }),
-              "usage: --exact: needs --expression, whose integral it is");
+              "usage: --exact: requires --expression, which is not given");
     EXPECT_TRUE(error_of([&] {
                     of(set, {{"expression", "x+"}});
                 }).starts_with("usage: --expression: 'x+': the formula ends at column 3, where "));

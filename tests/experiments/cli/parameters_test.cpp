@@ -130,7 +130,8 @@ TEST_F(Parameters, AreFoundByTheNamesOfColumns) {
             text("stipple " + verb + " --parameters beam.json a.csv | grep -v 'csv\\|seconds'"),
             text("stipple " + verb + " --parameters beam.json b.csv | grep -v 'csv\\|seconds'"));
     text("awk -F, '{print $0 \",\" (NR > 1 ? 7 : \"cost\")}' a.csv > e.csv");
-    EXPECT_THAT(box.shell(back + "e.csv").err, HasSubstr("the column 'cost' is none of"));
+    EXPECT_THAT(box.shell(back + "e.csv").err,
+                HasSubstr("the column 'cost' is not a coordinate of"));
 }
 
 // Each level occurs equally often, regardless of its probability.
@@ -440,14 +441,14 @@ TEST_F(Parameters, StudiesTakeThem) {
 TEST_F(Parameters, AreRefusedInOneLine) {
     expect_refusal(box.run({"generate", "sobol", "--parameters", "no.json"}), 4, "no.json: ");
     expect_refusal(box.run({"generate", "sobol", "--unit-cube"}), 2,
-                   "--unit-cube: is of --parameters");
+                   "--unit-cube: requires --parameters");
     expect_refusal(box.run({"generate", "sobol", "-d", "4", "--parameters", "beam.json"}), 2,
                    "warp parameters takes 3 coordinates; the points have 4");
     box.write("p.csv", "x,y\n0.5,0.5\n");
     expect_refusal(box.run({"warp", "parameters", "p.csv"}), 2,
                    "--file: no file given; expected a parameter file");
     expect_refusal(box.run({"warp", "disk", "p.csv", "--parameters", "beam.json"}), 2,
-                   "--parameters: is of the warp parameters");
+                   "--parameters applies only to the warp parameters");
     box.write("bad.json", R"({"parameters": [{"name": "a", "range": [2, 1]}]})");
     expect_refusal(box.run({"generate", "sobol", "--parameters", "bad.json", "-o", "x.csv"}), 3,
                    "bad.json: $.parameters[0].range: low: 2 is not below high, 1");
