@@ -441,8 +441,7 @@ class Plot {
         if (request_.draw.empty()) return;
         if (set.points.dimension() != 2 || picture.sets.size() > 1 || medium_ == Medium::text)
             fail(ErrorKind::usage,
-                 "--draw applies to pictures with one set of points of the plane per frame, not to "
-                 "text");
+                 "--draw applies to one set of points of the plane per frame, not to text");
         for (const std::string& word : request_.draw) {
             if (word == "cells") {
                 picture.cells = true;

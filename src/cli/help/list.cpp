@@ -27,8 +27,7 @@ std::string list_text(const std::vector<Kind>& kinds) {
             text += fmt::format("{}{}{}{}\n{}", text.empty() ? "" : "\n", kind.name,
                                 family.empty() ? "" : ": ", family, lines);
     }
-    return text +
-           "\n'stipple help UNIT' documents a unit, 'stipple list --long' lists all options.\n";
+    return text + "\n'stipple help UNIT' documents a unit, 'stipple list --long' all options.\n";
 }
 
 /// Each unit with its traits and options.

@@ -177,9 +177,8 @@ const std::vector<Row> rows = {
     {"--analyze", "SPECS", "", "analyzers to run: star-discrepancy,integration:integrand=...",
      study, &SweepRequest::measures},
     {"--config", "FILE", "",
-     "JSON file that describes the study (schema: data/study.schema.json); options on the command "
-     "line override it",
-     study, &StudyRequest::config},
+     "JSON file of the study (schema: data/study.schema.json); other options override it", study,
+     &StudyRequest::config},
     {"--generate", "GENERATOR[:OPT=V,...]", "",
      "also use points of this generator, after those of the INPUTs; -n, -d, --seed, --start and "
      "--warp are those of 'stipple generate' and apply to all generators",
@@ -232,8 +231,7 @@ const std::vector<Row> rows = {
      "mapped to (see 'stipple help parameters')",
      analyze | convert | plot | report, &Request::parameters_file},
     {"--unit-cube", "", "",
-     "with --parameters: do not map the points to the parameters; only drop those that violate a "
-     "constraint",
+     "with --parameters: do not map the points, only drop those that violate a constraint",
      generate | analyze | plot | report, &Sources::unit_cube},
     {"--start", "I", "0", "index of the first point of --generate", analyze | plot | report,
      &Sources::start, 0, most_points},
@@ -280,8 +278,7 @@ const std::vector<Row> rows = {
      "without a condition: valid==true",
      analyze, &AnalyzeRequest::checks},
     {"--check", "KEY<VALUE", "",
-     "exit with 1 unless this condition holds for all sets: star-discrepancy.value<0.01; also <= > "
-     ">= == !=",
+     "exit with 1 unless this holds for all sets: star-discrepancy.value<0.01; also <= > >= == !=",
      report, &ReportRequest::checks},
     {"--fail-on", "KEY>VALUE", "", "older form of --check, with the opposite condition", report,
      &ReportRequest::fail_on},
@@ -362,9 +359,8 @@ const std::vector<Row> rows = {
     {"--shard", "I/K", "0/1",
      "make only part I (from 0) of K contiguous parts, which concatenated are the whole set",
      generate, &GenerateRequest::shard},
-    {"--title", "TEXT", "",
-     "title of the picture; default: from the provenance; '' for neither title nor subtitle", plot,
-     &PlotRequest::title},
+    {"--title", "TEXT", "", "title; default: from the provenance; '' for no title or subtitle",
+     plot, &PlotRequest::title},
     {"--labels", "A,B,...", "",
      "names of the sets or curves in legends and titles, in order; for a study, of its generators",
      plot, &PlotRequest::labels},
