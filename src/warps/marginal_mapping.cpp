@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/machine/wide.hpp"
 #include "warps/line_domain.hpp"
 
 namespace stipple::warps {
@@ -15,12 +16,33 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least = 1e-300;
 
+/// Copies numbers to u and replaces those below `least`.
+STIPPLE_WIDE void raise(std::span<double> numbers, double* u) {
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        u[i] = numbers[i];
+        numbers[i] = std::max(u[i], least);
+    }
+}
+
+STIPPLE_WIDE void clamp_all(std::span<double> numbers, double low, double high) {
+    for (double& x : numbers) x = std::max(low, std::min(x, high));
+}
+
+STIPPLE_WIDE bool all_inside(const double* u, std::size_t count) {
+    bool inside = true;
+    for (std::size_t i = 0; i < count; ++i) inside &= (u[i] > 0) & (u[i] < 1);
+    return inside;
+}
+
 /// Adapts a distribution for LineDomain and LineMapping. Unbounded tails end at the range of the
 /// random numbers: 0 is replaced by 2^-54, and 1 by 1 - 2^-55; other values below 1e-300 by 1e-300.
 class MarginalLine final : public LineDistribution {
   public:
     explicit MarginalLine(MarginalPtr law)
-        : law_(std::move(law)), ends_(law_->support()), inside_(ends_) {
+        : law_(std::move(law)),
+          discrete_(law_->discrete()),
+          ends_(law_->support()),
+          inside_(ends_) {
         endless_ = {has_thin_end(ends_.first), has_thin_end(ends_.second)};
         auto& [low, high] = inside_;
         if (std::isinf(low)) low = std::numeric_limits<double>::lowest();
@@ -32,39 +54,36 @@ class MarginalLine final : public LineDistribution {
     /// xi = 0 and 1 map to finite ends, unless the density is infinite there. Rounding of other xi
     /// reaches an end only if the density is finite and above 0 there.
     void forward_all(std::span<double> numbers) const {
-        if (law_->discrete()) return law_->quantiles(numbers);
+        if (discrete_) return law_->quantiles(numbers);
         std::array<double, 256> u;
         for (std::size_t first = 0; first < numbers.size(); first += u.size()) {
             const auto some = numbers.subspan(first, std::min(u.size(), numbers.size() - first));
-            for (std::size_t i = 0; i < some.size(); ++i) {
-                u[i] = some[i];
-                some[i] = std::max(u[i], least);
-            }
+            raise(some, u.data());
             law_->quantiles(some);
-            for (std::size_t i = 0; i < some.size(); ++i)
-                some[i] = std::max(inside_.first, std::min(some[i], inside_.second));
+            clamp_all(some, inside_.first, inside_.second);
+            if (all_inside(u.data(), some.size())) continue;
             for (std::size_t i = 0; i < some.size(); ++i)
                 if (u[i] <= 0 || u[i] >= 1) some[i] = end(u[i] <= 0 ? Tail::lower : Tail::upper);
         }
     }
     bool infinite(double u) const {
-        return !law_->discrete() &&
+        return !discrete_ &&
                ((u <= 0 && std::isinf(ends_.first)) || (u >= 1 && std::isinf(ends_.second)));
     }
     double inverse(double x) const override {
-        if (!law_->discrete()) return law_->probability(x);
+        if (!discrete_) return law_->probability(x);
         const auto [begin, close] = cell(x);
         const double middle = begin + 0.5 * (close - begin);
         return middle < close ? middle : begin;
     }
     double density(double x) const override { return law_->density(x); }
     bool contains(double x) const override {
-        if (law_->discrete()) return law_->density(x) > 0;
+        if (discrete_) return law_->density(x) > 0;
         return x >= ends_.first && x <= ends_.second && std::isfinite(x);
     }
     double measure() const override {
         if (endless_.first || endless_.second) return infinity;
-        return law_->discrete() ? law_->outcomes() : ends_.second - ends_.first;
+        return discrete_ ? law_->outcomes() : ends_.second - ends_.first;
     }
     /// NaN for moments outside the range of doubles, unless there is only one outcome.
     LineMoments moments() const override {
@@ -82,7 +101,7 @@ class MarginalLine final : public LineDistribution {
         constexpr double sixth = 1 / 6.0;
         const double low = law_->quantile(sixth);
         const double high = law_->quantile(sixth, Tail::upper);
-        const double reach = law_->discrete() ? infinity : 6 * (high - low);
+        const double reach = discrete_ ? infinity : 6 * (high - low);
         std::pair<double, double> shown = ends_;
         if (endless_.first) shown.first = std::max(law_->quantile(beyond), low - reach);
         if (endless_.second)
@@ -90,19 +109,19 @@ class MarginalLine final : public LineDistribution {
         return shown;
     }
     Positive positive() const override {
-        if (law_->discrete()) return {{}, measure()};
+        if (discrete_) return {{}, measure()};
         return {{range()}, measure()};
     }
 
     /// False for discrete distributions, for which to_cube gives the middle of an outcome's cell.
-    bool even() const override { return !law_->discrete(); }
-    bool has_outcomes() const override { return law_->discrete(); }
+    bool even() const override { return !discrete_; }
+    bool has_outcomes() const override { return discrete_; }
     double cube_coordinate(double x) const override {
         const auto [begin, close] = cell(x);
-        return law_->discrete() ? begin + 0.5 * (close - begin) : inverse(x);
+        return discrete_ ? begin + 0.5 * (close - begin) : inverse(x);
     }
     Estimate probability(double low, double high) const override {
-        if (!law_->discrete()) return {high - low, 0};
+        if (!discrete_) return {high - low, 0};
         return {std::max(mass_before(high) - mass_before(low), 0.0), 0};
     }
 
@@ -111,7 +130,7 @@ class MarginalLine final : public LineDistribution {
     /// very unlikely.
     bool has_thin_end(double x) const {
         return std::isinf(x) ||
-               (law_->discrete() && law_->density(x) < 1e-9 * law_->density(law_->quantile(0.5)));
+               (discrete_ && law_->density(x) < 1e-9 * law_->density(law_->quantile(0.5)));
     }
     bool has_density(double x) const {
         const double density = std::isfinite(x) ? law_->density(x) : 1;
@@ -136,6 +155,7 @@ class MarginalLine final : public LineDistribution {
     }
 
     MarginalPtr law_;
+    bool discrete_;
     std::pair<double, double> ends_;
     std::pair<bool, bool> endless_;
     /// The ends. If an end or its density is infinite, or its density is 0: the next double inside.

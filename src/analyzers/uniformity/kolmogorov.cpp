@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/machine/wide.hpp"
 #include "math/functions/distributions.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
@@ -31,17 +32,17 @@ void rescale(std::vector<double>& numbers, double& exponent) {
     exponent += power;
 }
 
+STIPPLE_WIDE void add_multiple(double* row, double factor, const double* other, std::size_t size) {
+    for (std::size_t j = 0; j < size; ++j) row[j] += factor * other[j];
+}
+
 Scaled squared(const Scaled& a, const RunContext& run) {
     const std::size_t m = a.size;
     Scaled out{m, std::vector<double>(m * m), 2 * a.exponent};
     for (std::size_t i = 0; i < m; ++i) {
         run.check_stop();
-        double* const row = &out.at[i * m];
-        for (std::size_t k = 0; k < m; ++k) {
-            const double factor = a.at[i * m + k];
-            const double* const other = &a.at[k * m];
-            for (std::size_t j = 0; j < m; ++j) row[j] += factor * other[j];
-        }
+        for (std::size_t k = 0; k < m; ++k)
+            add_multiple(&out.at[i * m], a.at[i * m + k], &a.at[k * m], m);
     }
     rescale(out.at, out.exponent);
     return out;
@@ -50,7 +51,7 @@ Scaled squared(const Scaled& a, const RunContext& run) {
 std::vector<double> times(const std::vector<double>& row, const Scaled& a) {
     std::vector<double> out(a.size);
     for (std::size_t k = 0; k < a.size; ++k)
-        for (std::size_t j = 0; j < a.size; ++j) out[j] += row[k] * a.at[k * a.size + j];
+        add_multiple(out.data(), row[k], &a.at[k * a.size], a.size);
     return out;
 }
 

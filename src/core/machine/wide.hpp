@@ -4,11 +4,18 @@
 // ELF indirect function selects a version at run time. Results do not change, since operations are
 // neither fused nor reordered. Sanitized programs get the plain function, because sanitizers call
 // it before a version is selected.
+//
+// In optimised builds, GCC compiles these functions at -O3, whatever the level of their source.
+// It inlines functions of that source into them only if they are small, or if the marked function
+// also has [[gnu::flatten]].
 #pragma once
 
-#if defined(__x86_64__) && defined(__ELF__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define STIPPLE_WIDE [[gnu::target_clones("arch=x86-64-v4", "avx2", "default")]]
-#else
+#if !defined(__GNUC__) || defined(__clang__) || !defined(__OPTIMIZE__) || \
+    defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define STIPPLE_WIDE
+#elif defined(__x86_64__) && defined(__ELF__)
+#define STIPPLE_WIDE \
+    [[gnu::optimize("O3"), gnu::target_clones("arch=x86-64-v4", "avx2", "default")]]
+#else
+#define STIPPLE_WIDE [[gnu::optimize("O3")]]
 #endif
