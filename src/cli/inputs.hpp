@@ -54,7 +54,7 @@ DomainPtr input_domain(const Provenance& provenance, std::size_t dimension, cons
 /// @param hint replaces the error's own hint; empty: keeps it
 Error named_error(const Error& e, const std::string& input, const std::string& hint);
 
-/// Runs work() on an input; errors are those of named_error().
+/// Returns work(). Its errors are rethrown with the input's name, see named_error().
 template <class Work>
 auto naming(const std::string& input, const Work& work, const std::string& hint = {}) {
     try {

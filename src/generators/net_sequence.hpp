@@ -23,8 +23,8 @@ std::size_t net_digits(std::uint32_t base);
 /// Value of an option --base. @throws Error(usage) if it is not prime
 std::uint32_t prime_base(std::int64_t base);
 
-/// Checks that the request ends within the first base^net_digits(base) points, all that `who` has.
-/// @throws Error(usage)
+/// Checks that the request ends within the sequence, which has base^net_digits(base) points. `who`
+/// names the generator in the message. @throws Error(usage)
 void check_net_end(const Request& request, const Plan& plan, std::uint32_t base,
                    std::string_view who);
 

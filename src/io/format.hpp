@@ -108,7 +108,7 @@ struct Format {
 
     std::string name;
     std::string summary;
-    std::string source;                   ///< description of the format
+    std::string source;                   ///< specification, such as "RFC 4180"; or "none"
     std::vector<std::string> extensions;  ///< ".csv"
     FormatTraits traits;
 

@@ -92,7 +92,7 @@ void Scaling::apply(std::span<double> rows, std::size_t width) const {
 
 namespace {
 
-/// Dimension of the generator's points, and those of their coordinates that no warp takes.
+/// Dimension of the generator's points, and the indices of the coordinates that no warp uses.
 std::pair<std::size_t, std::vector<std::size_t>> left_by_warps(const SetsToMake& asked) {
     Request request = asked.request;
     request.bounds.reset();

@@ -4,10 +4,11 @@
 //
 //     curves of the analyzer's record   over their abscissas: radial power with the band of white
 //                                       noise, numbers over counts on logarithmic axes
-//     results by two names              bars with their intervals: indices of inputs and of pairs
-//     several reports without curves    one number over the number of points, a curve for each
-//                                       family of files whose names differ only in digits, means
-//                                       for sets of equal size; if all have one size, a histogram
+//     results keyed by one or two       bars with intervals: sensitivity indices of inputs and of
+//     names                             pairs of inputs
+//     several reports without curves    one result against the number of points. Files whose names
+//                                       differ only in digits form one curve; sets of equal size
+//                                       are averaged. A histogram if all sets have one size
 //
 // Bands around a curve are standard errors of a mean, or lower and upper bounds.
 //

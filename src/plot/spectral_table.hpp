@@ -33,7 +33,7 @@ struct SpectralTable {
     Grid values;  ///< for d = 1 a single row; for d = 3 the plane fz = 0
 };
 
-/// The table in the sets of one file; nullopt if the sets are points.
+/// Interprets the sets of one file as a spectral table; nullopt if they are ordinary points.
 std::optional<SpectralTable> spectral_table(std::span<const PointSet* const> sets);
 
 /// Names of a table's axes and values.

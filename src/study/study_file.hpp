@@ -85,8 +85,7 @@ class StudyFile {
     /// @throws Error(cancelled), Error(io)
     void listen(const RunContext& run) const;
 
-    /// Puts the rows of a file in order and removes its journal. To a stream, it appends the text
-    /// `more`.
+    /// For a file: sorts its rows and removes its journal. For a stream: appends the text `more`.
     /// @throws Error(cancelled), Error(io)
     void finish(const std::string& more, const RunContext& run);
 

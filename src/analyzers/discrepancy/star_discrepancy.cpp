@@ -72,7 +72,8 @@ constexpr Param<Choice> boxes{.name = "boxes",
                                   "Whether boxes that end at 1 are closed there, or half-open like "
                                   "all others; this matters only for points with a coordinate 1"};
 
-/// Limit beyond any machine's memory; counts of points stay far from 2^31.
+/// Maximum number of points. Memory runs out earlier; the limit keeps counts of points within
+/// 32-bit integers.
 constexpr std::size_t max_count = std::size_t{1} << 29;
 
 /// Result of a search, and its method.

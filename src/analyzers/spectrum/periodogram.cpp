@@ -398,7 +398,7 @@ class Summation final : public SharedAccumulator {
         buffer_ = {};
     }
 
-    /// Requires memory for the sums over blocks of a large set, which take twice the grid.
+    /// Requires the memory to sum a large set block by block, which takes a second grid.
     void need_block_sums(const RunContext& run, const std::string& cause) const {
         if (announced_ > 0 && announced_ <= FourierSummation::block_of(*nufft_)) return;
         run.need_memory(nufft_->bytes() + 16 * std::pow(static_cast<double>(nufft_->side()), d_),

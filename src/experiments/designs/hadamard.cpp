@@ -170,14 +170,19 @@ bool Hadamard::paley_two(std::uint64_t row, std::uint64_t column) const {
 /// Entry of Miyamoto's matrix: four strips of q rows and columns. The first line of a strip is a
 /// border of 1 and -1; the others form two halves of m lines. C1, C2 and C4 are characters of
 /// differences: between squares, from squares to nonsquares, and between nonsquares. K1, ..., K4
-/// are the quarters of the smaller matrix. Strips s and t meet in
+/// are the quarters of the smaller matrix, and ' is the transpose. These are the blocks of U and V
+/// for each pair of strips:
 ///
-///     U + V  U - V        U  -C1 C2  0   0        V  I   0    K1  K2
-///     U - V  U + V            C2'C4  0   0           0   I   -K3  K4
-///                             0   0 -C1  C2          K1' -K3' I   0
-///                             0   0  C2' C4          K2'  K4' 0   I
+///           -C1  C2   0   0              I    0   K1  K2
+///      U =  C2'  C4   0   0         V =  0    I  -K3  K4
+///            0   0  -C1  C2             K1' -K3'  I   0
+///            0   0  C2'  C4             K2'  K4'  0   I
 ///
-/// times signs that make the strips orthogonal.
+/// Two strips meet in the following four quarters, made of their blocks U and V, times signs that
+/// make the strips orthogonal:
+///
+///     U + V  U - V
+///     U - V  U + V
 bool Hadamard::miyamoto(std::uint64_t row, std::uint64_t column) const {
     constexpr bool minus[4][4] = {{false, false, false, false},
                                   {true, false, false, true},

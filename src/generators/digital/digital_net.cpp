@@ -3,21 +3,21 @@
 // Digital net from a file of generating matrices. With the digits a_0, a_1, ... of index i in the
 // prime base b, lowest first, coordinate k of point i is
 //
-//     x = sum_r y_r b^(-r-1)    where    y = C_k a  mod b.
+//     x = sum_j y_j b^(-j-1)    where    y = C_k a  mod b.
 //
 // For nets of higher order, the digits of alpha coordinates are interlaced into one: the first
 // digit of each, then the second of each, and so on.
 //
 // Layouts of files; `#` starts a comment, anywhere:
 //
-//     dnet      first line `# dnet`, then four numbers: base b, number s of matrices, their columns
-//               k (or the number of points, b^k), and rows r; then a line for each matrix: its k
+//     dnet      first line `# dnet`, then four numbers: base b, number s of matrices, their number
+//               of columns m (or of points, b^m), and of rows r; then a line for each matrix: its m
 //               columns as integers below b^r, whose most significant digit in base b is the first
-//               row (the format of LDData; LatNet Builder's has another title, and no base, which
-//               is 2);
-//     dnetup    the same, `# dnetup`, with the first row the least significant;
-//     digits    the same four numbers after `# digits`; then s r lines of k digits, matrix after
-//               matrix, row after row;
+//               row (the format of LDData; LatNet Builder writes another title and omits the base,
+//               which is then 2);
+//     dnetup    the same after `# dnetup`, but the first row is the least significant digit;
+//     digits    the same four numbers after `# digits`; then s times r lines of m digits, matrix
+//               after matrix, row after row;
 //     columns   no first line and no numbers, base 2, a line for each matrix, as in dnetup (the
 //               files *.col of the Magic Point Shop);
 //     rows      no first line and no numbers, square matrices as in digits (the files of
@@ -35,8 +35,8 @@
 // Shape   n x d for s >= alpha d matrices of m columns; i < b^m and i < 2^53.
 // Cost    O(n d); base 2: half a nanosecond a coordinate; others: five to ten. Nested scrambling in
 //         other bases takes up to two microseconds if matrices are not triangular.
-// Promise every coordinate is below 1, and correctly rounded from its first r digits: b^r <= 2^50,
-//         or r = 53 in base 2.
+// Promise every coordinate is below 1, and correctly rounded from its first t digits, where t is
+//         the largest number with b^t <= 2^50 (53 in base 2).
 // Source  H. Niederreiter, Random Number Generation and Quasi-Monte Carlo Methods, SIAM 1992,
 //         section 4.3, doi:10.1137/1.9781611970081; interlacing: J. Dick, SIAM J. Numer. Anal. 46
 //         (2008) 1519-1553, doi:10.1137/060666639. Layouts: github.com/QMCSoftware/LDData,

@@ -49,8 +49,8 @@ inline std::size_t nth_bit(SubcellBits bits, std::size_t n) {
     SubcellBits counts = bits - (bits >> 1 & 0x5555555555555555U);
     counts = (counts & 0x3333333333333333U) + (counts >> 2 & 0x3333333333333333U);
     const SubcellBits up_to = ((counts + (counts >> 4)) & 0x0f0f0f0f0f0f0f0fU) * each;
-    const SubcellBits passed = ((n * each | high) - up_to) & high;  // marks the bytes before the
-                                                                    // bit's
+    // Marks the bytes before the one that contains the n-th bit.
+    const SubcellBits passed = ((n * each | high) - up_to) & high;
     const std::size_t shift = (passed >> 7) * each >> 56 << 3;
     const std::size_t before = (up_to << 8) >> shift & 0xff;
     return shift + nth_in_byte[(bits >> shift & 0xff) * 8 + n - before];

@@ -35,8 +35,8 @@ struct Grid {
     using Point = std::array<double, D>;
     using Index = std::array<std::uint32_t, D>;
 
-    /// Makes cells for `cell_radius`, which is at most `radius`, so that a grid can serve several
-    /// radii.
+    /// Grid for disks of `disk_radius`. Cells are sized for `cell_radius` <= `disk_radius`, so that
+    /// sets of several radii can share the same cells.
     /// @param tile_side maximum number of cells along a tile
     Grid(const BoxSpace& space, double disk_radius, double cell_radius, std::uint32_t tile_side)
         : torus(space.torus), radius(disk_radius) {

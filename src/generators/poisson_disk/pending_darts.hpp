@@ -76,8 +76,8 @@ class PendingDarts {
     /// Whether the darts are those of that round.
     [[nodiscard]] bool of(std::uint64_t round) const { return round_ == round; }
 
-    /// Calls visit(dart) for the darts in blocks that meet the cells from low to high along each
-    /// direction, which may be outside the tile. Returns true as soon as a call does.
+    /// Calls visit(dart) for the darts of all blocks that overlap the range of cells low..high, until
+    /// a call returns true. Returns whether one did. The range may extend beyond the tile.
     template <class Visit>
     bool any(Cell low, Cell high, const Visit& visit) const {
         for (std::size_t k = 0; k < D; ++k) {

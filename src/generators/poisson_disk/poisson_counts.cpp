@@ -17,7 +17,7 @@ constexpr auto inverses = [] {
     return table;
 }();
 
-/// Poisson number by inversion: the first one whose cumulative probability is above u.
+/// Poisson-distributed count by inversion: the first whose cumulative probability is above u.
 std::uint64_t first_above(double u, double mean, double none) {
     constexpr double nothing = 1e-20;  // probabilities below the resolution of u
     double chance = none;

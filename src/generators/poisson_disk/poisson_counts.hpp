@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Number of darts of a round on a piece of a box: a Poisson number, drawn once for the piece.
+// Number of darts that a round throws at a piece of a box: one draw from a Poisson distribution for
+// the whole piece.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +13,8 @@
 
 namespace stipple::poisson_disk {
 
-/// Poisson numbers for pieces of 0 ... most equal parts.
+/// Poisson-distributed counts of darts, for pieces of any number of equal parts. Those of up to
+/// `most` parts are drawn fastest.
 class PoissonCounts {
   public:
     /// @param mean number of darts per part; finite

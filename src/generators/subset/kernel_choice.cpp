@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Chooses n of N points with a small squared maximum mean discrepancy for a kernel K with mean m:
+// Chooses n of N points with a small squared maximum mean discrepancy, `squared`, for a kernel K:
 //
-//     n^2 (squared - total)  =  sum_(i, k chosen) K(x_i, x_k)  -  2 n sum_(i chosen) m(x_i).
+//     n^2 (squared - total)  =  sum_(i, k chosen) K(x_i, x_k)  -  2 n sum_(i chosen) m(x_i),
+//
+// where m(x) is the mean of K(x, .) over the target and `total` that of K over both arguments.
 //
 // Let P_j = sum_(i chosen) K(x_i, x_j) be the potential of each of the N points. Kernel herding
 // chooses as number c the point with the least P_j + K_jj / 2 - c m_j. Then each chosen point in
@@ -273,7 +275,8 @@ class Herding {
         }
     }
 
-    /// n^2 (squared - total)
+    /// Right-hand side of the formula at the top, which differs from n^2 times the squared
+    /// discrepancy by a constant.
     [[nodiscard]] double cost() const {
         double sum = 0;
         for (const std::size_t i : now_.members)

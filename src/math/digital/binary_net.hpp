@@ -54,10 +54,10 @@ class BinaryNet {
 
     std::size_t dimension_;
     int low_digits_ = 0;
-    std::size_t period_ = 1;          ///< number of rows for which the high digits' sum is repeated
+    std::size_t period_ = 1;          ///< copies of the high digits' sum, to fill whole vectors
     std::vector<std::uint64_t> low_;  ///< sums of the low digits' columns, row by row
-    std::vector<std::uint64_t>
-        carries_;  ///< row j: the sum of the first j + 1 high digits' columns
+    /// Row j: sum of the columns of the first j + 1 high digits.
+    std::vector<std::uint64_t> carries_;
     std::vector<std::uint64_t> shift_;
 };
 

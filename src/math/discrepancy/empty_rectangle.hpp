@@ -17,7 +17,8 @@
 namespace stipple::discrepancy {
 
 /// Largest empty rectangle of a grid with two axes and Measure::emptiness. A deadline or stop ends
-/// it early with the largest rectangle so far, at least a gap between neighbours.
+/// the search early with the largest rectangle so far, which is no smaller than the widest strip of
+/// full height between neighbouring first coordinates.
 SearchResult largest_empty_rectangle(const BoxGrid& grid, const SearchLimits& limits,
                                      const RunContext& run);
 

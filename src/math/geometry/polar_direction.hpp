@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Directions given by the cosine of their angle from the z axis and their longitude, the angle from
-// x towards y in turns. Instead of the cosine, 1 - cos and 1 + cos are used: each keeps digits near
-// its pole that the cosine loses there.
+// Directions given by the cosine of their polar angle, measured from the z axis, and by their
+// longitude, the angle from x towards y in turns. Instead of the cosine, 1 - cos and 1 + cos are
+// used: each keeps digits near its pole that the cosine loses there.
 //
 // Areas on the sphere are 2 pi times areas in the plane of cosine and longitude (Archimedes).
 //
@@ -23,7 +23,7 @@ inline Vector3 polar_direction(double one_minus_cos, double one_plus_cos, double
     return {r * c, r * s, 0.5 * (one_plus_cos - one_minus_cos)};
 }
 
-/// 1 - |cos| of a vector of any length; 1 for the null vector.
+/// 1 - |cos(polar angle)| of a vector of any length; 1 for the null vector.
 inline double one_minus_abs_cos(const Vector3& v) {
     const double rr = v[0] * v[0] + v[1] * v[1];
     const double size = std::sqrt(rr + v[2] * v[2]);
@@ -31,13 +31,13 @@ inline double one_minus_abs_cos(const Vector3& v) {
     return whole > 0 ? rr / whole : 1;
 }
 
-/// 1 - cos of a vector of any length.
+/// 1 - cos(polar angle) of a vector of any length.
 inline double one_minus_cos(const Vector3& v) {
     const double least = one_minus_abs_cos(v);
     return v[2] >= 0 ? least : 2 - least;
 }
 
-/// 1 + cos of a vector of any length.
+/// 1 + cos(polar angle) of a vector of any length.
 inline double one_plus_cos(const Vector3& v) {
     const double least = one_minus_abs_cos(v);
     return v[2] >= 0 ? 2 - least : least;

@@ -328,7 +328,8 @@ void add_pairs(const BlockTable& table, const BlockPair& pair, LaneSums& sums) {
             add_lanes<Kernel>({table, pair, i}, lane, sums);
 }
 
-/// Multiplies the factors that depend only on the block's own points.
+/// Sets `products`, for each point of a block, to the product of the factors that depend on this
+/// point alone, not on a pair; 0 for padding.
 template <class Kernel>
 void multiply_own(const BlockTable& table, const double* block,
                   const std::vector<std::size_t>& factors, PointProducts& products) {

@@ -46,7 +46,8 @@ namespace stipple::warps {
 
 class PolygonDomain final : public NamedDomain {
   public:
-    /// @param edges of rings that meet only in vertices @throws Error(limit)
+    /// @param edges edges of all rings, which may touch only at vertices
+    /// @throws Error(limit) if the segment tree exceeds the memory limit
     PolygonDomain(std::string spec, const std::vector<RingSegment>& edges, const RunContext& run);
 
     double measure() const override { return area_; }

@@ -179,7 +179,8 @@ class CoverageTable {
     }
 
   private:
-    /// Minimum number of the grid's cells per place for which the next finer table saves time.
+    /// The table is refined while the grid has more than this number of cells for each of the Q x Q
+    /// places; with fewer cells, building the finer table costs more time than it saves.
     static constexpr std::size_t worth = 128;
     static constexpr std::size_t most_places = 32;
 

@@ -73,7 +73,7 @@ struct Pattern {
     return open;
 }
 
-/// Sixteen adjacent lines of sub-cells that a ball may reach, in each layer.
+/// Sub-cells that a ball covers in a layer: on 16 adjacent lines, as it reaches no more of them.
 struct LineCover {
     /// A ball reaches seven sub-cells to each side, and into an eighth.
     static constexpr int reach = 8;

@@ -41,9 +41,9 @@ struct SpaceWorkspace : GapWorkspace<3> {
     std::vector<SubcellBits> open;  ///< open sub-cells of these gaps
 };
 
-/// Number of sub-cells whose darts are counted by one Poisson number: two lines of 32 in each of
-/// four layers. If one of them opens or closes, all their darts change. So they are few: sets for
-/// similar radii should be nearly the same.
+/// Number of sub-cells that share one Poisson draw for their darts: two lines of 32 in each of four
+/// layers. If one sub-cell opens or closes, the darts of all change. The group is small so that
+/// sets of similar radii stay nearly the same.
 constexpr std::size_t together = 4 * 64;
 
 /// Draws darts on the open ones of `together` sub-cells.

@@ -107,7 +107,8 @@ class RadiusField {
     void join(const Box& box, const RunContext& run);
     void measure();
 
-    std::array<std::vector<double>, 2> lines_;  ///< boundaries of cells, including the faces
+    /// Boundaries between cells along each axis, including the two sides of the rectangle.
+    std::array<std::vector<double>, 2> lines_;
     std::vector<Level> levels_;
     double darts_ = 0;
 };

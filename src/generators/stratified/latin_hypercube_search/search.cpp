@@ -300,7 +300,9 @@ Result best_design(const Search& search, const std::string& words, const RunCont
 double usual_trials(const Objective& objective, const Design& design) {
     const auto n = static_cast<double>(design.points);
     const auto d = static_cast<double>(design.dimension);
-    const double crowded = std::max(1.0, n / 200);  // factor for the time of targets and memory
+    // Slowdown of maximin above 200 points: its n^2 distances are no longer in the fastest caches,
+    // and each new target takes a sum over all of them.
+    const double crowded = std::max(1.0, n / 200);
     const double seconds = objective.kind == Kind::correlation ? 1e-8 * (3 + d)
                            : objective.kind == Kind::maximin   ? 3e-8 + 3e-10 * n * crowded
                                                                : 5e-8 + 3e-9 * n;

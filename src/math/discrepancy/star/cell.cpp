@@ -25,9 +25,9 @@
 // excluded if its term exceeds the smallest one by more than the bound exceeds D. So the cell
 // shrinks.
 //
-// On each axis only the coordinates of the cell's points matter: a worst open box cannot grow
-// without including a point (or reaches 1), and a worst closed one cannot shrink without losing
-// one.
+// On each axis only the coordinates of the cell's points matter, the candidates: a worst open box
+// cannot grow without including a point (or reaches 1), and a worst closed one cannot shrink
+// without losing one.
 
 #include "math/discrepancy/star/cell.hpp"
 
@@ -192,7 +192,7 @@ class CellBounder {
 
     /// Sets kept_ to the points to keep, first those below hi on all axes, and state_ to the number
     /// of axes on which each of these is undecided. Points inside all boxes are only counted, in
-    /// mine.decided, unless they make lo a candidate.
+    /// mine.decided, unless ends_at_lo().
     void select(const Cell& cell, const Active& from, Active& mine) {
         kept_.resize(from.size);
         on_face_.resize(side == Side::open ? from.size : 0);
@@ -220,7 +220,8 @@ class CellBounder {
         mine.inside = inside;
     }
 
-    /// True if the point, which is inside all boxes, makes lo a candidate on some axis.
+    /// For a point inside all closed boxes: returns whether the box of `lo` ends at it on some axis.
+    /// Then its coordinate there is a candidate, so the point must be kept.
     bool ends_at_lo(const Cell& cell, const Active& from, std::size_t i) const {
         if (side == Side::open) return false;
         for (std::size_t k = 0; k < d_; ++k)

@@ -24,9 +24,9 @@ SearchResult sweep_or_search(const BoxGrid& grid, WorstBox worst, const SearchLi
 SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
                         Peers* peers = nullptr);
 
-/// Upper bound on the discrepancy that takes milliseconds, more for many points. With factors it
-/// holds for other boxes, whose discrepancy is at most `of_axis` times that of anchored ones on
-/// each axis, and `of_all` times that in all dimensions. Ignores stop requests.
+/// Upper bound on the discrepancy, in milliseconds (more for many points). For other kinds of
+/// boxes, pass how many times larger than that of anchored boxes their discrepancy can be:
+/// `of_axis` for a single coordinate, `of_all` for all together. Ignores stop requests.
 double quick_bound(const BoxGrid& grid, const RunContext& run, double of_axis = 1,
                    double of_all = 1);
 

@@ -406,8 +406,9 @@ class Sweep {
     std::vector<float> strip_weight_;
     std::vector<float> strip_points_;
     std::vector<Entering> entering_;
-    std::size_t entered_ = 0;     ///< number of entering_ that were added
-    std::vector<Line> of_strip_;  ///< lines whose boxes are offered
+    std::size_t entered_ = 0;  ///< number of entering_ that were added
+    /// Lines of the strip and of a block that may give a worse box than the worst so far.
+    std::vector<Line> of_strip_;
     std::vector<Line> of_block_;
 };
 
